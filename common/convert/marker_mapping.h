@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mmm_converter {
+
+class KinematicModel;
+class MarkerSequence;
+
+/// One line of a MarkerMapping: a recording label stands for a model marker.
+struct MarkerPair {
+  std::string source;        ///< recording label
+  std::string target;        ///< model marker, e.g. MARKER_C7
+  double noise_scale = 1.0;  ///< factor on the marker noise standard deviation; larger trusts it less
+};
+
+/// A MarkerPair resolved once into indices.
+struct MarkerAssignment {
+  int label = -1;   ///< index into MarkerSequence::labels()
+  int marker = -1;  ///< index into KinematicModel::markers()
+  double noise_scale = 1.0;
+};
+
+struct MarkerMapping {
+  std::vector<MarkerAssignment> assignments;  ///< by model marker index, each marker at most once
+  std::vector<std::string> ignored_labels;    ///< in the recording, not mapped
+  std::vector<std::string> absent_markers;    ///< mapped, not in the recording
+  std::vector<std::string> warnings;
+};
+
+/// Matches labels after trimming, case folding and prefix removal.
+/// @throws Error where no label matches (the message shows labels of both sides), or a target is not a
+///         marker of the model.
+MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
+                                   const MarkerSequence& recording, const KinematicModel& model);
+
+}  // namespace mmm_converter

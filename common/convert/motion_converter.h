@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_mapping.h"
+#include "common/model/kinematic_model.h"
+#include "common/motion/marker_sequence.h"
+#include "common/motion/pose_trajectory.h"
+
+namespace mmm_converter {
+
+/// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
+inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-1";
+
+/// What a converter knows of one frame. All vectors keep their size from frame to frame.
+struct FrameEstimate {
+  Posture posture;                      ///< joint_angles: all joints of the model, untracked ones 0
+  Eigen::VectorXd standard_deviations;  ///< as PoseTrajectory, all joints; NaN where not tracked
+  Eigen::VectorXd residuals;            ///< per assignment |p_measured - p_model| [m]; NaN: not seen
+  int markers_seen = 0;
+  int markers_downweighted = 0;  ///< seen, but far from where the model has them
+  double nis = 0;                ///< normalised innovation squared, over its degrees of freedom
+  bool reassembled = false;      ///< the track was lost here and taken up anew
+  bool converged = false;
+};
+
+struct FrameDiagnostic {
+  int markers_seen = 0;
+  int markers_downweighted = 0;
+  double nis = 0;
+  bool reassembled = false;
+  bool converged = false;
+  double seconds = 0;  ///< time spent on this frame
+};
+
+struct ConversionResult {
+  PoseTrajectory trajectory;   ///< joint_names: the tracked joints, in configuration order
+  Eigen::MatrixXd residuals;   ///< assignments x frames [m]; NaN: not seen
+  std::vector<FrameDiagnostic> frames;
+};
+
+/// Tracks one person through one recording. Not thread-safe; use one for each recording.
+class MotionConverter {
+ public:
+  virtual ~MotionConverter();
+
+  /// Estimates the posture of a first frame from nothing. frame: 3 x recording labels [m], NaN = not
+  /// seen. May be called again to start over.
+  /// @throws Error where fewer than three assigned markers are seen.
+  virtual const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) = 0;
+
+  /// Estimates the posture dt seconds after the last frame; allocates nothing. Any number of markers
+  /// may be unseen. The result is valid until the next call.
+  virtual const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) = 0;
+
+  /// Joints that are estimated, as indices of the model, in output order.
+  virtual const std::vector<int>& joints() const = 0;
+
+  /// A whole recording: Assemble on the first frame, Track on the others. Leading frames in which
+  /// fewer than three assigned markers are seen take the first assembled posture, not converged.
+  /// progress(k): frames done, may be empty; returning false cancels (an Error is thrown).
+  /// @throws Error where no frame of the first second shows three assigned markers.
+  virtual ConversionResult Convert(const MarkerSequence& recording, const KinematicModel& model,
+                                   const std::vector<MarkerAssignment>& assignments,
+                                   const std::function<bool(int)>& progress);
+};
+
+/// Makes converters; what a plugin exports.
+class MotionConverterFactory {
+ public:
+  virtual ~MotionConverterFactory();
+  virtual std::string name() const = 0;         ///< ConverterConfig@type
+  virtual std::string description() const = 0;  ///< one line
+  /// The documented configuration template, all settings at their defaults (XML).
+  virtual std::string config_template() const = 0;
+  /// The model must outlive the converter.
+  /// @throws Error for an unknown element, attribute or value of the configuration (file and line), an
+  ///         unknown joint, or assignments that can't be tracked.
+  virtual std::unique_ptr<MotionConverter> Create(
+      const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
+      const ConverterConfig& config) const = 0;
+};
+
+}  // namespace mmm_converter
+
+/// Every plugin exports these two with C linkage: the factory (the host owns it and deletes it before
+/// it unloads the plugin) and the interface version that it was built against (static text).
+using GetFactoryFunction = mmm_converter::MotionConverterFactory*();
+using GetVersionFunction = const char*();

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace mmm_converter {
+
+/// Rotation matrix of MMM's RootRotation (roll, pitch, yaw) [rad]: R = Rz(yaw) Ry(pitch) Rx(roll).
+Eigen::Matrix3d RotationFromRpy(const Eigen::Vector3d& rpy);
+
+/// Inverse of RotationFromRpy with pitch in [-pi/2, pi/2]; at |pitch| = pi/2 roll is 0.
+Eigen::Vector3d RpyFromRotation(const Eigen::Matrix3d& R);
+
+/// The triple equal to `rpy` as a rotation that lies nearest to `previous`, so that a written
+/// sequence has no jumps of 2 pi nor between the two Euler branches.
+Eigen::Vector3d ContinuousRpy(const Eigen::Vector3d& rpy, const Eigen::Vector3d& previous);
+
+/// SO(3) exponential: the unit quaternion that rotates by |w| radians about w.
+Eigen::Quaterniond Exp(const Eigen::Vector3d& w);
+
+/// SO(3) logarithm, |result| <= pi; Exp(Log(q)) is q or -q.
+Eigen::Vector3d Log(const Eigen::Quaterniond& q);
+
+/// Right Jacobian of SO(3): Exp(w + dw) = Exp(w) Exp(Jr(w) dw) to first order.
+Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
+
+/// The matrix [w] with [w] v = w x v.
+Eigen::Matrix3d Skew(const Eigen::Vector3d& w);
+
+}  // namespace mmm_converter

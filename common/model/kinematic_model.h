@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mmm_converter {
+
+enum class JointType { kFixed, kRevolute, kPrismatic };
+
+/// A model node (Simox: RobotNode): a rigid body and the joint that carries it.
+/// Pose: X_WS = X_WP * X_PF * J(q), P the parent segment, F the joint's fixed frame.
+struct Segment {
+  std::string name;
+  int parent = -1;  ///< index of the parent segment; -1 for the floating root only
+  Eigen::Isometry3d X_PF = Eigen::Isometry3d::Identity();  ///< [m]
+  JointType type = JointType::kFixed;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector in F
+  double lower = 0;                                 ///< [rad], prismatic [m]
+  double upper = 0;                                 ///< [rad], prismatic [m]
+  int joint = -1;  ///< index into joint angles; -1: q is always 0 (fixed, prismatic, lower == upper)
+  double mass = 0;                                            ///< [kg]
+  Eigen::Vector3d p_SB = Eigen::Vector3d::Zero();             ///< centre of mass in S [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the CoM, in S axes [kg m^2]
+};
+
+/// A virtual marker fixed to a segment (Simox: position sensor).
+struct ModelMarker {
+  std::string name;
+  int segment = 0;
+  Eigen::Vector3d p_SM = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// What a model file contains, before it is made a KinematicModel.
+struct ModelDescription {
+  std::string name;
+  std::vector<Segment> segments;  ///< any order; parents by index; `joint` is ignored
+  std::vector<ModelMarker> markers;
+  std::map<std::string, std::vector<std::string>> node_sets;
+};
+
+/// Immutable tree of segments with a floating root (6 DoF), limited joints and markers.
+/// Segments are ordered so that a parent comes before its children; segment 0 is the floating root.
+class KinematicModel {
+ public:
+  /// @throws Error where the segments are not one tree, names repeat, limits are crossed or not finite,
+  ///         or a number is not finite.
+  explicit KinematicModel(ModelDescription description);
+
+  const std::string& name() const { return name_; }
+  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<ModelMarker>& markers() const { return markers_; }
+  const std::map<std::string, std::vector<std::string>>& node_sets() const { return node_sets_; }
+
+  /// Joints are the revolute segments with lower < upper, in segment order.
+  int num_joints() const { return static_cast<int>(joint_segments_.size()); }
+  const Segment& joint(int index) const { return segments_[joint_segments_[index]]; }
+  int joint_segment(int index) const { return joint_segments_[index]; }
+
+  int FindSegment(const std::string& name) const;  ///< -1 if there is none
+  int FindJoint(const std::string& name) const;    ///< -1 if there is none
+  int FindMarker(const std::string& name) const;   ///< -1 if there is none
+
+  double total_mass() const;  ///< [kg]
+
+ private:
+  std::string name_;
+  std::vector<Segment> segments_;
+  std::vector<ModelMarker> markers_;
+  std::map<std::string, std::vector<std::string>> node_sets_;
+  std::vector<int> joint_segments_;
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace mmm_converter {
+
+class KinematicModel;
+
+/// A posture of a KinematicModel: pose X_WS of the floating root and all joint angles.
+struct Posture {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();                ///< root origin in W [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();   ///< root R_WS, unit
+  Eigen::VectorXd joint_angles;                                      ///< [rad], size num_joints()
+};
+
+/// The posture with identity root and every joint angle 0, clamped into its limits.
+Posture ZeroPosture(const KinematicModel& model);
+
+/// q moved by the tangent vector dq = [root position (W) 3; rotation (body) 3; joint angles]:
+/// orientation * Exp(dq[3..5]).
+Posture Retract(const Posture& q, const Eigen::Ref<const Eigen::VectorXd>& dq);
+
+/// The tangent vector with Retract(q0, Local(q0, q1)) == q1.
+Eigen::VectorXd Local(const Posture& q0, const Posture& q1);
+
+}  // namespace mmm_converter

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/model/posture.h"
+
+namespace mmm_converter {
+
+/// Postures of one model over time. Each posture's joint_angles follow joint_names.
+struct PoseTrajectory {
+  double rate = 0;        ///< [Hz]
+  double first_time = 0;  ///< [s]
+  std::vector<std::string> joint_names;
+  std::vector<Posture> postures;
+  /// Empty, or one column a frame: standard deviations of [root position (W) 3 [m]; root rotation
+  /// (body) 3 [rad]; joint angles [rad]].
+  Eigen::MatrixXd standard_deviations;
+
+  int num_frames() const { return static_cast<int>(postures.size()); }
+  double time(int k) const { return first_time + k / rate; }
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "common/support/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr std::size_t kMostErrorsShown = 20;
+
+std::string Located(const std::string& file, int line, const std::string& message) {
+  return line > 0 ? fmt::format("{}:{}: {}", file, line, message)
+                  : fmt::format("{}: {}", file, message);
+}
+
+}  // namespace
+
+void Diagnostics::AddError(int line, const std::string& message) {
+  errors_.push_back(Located(file_, line, message));
+}
+
+void Diagnostics::AddWarning(int line, const std::string& message) {
+  warnings_.push_back(Located(file_, line, message));
+}
+
+void Diagnostics::ThrowIfErrors() const {
+  if (errors_.empty()) return;
+  std::string text = errors_.front();
+  for (std::size_t i = 1; i < errors_.size() && i < kMostErrorsShown; ++i) text += "\n" + errors_[i];
+  if (errors_.size() > kMostErrorsShown) {
+    text += fmt::format("\n{}: {} more errors", file_, errors_.size() - kMostErrorsShown);
+  }
+  throw Error(text);
+}
+
+}  // namespace mmm_converter
