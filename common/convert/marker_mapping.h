@@ -11,9 +11,10 @@ class MarkerSequence;
 
 /// One line of a MarkerMapping: a recording label stands for a model marker.
 struct MarkerPair {
-  std::string source;        ///< recording label
-  std::string target;        ///< model marker, e.g. MARKER_C7
-  double noise_scale = 1.0;  ///< factor on the marker noise standard deviation; larger trusts it less
+  std::string source;  ///< recording label
+  std::string target;  ///< model marker, e.g. MARKER_C7
+  double noise_scale =
+      1.0;  ///< factor on the marker noise standard deviation; larger trusts it less
 };
 
 /// A MarkerPair resolved once into indices.
@@ -31,7 +32,8 @@ struct MarkerMapping {
 };
 
 /// Matches labels after trimming, case folding and prefix removal.
-/// @throws Error where no label matches (the message shows labels of both sides), or a target is not a
+/// @throws Error where no label matches (the message shows labels of both sides), or a target is
+/// not a
 ///         marker of the model.
 MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
                                    const MarkerSequence& recording, const KinematicModel& model);

@@ -22,7 +22,7 @@ inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-1";
 struct FrameEstimate {
   Posture posture;                      ///< joint_angles: all joints of the model, untracked ones 0
   Eigen::VectorXd standard_deviations;  ///< as PoseTrajectory, all joints; NaN where not tracked
-  Eigen::VectorXd residuals;            ///< per assignment |p_measured - p_model| [m]; NaN: not seen
+  Eigen::VectorXd residuals;  ///< per assignment |p_measured - p_model| [m]; NaN: not seen
   int markers_seen = 0;
   int markers_downweighted = 0;  ///< seen, but far from where the model has them
   double nis = 0;                ///< normalised innovation squared, over its degrees of freedom
@@ -40,8 +40,8 @@ struct FrameDiagnostic {
 };
 
 struct ConversionResult {
-  PoseTrajectory trajectory;   ///< joint_names: the tracked joints, in configuration order
-  Eigen::MatrixXd residuals;   ///< assignments x frames [m]; NaN: not seen
+  PoseTrajectory trajectory;  ///< joint_names: the tracked joints, in configuration order
+  Eigen::MatrixXd residuals;  ///< assignments x frames [m]; NaN: not seen
   std::vector<FrameDiagnostic> frames;
 };
 
@@ -50,14 +50,15 @@ class MotionConverter {
  public:
   virtual ~MotionConverter();
 
-  /// Estimates the posture of a first frame from nothing. frame: 3 x recording labels [m], NaN = not
-  /// seen. May be called again to start over.
+  /// Estimates the posture of a first frame from nothing. frame: 3 x recording labels [m], NaN =
+  /// not seen. May be called again to start over.
   /// @throws Error where fewer than three assigned markers are seen.
   virtual const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) = 0;
 
-  /// Estimates the posture dt seconds after the last frame; allocates nothing. Any number of markers
-  /// may be unseen. The result is valid until the next call.
-  virtual const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) = 0;
+  /// Estimates the posture dt seconds after the last frame; allocates nothing. Any number of
+  /// markers may be unseen. The result is valid until the next call.
+  virtual const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
+                                     double dt) = 0;
 
   /// Joints that are estimated, as indices of the model, in output order.
   virtual const std::vector<int>& joints() const = 0;
@@ -80,16 +81,17 @@ class MotionConverterFactory {
   /// The documented configuration template, all settings at their defaults (XML).
   virtual std::string config_template() const = 0;
   /// The model must outlive the converter.
-  /// @throws Error for an unknown element, attribute or value of the configuration (file and line), an
+  /// @throws Error for an unknown element, attribute or value of the configuration (file and line),
+  /// an
   ///         unknown joint, or assignments that can't be tracked.
-  virtual std::unique_ptr<MotionConverter> Create(
-      const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
-      const ConverterConfig& config) const = 0;
+  virtual std::unique_ptr<MotionConverter> Create(const KinematicModel& model,
+                                                  const std::vector<MarkerAssignment>& assignments,
+                                                  const ConverterConfig& config) const = 0;
 };
 
 }  // namespace mmm_converter
 
-/// Every plugin exports these two with C linkage: the factory (the host owns it and deletes it before
-/// it unloads the plugin) and the interface version that it was built against (static text).
+/// Every plugin exports these two with C linkage: the factory (the host owns it and deletes it
+/// before it unloads the plugin) and the interface version that it was built against (static text).
 using GetFactoryFunction = mmm_converter::MotionConverterFactory*();
 using GetVersionFunction = const char*();

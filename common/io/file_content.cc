@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/file_content.h"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+
+std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw Error(fmt::format("{}: no such file", path));
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw Error(fmt::format("{}: is a folder; give a file", path));
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw Error(fmt::format("{}: is not a regular file or can't be reached", path));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw Error(fmt::format("{}: can't be read: {}", path, error.message()));
+  if (size == 0) throw Error(fmt::format("{}: the file is empty", path));
+  if (size > max_bytes) {
+    throw Error(fmt::format("{}: has {} bytes, more than the {} that are read at most", path, size,
+                            max_bytes));
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (!file) throw Error(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
+  std::setvbuf(file.get(), nullptr, _IONBF, 0);
+  std::string content(size, '\0');
+  content.resize(std::fread(content.data(), 1, content.size(), file.get()));
+  if (content.size() != size) throw Error(fmt::format("{}: can't be read to its end", path));
+  return content;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/xml_document.h"
+
+#include <fmt/core.h>
+#include <tinyxml2.h>
+
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+std::string Explain(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element is closed by another name, or never closed";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is not of the form name=\"value\"";
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "there is no element";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deeply";
+    default:
+      return tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID());
+  }
+}
+
+XmlElement Convert(const tinyxml2::XMLElement& source) {
+  XmlElement element;
+  element.name = source.Name();
+  element.line = source.GetLineNum();
+  for (const auto* a = source.FirstAttribute(); a != nullptr; a = a->Next()) {
+    element.attributes.emplace_back(a->Name(), a->Value());
+  }
+  for (const auto* node = source.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (const auto* child = node->ToElement()) {
+      element.children.push_back(Convert(*child));
+    } else if (const auto* text = node->ToText()) {
+      element.text += text->Value();
+    }
+  }
+  element.text = Trim(element.text);
+  return element;
+}
+
+}  // namespace
+
+bool XmlElement::Is(std::string_view other_name) const {
+  return EqualIgnoringCase(name, other_name);
+}
+
+const XmlElement* XmlElement::FindChild(std::string_view child_name) const {
+  for (const XmlElement& child : children) {
+    if (child.Is(child_name)) return &child;
+  }
+  return nullptr;
+}
+
+std::vector<const XmlElement*> XmlElement::FindChildren(std::string_view child_name) const {
+  std::vector<const XmlElement*> found;
+  for (const XmlElement& child : children) {
+    if (child.Is(child_name)) found.push_back(&child);
+  }
+  return found;
+}
+
+const std::string* XmlElement::FindAttribute(std::string_view attribute_name) const {
+  for (const auto& [key, value] : attributes) {
+    if (EqualIgnoringCase(key, attribute_name)) return &value;
+  }
+  return nullptr;
+}
+
+XmlElement ParseXml(std::string_view content, const std::string& file) {
+  tinyxml2::XMLDocument document;
+  document.Parse(content.data(), content.size());
+  if (document.Error()) {
+    throw Error(fmt::format("{}:{}: not well-formed XML: {}", file, document.ErrorLineNum(),
+                            Explain(document)));
+  }
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (root == nullptr) {
+    throw Error(fmt::format("{}:1: not well-formed XML: there is no element", file));
+  }
+  if (const auto* second = root->NextSiblingElement()) {
+    throw Error(fmt::format("{}:{}: not well-formed XML: <{}> is a second root beside <{}>", file,
+                            second->GetLineNum(), second->Name(), root->Name()));
+  }
+  return Convert(*root);
+}
+
+XmlElement ReadXmlFile(const std::string& path, std::size_t max_bytes) {
+  return ParseXml(ReadFileContent(path, max_bytes), path);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "common/support/text.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace mmm_converter {
+namespace {
+
+constexpr std::string_view kBlanks("\0 \t\r\n\v\f", 7);
+
+char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+template <typename Number>
+std::optional<Number> Parse(std::string_view text) {
+  text = Trim(text);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::string_view Trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::string ToLower(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), LowerCase);
+  return lower;
+}
+
+bool EqualIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return LowerCase(x) == LowerCase(y); });
+}
+
+std::optional<double> ParseDouble(std::string_view text) { return Parse<double>(text); }
+
+std::optional<long> ParseLong(std::string_view text) { return Parse<long>(text); }
+
+std::optional<std::vector<double>> ParseDoubles(std::string_view text) {
+  std::vector<double> numbers;
+  for (text = Trim(text); !text.empty();) {
+    const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+    const std::optional<double> number = ParseDouble(word);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    text = Trim(text.substr(word.size()));
+  }
+  return numbers;
+}
+
+}  // namespace mmm_converter

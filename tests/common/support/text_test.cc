@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "common/support/text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace mmm_converter {
+namespace {
+
+TEST(Text, TrimsBlanksAndNuls) {
+  EXPECT_EQ(Trim(std::string_view(" \t LFHD \0\0", 10)), "LFHD");
+  EXPECT_EQ(Trim("a b\r\n"), "a b");
+  EXPECT_EQ(Trim("  "), "");
+  EXPECT_EQ(Trim(""), "");
+}
+
+TEST(Text, ComparesWithoutCase) {
+  EXPECT_TRUE(EqualIgnoringCase("RobotNode", "ROBOTnode"));
+  EXPECT_FALSE(EqualIgnoringCase("RobotNode", "RobotNode2"));
+  EXPECT_EQ(ToLower("LFhd-1"), "lfhd-1");
+}
+
+TEST(Text, ParsesWholeNumbersOnly) {
+  EXPECT_EQ(ParseDouble(" +1.5e3 "), 1500.0);
+  EXPECT_EQ(ParseDouble("-.25"), -0.25);
+  EXPECT_EQ(ParseDouble("1,5"), std::nullopt);
+  EXPECT_EQ(ParseDouble("1 2"), std::nullopt);
+  EXPECT_EQ(ParseDouble(""), std::nullopt);
+  EXPECT_EQ(ParseDouble("+-1"), std::nullopt);
+  EXPECT_EQ(ParseDouble("1e999"), std::nullopt);
+  EXPECT_EQ(ParseLong("42"), 42);
+  EXPECT_EQ(ParseLong("42.0"), std::nullopt);
+}
+
+TEST(Text, ParsesLists) {
+  EXPECT_EQ(ParseDoubles(" 1 2.5\n-3 "), (std::vector<double>{1, 2.5, -3}));
+  EXPECT_EQ(ParseDoubles(""), std::vector<double>{});
+  EXPECT_EQ(ParseDoubles("1 x"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace mmm_converter
