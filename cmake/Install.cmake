@@ -1,0 +1,40 @@
+# What `cmake --install` and `cpack` put where. All run-time paths are relative to the files that use
+# them (Layout.cmake), so an installed tree can be moved. Plugins install themselves.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/MMMConverterS2KF)
+set(header_dir ${CMAKE_INSTALL_INCLUDEDIR}/MMMConverterS2KF)
+
+install(TARGETS mmm_converter_common EXPORT MMMConverterS2KFTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET MMMConverterS2KF)
+  install(TARGETS MMMConverterS2KF RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY common DESTINATION ${header_dir} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY xml_config/ DESTINATION ${MMM_CONVERTER_DATA_DIR}
+        PATTERN CMakeLists.txt EXCLUDE)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(EXECUTABLE ${CMAKE_INSTALL_BINDIR}/MMMConverterS2KF)
+configure_package_config_file(cmake/MMMConverterS2KFConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/MMMConverterS2KFConfig.cmake INSTALL_DESTINATION ${package_dir}
+  PATH_VARS EXECUTABLE MMM_CONVERTER_DATA_DIR)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/MMMConverterS2KFConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(EXPORT MMMConverterS2KFTargets NAMESPACE MMMConverterS2KF:: DESTINATION ${package_dir})
+install(FILES ${PROJECT_BINARY_DIR}/MMMConverterS2KFConfig.cmake
+              ${PROJECT_BINARY_DIR}/MMMConverterS2KFConfigVersion.cmake
+              cmake/MMMConverterS2KFPlugin.cmake
+        DESTINATION ${package_dir})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME mmm-converter-s2kf)
+set(CPACK_PACKAGE_CONTACT "MMMConverterS2KF team <team@mmmconverters2kf.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS libeigen3-dev)
+include(CPack)
