@@ -5,22 +5,47 @@
 #include <vector>
 
 #include "common/convert/marker_mapping.h"
+#include "common/convert/settings.h"
 #include "common/io/xml_document.h"
 
 namespace mmm_converter {
 
-/// A `<ConverterConfig type="...">` file: what every converter shares, and the rest for the plugin.
-struct ConverterConfig {
-  std::string file;             ///< for messages
-  std::string type;             ///< converter name, e.g. "S2KFConverter"
-  std::string model_processor;  ///< Model@name, "Winter"
-  std::vector<MarkerPair> marker_pairs;
-  std::vector<std::string>
-      joints;  ///< joints to track, in output order; empty: the plugin's default
-  std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
+/// A `<Joint name=""/>` of a configuration.
+struct ConfigJoint {
+  std::string name;
+  int line = 0;
 };
 
+/// A `<ConverterConfig type="...">` file: what every converter shares, and the rest for the plugin.
+struct ConverterConfig {
+  std::string file;                         ///< for messages
+  std::string type;                         ///< converter name, e.g. "S2KFConverter"
+  std::string model_processor = "Winter";   ///< Model@name
+  std::vector<MarkerPair> marker_pairs;     ///< empty: see marker_set
+  std::string marker_set = "auto";          ///< MarkerMapping@set: a shipped set, or "auto"
+  std::vector<ConfigJoint> joints;          ///< in output order; empty: see joint_set
+  std::string joint_set = "auto";           ///< Joints@set, see ResolveJoints
+  std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
+  std::vector<std::string> warnings;
+};
+
+/// Reads KIT's shape too: of a configuration for another converter of KIT's ("NloptConverter") the
+/// marker mapping and joints are taken, the rest is left out with a warning, and type is empty.
 /// @throws Error with file and line for anything that is not well-formed or not allowed.
 ConverterConfig ReadConverterConfig(const std::string& path);
+
+/// As ReadConverterConfig, from text; `file` is only named in messages.
+ConverterConfig ParseConverterConfig(const std::string& xml, const std::string& file);
+
+/// The joints to track, as indices of the model, in output order: config.joints, or else those of
+/// joint_set, which is "mmm44" or "mmm40" (the joints of KIT's motions since 2016 and before),
+/// "all", the name of a node set of the model, or "auto": mmm44 as far as the model has them; all
+/// joints if it has none.
+/// @throws Error naming file and line for an unknown or repeated joint, and for an unknown set.
+std::vector<int> ResolveJoints(const ConverterConfig& config, const KinematicModel& model);
+
+/// The documented template of a configuration: the parts that all converters share at their
+/// defaults, then those of the plugin's settings with their present values.
+std::string FormatConfigTemplate(const std::string& type, const SettingTable& plugin_settings);
 
 }  // namespace mmm_converter
