@@ -1,0 +1,66 @@
+# cmake -DSOURCE_DIR=<project> -DWORK_DIR=<scratch> -P check_layers_test.cmake
+#
+# CheckLayers.cmake on a tree without a fault, then on that tree with one fault at a time.
+cmake_minimum_required(VERSION 3.25)
+
+set(licence "// SPDX-License-Identifier: MIT\n")
+
+function(write_good_tree)
+  file(REMOVE_RECURSE ${WORK_DIR})
+  foreach(folder common/support common/model common/motion common/io common/dynamics
+                 plugins/one plugins/two MMMConverterS2KF examples tests)
+    file(WRITE ${WORK_DIR}/${folder}/README.md "")
+    file(WRITE ${WORK_DIR}/${folder}/used.h "${licence}#include <Eigen/Core>\n#include <vector>\n")
+  endforeach()
+  file(WRITE ${WORK_DIR}/common/README.md "")
+  file(WRITE ${WORK_DIR}/plugins/README.md "")
+  file(WRITE ${WORK_DIR}/common/io/user.cc "${licence}#include <fmt/core.h>\n#include <fstream>\n
+#include \"common/motion/used.h\"\n")
+  file(WRITE ${WORK_DIR}/common/dynamics/user.h "${licence}#include \"common/motion/used.h\"\n")
+  file(WRITE ${WORK_DIR}/MMMConverterS2KF/user.cc "${licence}#include \"common/dynamics/used.h\"\n")
+  file(WRITE ${WORK_DIR}/tests/user.cc "${licence}#include \"plugins/one/used.h\"\n")
+endfunction()
+
+function(expect_output pattern)
+  execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK_DIR} -P ${SOURCE_DIR}/cmake/CheckLayers.cmake
+                  RESULT_VARIABLE result ERROR_VARIABLE output)
+  if(pattern STREQUAL "" AND NOT result EQUAL 0)
+    message(SEND_ERROR "a good tree is refused: ${output}")
+  elseif(NOT pattern STREQUAL "" AND (result EQUAL 0 OR NOT output MATCHES "${pattern}"))
+    message(SEND_ERROR "expected a failure that says \"${pattern}\", found ${result}: ${output}")
+  endif()
+endfunction()
+
+function(expect_fault file text pattern)
+  write_good_tree()
+  file(WRITE ${WORK_DIR}/${file} "${text}")
+  expect_output("${file}: ${pattern}")
+endfunction()
+
+write_good_tree()
+expect_output("")
+
+expect_fault(common/model/a.h "${licence}#include \"common/motion/used.h\"\n"
+             "common/model must not include common/motion")
+expect_fault(common/io/a.cc "${licence}#include \"common/dynamics/used.h\"\n"
+             "common/io must not include common/dynamics")
+expect_fault(plugins/one/a.cc "${licence}#include \"common/dynamics/used.h\"\n"
+             "plugins must not include common/dynamics")
+expect_fault(common/dynamics/a.cc "${licence}#include \"common/io/used.h\"\n"
+             "common/dynamics must not include common/io")
+expect_fault(plugins/one/a.cc "${licence}#include \"plugins/two/used.h\"\n"
+             "a plugin must not include another")
+expect_fault(MMMConverterS2KF/a.cc "${licence}#include \"plugins/one/used.h\"\n"
+             "MMMConverterS2KF must not include plugins")
+expect_fault(common/io/a.cc "${licence}  #  include \"used.h\"\n" "\"used.h\" does not start at")
+expect_fault(common/io/a.h "${licence}#include <tinyxml2.h>\n" "<tinyxml2.h> belongs in a .cc file")
+expect_fault(common/io/a.h "${licence}#include <boost/dll.hpp>\n" "<boost/dll.hpp> belongs in")
+expect_fault(common/model/a.cc "${licence}#include <fstream>\n" "files are opened in common/io")
+expect_fault(common/io/a.cc "#include <vector>\n" "the first line is not")
+expect_fault(common/new/a.cc "${licence}" "its folder is no layer")
+string(REPEAT "//\n" 400 comment)
+expect_fault(tests/a.cc "${licence}${comment}" "401 lines; at most 400")
+
+write_good_tree()
+file(REMOVE ${WORK_DIR}/plugins/two/README.md)
+expect_output("plugins/two: the folder has no README.md")
