@@ -1,7 +1,9 @@
 # Warnings for our own targets only: headers of other projects are included as system headers.
 function(mmm_converter_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                                           -Woverloaded-virtual -Wcast-qual)
+                                           -Woverloaded-virtual -Wcast-qual
+                                           # 64-byte vectors never cross our library's border
+                                           -Wno-psabi)
   if(MMM_CONVERTER_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

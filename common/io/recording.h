@@ -16,21 +16,22 @@ const char* Name(UpAxis axis);  ///< "+x", "+y", "+z", "-x", "-y", "-z"
 UpAxis ParseUpAxis(const std::string& text);
 
 struct ReadRecordingOptions {
-  std::optional<std::string> unit;   ///< overrides the file's: "mm", "cm", "m", "in"
-  std::optional<UpAxis> up_axis;     ///< overrides the decision from the markers
-  std::string subject;               ///< label prefix to keep where a file has several subjects
-  std::string motion;                ///< MMM files: name of the motion to read; empty: the one with most markers
+  std::optional<std::string> unit;  ///< overrides the file's: "mm", "cm", "m", "in"
+  std::optional<UpAxis> up_axis;    ///< overrides the decision from the markers
+  std::string subject;              ///< label prefix to keep where a file has several subjects
+  std::string motion;  ///< MMM files: name of the motion to read; empty: the one with most markers
 };
 
 /// An optical recording as a file has it, brought to metres and z up.
 struct Recording {
   std::string file;
-  std::string format;                 ///< "C3D", "TRC", "MMM 1.0", "MMM 2.0"
-  MarkerSequence markers;             ///< p_WM [m], W: z up; labels trimmed and without subject prefix
-  std::string unit;                   ///< what coordinates were read as
-  bool unit_was_guessed = false;      ///< the file's unit was absent or implausible
-  UpAxis up_axis = UpAxis::kZ;        ///< in the file's own axes
-  bool up_axis_was_decided = false;   ///< from the markers (else: override or nothing to decide from)
+  std::string format;             ///< "C3D", "TRC", "MMM 1.0", "MMM 2.0"
+  MarkerSequence markers;         ///< p_WM [m], W: z up; labels trimmed and without subject prefix
+  std::string unit;               ///< what coordinates were read as
+  bool unit_was_guessed = false;  ///< the file's unit was absent or implausible
+  UpAxis up_axis = UpAxis::kZ;    ///< in the file's own axes
+  bool up_axis_was_decided =
+      false;  ///< from the markers (else: override or nothing to decide from)
   std::vector<std::string> subjects;  ///< label prefixes found
   std::string subject;                ///< the one that was read; empty: no prefix
   std::string motion;                 ///< MMM files: name of the motion that was read
@@ -43,7 +44,8 @@ struct Recording {
 };
 
 /// Reads a C3D, TRC or MMM motion file; the format is told from the content, not the name.
-/// @throws Error (no such file, empty, not a recording, no whole frame, several subjects or motions and
+/// @throws Error (no such file, empty, not a recording, no whole frame, several subjects or motions
+/// and
 ///         none chosen: the message lists them).
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options);
 

@@ -44,8 +44,7 @@ Vector3d ContinuousRpy(const Vector3d& rpy, const Vector3d& previous) {
 Quaterniond Exp(const Vector3d& w) {
   const double angle = w.norm();
   // sin(a/2)/a by its series below 1e-4: the next term is 1e-18 relative.
-  const double scale =
-      angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
   Quaterniond q(std::cos(0.5 * angle), scale * w.x(), scale * w.y(), scale * w.z());
   return q.normalized();
 }

@@ -10,9 +10,9 @@ class KinematicModel;
 
 /// A posture of a KinematicModel: pose X_WS of the floating root and all joint angles.
 struct Posture {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();                ///< root origin in W [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();   ///< root R_WS, unit
-  Eigen::VectorXd joint_angles;                                      ///< [rad], size num_joints()
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< root origin in W [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< root R_WS, unit
+  Eigen::VectorXd joint_angles;                                     ///< [rad], size num_joints()
 };
 
 /// The posture with identity root and every joint angle 0, clamped into its limits.

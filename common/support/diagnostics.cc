@@ -28,7 +28,8 @@ void Diagnostics::AddWarning(int line, const std::string& message) {
 void Diagnostics::ThrowIfErrors() const {
   if (errors_.empty()) return;
   std::string text = errors_.front();
-  for (std::size_t i = 1; i < errors_.size() && i < kMostErrorsShown; ++i) text += "\n" + errors_[i];
+  for (std::size_t i = 1; i < errors_.size() && i < kMostErrorsShown; ++i)
+    text += "\n" + errors_[i];
   if (errors_.size() > kMostErrorsShown) {
     text += fmt::format("\n{}: {} more errors", file_, errors_.size() - kMostErrorsShown);
   }

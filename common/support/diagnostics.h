@@ -6,8 +6,8 @@
 
 namespace mmm_converter {
 
-/// Problems found while one file is read. All errors of the file are collected before they are thrown
-/// together, one a line, each as `file:line: message` (`file: message` where line is 0).
+/// Problems found while one file is read. All errors of the file are collected before they are
+/// thrown together, one a line, each as `file:line: message` (`file: message` where line is 0).
 class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}

@@ -7,9 +7,9 @@
 #include <string>
 
 /// Path of a real file below ../shared/data, or skips the test where the folder does not exist.
-#define MMM_CONVERTER_NEEDS_SHARED_DATA()                                                 \
-  if (!std::filesystem::exists(MMM_CONVERTER_SHARED_DATA "/data")) {                      \
-    GTEST_SKIP() << "needs the real files in " << MMM_CONVERTER_SHARED_DATA << "/data";   \
+#define MMM_CONVERTER_NEEDS_SHARED_DATA()                                               \
+  if (!std::filesystem::exists(MMM_CONVERTER_SHARED_DATA "/data")) {                    \
+    GTEST_SKIP() << "needs the real files in " << MMM_CONVERTER_SHARED_DATA << "/data"; \
   }
 
 namespace mmm_converter::testing {

@@ -79,8 +79,8 @@ TEST(RotationTest, RightJacobianMatchesFiniteDifferences) {
       // Central difference of a smooth function: error h^2 = 1e-10 and rounding 1e-16 / h = 1e-11.
       const double h = 1e-5;
       const Vector3d e = h * Vector3d::Unit(i);
-      const Vector3d column = (Log(Exp(w).conjugate() * Exp(w + e)) -
-                               Log(Exp(w).conjugate() * Exp(w - e))) / (2 * h);
+      const Vector3d column =
+          (Log(Exp(w).conjugate() * Exp(w + e)) - Log(Exp(w).conjugate() * Exp(w - e))) / (2 * h);
       EXPECT_LT((column - J.col(i)).norm(), 1e-9) << "scale " << scale;
     }
   }

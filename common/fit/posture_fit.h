@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
+
+namespace mmm_converter {
+
+/// A zero angle for every tracked joint, clamped into its limits: where a joint rests that no
+/// marker determines.
+Eigen::VectorXd NaturalAngles(const MarkerKinematics& kinematics);
+
+struct PostureFitOptions {
+  int max_iterations = 30;
+  /// Converged where an accepted step lowers the cost by less than this share of it.
+  double tolerance = 1e-4;
+  /// Huber: a marker that is farther off counts with its distance only [m].
+  double robust_distance = 1e9;
+  /// Pull to the natural angle: 1 rad costs as much as one marker this far off [m/rad].
+  double natural_weight = 0.003;
+};
+
+/// Levenberg-Marquardt fit of a posture to marker positions, inside the joint limits:
+///   min over q   sum_m rho(|z_m - p_m(q)|^2) / s_m^2 + w^2 sum_j (theta_j - natural_j)^2,  l <=
+///   theta <= u,
+/// with projected steps and the joints that press on a limit held there. Postures hold the tracked
+/// joints of `kinematics`. No allocation after construction.
+class PostureFit {
+ public:
+  /// kinematics must outlive the fit.
+  explicit PostureFit(const MarkerKinematics& kinematics);
+
+  struct Result {
+    double cost = 0;           ///< [m^2]
+    double mean_distance = 0;  ///< over seen markers [m]
+    int iterations = 0;
+    bool converged = false;
+  };
+
+  /// z: 3 x markers [m], NaN = not seen. noise_scale: s_m, per marker. posture: start and result.
+  Result Solve(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
+               const PostureFitOptions& options, Posture* posture);
+
+  /// The cost and the distances at a posture, without a step.
+  Result Evaluate(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
+                  const PostureFitOptions& options, const Posture& posture);
+
+  const MarkerKinematics& kinematics() const { return kinematics_; }
+  const Eigen::VectorXd& natural_angles() const { return natural_; }
+
+ private:
+  void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
+                 const PostureFitOptions& options, const Posture& posture);
+  void ComputeStep(const Posture& posture, double damping);
+
+  const MarkerKinematics& kinematics_;
+  Eigen::VectorXd natural_;
+  MarkerJacobian at_;
+  Eigen::MatrixXd J_;         // weighted Jacobian
+  Eigen::VectorXd residual_;  // weighted
+  Eigen::MatrixXd hessian_;
+  Eigen::VectorXd gradient_;
+  Eigen::MatrixXd damped_;
+  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Eigen::VectorXd step_;
+  Posture trial_;
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "common/fit/posture_search.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+namespace mmm_converter {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::Ref;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+/// In [0, 1), the same with every standard library.
+double Uniform(std::mt19937* random) { return (*random)() * (1.0 / 4294967296.0); }
+
+constexpr double kRandomShare = 0.8;  // of a joint's range
+constexpr double kLeastGain = 0.01;
+
+}  // namespace
+
+PostureSearch::PostureSearch(const MarkerKinematics& kinematics)
+    : kinematics_(kinematics),
+      fit_(kinematics),
+      at_(kinematics.MakeJacobian()),
+      rigidity_(kinematics.num_markers()),
+      distance_(kinematics.num_markers()) {
+  for (int m = 0; m < kinematics.num_markers(); ++m) {
+    int joints = 0;
+    for (int j = 0; j < kinematics.num_joints(); ++j) joints += kinematics.Moves(j, m);
+    rigidity_[m] = 1.0 / ((1.0 + joints) * (1.0 + joints));
+  }
+  trial_.joint_angles.setZero(kinematics.num_joints());
+}
+
+void PostureSearch::FitRigid(const Ref<const Matrix3Xd>& z, Posture* posture) {
+  kinematics_.ComputeMarkers(Vector3d::Zero(), Matrix3d::Identity(), posture->joint_angles, &at_);
+  double total = 0;
+  Vector3d center_z = Vector3d::Zero();
+  Vector3d center_p = Vector3d::Zero();
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (!z.col(m).allFinite()) continue;
+    total += rigidity_[m];
+    center_z += rigidity_[m] * z.col(m);
+    center_p += rigidity_[m] * at_.p_WM.col(m);
+  }
+  center_z /= total;
+  center_p /= total;
+  Matrix3d correlation = Matrix3d::Zero();
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (!z.col(m).allFinite()) continue;
+    correlation += rigidity_[m] * (z.col(m) - center_z) * (at_.p_WM.col(m) - center_p).transpose();
+  }
+  const Eigen::JacobiSVD<Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  const Matrix3d R = svd.matrixU() * Vector3d(1, 1, handedness < 0 ? -1 : 1).asDiagonal() *
+                     svd.matrixV().transpose();
+  posture->orientation = Eigen::Quaterniond(R).normalized();
+  posture->position = center_z - R * center_p;
+}
+
+void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* posture) {
+  kinematics_.ComputeMarkers(posture->position, posture->orientation.toRotationMatrix(),
+                             posture->joint_angles, &at_);
+  // Drawn with a probability proportional to its distance.
+  double total = 0;
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    const double r = (z.col(m) - at_.p_WM.col(m)).norm();
+    distance_[m] = std::isfinite(r) ? r : 0;
+    total += distance_[m];
+  }
+  double draw = Uniform(&random_) * total;
+  int marker = 0;
+  while (marker + 1 < kinematics_.num_markers() && (draw -= distance_[marker]) > 0) ++marker;
+  for (int j = 0; j < kinematics_.num_joints(); ++j) {
+    if (!kinematics_.Moves(j, marker)) continue;
+    const double lower = kinematics_.lower()[j];
+    const double upper = kinematics_.upper()[j];
+    posture->joint_angles[j] =
+        0.5 * (lower + upper) + (Uniform(&random_) - 0.5) * kRandomShare * (upper - lower);
+  }
+}
+
+bool PostureSearch::Improve(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
+                            const PostureFitOptions& options, Posture* posture) {
+  const PostureFit::Result before = fit_.Evaluate(z, noise_scale, options, *posture);
+  trial_ = *posture;
+  if (random_() % 4 == 0) {
+    trial_.joint_angles = fit_.natural_angles();
+    FitRigid(z, &trial_);
+  }
+  RandomizeLimb(z, &trial_);
+  const PostureFit::Result after = fit_.Solve(z, noise_scale, options, &trial_);
+  if (!(after.cost < (1 - kLeastGain) * before.cost)) return false;
+  *posture = trial_;
+  return true;
+}
+
+PostureFit::Result PostureSearch::Assemble(const Ref<const Matrix3Xd>& z,
+                                           const VectorXd& noise_scale,
+                                           const PostureFitOptions& options, int attempts,
+                                           Posture* posture) {
+  random_.seed(1);
+  posture->joint_angles = fit_.natural_angles();
+  FitRigid(z, posture);
+  fit_.Solve(z, noise_scale, options, posture);
+  for (int i = 0; i < attempts; ++i) Improve(z, noise_scale, options, posture);
+  PostureFitOptions polish = options;
+  polish.tolerance *= 0.01;
+  return fit_.Solve(z, noise_scale, polish, posture);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <random>
+#include <vector>
+
+#include "common/fit/posture_fit.h"
+
+namespace mmm_converter {
+
+/// Finds a posture from nothing: a rigid fit gives the root, Levenberg-Marquardt the joints, and
+/// random restarts of single limbs leave wrong local minima. Seeded; no allocation after
+/// construction.
+class PostureSearch {
+ public:
+  /// kinematics must outlive the search.
+  explicit PostureSearch(const MarkerKinematics& kinematics);
+
+  /// Starts over. z: 3 x markers [m], NaN = not seen, at least three seen.
+  /// attempts: random restarts after the first fit.
+  PostureFit::Result Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& z,
+                              const Eigen::VectorXd& noise_scale, const PostureFitOptions& options,
+                              int attempts, Posture* posture);
+
+  /// One attempt to do better than `posture`: every other one restarts from the rigid fit, the
+  /// others restart the joints that move one badly fitting marker. True, and posture replaced,
+  /// where the cost is lower by more than a hundredth of it.
+  bool Improve(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
+               const PostureFitOptions& options, Posture* posture);
+
+  PostureFit& fit() { return fit_; }
+
+ private:
+  /// Root pose that brings the model's markers at `posture->joint_angles` nearest to z (Kabsch
+  /// 1976). Markers count less the more joints lie between them and the root.
+  void FitRigid(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Posture* posture);
+
+  void RandomizeLimb(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Posture* posture);
+
+  const MarkerKinematics& kinematics_;
+  PostureFit fit_;
+  MarkerJacobian at_;
+  Eigen::VectorXd rigidity_;  // per marker
+  Eigen::VectorXd distance_;
+  Posture trial_;
+  std::mt19937 random_;
+};
+
+}  // namespace mmm_converter

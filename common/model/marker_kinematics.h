@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+#include "common/model/posture.h"
+
+namespace mmm_converter {
+
+/// Marker positions of many postures at once, in structure-of-arrays form: each column holds one
+/// quantity of all samples. Sized once by MarkerKinematics::MakeBatch.
+struct MarkerBatch {
+  int num_samples = 0;
+  Eigen::MatrixXd
+      rotation;  ///< in: rows of R_WS of the root, padded samples x 9 (R00 R01 R02 R10 ...)
+  Eigen::MatrixXd position;   ///< in: root origin in W [m], padded samples x 3
+  Eigen::MatrixXd angles;     ///< in: tracked joint angles [rad], padded samples x joints
+  Eigen::MatrixXd markers;    ///< out: p_WM [m], padded samples x (3 * markers), marker-major x y z
+  std::vector<double> links;  // scratch: frames of all links for one group of samples
+};
+
+/// One posture with its derivative. Sized once by MarkerKinematics::MakeJacobian.
+struct MarkerJacobian {
+  Eigen::Matrix3Xd p_WM;  ///< out [m], 3 x markers
+  /// out: d p_WM / d [root position (W) 3; root rotation (body) 3; tracked joints], (3 markers) x
+  /// dofs. Entries of joints that do not move a marker are 0.
+  Eigen::MatrixXd J;
+  std::vector<Eigen::Matrix3d> R_WL;  // scratch, a link each
+  std::vector<Eigen::Vector3d> p_WL;
+};
+
+/// What a tracker needs of a model: tracked joints, used markers, and the rigid links between them.
+/// All other joints stay at 0 and are folded into the links. Immutable; may be shared by threads.
+class MarkerKinematics {
+ public:
+  /// joints, markers: indices of the model, in the order that all results use.
+  MarkerKinematics(const KinematicModel& model, std::vector<int> joints, std::vector<int> markers);
+
+  int num_joints() const { return static_cast<int>(joints_.size()); }
+  int num_dofs() const { return 6 + num_joints(); }
+  int num_markers() const { return static_cast<int>(markers_.size()); }
+  const std::vector<int>& joints() const { return joints_; }
+  const std::vector<int>& markers() const { return markers_; }
+  const Eigen::VectorXd& lower() const { return lower_; }  ///< [rad], tracked joints
+  const Eigen::VectorXd& upper() const { return upper_; }  ///< [rad], tracked joints
+
+  MarkerBatch MakeBatch(int num_samples) const;
+  MarkerJacobian MakeJacobian() const;
+
+  /// Fills batch->markers. Padding samples are computed from whatever stands there.
+  void ComputeBatch(MarkerBatch* batch) const;
+
+  /// Marker positions only. angles: tracked joints [rad].
+  void ComputeMarkers(const Eigen::Vector3d& position, const Eigen::Matrix3d& R_WS,
+                      const Eigen::Ref<const Eigen::VectorXd>& angles,
+                      MarkerJacobian* result) const;
+
+  /// Marker positions and Jacobian.
+  void ComputeJacobian(const Eigen::Vector3d& position, const Eigen::Matrix3d& R_WS,
+                       const Eigen::Ref<const Eigen::VectorXd>& angles,
+                       MarkerJacobian* result) const;
+
+  /// True where the tracked joint moves the marker.
+  bool Moves(int joint, int marker) const { return moves_(joint, marker); }
+
+ private:
+  /// A tracked joint: R_WL = R_W,parent * R_PF * Rot(axis, sign * q), p_WL = parent's + R_W,parent
+  /// p_PF.
+  struct Link {
+    int parent =
+        0;  // link index; 0 is the root, link i + 1 belongs to the i-th joint in tree order
+    int column = 0;  // index of the joint in `joints_`
+    int axis = 2;    // 0 x, 1 y, 2 z
+    double sign = 1;
+    bool rotated = false;     // R_PF is not the identity
+    bool translated = false;  // p_PF is not zero
+    Eigen::Matrix3d R_PF = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d p_PF = Eigen::Vector3d::Zero();
+  };
+  struct Site {
+    int link = 0;
+    Eigen::Vector3d p_LM = Eigen::Vector3d::Zero();
+  };
+
+  void ComputeLanes(int first, MarkerBatch* batch) const;
+
+  std::vector<int> joints_;
+  std::vector<int> markers_;
+  std::vector<Link> links_;
+  std::vector<Site> sites_;  // by used marker
+  Eigen::VectorXd lower_;
+  Eigen::VectorXd upper_;
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> moves_;
+};
+
+}  // namespace mmm_converter
