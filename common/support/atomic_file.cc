@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "common/support/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void Fail(const std::string& path, int error_number) {
+  throw Error(fmt::format("{}: can't be written: {}", path, std::strerror(error_number)));
+}
+
+/// The file that a chain of symbolic links leads to, which need not exist.
+fs::path FinalTarget(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  fs::path target = path;
+  for (int i = 0; i < kMostLinks; ++i) {
+    std::error_code error;
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) return target;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  Fail(path, ELOOP);
+}
+
+/// An open file that is closed at the end of its scope, and removed unless it has been kept.
+class ScratchFile {
+ public:
+  ScratchFile(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
+  ~ScratchFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  bool Close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
+  void Keep() { name_.clear(); }
+
+ private:
+  int descriptor_;
+  std::string name_;  // empty: not removed
+};
+
+bool WriteAll(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+void WriteDirectly(const std::string& path, std::string_view content) {
+  ScratchFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC), "");
+  if (file.descriptor() < 0 || !WriteAll(file.descriptor(), content) || !file.Close()) {
+    Fail(path, errno);
+  }
+}
+
+struct Created {
+  int descriptor;
+  std::string name;
+};
+
+/// A new file in `folder` under a name that nothing else has; descriptor -1 where that failed.
+Created CreateIn(const fs::path& folder) {
+  constexpr int kMostTries = 1000;
+  for (int i = 0;; ++i) {
+    std::string name = folder / fmt::format(".mmm_converter.{}.{}.tmp", ::getpid(), i);
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST || i == kMostTries) return {descriptor, std::move(name)};
+  }
+}
+
+}  // namespace
+
+void WriteFileAtomically(const std::string& path, std::string_view content) {
+  if (path.empty()) throw Error("the name of the file to write is empty");
+  const fs::path target = FinalTarget(path);
+  struct stat old {};
+  const bool exists = ::stat(target.c_str(), &old) == 0;
+  if (exists && S_ISDIR(old.st_mode)) {
+    throw Error(fmt::format("{}: is a folder; give the name of a file", path));
+  }
+  if (exists && !S_ISREG(old.st_mode)) return WriteDirectly(path, content);
+  if (exists && ::access(target.c_str(), W_OK) != 0) Fail(path, errno);
+
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const Created created = CreateIn(folder);
+  if (created.descriptor < 0 && errno == ENOENT) {
+    throw Error(fmt::format("{}: can't be written: there is no folder {}", path, folder.string()));
+  }
+  if (created.descriptor < 0) Fail(path, errno);
+  ScratchFile scratch(created.descriptor, created.name);
+  if ((exists && ::fchmod(created.descriptor, old.st_mode & 07777) != 0) ||
+      !WriteAll(created.descriptor, content) || ::fdatasync(created.descriptor) != 0 ||
+      !scratch.Close() || ::rename(created.name.c_str(), target.c_str()) != 0) {
+    Fail(path, errno);
+  }
+  scratch.Keep();
+}
+
+}  // namespace mmm_converter

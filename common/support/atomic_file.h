@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mmm_converter {
+
+/// Replaces or creates the file at `path` with `content`, whole or not at all: the bytes go to a
+/// temporary file in the same folder that is then renamed, so that a reader never sees half of them
+/// and an existing file stays as it was where anything fails. A symbolic link stays one: its target
+/// is replaced. An existing file keeps its permissions; a new one gets what the process's umask
+/// allows. Something other than a regular file, such as /dev/stdout or a pipe, is written to
+/// directly.
+/// @throws Error naming the path and the system's reason (no such folder, no permission, no space,
+/// a folder).
+void WriteFileAtomically(const std::string& path, std::string_view content);
+
+}  // namespace mmm_converter
