@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/joint_limit_transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mmm_converter {
+
+namespace {
+// sin: slope cos(Theta) = 0.05; tanh: slope 1 - f^2 = 0.05.
+constexpr double kLargestSine = 0.99875;
+constexpr double kLargestTanh = 0.974679;
+}  // namespace
+
+JointLimitTransform::JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
+                                         const Eigen::VectorXd& upper)
+    : function_(function), half_range_(0.5 * (upper - lower)), middle_(0.5 * (upper + lower)) {}
+
+double JointLimitTransform::Angle(int joint, double parameter) const {
+  const double f = function_ == LimitFunction::kSine ? std::sin(parameter) : std::tanh(parameter);
+  return half_range_[joint] * f + middle_[joint];
+}
+
+double JointLimitTransform::Slope(int joint, double parameter) const {
+  if (function_ == LimitFunction::kSine) return half_range_[joint] * std::cos(parameter);
+  const double f = std::tanh(parameter);
+  return half_range_[joint] * (1 - f * f);
+}
+
+double JointLimitTransform::Parameter(int joint, double angle) const {
+  const double f = (angle - middle_[joint]) / half_range_[joint];
+  if (function_ == LimitFunction::kSine) return std::asin(std::clamp(f, -kLargestSine, kLargestSine));
+  return std::atanh(std::clamp(f, -kLargestTanh, kLargestTanh));
+}
+
+double JointLimitTransform::AngleDeviation(int joint, double mean, double deviation) const {
+  if (function_ == LimitFunction::kTanh) return std::abs(Slope(joint, mean)) * deviation;
+  // X ~ N(m, v): Var[sin X] = d (2 - d)/2 - d (1 - d) sin^2 m with d = 1 - e^-v.
+  const double d = -std::expm1(-deviation * deviation);
+  const double sine = std::sin(mean);
+  const double variance = d * (0.5 * (2 - d) - (1 - d) * sine * sine);
+  return half_range_[joint] * std::sqrt(std::max(variance, 0.0));
+}
+
+void JointLimitTransform::Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameters,
+                               Eigen::MatrixXd* P) const {
+  if (function_ != LimitFunction::kSine) return;
+  constexpr double kPi = std::numbers::pi;
+  for (Eigen::Index j = 0; j < parameters.size(); ++j) {
+    const double turned = std::remainder(parameters[j], 2 * kPi);
+    parameters[j] = turned;
+    if (std::abs(turned) <= kPi / 2) continue;
+    parameters[j] = (turned > 0 ? kPi : -kPi) - turned;
+    P->row(offset + j) *= -1;
+    P->col(offset + j) *= -1;
+  }
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace mmm_converter {
+
+enum class LimitFunction { kSine, kTanh };
+
+/// Maps unbounded joint parameters Theta to joint angles inside their limits,
+///   theta = (u - l)/2 f(Theta) + (l + u)/2,   f = sin (Steinbring et al., eq. for the joints) or tanh.
+class JointLimitTransform {
+ public:
+  JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
+                      const Eigen::VectorXd& upper);
+
+  LimitFunction function() const { return function_; }
+  const Eigen::VectorXd& half_range() const { return half_range_; }  ///< (u - l)/2 [rad]
+  const Eigen::VectorXd& middle() const { return middle_; }          ///< (l + u)/2 [rad]
+
+  double Angle(int joint, double parameter) const;  ///< theta [rad]
+  double Slope(int joint, double parameter) const;  ///< d theta / d Theta [rad]
+
+  /// Theta of an angle, kept away from the limits so far that Slope stays above a twentieth of its
+  /// largest value: a filter that starts on a limit must be able to leave it.
+  double Parameter(int joint, double angle) const;
+
+  /// Standard deviation of theta where Theta ~ N(mean, deviation^2): exact for the sine, first order
+  /// for tanh.
+  double AngleDeviation(int joint, double mean, double deviation) const;
+
+  /// The sine maps Theta, pi - Theta and Theta + 2 pi to the same angle. Brings every mean into
+  /// [-pi/2, pi/2] and turns the signs in the covariance (rows and columns offset + joint) to match.
+  void Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameters, Eigen::MatrixXd* P) const;
+
+ private:
+  LimitFunction function_;
+  Eigen::VectorXd half_range_;
+  Eigen::VectorXd middle_;
+};
+
+}  // namespace mmm_converter
