@@ -18,13 +18,14 @@ struct ConfigJoint {
 
 /// A `<ConverterConfig type="...">` file: what every converter shares, and the rest for the plugin.
 struct ConverterConfig {
-  std::string file;                         ///< for messages
-  std::string type;                         ///< converter name, e.g. "S2KFConverter"
-  std::string model_processor = "Winter";   ///< Model@name
-  std::vector<MarkerPair> marker_pairs;     ///< empty: see marker_set
-  std::string marker_set = "auto";          ///< MarkerMapping@set: a shipped set, or "auto"
-  std::vector<ConfigJoint> joints;          ///< in output order; empty: see joint_set
-  std::string joint_set = "auto";           ///< Joints@set, see ResolveJoints
+  std::string file;                        ///< for messages
+  std::string type;                        ///< converter name, e.g. "S2KFConverter"
+  std::string model_processor = "Winter";  ///< Model@name: "Winter" or "None" (not scaled)
+  std::vector<MarkerPair> marker_pairs;    ///< empty: see marker_set
+  std::string marker_set = "auto";         ///< MarkerMapping@set: a shipped set, or "auto"
+  std::vector<ConfigJoint> joints;         ///< in output order; empty: see joint_set
+  std::string joint_set = "auto";          ///< Joints@set, see ResolveJoints
+  int joint_set_line = 0;
   std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
   std::vector<std::string> warnings;
 };

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/plugin_loader.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/support/data_directory.h"
+#include "common/support/error.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The dynamic loader's own words for what just failed.
+std::string LoaderMessage() {
+  const char* message = dlerror();
+  return message == nullptr ? "unknown error" : message;
+}
+
+template <typename Function>
+Function* FindFunction(void* library, const char* name, const std::string& path) {
+  void* symbol = dlsym(library, name);
+  if (symbol == nullptr) {
+    throw Error(
+        fmt::format("{}: is a shared library, but no converter plugin: it does not export "
+                    "{}",
+                    path, name));
+  }
+  return reinterpret_cast<Function*>(symbol);
+}
+
+std::vector<std::string> LibrariesIn(const std::string& folder) {
+  std::vector<std::string> paths;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    if (entry.path().extension() == ".so") paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::string DescribeSearch(const std::vector<FoundPlugin>& plugins) {
+  std::string text = "looked in " + JoinNames(PluginFolders(), " and ");
+  for (const FoundPlugin& plugin : plugins) {
+    if (plugin.name.empty()) text += "; could not load " + plugin.description;
+  }
+  return text;
+}
+
+}  // namespace
+
+void LoadedPlugin::CloseLibrary::operator()(void* handle) const { dlclose(handle); }
+
+LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).string()) {
+  std::error_code failure;
+  if (!fs::is_regular_file(path_, failure)) {
+    throw Error(fmt::format("{}: no such plugin file", path));
+  }
+  library_.reset(dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (library_ == nullptr) {
+    throw Error(fmt::format("{}: can't be loaded as a shared library: {}", path, LoaderMessage()));
+  }
+  auto* get_version = FindFunction<GetVersionFunction>(library_.get(), "getVersion", path);
+  auto* get_factory = FindFunction<GetFactoryFunction>(library_.get(), "getFactory", path);
+  const char* version = get_version();
+  version_ = version == nullptr ? "" : version;
+  if (version_ != kConverterInterfaceVersion) {
+    throw Error(
+        fmt::format("{}: was built against interface version \"{}\", this program has "
+                    "\"{}\"; build the plugin anew",
+                    path, version_, kConverterInterfaceVersion));
+  }
+  factory_.reset(get_factory());
+  if (factory_ == nullptr) throw Error(fmt::format("{}: getFactory gave no factory", path));
+}
+
+std::vector<std::string> PluginFolders() {
+  std::vector<std::string> folders;
+  if (const char* list = std::getenv("MMM_CONVERTER_PLUGIN_PATH")) {
+    const std::string text = list;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(':', begin), text.size());
+      if (end > begin) folders.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  folders.push_back((fs::path(LibraryDirectory()) / "MMMConverterS2KF" / "plugins").string());
+  return folders;
+}
+
+std::vector<FoundPlugin> FindPlugins() {
+  std::vector<FoundPlugin> plugins;
+  for (const std::string& folder : PluginFolders()) {
+    for (const std::string& path : LibrariesIn(folder)) {
+      try {
+        const LoadedPlugin plugin(path);
+        plugins.push_back({path, plugin.factory().name(), plugin.factory().description()});
+      } catch (const Error& error) {
+        plugins.push_back({path, "", error.what()});
+      }
+    }
+  }
+  return plugins;
+}
+
+LoadedPlugin LoadPluginByName(const std::string& name) {
+  const std::vector<FoundPlugin> plugins = FindPlugins();
+  std::vector<std::string> names;
+  for (const FoundPlugin& plugin : plugins) {
+    if (plugin.name == name) return LoadedPlugin(plugin.path);
+    if (!plugin.name.empty()) names.push_back(plugin.name);
+  }
+  const std::string closest = ClosestName(name, names);
+  throw Error(fmt::format("there is no converter \"{}\"{}; found {}; {}", name,
+                          closest.empty() ? "" : " (did you mean " + closest + "?)",
+                          names.empty() ? "none" : JoinNames(names, " and "),
+                          DescribeSearch(plugins)));
+}
+
+}  // namespace mmm_converter
