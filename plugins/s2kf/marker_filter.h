@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
+#include "plugins/s2kf/belief.h"
+#include "plugins/s2kf/gaussian_update.h"
+#include "plugins/s2kf/marker_measurement_model.h"
+#include "plugins/s2kf/motion_model.h"
+#include "plugins/s2kf/s2kf_settings.h"
+
+namespace mmm_converter {
+
+/// The Kalman filter on markers: belief in, belief out; what it holds is scratch and constants. One code
+/// path for S2KF, UKF and EKF, which differ in how MarkerMeasurementModel takes its moments.
+/// Postures hold the tracked joints of `kinematics`.
+class MarkerFilter {
+ public:
+  /// noise_scale: factor on the marker standard deviation, per marker. kinematics must outlive it.
+  MarkerFilter(const MarkerKinematics& kinematics, const S2kfSettings& settings,
+               const Eigen::VectorXd& noise_scale);
+
+  /// A belief about a fitted posture, with the spread that a fit leaves.
+  void StartAt(const Posture& posture, Belief* belief) const;
+
+  /// The paper's start [S15]: root at the mean of the seen markers with their covariance, orientation 0
+  /// with 1e-6 rad^2, joint parameters 0 with 1e-10.
+  void StartAsPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief) const;
+
+  void Predict(double dt, Belief* belief) const;
+
+  struct Outcome {
+    int seen = 0;
+    int downweighted = 0;
+    double nis = 0;  ///< over its degrees of freedom
+  };
+  /// z: 3 x markers [m], NaN = not seen; such a marker is left out.
+  Outcome Update(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief);
+
+  void ToPosture(const Belief& belief, Posture* posture) const;
+  /// Standard deviations of [root position; root rotation; joint angles], num_dofs.
+  void Deviations(const Belief& belief, Eigen::VectorXd* deviations) const;
+
+ private:
+  void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Outcome* outcome);
+  void Relinearize(const Belief& belief);
+  void Commit(Belief* belief);
+
+  const MarkerKinematics& kinematics_;
+  S2kfSettings settings_;
+  Eigen::VectorXd noise_scale_;
+  MotionModel motion_model_;
+  MarkerMeasurementModel measurement_model_;
+  MeasurementMoments moments_;
+  GaussianUpdate update_;
+  Eigen::VectorXd z_;      // measured coordinates, m
+  Eigen::VectorXd noise_;  // their variances, m
+  Eigen::MatrixXd L_;      // root of P, lower triangular
+  Eigen::MatrixXd L_x_;    // its part for the states that h depends on, n x n
+  Eigen::MatrixXd spread_;
+  Eigen::MatrixXd U_;
+  Eigen::VectorXd center_;
+  Eigen::VectorXd dx_;
+  Eigen::LLT<Eigen::MatrixXd> llt_;
+};
+
+}  // namespace mmm_converter

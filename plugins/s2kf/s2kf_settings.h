@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/convert/settings.h"
+#include "plugins/s2kf/belief.h"
+#include "plugins/s2kf/gaussian_update.h"
+#include "plugins/s2kf/joint_limit_transform.h"
+#include "plugins/s2kf/motion_model.h"
+
+namespace mmm_converter {
+
+enum class FilterType {
+  kS2kf,  ///< LCD samples [S13]
+  kUkf,   ///< 2n + 1 sigma points in a random rotation
+  kEkf,   ///< analytic Jacobian
+};
+
+enum class MotionModelType { kRandomWalk, kVelocity };
+
+enum class StartMethod {
+  kFit,    ///< rigid fit, Levenberg-Marquardt, random restarts
+  kPaper,  ///< root at the mean of the markers, everything else 0 [S15]
+};
+
+/// All that a configuration can say to the S2KFConverter, at its defaults. SI units.
+struct S2kfSettings {
+  FilterType filter = FilterType::kS2kf;
+  int samples = 301;
+  UpdateForm update = UpdateForm::kRegression;
+  int iterations = 1;
+  RootParameters root = RootParameters::kSo3;
+  LimitFunction limits = LimitFunction::kSine;
+
+  MotionModelType motion_model = MotionModelType::kRandomWalk;
+  ProcessNoise noise = {0.3162, 0.3162, 0.1732};
+  double natural_spread = 0.7;
+  double velocity_decay = 0.2;
+  ProcessNoise velocity_noise = {3.0, 10.0, 10.0};
+
+  double marker_deviation = 0.005;
+  double robust_distance = 0.1;
+
+  StartMethod start = StartMethod::kFit;
+  int start_attempts = 4;
+  bool recovery = true;
+};
+
+/// The settings of `values` as attributes of a configuration. `values` must outlive the table.
+SettingTable BindSettings(S2kfSettings* values);
+
+}  // namespace mmm_converter
