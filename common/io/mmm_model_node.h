@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/io/xml_document.h"
+#include "common/model/kinematic_model.h"
+#include "common/support/diagnostics.h"
+
+namespace mmm_converter {
+
+/// One <RobotNode>, not yet part of a tree: parents and marker segments are not set.
+struct ModelNode {
+  struct Child {
+    std::string name;
+    int line = 0;
+  };
+
+  Segment segment;
+  int line = 0;
+  std::vector<Child> children;
+  std::vector<ModelMarker> markers;
+};
+
+/// Problems go to `diagnostics`; what could not be read keeps its default.
+ModelNode ReadModelNode(const XmlElement& element, Diagnostics& diagnostics);
+
+}  // namespace mmm_converter
