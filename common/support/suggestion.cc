@@ -33,7 +33,7 @@ std::string ClosestName(std::string_view name, const std::vector<std::string>& c
   constexpr std::size_t kLongestName = 100;
   if (name.size() > kLongestName) return "";
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+  std::size_t best_distance = (name.size() + 2) / 3 + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = EditDistance(name, candidate);
     if (distance < best_distance) {

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/converter_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/support/error.h"
+#include "tests/support/stick_model.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+ConverterConfig Parse(const std::string& inside, const std::string& type = "S2KFConverter") {
+  return ParseConverterConfig(
+      "<ConverterConfig type='" + type + "'>\n" + inside + "\n</ConverterConfig>", "c.xml");
+}
+
+std::string ErrorOf(const std::string& inside) {
+  try {
+    Parse(inside);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ConverterConfig, TakesTheShapeOfKit) {
+  const ConverterConfig config = ParseConverterConfig(
+      "<?xml version='1.0' encoding='UTF-8'?>\n"
+      "<ConverterConfig type='NloptConverter'>\n"
+      "  <Model name='Winter'>\n"
+      "    <MarkerMapping>\n"
+      "      <Mapping source=\"C7\" target=\"MARKER_C7\"/>\n"
+      "      <Mapping source=\"L3\" target=\"MARKER_L3\" weight='1'/>\n"
+      "    </MarkerMapping>\n"
+      "    <Other/>\n"
+      "  </Model>\n"
+      "  <Strategy/>\n"
+      "</ConverterConfig>",
+      "c.xml");
+  EXPECT_EQ(config.type, "");
+  EXPECT_EQ(config.model_processor, "Winter");
+  ASSERT_EQ(config.marker_pairs.size(), 2u);
+  EXPECT_EQ(config.marker_pairs[1].source, "L3");
+  EXPECT_EQ(config.marker_pairs[1].target, "MARKER_L3");
+  EXPECT_EQ(config.marker_pairs[1].noise_scale, 1);
+  EXPECT_THAT(config.plugin_elements, IsEmpty());
+  EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("c.xml:6:"), HasSubstr("c.xml:8:"),
+                                           HasSubstr("left out are Strategy")));
+}
+
+TEST(ConverterConfig, ReadsAllThatIsShared) {
+  const ConverterConfig config = Parse(
+      "<Model name='None'>\n"
+      "<MarkerMapping><Mapping source=' C7 ' target='MARKER_C7' "
+      "noiseScale='2.5'/></MarkerMapping>\n"
+      "<Joints><Joint name='LKx_joint'/>\n<Joint name='RKx_joint'/></Joints></Model>\n"
+      "<Filter type='ekf'/><Noise/>");
+  EXPECT_EQ(config.file, "c.xml");
+  EXPECT_EQ(config.type, "S2KFConverter");
+  EXPECT_EQ(config.model_processor, "None");
+  ASSERT_EQ(config.marker_pairs.size(), 1u);
+  EXPECT_EQ(config.marker_pairs[0].source, "C7");
+  EXPECT_EQ(config.marker_pairs[0].noise_scale, 2.5);
+  ASSERT_EQ(config.joints.size(), 2u);
+  EXPECT_EQ(config.joints[1].name, "RKx_joint");
+  EXPECT_EQ(config.joints[1].line, 5);
+  ASSERT_EQ(config.plugin_elements.size(), 2u);
+  EXPECT_EQ(config.plugin_elements[0].name, "Filter");
+  EXPECT_THAT(config.warnings, IsEmpty());
+}
+
+TEST(ConverterConfig, EverythingButTheTypeCanBeLeftOut) {
+  const ConverterConfig config = Parse("");
+  EXPECT_EQ(config.model_processor, "Winter");
+  EXPECT_EQ(config.marker_set, "auto");
+  EXPECT_EQ(config.joint_set, "auto");
+  EXPECT_EQ(Parse("<Model><MarkerMapping set='kit53'/><Joints set='mmm40'/></Model>").marker_set,
+            "kit53");
+}
+
+TEST(ConverterConfig, ErrorsNameFileLineAndWhatIsAllowed) {
+  EXPECT_EQ(ErrorOf("<Model name='Summer'/>"),
+            "c.xml:2: <Model>: name=\"Summer\" is not allowed; use Winter (scales the model by "
+            "height and mass) or None (leaves it as it is)");
+  EXPECT_EQ(ErrorOf("<Model nome='Winter'/>"),
+            "c.xml:2: <Model>: unknown attribute nome; use name");
+  EXPECT_EQ(ErrorOf("<Model>\n<Marker/></Model>"),
+            "c.xml:3: unknown element <Marker> in <Model>; use MarkerMapping or Joints");
+  EXPECT_THAT(ErrorOf("<Model/>\n<Model/>"), HasSubstr("c.xml:3: <Model> is already in line 2"));
+  EXPECT_THAT(ErrorOf("<Model><MarkerMapping/></Model>"), HasSubstr("<MarkerMapping> is empty"));
+  EXPECT_THAT(ErrorOf("<Model><Joints set='all'><Joint name='a'/></Joints></Model>"),
+              HasSubstr("exclude each other"));
+  EXPECT_THAT(ErrorOf("<Model><Joints><Joint/></Joints></Model>"),
+              HasSubstr("c.xml:2: <Joint> needs name=\"...\""));
+  EXPECT_THAT(ErrorOf("<Model><Joints><Joint name='a'/>\n<Joint name='a'/></Joints></Model>"),
+              HasSubstr("c.xml:3: <Joint>: name=\"a\" is already in line 2"));
+}
+
+TEST(ConverterConfig, RefusesMappingsThatAreNotOneToOne) {
+  EXPECT_EQ(ErrorOf("<Model><MarkerMapping>\n<Mapping source='A' target='M'/>\n"
+                    "<Mapping source='A' target='N'/>\n<Mapping source='B' target='M'/>\n"
+                    "</MarkerMapping></Model>"),
+            "c.xml:4: <Mapping>: source=\"A\" is already in line 3; keep one of them\n"
+            "c.xml:5: <Mapping>: target=\"M\" is already in line 3; keep one of them");
+  for (const char* scale : {"0", "-1", "1001", "nan", "inf", "a"}) {
+    EXPECT_THAT(ErrorOf(std::string("<Model><MarkerMapping><Mapping source='A' target='M' "
+                                    "noiseScale='") +
+                        scale + "'/></MarkerMapping></Model>"),
+                HasSubstr("use a number above 0, at most 1000"))
+        << scale;
+  }
+}
+
+TEST(ConverterConfig, RefusesOtherFiles) {
+  EXPECT_THAT([] { ParseConverterConfig("<Robot/>", "c.xml"); },
+              ThrowsMessage<Error>(HasSubstr("c.xml:1: this is a <Robot> file")));
+  EXPECT_THAT([] { ParseConverterConfig("<ConverterConfig/>", "c.xml"); },
+              ThrowsMessage<Error>(HasSubstr("c.xml:1: <ConverterConfig> needs the name")));
+  EXPECT_THAT([] { ReadConverterConfig("/no/such/file.xml"); },
+              ThrowsMessage<Error>(HasSubstr("/no/such/file.xml")));
+}
+
+TEST(ConverterConfig, ItsTemplateIsAllDefaults) {
+  double value = 0.005;
+  SettingTable table;
+  table.Add("Noise", "markerStandardDeviation_mm", &value, 1e-3, 0, 100, "of a marker");
+  const ConverterConfig config =
+      ParseConverterConfig(FormatConfigTemplate("S2KFConverter", table), "template");
+  const ConverterConfig defaults;
+  EXPECT_EQ(config.type, "S2KFConverter");
+  EXPECT_EQ(config.model_processor, defaults.model_processor);
+  EXPECT_EQ(config.marker_set, defaults.marker_set);
+  EXPECT_EQ(config.joint_set, defaults.joint_set);
+  ASSERT_EQ(config.plugin_elements.size(), 1u);
+  EXPECT_EQ(*config.plugin_elements[0].FindAttribute("markerStandardDeviation_mm"), "5");
+}
+
+TEST(ResolveJoints, TakesAListInItsOrder) {
+  EXPECT_THAT(ResolveJoints(Parse("<Model><Joints><Joint name='hip'/><Joint name='knee'/></Joints>"
+                                  "</Model>"),
+                            testing::StickModel()),
+              ElementsAre(1, 0));
+}
+
+TEST(ResolveJoints, KnowsSets) {
+  const KinematicModel model = testing::StickModel();
+  ConverterConfig config;
+  EXPECT_THAT(ResolveJoints(config, model), ElementsAre(0, 1));
+  config.joint_set = "all";
+  EXPECT_THAT(ResolveJoints(config, model), ElementsAre(0, 1));
+  config.joint_set = "Upper";
+  EXPECT_THAT(ResolveJoints(config, model), ElementsAre(1));
+}
+
+TEST(ResolveJoints, ErrorsNameEveryUnknownJointWithItsLine) {
+  EXPECT_THAT(
+      [] {
+        ResolveJoints(Parse("<Model><Joints>\n<Joint name='nee'/>\n<Joint name='plate'/>"
+                            "</Joints></Model>"),
+                      testing::StickModel());
+      },
+      ThrowsMessage<Error>("c.xml:3: model stick has no joint \"nee\" (did you mean knee?)\n"
+                           "c.xml:4: \"plate\" does not turn in model stick (it is fixed or "
+                           "prismatic)"));
+  EXPECT_THAT(
+      [] { ResolveJoints(Parse("<Model><Joints set='mmm44'/></Model>"), testing::StickModel()); },
+      ThrowsMessage<Error>(
+          HasSubstr("c.xml:2: <Joints>: set=\"mmm44\" has no joint of model stick; "
+                    "use auto, mmm44, mmm40, all or Upper")));
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace mmm_converter::testing {
+
+/// Path of a plugin of tests/support/test_plugin: "test_converter", "old_version", "no_factory" or
+/// "null_factory".
+inline std::string TestPlugin(const std::string& name) {
+  return std::string(MMM_CONVERTER_BINARY_DIR "/tests/plugins/") + name + "/" + name + ".so";
+}
+
+}  // namespace mmm_converter::testing
