@@ -13,7 +13,7 @@
 
 namespace mmm_converter {
 
-std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
+std::uint64_t RegularFileSize(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -28,6 +28,11 @@ std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw Error(fmt::format("{}: can't be read: {}", path, error.message()));
   if (size == 0) throw Error(fmt::format("{}: the file is empty", path));
+  return size;
+}
+
+std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
+  const std::uint64_t size = RegularFileSize(path);
   if (size > max_bytes) {
     throw Error(fmt::format("{}: has {} bytes, more than the {} that are read at most", path, size,
                             max_bytes));

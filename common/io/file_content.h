@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace mmm_converter {
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 30;
+
+/// @throws Error where there is no such file, or it is a folder, a device or empty.
+std::uint64_t RegularFileSize(const std::string& path);
 
 /// All bytes of a file.
 /// @throws Error where there is no such file, it can't be read, is a folder, empty or larger than
