@@ -3,7 +3,7 @@
 
 #include "common/math/rotation.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 void Move(const Eigen::Ref<const Eigen::VectorXd>& dx, RootParameters root, Belief* belief) {
   belief->position += dx.head<3>();
@@ -16,4 +16,4 @@ void Move(const Eigen::Ref<const Eigen::VectorXd>& dx, RootParameters root, Beli
   belief->parameters += dx.segment(6, belief->parameters.size());
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

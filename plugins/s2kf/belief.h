@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 /// How the root orientation o is a part of the state.
 enum class RootParameters {
@@ -28,4 +28,4 @@ struct Belief {
 /// x moved by dx = [r; o; Theta].
 void Move(const Eigen::Ref<const Eigen::VectorXd>& dx, RootParameters root, Belief* belief);
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -71,4 +71,4 @@ void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const Vecto
   root_ = information_llt_.matrixU();
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

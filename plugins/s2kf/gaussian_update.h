@@ -4,7 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 /// Second-order statistics of z = h(x0 + L s) with s ~ N(0, I) of n dimensions: what a Gaussian filter
 /// knows of a measurement model. Coordinates that were not measured have variance_of_noise = infinity.
@@ -58,4 +58,4 @@ class GaussianUpdate {
   Eigen::LLT<Eigen::MatrixXd> S_llt_;
 };
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 namespace {
 // sin: slope cos(Theta) = 0.05; tanh: slope 1 - f^2 = 0.05.
@@ -57,4 +57,4 @@ void JointLimitTransform::Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameter
   }
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

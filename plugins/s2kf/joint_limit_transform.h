@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 enum class LimitFunction { kSine, kTanh };
 
@@ -39,4 +39,4 @@ class JointLimitTransform {
   Eigen::VectorXd middle_;
 };
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -8,7 +8,7 @@
 #include "common/math/rotation.h"
 #include "plugins/s2kf/lcd_sampling.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
@@ -216,4 +216,4 @@ void MarkerFilter::Deviations(const Belief& belief, VectorXd* deviations) const 
   }
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -12,7 +12,7 @@
 #include "plugins/s2kf/motion_model.h"
 #include "plugins/s2kf/s2kf_settings.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 /// The Kalman filter on markers: belief in, belief out; what it holds is scratch and constants. One code
 /// path for S2KF, UKF and EKF, which differ in how MarkerMeasurementModel takes its moments.
@@ -67,4 +67,4 @@ class MarkerFilter {
   Eigen::LLT<Eigen::MatrixXd> llt_;
 };
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

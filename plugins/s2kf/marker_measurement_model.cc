@@ -8,7 +8,7 @@
 #include "common/math/lanes.h"
 #include "common/math/rotation.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
@@ -240,4 +240,4 @@ void MarkerMeasurementModel::ComputeLinearized(const Belief& belief, const Vecto
   moments->C_zz.selfadjointView<Eigen::Lower>().rankUpdate(moments->C_zs);
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

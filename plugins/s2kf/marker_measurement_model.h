@@ -8,7 +8,7 @@
 #include "plugins/s2kf/gaussian_update.h"
 #include "plugins/s2kf/joint_limit_transform.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 /// z = h(x): where the model's markers are, by forward kinematics behind the limit transform.
 /// Gives the moments of h for x = belief moved by L (mu + T s), s ~ N(0, I), from point-symmetric samples
@@ -56,4 +56,4 @@ class MarkerMeasurementModel {
   Eigen::VectorXd mean_of_even_;  // m
 };
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 namespace {
 
@@ -44,4 +44,4 @@ void MotionModel::Predict(double dt, RootParameters root, Belief* belief) const 
   AddNoise(noise, dt, P.diagonal().head(n));
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

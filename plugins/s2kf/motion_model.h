@@ -5,7 +5,7 @@
 
 #include "plugins/s2kf/belief.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 /// Standard deviations by which the state drifts within one second; variances grow with time.
 struct ProcessNoise {
@@ -32,4 +32,4 @@ struct MotionModel {
   void Predict(double dt, RootParameters root, Belief* belief) const;
 };
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/s2kf_settings.h"
 
-namespace mmm_converter {
+#include <string>
+
+#include "common/support/diagnostics.h"
+
+namespace mmm_converter::s2kf {
 
 namespace {
 
@@ -71,4 +75,24 @@ SettingTable BindSettings(S2kfSettings* v) {
   return table;
 }
 
-}  // namespace mmm_converter
+S2kfSettings ReadSettings(const ConverterConfig& config) {
+  S2kfSettings settings;
+  Diagnostics diagnostics(config.file);
+  BindSettings(&settings).Read(config.plugin_elements, &diagnostics);
+  int filter_line = 0;
+  for (const XmlElement& element : config.plugin_elements) {
+    if (element.name == "Filter") filter_line = element.line;
+  }
+  if (settings.filter == FilterType::kS2kf && settings.samples % 2 == 0) {
+    diagnostics.AddError(filter_line, "<Filter samples=\"" + std::to_string(settings.samples) +
+                                          "\">: the samples are pairs and a centre; give an odd number");
+  }
+  if (settings.iterations > 1 && settings.update == UpdateForm::kExact) {
+    diagnostics.AddError(filter_line,
+                         "<Filter update=\"exact\">: more than one iteration needs update=\"regression\"");
+  }
+  diagnostics.ThrowIfErrors();
+  return settings;
+}
+
+}  // namespace mmm_converter::s2kf

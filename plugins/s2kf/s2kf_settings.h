@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "common/convert/converter_config.h"
 #include "common/convert/settings.h"
 #include "plugins/s2kf/belief.h"
 #include "plugins/s2kf/gaussian_update.h"
 #include "plugins/s2kf/joint_limit_transform.h"
 #include "plugins/s2kf/motion_model.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 enum class FilterType {
   kS2kf,  ///< LCD samples [S13]
@@ -48,4 +49,7 @@ struct S2kfSettings {
 /// The settings of `values` as attributes of a configuration. `values` must outlive the table.
 SettingTable BindSettings(S2kfSettings* values);
 
-}  // namespace mmm_converter
+/// @throws Error with all that is wrong in the configuration's plugin elements (file and line).
+S2kfSettings ReadSettings(const ConverterConfig& config);
+
+}  // namespace mmm_converter::s2kf

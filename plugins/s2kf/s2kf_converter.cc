@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/s2kf_converter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "common/support/error.h"
+
+namespace mmm_converter::s2kf {
+
+using Eigen::Matrix3Xd;
+using Eigen::Ref;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A track is in doubt for this many frames after its start or after a cause of doubt.
+constexpr int kDoubtFrames = 20;
+// A marker that was hidden for longer may come back where the filter does not expect it [s].
+constexpr double kLongGap = 0.1;
+// Distances this much above their usual level are a cause of doubt.
+constexpr double kDoubtFactor = 1.15;
+constexpr double kDoubtDistance = 0.001;
+// The usual level follows with this time constant [s].
+constexpr double kLevelTime = 1.0;
+// A found posture must lower the cost by this share to replace the filter's: the filter smooths, so its
+// posture never has the least cost.
+constexpr double kClearlyBetter = 0.1;
+
+std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
+  std::vector<int> markers;
+  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
+  return markers;
+}
+
+VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
+  VectorXd scales(assignments.size());
+  for (std::size_t i = 0; i < assignments.size(); ++i) scales[i] = assignments[i].noise_scale;
+  return scales;
+}
+
+}  // namespace
+
+S2kfConverter::S2kfConverter(const KinematicModel& model,
+                             const std::vector<MarkerAssignment>& assignments,
+                             const std::vector<int>& joints, const S2kfSettings& settings)
+    : settings_(settings),
+      kinematics_(model, joints, MarkerIndices(assignments)),
+      assignments_(assignments),
+      noise_scale_(NoiseScales(assignments)),
+      filter_(kinematics_, settings, noise_scale_),
+      search_(kinematics_),
+      at_(kinematics_.MakeJacobian()),
+      z_(3, kinematics_.num_markers()),
+      hidden_for_(assignments.size(), 0.0) {
+  if (settings.robust_distance > 0) fit_options_.robust_distance = settings.robust_distance;
+  posture_.joint_angles.setZero(kinematics_.num_joints());
+  candidate_ = posture_;
+  deviations_.setZero(kinematics_.num_dofs());
+  estimate_.posture.joint_angles.setZero(model.num_joints());
+  estimate_.standard_deviations.setConstant(6 + model.num_joints(), kNaN);
+  estimate_.residuals.setConstant(kinematics_.num_markers(), kNaN);
+}
+
+int S2kfConverter::Gather(const Ref<const Matrix3Xd>& frame) {
+  int seen = 0;
+  for (std::size_t i = 0; i < assignments_.size(); ++i) {
+    z_.col(i) = frame.col(assignments_[i].label);
+    if (z_.col(i).allFinite()) {
+      ++seen;
+    } else {
+      z_.col(i).setConstant(kNaN);
+    }
+  }
+  return seen;
+}
+
+double S2kfConverter::ClippedDistance() {
+  filter_.ToPosture(belief_, &posture_);
+  kinematics_.ComputeMarkers(posture_.position, posture_.orientation.toRotationMatrix(),
+                             posture_.joint_angles, &at_);
+  double sum = 0;
+  int seen = 0;
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    const double distance = (z_.col(m) - at_.p_WM.col(m)).norm();
+    estimate_.residuals[m] = distance;
+    if (!std::isfinite(distance)) continue;
+    sum += std::min(distance, fit_options_.robust_distance);
+    ++seen;
+  }
+  return sum / std::max(seen, 1);
+}
+
+const FrameEstimate& S2kfConverter::Assemble(const Ref<const Matrix3Xd>& frame) {
+  const int seen = Gather(frame);
+  if (seen < 3) {
+    throw Error("only " + std::to_string(seen) +
+                " of the mapped markers are seen in the first frame; at least 3 are needed");
+  }
+  std::fill(hidden_for_.begin(), hidden_for_.end(), 0.0);
+  if (settings_.start == StartMethod::kPaper) {
+    filter_.StartAsPaper(z_, &belief_);
+  } else {
+    search_.Assemble(z_, noise_scale_, fit_options_, settings_.start_attempts, &posture_);
+    filter_.StartAt(posture_, &belief_);
+  }
+  const MarkerFilter::Outcome outcome = filter_.Update(z_, &belief_);
+  usual_distance_ = ClippedDistance();
+  doubt_ = kDoubtFrames;
+  FillEstimate(outcome, false);
+  return estimate_;
+}
+
+bool S2kfConverter::IsInDoubt(double distance, double dt) {
+  bool cause = distance > kDoubtFactor * usual_distance_ + kDoubtDistance;
+  for (std::size_t i = 0; i < hidden_for_.size(); ++i) {
+    if (z_.col(i).allFinite()) {
+      cause |= hidden_for_[i] > kLongGap;
+      hidden_for_[i] = 0;
+    } else {
+      hidden_for_[i] += dt;
+    }
+  }
+  doubt_ = cause ? kDoubtFrames : std::max(doubt_ - 1, 0);
+  const double step = 1 - std::exp(-dt / kLevelTime);
+  usual_distance_ += step * (distance - usual_distance_);
+  return doubt_ > 0;
+}
+
+bool S2kfConverter::Recover() {
+  PostureFit& fit = search_.fit();
+  candidate_ = posture_;
+  const double before = fit.Evaluate(z_, noise_scale_, fit_options_, posture_).cost;
+  fit.Solve(z_, noise_scale_, fit_options_, &candidate_);
+  search_.Improve(z_, noise_scale_, fit_options_, &candidate_);
+  const double after = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_).cost;
+  if (after > (1 - kClearlyBetter) * before) return false;
+  filter_.StartAt(candidate_, &belief_);
+  return true;
+}
+
+const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, double dt) {
+  const int seen = Gather(frame);
+  filter_.Predict(dt, &belief_);
+  MarkerFilter::Outcome outcome = filter_.Update(z_, &belief_);
+  const double distance = ClippedDistance();
+  bool reassembled = false;
+  if (settings_.recovery && seen >= 3 && IsInDoubt(distance, dt)) {
+    reassembled = Recover();
+    if (reassembled) {
+      outcome = filter_.Update(z_, &belief_);
+      usual_distance_ = std::min(usual_distance_, ClippedDistance());
+    }
+  }
+  FillEstimate(outcome, reassembled);
+  return estimate_;
+}
+
+void S2kfConverter::FillEstimate(const MarkerFilter::Outcome& outcome, bool reassembled) {
+  filter_.Deviations(belief_, &deviations_);
+  estimate_.posture.position = posture_.position;
+  estimate_.posture.orientation = posture_.orientation;
+  estimate_.standard_deviations.head<6>() = deviations_.head<6>();
+  for (int j = 0; j < kinematics_.num_joints(); ++j) {
+    const int joint = kinematics_.joints()[j];
+    estimate_.posture.joint_angles[joint] = posture_.joint_angles[j];
+    estimate_.standard_deviations[6 + joint] = deviations_[6 + j];
+  }
+  estimate_.markers_seen = outcome.seen;
+  estimate_.markers_downweighted = outcome.downweighted;
+  estimate_.nis = outcome.nis;
+  estimate_.reassembled = reassembled;
+  estimate_.converged = outcome.seen > 0 && doubt_ == 0;
+}
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/convert/motion_converter.h"
+#include "common/fit/posture_search.h"
+#include "common/model/marker_kinematics.h"
+#include "plugins/s2kf/marker_filter.h"
+#include "plugins/s2kf/s2kf_settings.h"
+
+namespace mmm_converter::s2kf {
+
+/// Tracks by MarkerFilter, starts by PostureSearch, and watches the track: in frames where it is in
+/// doubt (just started, markers back after a gap, distances well above their usual level) a least-squares
+/// fit looks for a clearly better posture, from which the filter then goes on.
+class S2kfConverter : public MotionConverter {
+ public:
+  /// model must outlive the converter. joints: indices of the model.
+  S2kfConverter(const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
+                const std::vector<int>& joints, const S2kfSettings& settings);
+
+  const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) override;
+  const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override;
+  const std::vector<int>& joints() const override { return kinematics_.joints(); }
+
+ private:
+  /// Takes the assigned markers out of a frame into z_; returns how many are seen.
+  int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
+  /// Mean distance between z_ and the belief's markers, each counted up to the robust distance [m].
+  double ClippedDistance();
+  bool IsInDoubt(double distance, double dt);
+  /// Looks for a better posture; true where the filter was set onto one.
+  bool Recover();
+  void FillEstimate(const MarkerFilter::Outcome& outcome, bool reassembled);
+
+  S2kfSettings settings_;
+  MarkerKinematics kinematics_;
+  std::vector<MarkerAssignment> assignments_;
+  Eigen::VectorXd noise_scale_;
+  MarkerFilter filter_;
+  PostureSearch search_;
+  PostureFitOptions fit_options_;
+  MarkerJacobian at_;
+
+  Belief belief_;
+  Eigen::Matrix3Xd z_;
+  Posture posture_;    // tracked joints
+  Posture candidate_;  // tracked joints
+  Eigen::VectorXd deviations_;
+  std::vector<double> hidden_for_;  // by assignment [s]
+  double usual_distance_ = 0;       // running level of ClippedDistance [m]
+  int doubt_ = 0;                   // frames for which the track stays in doubt
+  FrameEstimate estimate_;
+};
+
+}  // namespace mmm_converter::s2kf
