@@ -12,8 +12,8 @@ enum class RootParameters {
   kRpy,  ///< the paper's: roll, pitch, yaw themselves
 };
 
-/// Gaussian belief about the state x = [r (root position, W) 3; o (root orientation) 3; Theta (joint
-/// parameters) J], and its rate where the motion model has one.
+/// Gaussian belief about the state x = [r (root position, W) 3; o (root orientation) 3; Theta
+/// (joint parameters) J], and its rate where the motion model has one.
 struct Belief {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< r [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< R_WS (RPY: made from rpy)

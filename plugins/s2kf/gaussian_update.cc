@@ -9,7 +9,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 GaussianUpdate::GaussianUpdate(int n, int m)
-    : mean_(n), root_(n, n), scaled_(m, n), innovation_(m), information_(n, n), information_llt_(n) {}
+    : mean_(n),
+      root_(n, n),
+      scaled_(m, n),
+      innovation_(m),
+      information_(n, n),
+      information_llt_(n) {}
 
 void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& z,
                              const VectorXd& noise, UpdateForm form) {

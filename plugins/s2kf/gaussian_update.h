@@ -6,16 +6,17 @@
 
 namespace mmm_converter::s2kf {
 
-/// Second-order statistics of z = h(x0 + L s) with s ~ N(0, I) of n dimensions: what a Gaussian filter
-/// knows of a measurement model. Coordinates that were not measured have variance_of_noise = infinity.
+/// Second-order statistics of z = h(x0 + L s) with s ~ N(0, I) of n dimensions: what a Gaussian
+/// filter knows of a measurement model. Coordinates that were not measured have variance_of_noise =
+/// infinity.
 struct MeasurementMoments {
   /// n states that h depends on, m coordinates of z.
   MeasurementMoments(int n, int m) : mean(m), C_zs(m, n), residual(m) {}
 
-  Eigen::VectorXd mean;            ///< E[z], m
-  Eigen::MatrixXd C_zs;            ///< Cov(z, s), m x n
-  Eigen::VectorXd residual;        ///< diagonal of Cov(z) - C_zs C_zs^T: what no linear model explains
-  Eigen::MatrixXd C_zz;            ///< Cov(z), m x m; the exact form only
+  Eigen::VectorXd mean;      ///< E[z], m
+  Eigen::MatrixXd C_zs;      ///< Cov(z, s), m x n
+  Eigen::VectorXd residual;  ///< diagonal of Cov(z) - C_zs C_zs^T: what no linear model explains
+  Eigen::MatrixXd C_zz;      ///< Cov(z), m x m; the exact form only
 };
 
 /// How C_zz enters the gain.
@@ -50,8 +51,8 @@ class GaussianUpdate {
   Eigen::VectorXd mean_;
   Eigen::MatrixXd root_;
   double nis_ = 0;
-  Eigen::MatrixXd scaled_;      // m x n
-  Eigen::VectorXd innovation_;  // m
+  Eigen::MatrixXd scaled_;       // m x n
+  Eigen::VectorXd innovation_;   // m
   Eigen::MatrixXd information_;  // n x n
   Eigen::LLT<Eigen::MatrixXd> information_llt_;
   Eigen::MatrixXd S_;  // m x m, exact form

@@ -30,7 +30,8 @@ double JointLimitTransform::Slope(int joint, double parameter) const {
 
 double JointLimitTransform::Parameter(int joint, double angle) const {
   const double f = (angle - middle_[joint]) / half_range_[joint];
-  if (function_ == LimitFunction::kSine) return std::asin(std::clamp(f, -kLargestSine, kLargestSine));
+  if (function_ == LimitFunction::kSine)
+    return std::asin(std::clamp(f, -kLargestSine, kLargestSine));
   return std::atanh(std::clamp(f, -kLargestTanh, kLargestTanh));
 }
 

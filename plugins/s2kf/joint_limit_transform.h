@@ -8,7 +8,8 @@ namespace mmm_converter::s2kf {
 enum class LimitFunction { kSine, kTanh };
 
 /// Maps unbounded joint parameters Theta to joint angles inside their limits,
-///   theta = (u - l)/2 f(Theta) + (l + u)/2,   f = sin (Steinbring et al., eq. for the joints) or tanh.
+///   theta = (u - l)/2 f(Theta) + (l + u)/2,   f = sin (Steinbring et al., eq. for the joints) or
+///   tanh.
 class JointLimitTransform {
  public:
   JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
@@ -25,12 +26,13 @@ class JointLimitTransform {
   /// largest value: a filter that starts on a limit must be able to leave it.
   double Parameter(int joint, double angle) const;
 
-  /// Standard deviation of theta where Theta ~ N(mean, deviation^2): exact for the sine, first order
-  /// for tanh.
+  /// Standard deviation of theta where Theta ~ N(mean, deviation^2): exact for the sine, first
+  /// order for tanh.
   double AngleDeviation(int joint, double mean, double deviation) const;
 
   /// The sine maps Theta, pi - Theta and Theta + 2 pi to the same angle. Brings every mean into
-  /// [-pi/2, pi/2] and turns the signs in the covariance (rows and columns offset + joint) to match.
+  /// [-pi/2, pi/2] and turns the signs in the covariance (rows and columns offset + joint) to
+  /// match.
   void Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameters, Eigen::MatrixXd* P) const;
 
  private:

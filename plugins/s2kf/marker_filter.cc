@@ -55,9 +55,9 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
     : kinematics_(kinematics),
       settings_(settings),
       noise_scale_(noise_scale),
-      measurement_model_(kinematics,
-                         JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
-                         settings.root, HalfSamples(settings, kinematics.num_dofs())),
+      measurement_model_(
+          kinematics, JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
+          settings.root, HalfSamples(settings, kinematics.num_dofs())),
       moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
       update_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
   motion_model_ =
@@ -151,8 +151,9 @@ void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, Outcome* outcome) {
 }
 
 void MarkerFilter::Relinearize(const Belief& belief) {
-  // About N(mu, Sigma) of s, Sigma = root^T root: z = C_zt t + mean with t = root^-T (s - mu), which is
-  // then the line z = H s + (mean - H mu) with H = C_zt root^-T (Garcia-Fernandez et al. 2015).
+  // About N(mu, Sigma) of s, Sigma = root^T root: z = C_zt t + mean with t = root^-T (s - mu),
+  // which is then the line z = H s + (mean - H mu) with H = C_zt root^-T (Garcia-Fernandez et al.
+  // 2015).
   center_.noalias() = L_x_ * update_.mean();
   spread_.noalias() = L_x_ * update_.root().transpose();
   measurement_model_.ComputeMoments(belief, center_, spread_, false, &moments_);
@@ -211,8 +212,8 @@ void MarkerFilter::Deviations(const Belief& belief, VectorXd* deviations) const 
   const Eigen::Index n = belief.num_states();
   *deviations = belief.P.diagonal().head(n).cwiseSqrt();
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    (*deviations)[6 + j] = measurement_model_.transform().AngleDeviation(
-        j, belief.parameters[j], (*deviations)[6 + j]);
+    (*deviations)[6 + j] = measurement_model_.transform().AngleDeviation(j, belief.parameters[j],
+                                                                         (*deviations)[6 + j]);
   }
 }
 

@@ -14,8 +14,8 @@
 
 namespace mmm_converter::s2kf {
 
-/// The Kalman filter on markers: belief in, belief out; what it holds is scratch and constants. One code
-/// path for S2KF, UKF and EKF, which differ in how MarkerMeasurementModel takes its moments.
+/// The Kalman filter on markers: belief in, belief out; what it holds is scratch and constants. One
+/// code path for S2KF, UKF and EKF, which differ in how MarkerMeasurementModel takes its moments.
 /// Postures hold the tracked joints of `kinematics`.
 class MarkerFilter {
  public:
@@ -26,8 +26,8 @@ class MarkerFilter {
   /// A belief about a fitted posture, with the spread that a fit leaves.
   void StartAt(const Posture& posture, Belief* belief) const;
 
-  /// The paper's start [S15]: root at the mean of the seen markers with their covariance, orientation 0
-  /// with 1e-6 rad^2, joint parameters 0 with 1e-10.
+  /// The paper's start [S15]: root at the mean of the seen markers with their covariance,
+  /// orientation 0 with 1e-6 rad^2, joint parameters 0 with 1e-10.
   void StartAsPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief) const;
 
   void Predict(double dt, Belief* belief) const;

@@ -31,9 +31,9 @@ void RotateByVectors(const Matrix3d& R0, const Lanes& x, const Lanes& y, const L
   const Lanes quotient = sine / half_angle;
   const Lanes a = quotient * cosine;          // sin(w)/w
   const Lanes b = 0.5 * quotient * quotient;  // (1 - cos(w))/w^2
-  const Lanes E[9] = {1 - b * (y * y + z * z), b * x * y - a * z, b * x * z + a * y,
-                      b * x * y + a * z, 1 - b * (x * x + z * z), b * y * z - a * x,
-                      b * x * z - a * y, b * y * z + a * x, 1 - b * (x * x + y * y)};
+  const Lanes E[9] = {1 - b * (y * y + z * z), b * x * y - a * z,       b * x * z + a * y,
+                      b * x * y + a * z,       1 - b * (x * x + z * z), b * y * z - a * x,
+                      b * x * z - a * y,       b * y * z + a * x,       1 - b * (x * x + y * y)};
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
       rows[3 * r + c] = R0(r, 0) * E[c] + R0(r, 1) * E[3 + c] + R0(r, 2) * E[6 + c];
@@ -196,8 +196,7 @@ void MarkerMeasurementModel::ComputeSampled(const Belief& belief, const VectorXd
   }
   moments->C_zs.noalias() = weight * odd.transpose() * samples_;
   for (int i = 0; i < m; ++i) {
-    moments->residual[i] =
-        std::max(0.0, moments->residual[i] - moments->C_zs.row(i).squaredNorm());
+    moments->residual[i] = std::max(0.0, moments->residual[i] - moments->C_zs.row(i).squaredNorm());
   }
   if (!with_covariance) return;
   moments->C_zz.resize(m, m);
@@ -228,8 +227,7 @@ void MarkerMeasurementModel::ComputeLinearized(const Belief& belief, const Vecto
   H_.leftCols<3>() = at_.J.leftCols<3>();
   H_.middleCols<3>(3).noalias() = at_.J.middleCols<3>(3) * rate;
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    H_.col(6 + j) =
-        transform_.Slope(j, belief.parameters[j] + center[6 + j]) * at_.J.col(6 + j);
+    H_.col(6 + j) = transform_.Slope(j, belief.parameters[j] + center[6 + j]) * at_.J.col(6 + j);
   }
   moments->mean = at_.p_WM.reshaped();
   moments->C_zs.noalias() = H_ * spread;

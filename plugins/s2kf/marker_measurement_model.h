@@ -11,13 +11,13 @@
 namespace mmm_converter::s2kf {
 
 /// z = h(x): where the model's markers are, by forward kinematics behind the limit transform.
-/// Gives the moments of h for x = belief moved by L (mu + T s), s ~ N(0, I), from point-symmetric samples
-/// or from the analytic Jacobian (EKF). Owns all scratch; one per thread, sized once.
+/// Gives the moments of h for x = belief moved by L (mu + T s), s ~ N(0, I), from point-symmetric
+/// samples or from the analytic Jacobian (EKF). Owns all scratch; one per thread, sized once.
 class MarkerMeasurementModel {
  public:
-  /// half_samples: n x K, of the standard normal in n = kinematics.num_dofs() dimensions; the whole set
-  /// is these, their negatives and 0, equally weighted (lcd_sampling.h). Empty: analytic Jacobian.
-  /// kinematics must outlive the model.
+  /// half_samples: n x K, of the standard normal in n = kinematics.num_dofs() dimensions; the whole
+  /// set is these, their negatives and 0, equally weighted (lcd_sampling.h). Empty: analytic
+  /// Jacobian. kinematics must outlive the model.
   MarkerMeasurementModel(const MarkerKinematics& kinematics, JointLimitTransform transform,
                          RootParameters root, const Eigen::MatrixXd& half_samples);
 
@@ -25,8 +25,8 @@ class MarkerMeasurementModel {
   int num_coordinates() const { return 3 * kinematics_.num_markers(); }
   const JointLimitTransform& transform() const { return transform_; }
 
-  /// Moments of h about belief moved by `center`, spread by `spread` (n x n, a root of the covariance:
-  /// L T). with_covariance: fill C_zz too.
+  /// Moments of h about belief moved by `center`, spread by `spread` (n x n, a root of the
+  /// covariance: L T). with_covariance: fill C_zz too.
   void ComputeMoments(const Belief& belief, const Eigen::VectorXd& center,
                       const Eigen::MatrixXd& spread, bool with_covariance,
                       MeasurementMoments* moments);
@@ -46,13 +46,13 @@ class MarkerMeasurementModel {
   JointLimitTransform transform_;
   RootParameters root_;
   int num_pairs_;
-  int rows_;                  // of one half: pairs, the centre, padding
-  Eigen::MatrixXd samples_;   // rows_ x n: half samples, then zeros
-  Eigen::MatrixXd offsets_;   // rows_ x n: samples_ * spread^T
-  MarkerBatch batch_;         // first half: centre + offset, second half: centre - offset
+  int rows_;                 // of one half: pairs, the centre, padding
+  Eigen::MatrixXd samples_;  // rows_ x n: half samples, then zeros
+  Eigen::MatrixXd offsets_;  // rows_ x n: samples_ * spread^T
+  MarkerBatch batch_;        // first half: centre + offset, second half: centre - offset
   MarkerJacobian at_;
   Eigen::VectorXd angles_;
-  Eigen::MatrixXd H_;  // m x n, analytic
+  Eigen::MatrixXd H_;             // m x n, analytic
   Eigen::VectorXd mean_of_even_;  // m
 };
 

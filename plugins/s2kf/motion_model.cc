@@ -33,8 +33,7 @@ void MotionModel::Predict(double dt, RootParameters root, Belief* belief) const 
   }
   if (natural_spread > 0) {
     // The stationary variance of theta' = -theta / tau + w is noise^2 tau / 2.
-    const double tau =
-        2 * natural_spread * natural_spread / (noise.parameters * noise.parameters);
+    const double tau = 2 * natural_spread * natural_spread / (noise.parameters * noise.parameters);
     const double a = std::exp(-dt / tau);
     belief->parameters = natural + a * (belief->parameters - natural);
     const auto joints = belief->parameters.size();

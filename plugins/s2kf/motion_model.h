@@ -15,15 +15,16 @@ struct ProcessNoise {
 };
 
 /// The system model: a random walk, x_{k+1} = x_k + w, w ~ N(0, Q dt), with two additions.
-///  - reversion: joint parameters drift back to the natural posture so slowly that their spread has the
+///  - reversion: joint parameters drift back to the natural posture so slowly that their spread has
+///  the
 ///    standard deviation `natural_spread` when nothing is seen for long (Ornstein-Uhlenbeck): what
 ///    no marker determines stays natural and does not run away.
 ///  - velocity: the state carries its rate v, x_{k+1} = x_k + T(dt) v with v damped by
 ///    `velocity_decay`; the noise then drives the rate.
 struct MotionModel {
   ProcessNoise noise;
-  double natural_spread = 0;    ///< of Theta [1]; 0: no reversion
-  Eigen::VectorXd natural;      ///< Theta of the natural posture
+  double natural_spread = 0;  ///< of Theta [1]; 0: no reversion
+  Eigen::VectorXd natural;    ///< Theta of the natural posture
   bool velocity = false;
   double velocity_decay = 0.2;  ///< time constant of the damping [s]
   ProcessNoise velocity_noise;  ///< of the rate, per sqrt(s)

@@ -27,8 +27,8 @@ constexpr double kDoubtFactor = 1.15;
 constexpr double kDoubtDistance = 0.001;
 // The usual level follows with this time constant [s].
 constexpr double kLevelTime = 1.0;
-// A found posture must lower the cost by this share to replace the filter's: the filter smooths, so its
-// posture never has the least cost.
+// A found posture must lower the cost by this share to replace the filter's: the filter smooths, so
+// its posture never has the least cost.
 constexpr double kClearlyBetter = 0.1;
 
 std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {

@@ -13,8 +13,8 @@
 namespace mmm_converter::s2kf {
 
 /// Tracks by MarkerFilter, starts by PostureSearch, and watches the track: in frames where it is in
-/// doubt (just started, markers back after a gap, distances well above their usual level) a least-squares
-/// fit looks for a clearly better posture, from which the filter then goes on.
+/// doubt (just started, markers back after a gap, distances well above their usual level) a
+/// least-squares fit looks for a clearly better posture, from which the filter then goes on.
 class S2kfConverter : public MotionConverter {
  public:
   /// model must outlive the converter. joints: indices of the model.

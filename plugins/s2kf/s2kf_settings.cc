@@ -13,29 +13,36 @@ constexpr double kMillimetre = 1e-3;
 
 void BindFilter(S2kfSettings* v, SettingTable* table) {
   table->AddElement("Filter", "The Kalman filter.");
-  table->AddChoice("Filter", "type", &v->filter,
-                   {{"s2kf", FilterType::kS2kf}, {"ukf", FilterType::kUkf}, {"ekf", FilterType::kEkf}},
-                   "s2kf: optimally placed samples; ukf: 2n+1 randomly rotated sigma points; ekf: analytic Jacobian");
+  table->AddChoice(
+      "Filter", "type", &v->filter,
+      {{"s2kf", FilterType::kS2kf}, {"ukf", FilterType::kUkf}, {"ekf", FilterType::kEkf}},
+      "s2kf: optimally placed samples; ukf: 2n+1 randomly rotated sigma points; ekf: analytic "
+      "Jacobian");
   table->Add("Filter", "samples", &v->samples, 3, 10001, "samples of the s2kf, odd");
-  table->AddChoice("Filter", "update", &v->update,
-                   {{"regression", UpdateForm::kRegression}, {"exact", UpdateForm::kExact}},
-                   "regression: what the samples leave unexplained counts as noise of each coordinate (faster); "
-                   "exact: the full covariance of the measurement");
+  table->AddChoice(
+      "Filter", "update", &v->update,
+      {{"regression", UpdateForm::kRegression}, {"exact", UpdateForm::kExact}},
+      "regression: what the samples leave unexplained counts as noise of each coordinate (faster); "
+      "exact: the full covariance of the measurement");
   table->Add("Filter", "iterations", &v->iterations, 1, 10,
-             "linearisations a frame, each about the last estimate; more than 1 needs update=\"regression\"");
+             "linearisations a frame, each about the last estimate; more than 1 needs "
+             "update=\"regression\"");
   table->AddChoice("Filter", "root", &v->root,
                    {{"so3", RootParameters::kSo3}, {"rpy", RootParameters::kRpy}},
-                   "root orientation: rotation vector about the estimate, or roll-pitch-yaw (singular at pitch 90 degrees)");
+                   "root orientation: rotation vector about the estimate, or roll-pitch-yaw "
+                   "(singular at pitch 90 degrees)");
   table->AddChoice("Filter", "limits", &v->limits,
                    {{"sine", LimitFunction::kSine}, {"tanh", LimitFunction::kTanh}},
                    "function that keeps joint angles inside their limits");
 }
 
 void BindMotionModel(S2kfSettings* v, SettingTable* table) {
-  table->AddElement("MotionModel", "How the state may change between frames; variances grow with time.");
-  table->AddChoice("MotionModel", "type", &v->motion_model,
-                   {{"randomWalk", MotionModelType::kRandomWalk}, {"velocity", MotionModelType::kVelocity}},
-                   "randomWalk: the state stays and spreads; velocity: it carries its damped rate");
+  table->AddElement("MotionModel",
+                    "How the state may change between frames; variances grow with time.");
+  table->AddChoice(
+      "MotionModel", "type", &v->motion_model,
+      {{"randomWalk", MotionModelType::kRandomWalk}, {"velocity", MotionModelType::kVelocity}},
+      "randomWalk: the state stays and spreads; velocity: it carries its damped rate");
   table->Add("MotionModel", "rootPosition_mm_per_sqrt_s", &v->noise.position, kMillimetre, 0, 1e6,
              "drift of the root position within one second");
   table->Add("MotionModel", "rootOrientation_rad_per_sqrt_s", &v->noise.orientation, 1, 0, 100,
@@ -43,15 +50,16 @@ void BindMotionModel(S2kfSettings* v, SettingTable* table) {
   table->Add("MotionModel", "jointParameter_rad_per_sqrt_s", &v->noise.parameters, 1, 0, 100,
              "drift of the joint parameters within one second");
   table->Add("MotionModel", "naturalSpread_rad", &v->natural_spread, 1, 0, 100,
-             "spread of the joint parameters about the natural posture when nothing is seen for long; 0: unbounded");
+             "spread of the joint parameters about the natural posture when nothing is seen for "
+             "long; 0: unbounded");
   table->Add("MotionModel", "velocityDecay_s", &v->velocity_decay, 1, 1e-3, 1e3,
              "velocity: time constant with which rates die out");
-  table->Add("MotionModel", "rootVelocity_mm_per_s_per_sqrt_s", &v->velocity_noise.position, kMillimetre, 0, 1e6,
-             "velocity: drift of the root velocity within one second");
-  table->Add("MotionModel", "rootRate_rad_per_s_per_sqrt_s", &v->velocity_noise.orientation, 1, 0, 1000,
-             "velocity: drift of the root's angular velocity within one second");
-  table->Add("MotionModel", "jointRate_rad_per_s_per_sqrt_s", &v->velocity_noise.parameters, 1, 0, 1000,
-             "velocity: drift of the joint parameter rates within one second");
+  table->Add("MotionModel", "rootVelocity_mm_per_s_per_sqrt_s", &v->velocity_noise.position,
+             kMillimetre, 0, 1e6, "velocity: drift of the root velocity within one second");
+  table->Add("MotionModel", "rootRate_rad_per_s_per_sqrt_s", &v->velocity_noise.orientation, 1, 0,
+             1000, "velocity: drift of the root's angular velocity within one second");
+  table->Add("MotionModel", "jointRate_rad_per_s_per_sqrt_s", &v->velocity_noise.parameters, 1, 0,
+             1000, "velocity: drift of the joint parameter rates within one second");
 }
 
 }  // namespace
@@ -64,12 +72,15 @@ SettingTable BindSettings(S2kfSettings* v) {
   table.Add("Noise", "markerStandardDeviation_mm", &v->marker_deviation, kMillimetre, 1e-6, 1e4,
             "of each coordinate of each marker; a Mapping's noiseScale multiplies it");
   table.Add("Noise", "robustDistance_mm", &v->robust_distance, kMillimetre, 0, 1e6,
-            "a marker that is farther from where it is expected counts less, in proportion (Huber); 0: all count in full");
+            "a marker that is farther from where it is expected counts less, in proportion "
+            "(Huber); 0: all count in full");
   table.AddElement("Start", "The first posture, and the way back when the track is lost.");
   table.AddChoice("Start", "method", &v->start,
                   {{"fit", StartMethod::kFit}, {"paper", StartMethod::kPaper}},
-                  "fit: rigid fit, least squares and random restarts; paper: root at the mean of the markers, the rest 0");
-  table.Add("Start", "attempts", &v->start_attempts, 0, 1000, "fit: random restarts in the first frame");
+                  "fit: rigid fit, least squares and random restarts; paper: root at the mean of "
+                  "the markers, the rest 0");
+  table.Add("Start", "attempts", &v->start_attempts, 0, 1000,
+            "fit: random restarts in the first frame");
   table.Add("Start", "recovery", &v->recovery,
             "look for a better posture by least squares in frames where the track is in doubt");
   return table;
@@ -84,12 +95,14 @@ S2kfSettings ReadSettings(const ConverterConfig& config) {
     if (element.name == "Filter") filter_line = element.line;
   }
   if (settings.filter == FilterType::kS2kf && settings.samples % 2 == 0) {
-    diagnostics.AddError(filter_line, "<Filter samples=\"" + std::to_string(settings.samples) +
-                                          "\">: the samples are pairs and a centre; give an odd number");
+    diagnostics.AddError(filter_line,
+                         "<Filter samples=\"" + std::to_string(settings.samples) +
+                             "\">: the samples are pairs and a centre; give an odd number");
   }
   if (settings.iterations > 1 && settings.update == UpdateForm::kExact) {
-    diagnostics.AddError(filter_line,
-                         "<Filter update=\"exact\">: more than one iteration needs update=\"regression\"");
+    diagnostics.AddError(
+        filter_line,
+        "<Filter update=\"exact\">: more than one iteration needs update=\"regression\"");
   }
   diagnostics.ThrowIfErrors();
   return settings;

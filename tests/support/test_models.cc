@@ -36,17 +36,19 @@ KinematicModel MakeBranchedModel() {
   d.segments.push_back(MakeSegment("a_x", 0, {0, 0.1, 0.3}, revolute, {1, 0, 0}, -1, 1.5));
   d.segments.push_back(MakeSegment("a_z", 1, {0, 0, 0}, revolute, {0, 0, 1}, -0.5, 2));
   d.segments.push_back(MakeSegment("a_y", 2, {0, 0, 0}, revolute, {0, 1, 0}, 0, 2.5));
-  d.segments.push_back(MakeSegment("a_length", 3, {0, 0, 0.25}, JointType::kPrismatic, {0, 0, 1}, 0, 0.25));
+  d.segments.push_back(
+      MakeSegment("a_length", 3, {0, 0, 0.25}, JointType::kPrismatic, {0, 0, 1}, 0, 0.25));
   d.segments.push_back(MakeSegment("b_y", 4, {0.02, 0, 0.2}, revolute, {0, -1, 0}, -1, 1));
-  d.segments.push_back(MakeSegment("c_fixed", 0, {-0.2, 0, 0.1}, JointType::kFixed, {0, 0, 1}, 0, 0));
+  d.segments.push_back(
+      MakeSegment("c_fixed", 0, {-0.2, 0, 0.1}, JointType::kFixed, {0, 0, 1}, 0, 0));
   d.segments.push_back(MakeSegment("c_oblique", 6, {0, 0.1, -0.2}, revolute, {1, 2, -1}, -2, 1));
   d.segments.push_back(MakeSegment("d_x", 7, {0.1, 0.1, 0.1}, revolute, {1, 0, 0}, -1, 1));
   d.segments[5].X_PF.linear() = RotationFromRpy({0.3, -0.2, 0.5});
   d.segments[6].X_PF.linear() = RotationFromRpy({-0.4, 0.1, 1.0});
   const std::vector<std::pair<int, Vector3d>> places = {
-      {0, {0.1, 0, 0}},      {0, {-0.1, 0.05, 0}}, {0, {0, 0, 0.1}},      {3, {0, 0.05, 0.1}},
-      {3, {0.05, 0, 0.2}},   {5, {0, 0.03, 0.1}},  {5, {0.04, 0, 0.15}},  {5, {-0.03, -0.02, 0.2}},
-      {7, {0.05, 0.1, 0}},   {7, {0.1, -0.02, 0}}, {8, {0, 0.05, 0.1}},   {8, {0.1, 0, 0.2}}};
+      {0, {0.1, 0, 0}},    {0, {-0.1, 0.05, 0}}, {0, {0, 0, 0.1}},     {3, {0, 0.05, 0.1}},
+      {3, {0.05, 0, 0.2}}, {5, {0, 0.03, 0.1}},  {5, {0.04, 0, 0.15}}, {5, {-0.03, -0.02, 0.2}},
+      {7, {0.05, 0.1, 0}}, {7, {0.1, -0.02, 0}}, {8, {0, 0.05, 0.1}},  {8, {0.1, 0, 0.2}}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     d.markers.push_back({"M" + std::to_string(i), places[i].first, places[i].second});
   }
@@ -65,7 +67,8 @@ Posture RandomPosture(const MarkerKinematics& kinematics, double share, std::mt1
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
   Posture posture;
   posture.position = {uniform(*random), uniform(*random), uniform(*random)};
-  posture.orientation = Exp(6 * Eigen::Vector3d(uniform(*random), uniform(*random), uniform(*random)));
+  posture.orientation =
+      Exp(6 * Eigen::Vector3d(uniform(*random), uniform(*random), uniform(*random)));
   posture.joint_angles.resize(kinematics.num_joints());
   for (int j = 0; j < kinematics.num_joints(); ++j) {
     const double range = kinematics.upper()[j] - kinematics.lower()[j];

@@ -11,8 +11,8 @@
 
 namespace mmm_converter::testing {
 
-/// A small model with all that makes kinematics hard: joints about x, y, z, -y and an oblique axis, a
-/// rotated static transform, a branch, a fixed and a prismatic node, markers on most segments.
+/// A small model with all that makes kinematics hard: joints about x, y, z, -y and an oblique axis,
+/// a rotated static transform, a branch, a fixed and a prismatic node, markers on most segments.
 KinematicModel MakeBranchedModel();
 
 /// All joints and all markers of a model.

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/gaussian_update.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace mmm_converter::s2kf {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Solves of well-conditioned systems of size below 10.
+constexpr double kRounding = 1e-12;
+
+/// A linear measurement z = H x + v of x ~ N(x0, P), and the textbook Kalman update of it.
+struct LinearProblem {
+  explicit LinearProblem(int n, int m) {
+    std::srand(1);
+    const MatrixXd A = MatrixXd::Random(n, n);
+    P = A * A.transpose() + 0.1 * MatrixXd::Identity(n, n);
+    L = P.llt().matrixL();
+    x0 = VectorXd::Random(n);
+    H = MatrixXd::Random(m, n);
+    z = VectorXd::Random(m);
+    noise = (VectorXd::Random(m).array() + 1.5).matrix() * 0.1;
+  }
+
+  MeasurementMoments Moments() const {
+    MeasurementMoments moments(static_cast<int>(x0.size()), static_cast<int>(z.size()));
+    moments.mean = H * x0;
+    moments.C_zs = H * L;
+    moments.residual.setZero(z.size());
+    moments.C_zz = H * P * H.transpose();
+    return moments;
+  }
+
+  void Textbook(VectorXd* x, MatrixXd* P_after, double* nis) const {
+    const MatrixXd S = H * P * H.transpose() + MatrixXd(noise.asDiagonal());
+    const MatrixXd K = P * H.transpose() * S.inverse();
+    *x = x0 + K * (z - H * x0);
+    *P_after = P - K * H * P;
+    *nis = (z - H * x0).dot(S.inverse() * (z - H * x0));
+  }
+
+  VectorXd x0, z, noise;
+  MatrixXd P, L, H;
+};
+
+class GaussianUpdateTest : public ::testing::TestWithParam<UpdateForm> {};
+
+TEST_P(GaussianUpdateTest, IsTheKalmanFilterOnALinearModel) {
+  const LinearProblem problem(5, 8);
+  GaussianUpdate update(5, 8);
+  update.Compute(problem.Moments(), problem.z, problem.noise, GetParam());
+  VectorXd x;
+  MatrixXd P;
+  double nis = 0;
+  problem.Textbook(&x, &P, &nis);
+  const MatrixXd T = problem.L * update.root().transpose();
+  EXPECT_LT((problem.x0 + problem.L * update.mean() - x).norm(), kRounding);
+  EXPECT_LT((T * T.transpose() - P).norm(), kRounding);
+  EXPECT_NEAR(update.nis(), nis, kRounding * nis);
+}
+
+TEST_P(GaussianUpdateTest, ACoordinateThatWasNotMeasuredIsLeftOut) {
+  LinearProblem problem(4, 6);
+  GaussianUpdate all(4, 6);
+  VectorXd noise = problem.noise;
+  noise[2] = std::numeric_limits<double>::infinity();
+  VectorXd z = problem.z;
+  z[2] = 1e30;
+  all.Compute(problem.Moments(), z, noise, GetParam());
+
+  const std::vector<int> kept = {0, 1, 3, 4, 5};
+  problem.H = MatrixXd(problem.H(kept, Eigen::all));
+  problem.z = VectorXd(problem.z(kept));
+  problem.noise = VectorXd(problem.noise(kept));
+  GaussianUpdate fewer(4, 5);
+  fewer.Compute(problem.Moments(), problem.z, problem.noise, GetParam());
+  EXPECT_LT((all.mean() - fewer.mean()).norm(), kRounding);
+  EXPECT_LT((all.root().transpose() * all.root() - fewer.root().transpose() * fewer.root()).norm(),
+            kRounding);
+  EXPECT_NEAR(all.nis(), fewer.nis(), kRounding * fewer.nis());
+}
+
+TEST_P(GaussianUpdateTest, NothingMeasuredChangesNothing) {
+  const LinearProblem problem(3, 4);
+  GaussianUpdate update(3, 4);
+  update.Compute(problem.Moments(), problem.z,
+                 VectorXd::Constant(4, std::numeric_limits<double>::infinity()), GetParam());
+  EXPECT_EQ(update.mean(), VectorXd::Zero(3));
+  EXPECT_EQ(update.root(), MatrixXd::Identity(3, 3));
+}
+
+TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {
+  const LinearProblem problem(5, 8);
+  MeasurementMoments moments = problem.Moments();
+  moments.residual = VectorXd::LinSpaced(8, 0.01, 0.2);
+  moments.C_zz += MatrixXd(moments.residual.asDiagonal());
+  GaussianUpdate exact(5, 8);
+  GaussianUpdate regression(5, 8);
+  exact.Compute(moments, problem.z, problem.noise, UpdateForm::kExact);
+  regression.Compute(moments, problem.z, problem.noise, UpdateForm::kRegression);
+  EXPECT_LT((exact.mean() - regression.mean()).norm(), kRounding);
+  EXPECT_NEAR(exact.nis(), regression.nis(), kRounding * exact.nis());
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, GaussianUpdateTest,
+                         ::testing::Values(UpdateForm::kExact, UpdateForm::kRegression));
+
+}  // namespace
+}  // namespace mmm_converter::s2kf
