@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/xml_text.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+/// Bytes of the UTF-8 sequence that starts the text; 0: it is none.
+std::size_t Utf8Length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  const std::size_t length = lead < 0x80                   ? 1
+                             : lead >= 0xC2 && lead < 0xE0 ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+/// The position after the next `what`, or the end of the text.
+std::size_t After(std::string_view content, std::string_view what, std::size_t from) {
+  const std::size_t found = content.find(what, from);
+  return found == std::string_view::npos ? content.size() : found + what.size();
+}
+
+/// The position after the > that ends a start tag; > in quotes does not.
+std::size_t AfterTag(std::string_view content, std::size_t from) {
+  for (std::size_t i = from; i < content.size(); ++i) {
+    if (content[i] == '>') return i + 1;
+    if (content[i] == '"' || content[i] == '\'') {
+      i = content.find(content[i], i + 1);
+      if (i == std::string_view::npos) break;
+    }
+  }
+  return content.size();
+}
+
+}  // namespace
+
+std::string EscapeXml(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const char c = text.front();
+    const std::size_t length = Utf8Length(text);
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '\'') {
+      out += "&apos;";
+    } else if (length == 1 && static_cast<unsigned char>(c) < 0x20) {
+      out += ' ';
+    } else if (length == 0) {
+      const auto latin1 = static_cast<unsigned char>(c);
+      out += static_cast<char>(0xC0 | (latin1 >> 6));
+      out += static_cast<char>(0x80 | (latin1 & 0x3F));
+    } else {
+      out += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return out;
+}
+
+void AppendDecimal(double value, int decimals, std::string* out) {
+  constexpr std::array<double, 13> kScales = {1e0, 1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
+                                              1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+  constexpr double kMostExact = 9e15;  // whole numbers up to there are exact in double precision
+  std::array<char, 400> buffer;        // holds the largest double
+  const double scaled = value * kScales[static_cast<std::size_t>(decimals)];
+  if (std::abs(scaled) > kMostExact) {
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                            std::chars_format::fixed, 0);
+    out->append(buffer.data(), end);
+    return;
+  }
+  std::int64_t digits = std::llround(scaled);
+  if (digits < 0) out->push_back('-');
+  digits = std::abs(digits);
+  int left = decimals;
+  for (; left > 0 && digits % 10 == 0; --left) digits /= 10;
+  char* const end = buffer.data() + buffer.size();
+  char* begin = end;
+  for (; left > 0; --left, digits /= 10) *--begin = static_cast<char>('0' + digits % 10);
+  if (begin != end) *--begin = '.';
+  do {
+    *--begin = static_cast<char>('0' + digits % 10);
+    digits /= 10;
+  } while (digits > 0);
+  out->append(begin, end);
+}
+
+XmlRange FindXmlRanges(std::string_view content, int depth) {
+  std::vector<XmlRange> open(1);  // a document around the root, then the elements that are open
+  std::size_t too_deep = 0;       // open elements below the wanted depth
+  for (std::size_t at = content.find('<'); at < content.size(); at = content.find('<', at)) {
+    const std::string_view rest = content.substr(at);
+    if (rest.starts_with("<!--")) {
+      at = After(content, "-->", at + 4);
+    } else if (rest.starts_with("<![CDATA[")) {
+      at = After(content, "]]>", at);
+    } else if (rest.starts_with("<?")) {
+      at = After(content, "?>", at);
+    } else if (rest.starts_with("<!")) {
+      at = After(content, ">", at);
+    } else if (rest.starts_with("</")) {
+      const std::size_t after = After(content, ">", at);
+      if (too_deep > 0) {
+        --too_deep;
+      } else if (open.size() > 1) {
+        open.back().inner_end = at;
+        open.back().end = after;
+        XmlRange closed = std::move(open.back());
+        open.pop_back();
+        open.back().children.push_back(std::move(closed));
+      }
+      at = after;
+    } else {
+      const std::size_t after = AfterTag(content, at + 1);
+      const bool is_closed = content[after - 2] == '/';
+      if (open.size() > static_cast<std::size_t>(depth) + 1) {
+        too_deep += is_closed ? 0 : 1;
+      } else {
+        const std::size_t name_end = content.find_first_of(" \t\r\n/>", at + 1);
+        XmlRange range{content.substr(at + 1, name_end - at - 1), at, after, after, after, {}};
+        (is_closed ? open.back().children : open).push_back(std::move(range));
+      }
+      at = after;
+    }
+  }
+  if (open.size() != 1 || open.front().children.size() != 1) {
+    throw Error("not well-formed XML: an element is never closed");
+  }
+  return std::move(open.front().children.front());
+}
+
+}  // namespace mmm_converter
