@@ -10,7 +10,8 @@ install(TARGETS mmm_converter_common EXPORT MMMConverterS2KFTargets
 if(TARGET MMMConverterS2KF)
   install(TARGETS MMMConverterS2KF RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(DIRECTORY common DESTINATION ${header_dir} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY common DESTINATION ${header_dir} FILES_MATCHING PATTERN "*.h"
+        PATTERN dynamics EXCLUDE)  # not exported: needs Simbody
 install(DIRECTORY xml_config/ DESTINATION ${MMM_CONVERTER_DATA_DIR}
         PATTERN CMakeLists.txt EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
