@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -37,13 +38,18 @@ std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
     throw Error(fmt::format("{}: has {} bytes, more than the {} that are read at most", path, size,
                             max_bytes));
   }
+  return ReadFileStart(path, size);
+}
+
+std::string ReadFileStart(const std::string& path, std::size_t count) {
+  std::string content(std::min<std::uint64_t>(count, RegularFileSize(path)), '\0');
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) throw Error(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
   std::setvbuf(file.get(), nullptr, _IONBF, 0);
-  std::string content(size, '\0');
-  content.resize(std::fread(content.data(), 1, content.size(), file.get()));
-  if (content.size() != size) throw Error(fmt::format("{}: can't be read to its end", path));
+  if (std::fread(content.data(), 1, content.size(), file.get()) != content.size()) {
+    throw Error(fmt::format("{}: can't be read to its end", path));
+  }
   return content;
 }
 

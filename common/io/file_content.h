@@ -17,4 +17,8 @@ std::uint64_t RegularFileSize(const std::string& path);
 /// max_bytes.
 std::string ReadFileContent(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
 
+/// The first bytes of a file, at most count.
+/// @throws Error as ReadFileContent.
+std::string ReadFileStart(const std::string& path, std::size_t count);
+
 }  // namespace mmm_converter

@@ -18,6 +18,8 @@ UpAxis ParseUpAxis(const std::string& text);
 struct ReadRecordingOptions {
   std::optional<std::string> unit;  ///< overrides the file's: "mm", "cm", "m", "in"
   std::optional<UpAxis> up_axis;    ///< overrides the decision from the markers
+  std::optional<double> rate;       ///< [Hz] overrides the file's
+  bool ignore_residuals = false;    ///< C3D: also use points that are marked invalid
   std::string subject;              ///< label prefix to keep where a file has several subjects
   std::string motion;  ///< MMM files: name of the motion to read; empty: the one with most markers
 };
@@ -30,8 +32,7 @@ struct Recording {
   std::string unit;               ///< what coordinates were read as
   bool unit_was_guessed = false;  ///< the file's unit was absent or implausible
   UpAxis up_axis = UpAxis::kZ;    ///< in the file's own axes
-  bool up_axis_was_decided =
-      false;  ///< from the markers (else: override or nothing to decide from)
+  bool up_axis_was_decided = false;  ///< from the markers; else given, or assumed
   std::vector<std::string> subjects;  ///< label prefixes found
   std::string subject;                ///< the one that was read; empty: no prefix
   std::string motion;                 ///< MMM files: name of the motion that was read
@@ -40,13 +41,13 @@ struct Recording {
   std::optional<double> mass;         ///< [kg], MMM files
   std::optional<double> hand_length;  ///< [m], MMM files
   std::string model_path;             ///< MMM files: the model as the file names it
+  std::string comment;                ///< C3D files of this project: what they say of themselves
   std::vector<std::string> warnings;
 };
 
 /// Reads a C3D, TRC or MMM motion file; the format is told from the content, not the name.
 /// @throws Error (no such file, empty, not a recording, no whole frame, several subjects or motions
-/// and
-///         none chosen: the message lists them).
+/// and none chosen: the message lists them).
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options);
 
 }  // namespace mmm_converter

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mmm_converter {
+
+/// Labels are compared without case, blanks and punctuation: "R.Knee Medial" is "rkneemedial".
+std::string NormalizeLabel(std::string_view label);
+
+/// Where a marker of a common set (KIT, Plug-in Gait, CMU) is worn, as far as that helps to tell a
+/// person from an object and up from down.
+enum class BodyRegion { kHead, kShoulders, kPelvis, kFeet, kElsewhere };
+
+/// Nothing for a label that none of those sets has. The label has no subject prefix.
+std::optional<BodyRegion> FindBodyRegion(std::string_view label);
+
+/// The labels of one subject, and where they are in the file.
+struct LabelSelection {
+  std::vector<int> indices;
+  std::vector<std::string> labels;    ///< without prefix
+  std::vector<std::string> subjects;  ///< all prefixes of the file
+  std::string subject;                ///< the one chosen; empty: labels without prefix
+  std::vector<std::string> warnings;
+};
+
+/// Leaves out unlabelled points (*12), what outputs lists, and the bone axes of Plug-in Gait (xxxO,
+/// xxxA, xxxL and xxxP together), then chooses among the subjects, by `Subject:LABEL` or
+/// `Subject_LABEL`: the one asked for; else the only one that wears markers of a common set.
+/// label_prefixes: what the file declares, may be empty. file: for messages.
+/// @throws Error that lists the subjects where the choice is not clear or there is no such one.
+LabelSelection SelectLabels(const std::vector<std::string>& labels,
+                            const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& label_prefixes,
+                            const std::string& subject, const std::string& file);
+
+}  // namespace mmm_converter
