@@ -15,6 +15,7 @@ struct MarkerPair {
   std::string target;  ///< model marker, e.g. MARKER_C7
   double noise_scale =
       1.0;  ///< factor on the marker noise standard deviation; larger trusts it less
+  std::string warning = {};  ///< shown where the pair is used
 };
 
 /// A MarkerPair resolved once into indices.
@@ -27,14 +28,16 @@ struct MarkerAssignment {
 struct MarkerMapping {
   std::vector<MarkerAssignment> assignments;  ///< by model marker index, each marker at most once
   std::vector<std::string> ignored_labels;    ///< in the recording, not mapped
-  std::vector<std::string> absent_markers;    ///< mapped, not in the recording
+  std::vector<std::string> absent_markers;    ///< mapped, but not seen in the recording
   std::vector<std::string> warnings;
 };
 
-/// Matches labels after trimming, case folding and prefix removal.
-/// @throws Error where no label matches (the message shows labels of both sides), or a target is
-/// not a
-///         marker of the model.
+/// Matches labels without case, blanks, punctuation and prefix (`Subject:`). Of several pairs with
+/// the same target, the first whose label is seen in some frame is used: the later ones are
+/// substitutes.
+/// @throws Error where no label matches (the message shows labels of both sides), a label is mapped
+/// to
+///         two markers, or a target is not a marker of the model.
 MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
                                    const MarkerSequence& recording, const KinematicModel& model);
 

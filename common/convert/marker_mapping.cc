@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/marker_mapping.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/io/marker_labels.h"
+#include "common/model/kinematic_model.h"
+#include "common/motion/marker_sequence.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr std::size_t kNamesInMessages = 12;
+
+std::string BareLabel(const std::string& label) {
+  return NormalizeLabel(label.substr(label.rfind(':') + 1));
+}
+
+std::string Names(const std::vector<std::string>& names) {
+  const std::size_t shown = std::min(names.size(), kNamesInMessages);
+  return fmt::format("{}{}",
+                     fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "),
+                     shown < names.size() ? ", ..." : "");
+}
+
+/// Index of the first label of each name.
+std::map<std::string, int> LabelIndices(const MarkerSequence& recording) {
+  std::map<std::string, int> indices;
+  for (int i = 0; i < recording.num_labels(); ++i) {
+    indices.emplace(BareLabel(recording.labels()[i]), i);
+  }
+  return indices;
+}
+
+bool IsEverSeen(const MarkerSequence& recording, int label) {
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    if (IsSeen(recording.frame(k).col(label))) return true;
+  }
+  return false;
+}
+
+void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& model) {
+  std::vector<std::string> unknown;
+  std::map<std::string, std::string> targets;
+  for (const MarkerPair& pair : pairs) {
+    if (model.FindMarker(pair.target) < 0) unknown.push_back(pair.target);
+    const auto [it, is_new] = targets.emplace(BareLabel(pair.source), pair.target);
+    if (!is_new && it->second != pair.target) {
+      throw Error(fmt::format("marker mapping: label {} is mapped to both {} and {}", pair.source,
+                              it->second, pair.target));
+    }
+  }
+  if (unknown.empty()) return;
+  std::vector<std::string> markers;
+  for (const ModelMarker& marker : model.markers()) markers.push_back(marker.name);
+  throw Error(fmt::format("marker mapping: not markers of model {}: {}; it has: {}", model.name(),
+                          Names(unknown), Names(markers)));
+}
+
+[[noreturn]] void ThrowNoMatch(const std::vector<MarkerPair>& pairs,
+                               const MarkerSequence& recording) {
+  std::vector<std::string> sources;
+  for (const MarkerPair& pair : pairs) sources.push_back(pair.source);
+  throw Error(fmt::format("no label of the recording is mapped: it has {}; the mapping has {}",
+                          recording.num_labels() == 0 ? "none" : Names(recording.labels()),
+                          sources.empty() ? "none" : Names(sources)));
+}
+
+}  // namespace
+
+MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
+                                   const MarkerSequence& recording, const KinematicModel& model) {
+  CheckPairs(pairs, model);
+  const std::map<std::string, int> labels = LabelIndices(recording);
+  MarkerMapping mapping;
+  std::map<int, MarkerAssignment> by_marker;
+  std::set<std::string> used;
+  for (const MarkerPair& pair : pairs) {
+    const int marker = model.FindMarker(pair.target);
+    const auto label = labels.find(BareLabel(pair.source));
+    if (label == labels.end() || by_marker.contains(marker)) continue;
+    const std::string& name = recording.labels()[label->second];
+    if (!IsEverSeen(recording, label->second)) {
+      mapping.warnings.push_back(fmt::format("marker {} is not seen in any frame", name));
+      continue;
+    }
+    by_marker[marker] = {label->second, marker, pair.noise_scale};
+    used.insert(name);
+    if (!pair.warning.empty()) {
+      mapping.warnings.push_back(fmt::format("{} as {}: {}", name, pair.target, pair.warning));
+    }
+  }
+  if (by_marker.empty()) ThrowNoMatch(pairs, recording);
+
+  for (const auto& [marker, assignment] : by_marker) mapping.assignments.push_back(assignment);
+  for (const std::string& label : recording.labels()) {
+    if (!used.contains(label)) mapping.ignored_labels.push_back(label);
+  }
+  std::set<std::string> absent;
+  for (const MarkerPair& pair : pairs) {
+    if (by_marker.contains(model.FindMarker(pair.target))) continue;
+    if (absent.insert(pair.target).second) mapping.absent_markers.push_back(pair.target);
+  }
+  return mapping;
+}
+
+}  // namespace mmm_converter

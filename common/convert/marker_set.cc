@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/marker_set.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "common/io/marker_labels.h"
+#include "common/io/xml_document.h"
+#include "common/model/kinematic_model.h"
+#include "common/support/diagnostics.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kMinNoiseScale = 0.01;
+constexpr double kMaxNoiseScale = 100;
+
+void CheckAttributes(const XmlElement& element, const std::vector<std::string>& allowed,
+                     Diagnostics* diagnostics) {
+  for (const auto& [key, value] : element.attributes) {
+    if (std::any_of(allowed.begin(), allowed.end(),
+                    [&](const std::string& name) { return EqualIgnoringCase(name, key); })) {
+      continue;
+    }
+    diagnostics->AddError(element.line, fmt::format("<{}> has no attribute {}; allowed are {}",
+                                                    element.name, key, fmt::join(allowed, ", ")));
+  }
+}
+
+std::string Required(const XmlElement& element, const char* attribute, Diagnostics* diagnostics) {
+  const std::string* value = element.FindAttribute(attribute);
+  if (value != nullptr && !Trim(*value).empty()) return std::string(Trim(*value));
+  diagnostics->AddError(element.line,
+                        fmt::format("<{}> needs the attribute {}", element.name, attribute));
+  return "";
+}
+
+MarkerPair ReadMapping(const XmlElement& element, Diagnostics* diagnostics) {
+  CheckAttributes(element, {"source", "target", "noiseScale", "warning"}, diagnostics);
+  MarkerPair pair;
+  pair.source = Required(element, "source", diagnostics);
+  pair.target = Required(element, "target", diagnostics);
+  if (const std::string* text = element.FindAttribute("noiseScale")) {
+    pair.noise_scale = ParseDouble(*text).value_or(0);
+    if (!(pair.noise_scale >= kMinNoiseScale && pair.noise_scale <= kMaxNoiseScale)) {
+      diagnostics->AddError(element.line,
+                            fmt::format("noiseScale=\"{}\": must be a number from {} to {}", *text,
+                                        kMinNoiseScale, kMaxNoiseScale));
+    }
+  }
+  if (const std::string* text = element.FindAttribute("warning")) pair.warning = *text;
+  return pair;
+}
+
+/// Model markers that the set finds a label for, with the noise scale of the pair used.
+std::map<std::string, double> MappedMarkers(const MarkerSet& set, const MarkerSequence& recording) {
+  std::set<std::string> labels;
+  for (const std::string& label : recording.labels()) labels.insert(NormalizeLabel(label));
+  std::map<std::string, double> mapped;
+  for (const MarkerPair& pair : set.pairs) {
+    if (labels.contains(NormalizeLabel(pair.source))) mapped.emplace(pair.target, pair.noise_scale);
+  }
+  return mapped;
+}
+
+}  // namespace
+
+MarkerSet ReadMarkerSet(const std::string& path) {
+  const XmlElement root = ReadXmlFile(path);
+  Diagnostics diagnostics(path);
+  MarkerSet set;
+  set.file = path;
+  if (!root.Is("MarkerSet")) {
+    diagnostics.AddError(root.line,
+                         fmt::format("<{}>: expected <MarkerSet name=\"...\">", root.name));
+    diagnostics.ThrowIfErrors();
+  }
+  CheckAttributes(root, {"name", "description"}, &diagnostics);
+  set.name = Required(root, "name", &diagnostics);
+  if (const std::string* text = root.FindAttribute("description")) set.description = *text;
+  std::map<std::string, std::string> targets;
+  for (const XmlElement& child : root.children) {
+    if (!child.Is("Mapping")) {
+      diagnostics.AddError(child.line,
+                           fmt::format("<{}>: only <Mapping> is allowed here", child.name));
+      continue;
+    }
+    MarkerPair pair = ReadMapping(child, &diagnostics);
+    if (!targets.emplace(NormalizeLabel(pair.source), pair.target).second) {
+      diagnostics.AddError(child.line, fmt::format("label {} is mapped twice", pair.source));
+    }
+    set.pairs.push_back(std::move(pair));
+  }
+  if (set.pairs.empty()) diagnostics.AddError(root.line, "the set has no <Mapping>");
+  diagnostics.ThrowIfErrors();
+  return set;
+}
+
+std::vector<MarkerSet> ReadMarkerSets(const std::string& folder) {
+  std::error_code error;
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
+  }
+  if (files.empty()) throw Error(fmt::format("{}: there are no marker sets (*.xml) here", folder));
+  std::sort(files.begin(), files.end());
+  std::vector<MarkerSet> sets;
+  for (const std::string& file : files) sets.push_back(ReadMarkerSet(file));
+  return sets;
+}
+
+std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel& model) {
+  std::vector<MarkerPair> pairs;
+  std::copy_if(set.pairs.begin(), set.pairs.end(), std::back_inserter(pairs),
+               [&](const MarkerPair& pair) { return model.FindMarker(pair.target) >= 0; });
+  return pairs;
+}
+
+int CountMappedMarkers(const MarkerSet& set, const MarkerSequence& recording) {
+  return static_cast<int>(MappedMarkers(set, recording).size());
+}
+
+const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
+                                 const MarkerSequence& recording) {
+  const MarkerSet* best = nullptr;
+  std::size_t most = 0;
+  double least_noise = 0;
+  for (const MarkerSet& set : sets) {
+    const std::map<std::string, double> mapped = MappedMarkers(set, recording);
+    double noise = 0;
+    for (const auto& [target, scale] : mapped) noise += scale;
+    if (mapped.size() < 3 || mapped.size() < most) continue;
+    if (mapped.size() == most && noise >= least_noise) continue;
+    best = &set;
+    most = mapped.size();
+    least_noise = noise;
+  }
+  if (best != nullptr) return *best;
+  std::vector<std::string> names;
+  for (const MarkerSet& set : sets) names.push_back(set.name);
+  std::vector<std::string> labels = recording.labels();
+  labels.resize(std::min<std::size_t>(labels.size(), 12));
+  throw Error(
+      fmt::format("no marker set ({}) knows three labels of the recording, which has {}{}; "
+                  "give a configuration with a MarkerMapping",
+                  fmt::join(names, ", "), fmt::join(labels, ", "),
+                  labels.size() < recording.labels().size() ? ", ..." : ""));
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/convert/marker_mapping.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter {
+
+/// A `<MarkerSet name="">` file: which labels of a laboratory's marker set stand for which model
+/// markers. Several `<Mapping source="" target="" noiseScale="" warning=""/>` with the same target
+/// are substitutes, the best first.
+struct MarkerSet {
+  std::string file;
+  std::string name;
+  std::string description;
+  std::vector<MarkerPair> pairs;
+};
+
+/// @throws Error with file and line for anything that is not well-formed or not allowed.
+MarkerSet ReadMarkerSet(const std::string& path);
+
+/// All *.xml files of a folder, by name. @throws Error as ReadMarkerSet, or where there is none.
+std::vector<MarkerSet> ReadMarkerSets(const std::string& folder);
+
+/// The pairs whose target the model has: not every model has every marker of a set.
+std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel& model);
+
+/// How many model markers the set finds a label for.
+int CountMappedMarkers(const MarkerSet& set, const MarkerSequence& recording);
+
+/// The set that maps most markers; of equal ones the one that trusts them more, then the first.
+/// @throws Error where no set maps three; the message lists the sets and labels of the recording.
+const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
+                                 const MarkerSequence& recording);
+
+}  // namespace mmm_converter
