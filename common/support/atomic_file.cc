@@ -97,7 +97,7 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
     throw Error(fmt::format("{}: is a folder; give the name of a file", path));
   }
   if (exists && !S_ISREG(old.st_mode)) return WriteDirectly(path, content);
-  if (exists && ::access(target.c_str(), W_OK) != 0) Fail(path, errno);
+  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) Fail(path, errno);
 
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
   const Created created = CreateIn(folder);

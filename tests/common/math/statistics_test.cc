@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "common/math/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Statistics, KnownValues) {
+  const std::vector<double> values = {4, 1, kNaN, 3, 2};
+  EXPECT_EQ(Mean(values), 2.5);
+  EXPECT_EQ(Max(values), 4);
+  EXPECT_EQ(Median(values), 2.5);
+  EXPECT_EQ(Percentile(values, 0), 1);
+  EXPECT_EQ(Percentile(values, 100), 4);
+  EXPECT_DOUBLE_EQ(Percentile(values, 90), 3.7);  // place 2.7 of 0..3
+  EXPECT_DOUBLE_EQ(Percentile(values, 10), 1.3);
+}
+
+TEST(Statistics, OneValueIsEveryPercentile) {
+  const std::vector<double> values = {kNaN, 7, kNaN};
+  for (const double percent : {0.0, 12.5, 50.0, 99.0, 100.0}) {
+    EXPECT_EQ(Percentile(values, percent), 7);
+  }
+}
+
+TEST(Statistics, NothingIsNaN) {
+  for (const std::vector<double>& values : {std::vector<double>{}, {kNaN, kNaN}}) {
+    EXPECT_TRUE(std::isnan(Mean(values)));
+    EXPECT_TRUE(std::isnan(Max(values)));
+    EXPECT_TRUE(std::isnan(Percentile(values, 95)));
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "common/support/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class AtomicFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "atomic_file_XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string Path(const std::string& name) const { return folder_ / name; }
+
+  static std::string Content(const std::string& path) {
+    std::ostringstream content;
+    content << std::ifstream(path, std::ios::binary).rdbuf();
+    return content.str();
+  }
+
+  static std::string MessageOfWriting(const std::string& path, const std::string& content = "new") {
+    try {
+      WriteFileAtomically(path, content);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  long EntriesInFolder() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(AtomicFile, WritesANewFileWithAnyBytes) {
+  const std::string bytes("a\0b\r\n\xFF", 6);
+  WriteFileAtomically(Path("new"), bytes);
+  EXPECT_EQ(Content(Path("new")), bytes);
+  WriteFileAtomically(Path("new"), "");
+  EXPECT_EQ(Content(Path("new")), "");
+  EXPECT_EQ(EntriesInFolder(), 1);
+}
+
+TEST_F(AtomicFile, KeepsPermissionsAndFollowsUmask) {
+  const mode_t old_mask = ::umask(027);
+  WriteFileAtomically(Path("new"), "1");
+  ::umask(old_mask);
+  EXPECT_EQ(fs::status(Path("new")).permissions(), fs::perms(0640));
+  fs::permissions(Path("new"), fs::perms(0606));
+  WriteFileAtomically(Path("new"), "2");
+  EXPECT_EQ(fs::status(Path("new")).permissions(), fs::perms(0606));
+  EXPECT_EQ(Content(Path("new")), "2");
+}
+
+TEST_F(AtomicFile, WritesThroughSymbolicLinks) {
+  fs::create_directory(Path("there"));
+  WriteFileAtomically(Path("there/target"), "old");
+  fs::create_symlink("there/target", Path("link"));
+  fs::create_symlink("link", Path("link_to_link"));
+  fs::create_symlink("there/not_yet", Path("dangling"));
+  WriteFileAtomically(Path("link_to_link"), "new");
+  WriteFileAtomically(Path("dangling"), "new too");
+  EXPECT_TRUE(fs::is_symlink(Path("link_to_link")));
+  EXPECT_TRUE(fs::is_symlink(Path("link")));
+  EXPECT_EQ(Content(Path("there/target")), "new");
+  EXPECT_EQ(Content(Path("there/not_yet")), "new too");
+  fs::create_symlink("loop", Path("loop"));
+  EXPECT_THAT(MessageOfWriting(Path("loop")), HasSubstr("loop: can't be written"));
+}
+
+TEST_F(AtomicFile, SaysWhyItCannotWrite) {
+  WriteFileAtomically(Path("file"), "old");
+  EXPECT_THAT(MessageOfWriting(folder_), HasSubstr("is a folder"));
+  EXPECT_THAT(MessageOfWriting(Path("no/such/file")), HasSubstr("there is no folder"));
+  EXPECT_THAT(MessageOfWriting(Path("file/below")), HasSubstr("can't be written: Not a directory"));
+  EXPECT_THAT(MessageOfWriting(""), HasSubstr("is empty"));
+  EXPECT_THAT(MessageOfWriting("/dev/full"), HasSubstr("/dev/full: can't be written: No space"));
+  EXPECT_EQ(Content(Path("file")), "old");
+  EXPECT_EQ(EntriesInFolder(), 1);
+}
+
+TEST_F(AtomicFile, LeavesTheOldFileWhereTheDiskIsFull) {
+  WriteFileAtomically(Path("file"), "old");
+  rlimit old_limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+  auto* const old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = old_limit;
+  limit.rlim_cur = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const std::string message = MessageOfWriting(Path("file"), std::string(5000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_THAT(message, HasSubstr("file: can't be written: File too large"));
+  EXPECT_EQ(Content(Path("file")), "old");
+  EXPECT_EQ(EntriesInFolder(), 1);
+}
+
+TEST_F(AtomicFile, LeavesTheOldFileWhereThereIsNoPermission) {
+  constexpr uid_t kNobody = 65534;
+  WriteFileAtomically(Path("read_only"), "old");
+  WriteFileAtomically(Path("in_read_only_folder"), "old");
+  fs::permissions(Path("read_only"), fs::perms(0444));
+  fs::permissions(Path("in_read_only_folder"), fs::perms(0666));
+  fs::permissions(folder_, fs::perms(0555));
+  const uid_t user = ::geteuid();
+  ASSERT_EQ(::seteuid(user == 0 ? kNobody : user), 0);  // root may write anywhere
+  const std::string read_only = MessageOfWriting(Path("read_only"));
+  const std::string in_read_only_folder = MessageOfWriting(Path("in_read_only_folder"));
+  ASSERT_EQ(::seteuid(user), 0);
+  fs::permissions(folder_, fs::perms(0755));
+  EXPECT_THAT(read_only, HasSubstr("Permission denied"));
+  EXPECT_THAT(in_read_only_folder, HasSubstr("Permission denied"));
+  EXPECT_EQ(Content(Path("read_only")), "old");
+  EXPECT_EQ(Content(Path("in_read_only_folder")), "old");
+  EXPECT_EQ(EntriesInFolder(), 2);
+}
+
+}  // namespace
+}  // namespace mmm_converter
