@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "common/motion/synthetic_motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "common/math/rotation.h"
+#include "common/model/forward_kinematics.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRate = 100;
+constexpr double kPi = std::numbers::pi;
+
+/// Values of a channel at keyframe times. Channels: "roll", "pitch", "yaw" of the root and joints
+/// [rad]. Joints that no channel moves rest in a relaxed posture.
+using Keyframes = std::map<std::string, std::vector<double>>;
+
+/// From `begin` until the next one: nodes whose mean stands still.
+struct Contact {
+  double begin;  // [s]; the support is handed over during kHandOver around it
+  std::vector<std::string> nodes;
+  bool is_hand;
+};
+constexpr double kHandOver = 0.3;  // [s]
+
+struct Script {
+  int num_frames;
+  std::vector<double> times;
+  Keyframes keyframes;
+  std::vector<Contact> contacts;
+};
+
+/// 0 to 1 with minimum jerk.
+double MinimumJerk(double s) {
+  s = std::clamp(s, 0.0, 1.0);
+  return s * s * s * (10 + s * (6 * s - 15));
+}
+
+/// Slope at keyframe i that does not overshoot: 0 at a turning point, else the harmonic mean of the
+/// slopes on both sides (Fritsch, Butland 1984).
+double SlopeAt(const std::vector<double>& times, const std::vector<double>& values, std::size_t i) {
+  if (i == 0 || i + 1 == times.size()) return 0;
+  const double before = (values[i] - values[i - 1]) / (times[i] - times[i - 1]);
+  const double after = (values[i + 1] - values[i]) / (times[i + 1] - times[i]);
+  return before * after <= 0 ? 0 : 2 * before * after / (before + after);
+}
+
+/// The curve of least jerk between neighbouring keyframes, given their values and slopes and no
+/// acceleration in them.
+double Interpolate(const std::vector<double>& times, const std::vector<double>& values, double t) {
+  assert(times.size() == values.size() && t >= times.front());
+  if (t >= times.back()) return values.back();
+  const std::size_t i = std::upper_bound(times.begin(), times.end(), t) - times.begin() - 1;
+  const double span = times[i + 1] - times[i];
+  const double s = (t - times[i]) / span;
+  const double v0 = SlopeAt(times, values, i) * span;
+  const double v1 = SlopeAt(times, values, i + 1) * span;
+  const double rest = values[i + 1] - values[i] - v0;
+  const double turn = v1 - v0;
+  return values[i] + v0 * s +
+         s * s * s *
+             (10 * rest - 4 * turn + s * (7 * turn - 15 * rest + s * (6 * rest - 3 * turn)));
+}
+
+/// Values of joints that are not in a script, and a slow sway that no joint is without.
+double RelaxedAngle(const std::string& joint) {
+  static const std::map<std::string, double> kAngles = {{"LEx_joint", 0.2},  {"REx_joint", 0.2},
+                                                        {"LKx_joint", -0.1}, {"RKx_joint", -0.1},
+                                                        {"LSy_joint", 0.15}, {"RSy_joint", -0.15}};
+  const auto found = kAngles.find(joint);
+  return found == kAngles.end() ? 0 : found->second;
+}
+
+double Sway(std::size_t joint, double t) {
+  const double frequency = 0.25 + 0.05 * static_cast<double>(joint % 7);  // [Hz]
+  return 0.02 * std::sin(2 * kPi * frequency * t + 2.4 * static_cast<double>(joint));
+}
+
+int NodeIndex(const KinematicModel& model, const std::string& name) {
+  const int index = model.FindSegment(name);
+  if (index < 0) {
+    throw Error("model '" + model.name() + "' has no node '" + name +
+                "'; synthetic motions need MMM's reference model");
+  }
+  return index;
+}
+
+/// A scripted motion on one model.
+class Choreography {
+ public:
+  Choreography(const KinematicModel& model, Script script)
+      : model_(model), script_(std::move(script)), rest_(ZeroPosture(model)) {
+    for (const std::string& name : KitJointNames()) {
+      NodeIndex(model, name);
+      joints_.push_back(model.FindJoint(name));
+      if (joints_.back() < 0) throw Error("node '" + name + "' of the model is not a joint");
+    }
+    const auto X_WS = SegmentPoses(model, rest_);
+    const double sole = X_WS[NodeIndex(model, "LeftFootHeight_joint")].translation().z();
+    foot_height_ = X_WS[NodeIndex(model, "LFx_joint")].translation().z() - sole;
+    hand_height_ = -0.2 * sole;  // the wrist above the tips of a straight hand
+    PlaceContacts();
+  }
+
+  PoseTrajectory Play() const {
+    PoseTrajectory motion;
+    motion.rate = kRate;
+    motion.joint_names = KitJointNames();
+    for (int k = 0; k < script_.num_frames; ++k) {
+      const double t = k / kRate;
+      Posture posture = PostureWithoutPosition(t);
+      Vector3d position = Vector3d::Zero();
+      for (std::size_t c = 0; c < script_.contacts.size(); ++c) {
+        const double weight = Weight(c, t);
+        if (weight > 0) position += weight * (places_[c] - ContactInRoot(c, posture));
+      }
+      posture.position = position;
+      Eigen::VectorXd angles(static_cast<Eigen::Index>(joints_.size()));
+      for (std::size_t j = 0; j < joints_.size(); ++j) {
+        angles[static_cast<Eigen::Index>(j)] = posture.joint_angles[joints_[j]];
+      }
+      posture.joint_angles = angles;
+      motion.postures.push_back(posture);
+    }
+    return motion;
+  }
+
+ private:
+  double Channel(const std::string& name, double otherwise, double t) const {
+    const auto found = script_.keyframes.find(name);
+    return found == script_.keyframes.end() ? otherwise
+                                            : Interpolate(script_.times, found->second, t);
+  }
+
+  Posture PostureWithoutPosition(double t) const {
+    Posture posture = rest_;
+    const Vector3d rpy(Channel("roll", 0, t), Channel("pitch", 0, t), Channel("yaw", 0, t));
+    posture.orientation = RotationFromRpy(rpy);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const std::string& name = KitJointNames()[j];
+      posture.joint_angles[joints_[j]] = Channel(name, RelaxedAngle(name), t) + Sway(j, t);
+    }
+    return posture;
+  }
+
+  Vector3d ContactInRoot(std::size_t contact, const Posture& posture) const {
+    const auto X_WS = SegmentPoses(model_, posture);
+    Vector3d sum = Vector3d::Zero();
+    for (const std::string& node : script_.contacts[contact].nodes) {
+      sum += X_WS[NodeIndex(model_, node)].translation();
+    }
+    return sum / static_cast<double>(script_.contacts[contact].nodes.size());
+  }
+
+  /// Where each contact stands: where it is when it takes over, brought onto the floor.
+  void PlaceContacts() {
+    for (std::size_t c = 0; c < script_.contacts.size(); ++c) {
+      const Posture posture = PostureWithoutPosition(script_.contacts[c].begin);
+      Vector3d place = ContactInRoot(c, posture);
+      if (c > 0) place += places_[c - 1] - ContactInRoot(c - 1, posture);
+      place.z() = script_.contacts[c].is_hand ? hand_height_ : foot_height_;
+      places_.push_back(place);
+    }
+  }
+
+  double Weight(std::size_t contact, double t) const {
+    const auto begun = [&](std::size_t c) {
+      return MinimumJerk((t - script_.contacts[c].begin) / kHandOver + 0.5);
+    };
+    const double own = contact == 0 ? 1 : begun(contact);
+    return contact + 1 < script_.contacts.size() ? own - begun(contact + 1) : own;
+  }
+
+  const KinematicModel& model_;
+  Script script_;
+  Posture rest_;
+  std::vector<int> joints_;
+  double foot_height_ = 0;
+  double hand_height_ = 0;
+  std::vector<Vector3d> places_;
+};
+
+const std::vector<std::string> kLeftFoot = {"LFx_joint"};
+const std::vector<std::string> kRightFoot = {"RFx_joint"};
+const std::vector<std::string> kHands = {"LWx_joint", "RWx_joint"};
+
+}  // namespace
+
+const std::vector<std::string>& KitJointNames() {
+  static const std::vector<std::string> kNames = {
+      "BLNx_joint", "BLNy_joint", "BLNz_joint", "BPx_joint",   "BPy_joint",  "BPz_joint",
+      "BTx_joint",  "BTy_joint",  "BTz_joint",  "BUNx_joint",  "BUNy_joint", "BUNz_joint",
+      "LAx_joint",  "LAy_joint",  "LAz_joint",  "LEx_joint",   "LEz_joint",  "LHx_joint",
+      "LHy_joint",  "LHz_joint",  "LKx_joint",  "LSx_joint",   "LSy_joint",  "LSz_joint",
+      "LWx_joint",  "LWy_joint",  "LFx_joint",  "LMrot_joint", "RAx_joint",  "RAy_joint",
+      "RAz_joint",  "REx_joint",  "REz_joint",  "RHx_joint",   "RHy_joint",  "RHz_joint",
+      "RKx_joint",  "RSx_joint",  "RSy_joint",  "RSz_joint",   "RWx_joint",  "RWy_joint",
+      "RFx_joint",  "RMrot_joint"};
+  return kNames;
+}
+
+PoseTrajectory MakeHandstand(const KinematicModel& model) {
+  Script script;
+  script.num_frames = 675;
+  // stand, arms up, step, lunge, hands down, kick, nearly up, up, hold, tilt, legs down, foot down,
+  // lunge, step back, stand
+  script.times = {0, 1.0, 1.4, 1.8, 2.4, 2.75, 3.1, 3.45, 4.0, 4.35, 4.75, 5.1, 5.65, 6.1, 6.55};
+  const double up = -183 * kPi / 180;
+  const std::vector<double> arms = {0,    2.7,  2.75, 2.7, 2.0, 2.3, 2.95, 3.12,
+                                    3.12, 2.95, 2.3,  2.0, 2.5, 1.6, 0};
+  const std::vector<double> elbows = {.2, .15, .15, .15, .1,  .1, .1, .1,
+                                      .1, .1,  .1,  .1,  .15, .3, .2};
+  script.keyframes = {
+      {"roll", {0, .03, .03, -.15, -1.15, -2.0, -2.85, -3.15, up, -3.0, -2.1, -1.15, -.15, 0, 0}},
+      {"pitch", {0, 0, .03, 0, 0, .02, .04, .02, 0, -.03, -.03, 0, 0, -.03, 0}},
+      {"yaw", {0, 0, .05, .05, 0, -.05, -.03, 0, .05, .05, 0, 0, -.05, -.03, 0}},
+      {"BPx_joint", {0, .05, .05, -.05, -.35, -.2, -.05, 0, .05, 0, -.2, -.35, -.1, 0, 0}},
+      {"BTx_joint", {0, .05, .05, -.05, -.3, -.15, -.05, 0, .05, 0, -.15, -.3, -.1, 0, 0}},
+      {"BLNx_joint", {0, .1, .1, 0, .1, .15, .15, .15, .15, .15, .15, .1, 0, 0, 0}},
+      {"BUNx_joint", {0, .05, .05, 0, .2, .3, .35, .35, .35, .35, .3, .2, 0, 0, 0}},
+      {"LSx_joint", arms},
+      {"RSx_joint", arms},
+      {"LEx_joint", elbows},
+      {"REx_joint", elbows},
+      {"LHx_joint",
+       {0.05, -.03, -.1, -.3, -.35, -.6, -.35, -.02, .05, -.2, -.5, -.35, -.3, -.05, .05}},
+      {"LKx_joint", {-.1, -.1, -.1, -.2, -.3, -.3, -.15, -.1, -.1, -.15, -.3, -.3, -.2, -.15, -.1}},
+      {"LAx_joint", {.05, .1, .15, .1, -.3, -.55, -.6, -.6, -.6, -.6, -.55, -.3, .1, .15, .05}},
+      {"RHx_joint", {0.05, 0, .9, .7, 1.6, 1.4, .7, .1, 0, .7, 1.4, 1.6, .7, .8, .05}},
+      {"RKx_joint", {-.1, -.1, -.9, -.5, -.95, -.7, -.4, -.1, -.1, -.3, -.6, -.95, -.5, -.9, -.1}},
+      {"RAx_joint", {.05, .07, .1, -.05, .48, -.3, -.6, -.6, -.6, -.6, -.3, .48, -.05, .1, .05}},
+  };
+  script.contacts = {{0, kLeftFoot, false},
+                     {1.85, kRightFoot, false},
+                     {2.4, kHands, true},
+                     {5.05, kRightFoot, false},
+                     {5.6, kLeftFoot, false}};
+  return Choreography(model, script).Play();
+}
+
+PoseTrajectory MakeCartwheel(const KinematicModel& model) {
+  Script script;
+  script.num_frames = 400;
+  // stand, arms and legs apart, hand down, upside down, foot down, upright, stand
+  script.times = {0, 0.9, 1.6, 2.15, 2.7, 3.4, 3.95};
+  const double quarter = 1.33;
+  script.keyframes = {
+      {"pitch", {0, .1, quarter, kPi, 2 * kPi - quarter, 2 * kPi - .1, 2 * kPi}},
+      {"BPy_joint", {0, 0, .25, 0, -.25, 0, 0}},
+      {"BTy_joint", {0, 0, .2, 0, -.2, 0, 0}},
+      {"LSy_joint", {.15, 2.4, 2.65, 2.7, 2.65, 2.4, .15}},
+      {"RSy_joint", {-.15, -2.4, -2.65, -2.7, -2.65, -2.4, -.15}},
+      {"LEx_joint", {.2, .15, .1, .1, .1, .15, .2}},
+      {"REx_joint", {.2, .15, .1, .1, .1, .15, .2}},
+      {"LHy_joint", {0, .4, .6, .7, .6, .4, 0}},
+      {"RHy_joint", {0, -.4, -.6, -.7, -.6, -.4, 0}},
+      {"LAx_joint", {0, 0, -.4, -.5, -.3, 0, 0}},
+      {"RAx_joint", {0, 0, -.3, -.5, -.4, 0, 0}},
+  };
+  script.contacts = {{0, kRightFoot, false},
+                     {1.6, {"RWx_joint"}, true},
+                     {2.15, {"LWx_joint"}, true},
+                     {2.7, kLeftFoot, false}};
+  return Choreography(model, script).Play();
+}
+
+}  // namespace mmm_converter
