@@ -8,8 +8,8 @@
 namespace mmm_converter {
 
 struct C3dWriteOptions {
-  long first_frame = 1;  ///< number of the first frame in the capture, 1 to 65535
-  std::string comment;   ///< MANUFACTURER:COMMENT, at most 255 characters; empty: none
+  long first_frame = 1;      ///< number of the first frame in the capture, 1 to 65535
+  std::string comment = {};  ///< MANUFACTURER:COMMENT, at most 255 characters; empty: none
 };
 
 /// Writes a C3D file: Intel floats, mm, z up; an unseen marker is (0,0,0), marked invalid. Labels

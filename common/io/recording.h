@@ -16,12 +16,12 @@ const char* Name(UpAxis axis);  ///< "+x", "+y", "+z", "-x", "-y", "-z"
 UpAxis ParseUpAxis(const std::string& text);
 
 struct ReadRecordingOptions {
-  std::optional<std::string> unit;  ///< overrides the file's: "mm", "cm", "m", "in"
-  std::optional<UpAxis> up_axis;    ///< overrides the decision from the markers
-  std::optional<double> rate;       ///< [Hz] overrides the file's
-  bool ignore_residuals = false;    ///< C3D: also use points that are marked invalid
-  std::string subject;              ///< label prefix to keep where a file has several subjects
-  std::string motion;  ///< MMM files: name of the motion to read; empty: the one with most markers
+  std::optional<std::string> unit = {};  ///< overrides the file's: "mm", "cm", "m", "in"
+  std::optional<UpAxis> up_axis = {};    ///< overrides the decision from the markers
+  std::optional<double> rate = {};       ///< [Hz] overrides the file's
+  bool ignore_residuals = false;         ///< C3D: also use points that are marked invalid
+  std::string subject = {};              ///< label prefix to keep where a file has several subjects
+  std::string motion = {};               ///< MMM: motion to read; empty: that with most markers
 };
 
 /// An optical recording as a file has it, brought to metres and z up.
@@ -32,7 +32,7 @@ struct Recording {
   std::string unit;               ///< what coordinates were read as
   bool unit_was_guessed = false;  ///< the file's unit was absent or implausible
   UpAxis up_axis = UpAxis::kZ;    ///< in the file's own axes
-  bool up_axis_was_decided = false;  ///< from the markers; else given, or assumed
+  bool up_axis_was_decided = false;   ///< from the markers; else given, or assumed
   std::vector<std::string> subjects;  ///< label prefixes found
   std::string subject;                ///< the one that was read; empty: no prefix
   std::string motion;                 ///< MMM files: name of the motion that was read
