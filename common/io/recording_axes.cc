@@ -197,8 +197,9 @@ UpAxisDecision DecideUpAxis(const MarkerSequence& markers) {
   const auto upright = std::count_if(axes.begin(), axes.end(),
                                      [axis](const Eigen::Vector3d& d) { return d[axis] > 0; });
   const double share = static_cast<double>(upright) / static_cast<double>(axes.size());
-  // Upside down most of the time, but not always: the ground decides.
-  const bool down = share < 0.02 || (share < 0.5 && GroundIsAtTheHighEnd(markers, axis));
+  // Now this way, now that way up: the ground decides.
+  const bool mixed = share > 0.02 && share < 0.98;
+  const bool down = mixed ? GroundIsAtTheHighEnd(markers, axis) : share < 0.5;
   decision.axis = static_cast<UpAxis>(axis + (down ? 3 : 0));
   decision.decided = true;
   return decision;

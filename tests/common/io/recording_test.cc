@@ -296,10 +296,10 @@ TEST(Recording, SaysWhatIsWrongWithAFile) {
       MessageOf(WriteTemp("lfs.c3d", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")),
       HasSubstr("Git LFS pointer"));
   EXPECT_THAT(MessageOf(WriteTemp("page.c3d", "<!DOCTYPE html><html></html>")),
-              HasSubstr("but not an MMM motion"));
+              HasSubstr("root <html>, not an MMM motion"));
   EXPECT_THAT(MessageOf(WriteTemp("zeros.c3d", std::string(2000, '\0'))),
               HasSubstr("not a C3D file"));
-  EXPECT_THAT(MessageOf(WriteTemp("picture.c3d", "\x89PNG\r\n\x1a\n\x01")),
+  EXPECT_THAT(MessageOf(WriteTemp("packed.c3d", "\x1f\x8b\x08\x01")),
               HasSubstr("not a C3D file"));
 }
 
