@@ -77,9 +77,9 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
 
 void MarkerFilter::StartAt(const Posture& posture, Belief* belief) const {
   // What a fit to markers that sit some centimetres off leaves open.
-  constexpr double kPosition = 0.02;
-  constexpr double kOrientation = 0.05;
-  constexpr double kParameter = 0.2;
+  constexpr double kPosition = 0.005;
+  constexpr double kOrientation = 0.02;
+  constexpr double kParameter = 0.05;
   constexpr double kVelocity = 0.5;
   constexpr double kRate = 1.0;
   const int n = kinematics_.num_dofs();

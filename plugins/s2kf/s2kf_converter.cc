@@ -20,7 +20,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A track is in doubt for this many frames after its start or after a cause of doubt.
 constexpr int kDoubtFrames = 20;
-// A marker that was hidden for longer may come back where the filter does not expect it [s].
+// So many markers that come back together after having been hidden for longer than this [s] may stand
+// where the filter does not expect them.
+constexpr int kManyReturned = 3;
 constexpr double kLongGap = 0.1;
 // Distances this much above their usual level are a cause of doubt.
 constexpr double kDoubtFactor = 1.15;
@@ -116,15 +118,17 @@ const FrameEstimate& S2kfConverter::Assemble(const Ref<const Matrix3Xd>& frame) 
 }
 
 bool S2kfConverter::IsInDoubt(double distance, double dt) {
-  bool cause = distance > kDoubtFactor * usual_distance_ + kDoubtDistance;
+  int returned = 0;
   for (std::size_t i = 0; i < hidden_for_.size(); ++i) {
     if (z_.col(i).allFinite()) {
-      cause |= hidden_for_[i] > kLongGap;
+      returned += hidden_for_[i] > kLongGap;
       hidden_for_[i] = 0;
     } else {
       hidden_for_[i] += dt;
     }
   }
+  const bool cause = returned >= kManyReturned ||
+                     distance > kDoubtFactor * usual_distance_ + kDoubtDistance;
   doubt_ = cause ? kDoubtFrames : std::max(doubt_ - 1, 0);
   const double step = 1 - std::exp(-dt / kLevelTime);
   usual_distance_ += step * (distance - usual_distance_);
