@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/marker_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "common/io/mmm_model.h"
+#include "common/io/recording.h"
+#include "common/support/error.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::mmm_converter::testing::SharedData;
+using ::mmm_converter::testing::SourcePath;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+std::vector<MarkerSet> ShippedSets() {
+  return ReadMarkerSets(SourcePath("xml_config/marker_sets"));
+}
+
+KinematicModel ShippedModel() {
+  return ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model;
+}
+
+std::string MessageOf(const std::string& xml) {
+  const std::string path = ::testing::TempDir() + "set.xml";
+  std::ofstream(path) << xml;
+  try {
+    ReadMarkerSet(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// The mapping of the chosen set.
+MarkerMapping MapRecording(const std::string& file, std::string* set_name,
+                           const std::string& subject = "") {
+  ReadRecordingOptions options;
+  options.subject = subject;
+  const Recording recording = ReadRecording(SharedData("recordings/" + file), options);
+  const std::vector<MarkerSet> sets = ShippedSets();
+  const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
+  *set_name = set.name;
+  const KinematicModel model = ShippedModel();
+  return ResolveMarkerMapping(PairsInModel(set, model), recording.markers, model);
+}
+
+TEST(MarkerSet, ShippedSetsNameMarkersOfTheShippedModel) {
+  const KinematicModel model = ShippedModel();
+  const std::vector<MarkerSet> sets = ShippedSets();
+  ASSERT_EQ(sets.size(), 2u);
+  for (const MarkerSet& set : sets) {
+    for (const MarkerPair& pair : set.pairs) {
+      EXPECT_GE(model.FindMarker(pair.target), 0) << set.file << ": " << pair.target;
+    }
+    EXPECT_EQ(PairsInModel(set, model).size(), set.pairs.size());
+  }
+  EXPECT_EQ(sets[0].name, "KIT");
+  for (const ModelMarker& marker : model.markers()) {  // KIT's set has them all
+    EXPECT_TRUE(std::any_of(sets[0].pairs.begin(), sets[0].pairs.end(),
+                            [&](const MarkerPair& pair) { return pair.target == marker.name; }))
+        << marker.name;
+  }
+}
+
+TEST(MarkerSet, MapsRealRecordings) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  struct {
+    const char* file;
+    const char* subject;
+    const char* set;
+    std::size_t markers;
+    std::vector<std::string> ignored;
+  } const expected[] = {
+      {"kit_bimanual_c3d/Cut_1723.c3d", "", "KIT", 53, {}},
+      {"synthetic/kit53_lower_case_spaces.c3d", "", "KIT", 53, {}},
+      {"synthetic/kit53_two_subjects_same_labels.c3d", "A", "KIT", 53, {}},
+      {"whole_body/85_02.c3d", "", "PluginGait", 41, {}},
+      {"whole_body/cmu_02_05.c3d", "", "PluginGait", 41, {}},
+      {"whole_body/kinematics_tennis_serve.c3d", "", "PluginGait", 39, {}},
+      {"whole_body/kinematics_tennis_serve_2players.c3d", "Viktor", "PluginGait", 39, {}},
+      {"whole_body/pycgm_movement_trial.c3d", "", "PluginGait", 39, {}},
+      {"trc/motek_T.trc", "", "PluginGait", 41, {}}};
+  for (const auto& e : expected) {
+    SCOPED_TRACE(e.file);
+    std::string set;
+    const MarkerMapping mapping = MapRecording(e.file, &set, e.subject);
+    EXPECT_EQ(set, e.set);
+    EXPECT_EQ(mapping.assignments.size(), e.markers);
+    EXPECT_EQ(mapping.ignored_labels, e.ignored);
+  }
+}
+
+TEST(MarkerSet, TrustsLessWhatIsWornElsewhereAndSaysSo) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  std::string set;
+  const MarkerMapping mapping = MapRecording("whole_body/85_02.c3d", &set);
+  EXPECT_THAT(mapping.warnings, AllOf(Contains(HasSubstr("LSHN as MARKER_LTIP")),
+                                      Contains(HasSubstr("LFIN as MARKER_LHTS")),
+                                      Contains(HasSubstr("LWRA as MARKER_LWTS")),
+                                      Contains(HasSubstr("LTOE as MARKER_LTOE"))));
+  EXPECT_THAT(mapping.absent_markers, ::testing::Not(Contains("MARKER_LTIP")));
+  const KinematicModel model = ShippedModel();
+  for (const MarkerAssignment& assignment : mapping.assignments) {
+    const std::string& name = model.markers()[assignment.marker].name;
+    const double expected = name == "MARKER_LTIP" || name == "MARKER_RTHI"   ? 3
+                            : name == "MARKER_LWTS" || name == "MARKER_RTOE" ? 2
+                            : name == "MARKER_LASI" || name == "MARKER_C7"   ? 1
+                                                                             : 0;
+    if (expected != 0) {
+      EXPECT_EQ(assignment.noise_scale, expected) << name;
+    }
+  }
+}
+
+TEST(MarkerSet, NeedsThreeKnownLabels) {
+  const std::vector<MarkerSet> sets = ShippedSets();
+  EXPECT_THROW(ChooseMarkerSet(sets, MarkerSequence({"C7", "T10", "box"}, 1, 100, 0)), Error);
+  EXPECT_EQ(ChooseMarkerSet(sets, MarkerSequence({"C7", "T10", "LHIP"}, 1, 100, 0)).name, "KIT");
+}
+
+TEST(MarkerSet, SaysFileAndLineOfWhatIsWrong) {
+  EXPECT_THAT(MessageOf("<MarkerSet name='x'>\n<Mapping source='a' target='M'/>\n</MarkerSet>"),
+              HasSubstr("no error"));
+  EXPECT_THAT(MessageOf("<Other/>"), HasSubstr("expected <MarkerSet"));
+  EXPECT_THAT(MessageOf("<MarkerSet name='x'/>"), HasSubstr("set.xml:1: the set has no <Mapping>"));
+  EXPECT_THAT(
+      MessageOf("<MarkerSet name='x'>\n<Mapping source='a'/>\n<Map/>\n"
+                "<Mapping source='b' target='M' noiseScale='0'/>\n"
+                "<Mapping source='B' target='M' weight='1'/>\n</MarkerSet>"),
+      AllOf(HasSubstr("set.xml:2: <Mapping> needs the attribute target"),
+            HasSubstr("set.xml:3: <Map>: only <Mapping>"), HasSubstr("set.xml:4: noiseScale=\"0\""),
+            HasSubstr("set.xml:5: label B"), HasSubstr("no attribute weight")));
+  EXPECT_THROW(ReadMarkerSets(::testing::TempDir() + "no_such_folder"), Error);
+}
+
+}  // namespace
+}  // namespace mmm_converter
