@@ -20,6 +20,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr unsigned kRotationSeed = 1;
+// A frame is linearised again while the samples leave more of the marker variance unexplained than this
+// share of the measurement noise.
+constexpr double kLargestUnexplainedShare = 0.25;
 
 MatrixXd HalfSamples(const S2kfSettings& settings, int n) {
   switch (settings.filter) {
@@ -150,6 +153,17 @@ void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, Outcome* outcome) {
   }
 }
 
+bool MarkerFilter::IsFarFromLinear() const {
+  double unexplained = 0;
+  double noise = 0;
+  for (Eigen::Index i = 0; i < noise_.size(); ++i) {
+    if (std::isinf(noise_[i])) continue;
+    unexplained += moments_.residual[i];
+    noise += noise_[i];
+  }
+  return unexplained > kLargestUnexplainedShare * noise;
+}
+
 void MarkerFilter::Relinearize(const Belief& belief) {
   // About N(mu, Sigma) of s, Sigma = root^T root: z = C_zt t + mean with t = root^-T (s - mu),
   // which is then the line z = H s + (mean - H mu) with H = C_zt root^-T (Garcia-Fernandez et al.
@@ -191,7 +205,7 @@ MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief
   if (outcome.seen == 0) return outcome;
   update_.Compute(moments_, z_, noise_, settings_.update);
   outcome.nis = update_.nis() / (3 * outcome.seen);
-  for (int i = 1; i < settings_.iterations; ++i) {
+  for (int i = 1; i < settings_.iterations && IsFarFromLinear(); ++i) {
     Relinearize(*belief);
     update_.Compute(moments_, z_, noise_, settings_.update);
   }

@@ -46,6 +46,7 @@ class MarkerFilter {
 
  private:
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Outcome* outcome);
+  bool IsFarFromLinear() const;
   void Relinearize(const Belief& belief);
   void Commit(Belief* belief);
 

@@ -28,13 +28,13 @@ struct S2kfSettings {
   FilterType filter = FilterType::kS2kf;
   int samples = 301;
   UpdateForm update = UpdateForm::kRegression;
-  int iterations = 1;
+  int iterations = 3;
   RootParameters root = RootParameters::kSo3;
   LimitFunction limits = LimitFunction::kSine;
 
   MotionModelType motion_model = MotionModelType::kRandomWalk;
   ProcessNoise noise = {0.3162, 0.3162, 0.1732};
-  double natural_spread = 0.7;
+  double natural_spread = 0.15;
   double velocity_decay = 0.2;
   ProcessNoise velocity_noise = {3.0, 10.0, 10.0};
 
