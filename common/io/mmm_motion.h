@@ -25,7 +25,8 @@ struct MmmMotion {
   /// ModelPose and all Kinematic sensors (1.0: the frames), on ModelPose's time grid; joint angles
   /// outside of their sensor's time are NaN; no frames where the motion has neither sensor.
   PoseTrajectory trajectory;
-  MarkerSequence markers;  ///< all MoCapMarker sensors, labelled markers only; may be empty
+  /// All MoCapMarker sensors, labelled markers only, labels sorted; may be empty.
+  MarkerSequence markers;
   Eigen::Matrix3Xd
       center_of_mass;  ///< [m] per frame of the trajectory as stored; 1.0 only, may be empty
 };

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_set>
 
 #include "common/io/mmm_measurements.h"
 #include "common/io/mmm_motion.h"
 #include "common/io/motion_timeline.h"
 #include "common/io/xml_document.h"
+#include "common/io/xml_text.h"
 #include "common/math/rotation.h"
 #include "common/support/diagnostics.h"
 #include "common/support/error.h"
@@ -148,7 +150,7 @@ void BuildTrajectory(const TimedRows& poses, const std::vector<JointRows>& joint
   trajectory.first_time = grid.first_time;
   trajectory.postures.resize(static_cast<std::size_t>(grid.num_frames()));
   const std::vector<double> frame_times = FrameTimes(grid, base->times);
-  const double hold = 0.5 / grid.rate;
+  const double hold = 0.501 / grid.rate;  // half a step and rounding
   if (poses.times.empty()) {
     diagnostics->AddWarning(line, "there are joint angles but no ModelPose; the root stays at 0");
   } else {
@@ -173,11 +175,21 @@ void BuildMarkers(const MarkerRows& rows, int line, MmmMotion* motion, Budget* b
   const TimeGrid grid = FitTimeGrid(times);
   if (!budget->Take(grid, 3 * rows.labels.size(), line)) return;
   WarnIfUneven(grid, line, diagnostics);
-  motion->markers =
-      MarkerSequence(rows.labels, static_cast<int>(grid.num_frames()), grid.rate, grid.first_time);
+  std::vector<int> order(rows.labels.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return rows.labels[a] < rows.labels[b]; });
+  std::vector<std::string> labels;
+  std::vector<int> place(order.size());
+  for (const int label : order) {
+    place[label] = static_cast<int>(labels.size());
+    labels.push_back(rows.labels[label]);
+  }
+  motion->markers = MarkerSequence(std::move(labels), static_cast<int>(grid.num_frames()),
+                                   grid.rate, grid.first_time);
   for (const MarkerRows::Sighting& sighting : rows.sightings) {
     const auto i = std::lower_bound(times.begin(), times.end(), sighting.time) - times.begin();
-    auto p_WM = motion->markers.frame(static_cast<int>(grid.frames[i])).col(sighting.label);
+    auto p_WM = motion->markers.frame(static_cast<int>(grid.frames[i])).col(place[sighting.label]);
     if (!IsSeen(p_WM)) p_WM = sighting.p_WM;
   }
 }
@@ -230,6 +242,10 @@ const MmmMotion* MmmMotionFile::Find(std::string_view motion_name) const {
   const auto found = std::find_if(motions.begin(), motions.end(),
                                   [&](const MmmMotion& m) { return m.name == motion_name; });
   return found == motions.end() ? nullptr : &*found;
+}
+
+bool LooksLikeMmmMotion(std::string_view content) {
+  return EqualIgnoringCase(RootName(content), "MMM");
 }
 
 MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file) {

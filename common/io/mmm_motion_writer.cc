@@ -5,6 +5,9 @@
 
 #include <cassert>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "common/io/xml_text.h"
 #include "common/math/rotation.h"
@@ -35,7 +38,7 @@ class RpyWriter {
       if (std::abs(std::cos(rpy.y())) < kNearLock) {
         const Eigen::Matrix3d R_zy =
             R * Eigen::AngleAxisd(-rpy_.x(), Eigen::Vector3d::UnitX()).toRotationMatrix();
-        rpy = {rpy_.x(), rpy.y(), std::atan2(-R_zy(0, 1), R_zy(1, 1))};
+        rpy = {rpy_.x(), std::atan2(-R_zy(2, 0), R_zy(2, 2)), std::atan2(-R_zy(0, 1), R_zy(1, 1))};
       }
       rpy = ContinuousRpy(rpy, rpy_);
     }
@@ -145,10 +148,14 @@ void AppendKinematic(const PoseTrajectory& trajectory, Text* text) {
   *text << "\t\t\t\t</Data>\n\t\t\t</Sensor>\n";
 }
 
+/// Labels in alphabetical order, as in real files.
 void AppendMarkers(const MarkerSequence& markers, Text* text) {
-  std::vector<std::string> starts;
-  for (const std::string& label : markers.labels()) {
-    starts.push_back("\t\t\t\t\t\t<MarkerPosition name=\"" + EscapeXml(label) + "\">");
+  std::map<std::string, int> sorted;
+  for (int i = 0; i < markers.num_labels(); ++i) sorted.emplace(markers.labels()[i], i);
+  std::vector<std::pair<std::string, int>> starts;
+  starts.reserve(sorted.size());
+  for (const auto& [label, i] : sorted) {
+    starts.emplace_back("\t\t\t\t\t\t<MarkerPosition name=\"" + EscapeXml(label) + "\">", i);
   }
   *text << "\t\t\t<Sensor type=\"MoCapMarker\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
            "\t\t\t\t<Data>\n";
@@ -156,9 +163,9 @@ void AppendMarkers(const MarkerSequence& markers, Text* text) {
     *text << "\t\t\t\t\t<Measurement timestep=\"";
     text->Seconds(markers.first_time(), markers.rate(), k) << "\">\n";
     const auto frame = markers.frame(k);
-    for (int i = 0; i < markers.num_labels(); ++i) {
+    for (const auto& [start, i] : starts) {
       if (!IsSeen(frame.col(i))) continue;
-      *text << starts[i];
+      *text << start;
       text->Millimetres(frame.col(i)) << "</MarkerPosition>\n";
     }
     *text << "\t\t\t\t\t</Measurement>\n";

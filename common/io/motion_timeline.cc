@@ -52,7 +52,8 @@ double PlainestRate(const std::vector<double>& times, const std::vector<std::int
   }
   if (!(low <= high) || std::isinf(high)) return 0;
   const double middle = 0.5 * (low + high);
-  for (double scale = 1; scale <= 1e12; scale *= 10) {
+  for (int decimals = 0; decimals <= 12; ++decimals) {
+    const double scale = std::pow(10.0, decimals);
     const double rate = std::round(middle * scale) / scale;
     if (rate > 0 && low <= rate && rate <= high) return rate;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/io/xml_text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace mmm_converter {
 namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
 
 /// Bytes of the UTF-8 sequence that starts the text; 0: it is none.
 std::size_t Utf8Length(std::string_view text) {
@@ -43,6 +46,10 @@ std::size_t AfterTag(std::string_view content, std::size_t from) {
     }
   }
   return content.size();
+}
+
+std::string_view NameAt(std::string_view content, std::size_t begin) {
+  return content.substr(begin, content.find_first_of(" \t\r\n/>", begin) - begin);
 }
 
 }  // namespace
@@ -81,7 +88,7 @@ void AppendDecimal(double value, int decimals, std::string* out) {
   constexpr std::array<double, 13> kScales = {1e0, 1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
                                               1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
   constexpr double kMostExact = 9e15;  // whole numbers up to there are exact in double precision
-  std::array<char, 400> buffer;        // holds the largest double
+  std::array<char, 400> buffer{};      // holds the largest double
   const double scaled = value * kScales[static_cast<std::size_t>(decimals)];
   if (std::abs(scaled) > kMostExact) {
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
@@ -103,6 +110,22 @@ void AppendDecimal(double value, int decimals, std::string* out) {
     digits /= 10;
   } while (digits > 0);
   out->append(begin, end);
+}
+
+std::string_view RootName(std::string_view content) {
+  if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
+  for (;;) {
+    content.remove_prefix(std::min(content.find_first_not_of(kBlanks), content.size()));
+    if (content.starts_with("<!--")) {
+      content.remove_prefix(After(content, "-->", 4));
+    } else if (content.starts_with("<?") || content.starts_with("<!")) {
+      content.remove_prefix(After(content, ">", 2));
+    } else if (content.starts_with('<')) {
+      return NameAt(content, 1);
+    } else {
+      return {};
+    }
+  }
 }
 
 XmlRange FindXmlRanges(std::string_view content, int depth) {
@@ -136,8 +159,7 @@ XmlRange FindXmlRanges(std::string_view content, int depth) {
       if (open.size() > static_cast<std::size_t>(depth) + 1) {
         too_deep += is_closed ? 0 : 1;
       } else {
-        const std::size_t name_end = content.find_first_of(" \t\r\n/>", at + 1);
-        XmlRange range{content.substr(at + 1, name_end - at - 1), at, after, after, after, {}};
+        XmlRange range{NameAt(content, at + 1), at, after, after, after, {}};
         (is_closed ? open.back().children : open).push_back(std::move(range));
       }
       at = after;

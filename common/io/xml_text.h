@@ -16,6 +16,9 @@ std::string EscapeXml(std::string_view text);
 /// "-0". value must be finite.
 void AppendDecimal(double value, int decimals, std::string* out);
 
+/// The name of the root of a text that starts like XML; empty: it does not.
+std::string_view RootName(std::string_view content);
+
 /// Where an element stands in the text of a file, in bytes.
 struct XmlRange {
   std::string_view name;

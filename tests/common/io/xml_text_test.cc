@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/xml_text.h"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "common/io/xml_document.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+std::string Decimal(double value, int decimals) {
+  std::string text;
+  AppendDecimal(value, decimals, &text);
+  return text;
+}
+
+TEST(XmlText, ShortDecimals) {
+  EXPECT_EQ(Decimal(0, 4), "0");
+  EXPECT_EQ(Decimal(-0.0, 4), "0");
+  EXPECT_EQ(Decimal(-0.00004, 4), "0");
+  EXPECT_EQ(Decimal(-0.00006, 4), "-0.0001");
+  EXPECT_EQ(Decimal(1141.02, 4), "1141.02");
+  EXPECT_EQ(Decimal(-1141, 4), "-1141");
+  EXPECT_EQ(Decimal(0.1 + 0.2, 9), "0.3");
+  EXPECT_EQ(Decimal(100, 0), "100");
+  EXPECT_EQ(Decimal(9.9999999999, 9), "10");
+  EXPECT_EQ(Decimal(1e20, 9), "100000000000000000000");
+  EXPECT_EQ(Decimal(-1.7976931348623157e308, 4).size(), 310u);
+}
+
+TEST(XmlText, DecimalsAreThePrintedOnesAndStable) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  for (int i = 0; i < 100000; ++i) {
+    const double value = mantissa(random) * std::pow(10, i % 7);
+    const std::string text = Decimal(value, 8);
+    // Half a unit of the last decimal, and what double precision loses.
+    EXPECT_NEAR(std::strtod(text.c_str(), nullptr), value, 0.5e-8 + 1e-9 * std::abs(value) * 1e-6);
+    EXPECT_EQ(Decimal(std::strtod(text.c_str(), nullptr), 8), text);
+  }
+}
+
+TEST(XmlText, EscapedTextComesBack) {
+  const std::string name = "a<b>&\"c' \xC3\xA4";
+  EXPECT_EQ(*ParseXml("<a n='" + EscapeXml(name) + "'/>", "x").FindAttribute("n"), name);
+  EXPECT_EQ(EscapeXml("Kn\xF6"), "Kn\xC3\xB6");  // Latin-1
+  EXPECT_EQ(EscapeXml(std::string("a\0\x01z", 4)), "a  z");
+  EXPECT_EQ(EscapeXml("\xE2\x82"), "\xC3\xA2\xC2\x82");  // a cut sequence
+}
+
+TEST(XmlText, FindsElementsInTheText) {
+  const std::string xml =
+      "<?xml version='1.0'?><!-- <x> --><a b='>/'><c/><d ><e>1</e><!-- </d> --></d >"
+      "<f><![CDATA[</f>]]><g><h/></g></f></a>\n";
+  const XmlRange root = FindXmlRanges(xml, 2);
+  EXPECT_EQ(root.name, "a");
+  ASSERT_EQ(root.children.size(), 3u);
+  const auto text = [&](const XmlRange& range) {
+    return xml.substr(range.begin, range.end - range.begin);
+  };
+  EXPECT_EQ(text(root.children[0]), "<c/>");
+  EXPECT_EQ(root.children[0].inner_begin, root.children[0].end);
+  EXPECT_EQ(text(root.children[1]), "<d ><e>1</e><!-- </d> --></d >");
+  EXPECT_EQ(text(root.children[1].children[0]), "<e>1</e>");
+  EXPECT_EQ(root.children[1].children[0].inner_end - root.children[1].children[0].inner_begin, 1u);
+  EXPECT_EQ(text(root.children[2]), "<f><![CDATA[</f>]]><g><h/></g></f>");
+  EXPECT_TRUE(root.children[2].children[0].children.empty());  // deeper than asked for
+  EXPECT_THROW(FindXmlRanges("<a><b></a>", 2), Error);
+  EXPECT_THROW(FindXmlRanges("", 2), Error);
+  EXPECT_THROW(FindXmlRanges("<a b='", 2), Error);
+}
+
+}  // namespace
+}  // namespace mmm_converter
