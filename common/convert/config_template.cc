@@ -14,8 +14,9 @@ constexpr const char* kShared = R"(<?xml version="1.0" encoding="UTF-8"?>
        None (it is used as it is) -->
   <Model name="Winter">
     <!-- Which label of the recording stands for which marker of the model.
-         set: a shipped marker set, or auto (the shipped set that has most of the labels).
-         Or a list; noiseScale: factor on the marker's standard deviation, above 1 trusts it less:
+         set: the name of a shipped marker set, a file of that kind, or auto (the shipped set that
+         knows most labels). Or a list; noiseScale: factor on the marker's standard deviation, above
+         1 trusts it less. Of several labels for one marker the first that is seen is taken:
          <MarkerMapping>
            <Mapping source="C7" target="MARKER_C7" noiseScale="1"/>
            ...

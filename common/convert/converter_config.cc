@@ -17,7 +17,8 @@ namespace mmm_converter {
 namespace {
 
 constexpr std::size_t kMaxConfigBytes = std::size_t{16} << 20;
-constexpr double kLargestNoiseScale = 1000;
+constexpr double kSmallestNoiseScale = 0.01;
+constexpr double kLargestNoiseScale = 100;
 
 // Reads one file. KIT's configurations for its own converter have settings that are not known here:
 // there, what is unknown is a warning.
@@ -107,25 +108,26 @@ class ConfigReader {
     }
     ReadSet(mapping, mapping.children.empty(), "<Mapping source=\"C7\" target=\"MARKER_C7\"/>",
             &config_.marker_set);
+    config_.marker_set_line = mapping.line;
   }
 
   void ReadMapping(const XmlElement& element) {
-    AllowAttributes(element, {"source", "target", "noiseScale"});
+    AllowAttributes(element, {"source", "target", "noiseScale", "warning"});
     MarkerPair pair;
     pair.source = NeededAttribute(element, "source");
     pair.target = NeededAttribute(element, "target");
+    if (const std::string* text = element.FindAttribute("warning")) pair.warning = *text;
     if (const std::string* text = element.FindAttribute("noiseScale")) {
       const auto scale = ParseDouble(*text);
-      if (!scale || !(*scale > 0 && *scale <= kLargestNoiseScale)) {
+      if (!scale || !(*scale >= kSmallestNoiseScale && *scale <= kLargestNoiseScale)) {
         diagnostics_.AddError(element.line,
                               fmt::format("<Mapping>: noiseScale=\"{}\" is not allowed; use a "
-                                          "number above 0, at most {}",
-                                          *text, kLargestNoiseScale));
+                                          "number from {} to {}",
+                                          *text, kSmallestNoiseScale, kLargestNoiseScale));
       }
       pair.noise_scale = scale.value_or(1);
     }
     CheckUnique(element, "source", pair.source, &source_lines_);
-    CheckUnique(element, "target", pair.target, &target_lines_);
     config_.marker_pairs.push_back(pair);
   }
 
@@ -221,7 +223,7 @@ class ConfigReader {
   Diagnostics diagnostics_;
   ConverterConfig config_;
   bool is_foreign_ = false;
-  std::map<std::string, int> source_lines_, target_lines_, joint_lines_;
+  std::map<std::string, int> source_lines_, joint_lines_;
 };
 
 }  // namespace

@@ -22,7 +22,8 @@ struct ConverterConfig {
   std::string type;                        ///< converter name, e.g. "S2KFConverter"
   std::string model_processor = "Winter";  ///< Model@name: "Winter" or "None" (not scaled)
   std::vector<MarkerPair> marker_pairs;    ///< empty: see marker_set
-  std::string marker_set = "auto";         ///< MarkerMapping@set: a shipped set, or "auto"
+  std::string marker_set = "auto";         ///< MarkerMapping@set, see ResolveMarkerPairs
+  int marker_set_line = 0;
   std::vector<ConfigJoint> joints;         ///< in output order; empty: see joint_set
   std::string joint_set = "auto";          ///< Joints@set, see ResolveJoints
   int joint_set_line = 0;
@@ -44,6 +45,15 @@ ConverterConfig ParseConverterConfig(const std::string& xml, const std::string& 
 /// joints if it has none.
 /// @throws Error naming file and line for an unknown or repeated joint, and for an unknown set.
 std::vector<int> ResolveJoints(const ConverterConfig& config, const KinematicModel& model);
+
+/// Which labels stand for which markers: config.marker_pairs, or else those of marker_set, as far
+/// as the model has their markers. marker_set is the name of a shipped set or of its file
+/// ("kit53"), a file ("my_set.xml", relative to the configuration), or "auto": the shipped set that
+/// knows most labels of the recording. name: the set's, or "" for a list.
+/// @throws Error where there is no such set, or no set knows three labels.
+std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
+                                           const MarkerSequence& recording,
+                                           const KinematicModel& model, std::string* name);
 
 /// The documented template of a configuration: the parts that all converters share at their
 /// defaults, then those of the plugin's settings with their present values.

@@ -36,6 +36,29 @@ std::string DidYouMean(const std::string& name, const std::vector<std::string>& 
   return closest.empty() ? "" : fmt::format(" (did you mean {}?)", closest);
 }
 
+// Breaks lines at blanks; every line but the first gets the margin, the rest of a broken one two
+// more.
+std::string Wrap(const std::string& text, const std::string& margin) {
+  constexpr std::size_t kColumns = 100;
+  std::string wrapped;
+  std::size_t column = margin.size();
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+    if (column + end - begin > kColumns && !wrapped.empty() && wrapped.back() == ' ' &&
+        column > margin.size()) {
+      wrapped.back() = '\n';
+      wrapped += margin + "  ";
+      column = margin.size() + 2;
+    }
+    wrapped += text.substr(begin, end - begin);
+    column += end - begin + 1;
+    if (end < text.size()) wrapped += text[end] == ' ' ? " " : "\n" + margin;
+    if (end < text.size() && text[end] == '\n') column = margin.size();
+    begin = end + 1;
+  }
+  return wrapped;
+}
+
 }  // namespace
 
 void SettingTable::AddElement(const std::string& element, const std::string& documentation) {
@@ -167,20 +190,19 @@ void SettingTable::ReadElement(const XmlElement& element, Diagnostics* diagnosti
 
 std::string SettingTable::ToXml(int indent) const {
   const std::string margin(indent, ' ');
+  const std::string comment_margin = margin + "     ";
   std::string xml;
   for (const auto& [element, documentation] : elements_) {
-    xml +=
-        margin + "<!-- " + documentation + (documentation.empty() ? "" : "\n" + margin + "     ");
+    std::string comment = documentation;
     std::string attributes;
-    bool is_first = true;
     for (const Setting& setting : settings_) {
       if (setting.element != element) continue;
-      xml += fmt::format("{}{}: {} ({})", is_first ? "" : "\n" + margin + "     ",
-                         setting.attribute, setting.documentation, setting.allowed);
+      comment +=
+          fmt::format("\n{}: {} ({})", setting.attribute, setting.documentation, setting.allowed);
       attributes += fmt::format("\n{}    {}=\"{}\"", margin, setting.attribute, setting.text());
-      is_first = false;
     }
-    xml += fmt::format(" -->\n{}<{}{}/>\n", margin, element, attributes);
+    xml += fmt::format("{}<!-- {} -->\n{}<{}{}/>\n", margin, Wrap(comment, comment_margin), margin,
+                       element, attributes);
   }
   return xml;
 }

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/io/mmm_model.h"
+#include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/stick_model.h"
 
 namespace mmm_converter {
@@ -102,17 +105,19 @@ TEST(ConverterConfig, ErrorsNameFileLineAndWhatIsAllowed) {
               HasSubstr("c.xml:3: <Joint>: name=\"a\" is already in line 2"));
 }
 
-TEST(ConverterConfig, RefusesMappingsThatAreNotOneToOne) {
+TEST(ConverterConfig, ALabelHasOneMarkerAMarkerCanHaveSubstitutes) {
   EXPECT_EQ(ErrorOf("<Model><MarkerMapping>\n<Mapping source='A' target='M'/>\n"
                     "<Mapping source='A' target='N'/>\n<Mapping source='B' target='M'/>\n"
                     "</MarkerMapping></Model>"),
-            "c.xml:4: <Mapping>: source=\"A\" is already in line 3; keep one of them\n"
-            "c.xml:5: <Mapping>: target=\"M\" is already in line 3; keep one of them");
-  for (const char* scale : {"0", "-1", "1001", "nan", "inf", "a"}) {
+            "c.xml:4: <Mapping>: source=\"A\" is already in line 3; keep one of them");
+}
+
+TEST(ConverterConfig, RefusesNoiseScalesOutsideTheirRange) {
+  for (const char* scale : {"0", "-1", "101", "nan", "inf", "a", ""}) {
     EXPECT_THAT(ErrorOf(std::string("<Model><MarkerMapping><Mapping source='A' target='M' "
                                     "noiseScale='") +
                         scale + "'/></MarkerMapping></Model>"),
-                HasSubstr("use a number above 0, at most 1000"))
+                HasSubstr("use a number from 0.01 to 100"))
         << scale;
   }
 }
@@ -173,6 +178,61 @@ TEST(ResolveJoints, ErrorsNameEveryUnknownJointWithItsLine) {
       ThrowsMessage<Error>(
           HasSubstr("c.xml:2: <Joints>: set=\"mmm44\" has no joint of model stick; "
                     "use auto, mmm44, mmm40, all or Upper")));
+}
+
+MarkerSequence RecordingOf(const std::vector<std::string>& labels) {
+  MarkerSequence recording(labels, 1, 100, 0);
+  recording.frame(0).setZero();
+  return recording;
+}
+
+TEST(ResolveMarkerPairs, TakesTheConfigurationsOwnList) {
+  ConverterConfig config;
+  config.marker_pairs = {{"a", "MARKER_A"}};
+  std::string name = "unchanged";
+  const auto pairs = ResolveMarkerPairs(config, RecordingOf({"a"}), testing::StickModel(), &name);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].source, "a");
+  EXPECT_EQ(name, "");
+}
+
+TEST(ResolveMarkerPairs, ChoosesAmongTheShippedSets) {
+  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  ConverterConfig config;
+  std::string name;
+  const auto pairs = ResolveMarkerPairs(config, RecordingOf({"LAEL", "LAOL", "C7"}), model, &name);
+  EXPECT_EQ(name, "KIT");
+  EXPECT_GE(pairs.size(), 53u);
+  ResolveMarkerPairs(config, RecordingOf({"LELB", "LFWT", "C7"}), model, &name);
+  EXPECT_EQ(name, "PluginGait");
+  for (const char* set : {"KIT", "kit53"}) {
+    config.marker_set = set;
+    ResolveMarkerPairs(config, RecordingOf({"LELB", "LFWT", "C7"}), model, &name);
+    EXPECT_EQ(name, "KIT");
+  }
+}
+
+TEST(ResolveMarkerPairs, ReadsASetBesideTheConfiguration) {
+  ConverterConfig config;
+  config.file = testing::SourcePath("xml_config/marker_sets/c.xml");
+  config.marker_set = "kit53.xml";
+  std::string name;
+  // The stick model has none of the set's markers.
+  EXPECT_THAT(ResolveMarkerPairs(config, RecordingOf({"C7"}), testing::StickModel(), &name),
+              IsEmpty());
+  EXPECT_EQ(name, "KIT");
+}
+
+TEST(ResolveMarkerPairs, SaysWhichSetsThereAre) {
+  ConverterConfig config = Parse("<Model>\n<MarkerMapping set='kit'/></Model>");
+  config.marker_set = "kti53";
+  EXPECT_THAT(
+      [&] {
+        std::string name;
+        ResolveMarkerPairs(config, RecordingOf({"C7"}), testing::StickModel(), &name);
+      },
+      ThrowsMessage<Error>(HasSubstr("c.xml:3: <MarkerMapping>: there is no marker set \"kti53\" "
+                                     "(did you mean kit53?)")));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -118,6 +120,20 @@ TEST(SettingTable, TemplateIsReadBackToTheSameValues) {
   EXPECT_EQ(again.robust, values.robust);
   EXPECT_EQ(again.kind, values.kind);
   EXPECT_THAT(xml, HasSubstr("white noise of a marker (a number from 0.001 to 100)"));
+  EXPECT_THAT(xml, HasSubstr("  <Filter\n      kind=\"ukf\"\n"));
+}
+
+TEST(SettingTable, BreaksLongDocumentation) {
+  double value = 1;
+  SettingTable table;
+  std::string words;
+  for (int i = 0; i < 30; ++i) words += "documentation ";
+  table.AddElement("Noise", words);
+  table.Add("Noise", "value", &value, 1, 0, 1, words);
+  std::istringstream lines(table.ToXml(2));
+  int number = 0;
+  for (std::string line; std::getline(lines, line); ++number) EXPECT_LE(line.size(), 104u) << line;
+  EXPECT_GT(number, 8);
 }
 
 TEST(SettingTable, WritesConversionsToSiWithoutTheirRounding) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "common/convert/plugin_loader.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kOptions = {
+    {"Options",
+     {{"plugin", "FILE", "the converter of this plugin file", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF print-config NAME
+Prints the configuration of a converter with every setting, documented, at its default.
+
+{}Examples
+  MMMConverterS2KF print-config S2KFConverter > my.xml
+  MMMConverterS2KF print-config --plugin build/MyConverter.so
+)";
+
+}  // namespace
+
+void RunPrintConfig(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("print-config", kOptions, words);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
+  } else if (const auto file = arguments.Get("plugin")) {
+    std::cout << LoadedPlugin(*file).factory().config_template();
+  } else if (arguments.positional()) {
+    std::cout << LoadPluginByName(*arguments.positional()).factory().config_template();
+  } else {
+    throw UsageError(
+        "print-config: which converter? For instance: MMMConverterS2KF print-config "
+        "S2KFConverter");
+  }
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/log.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kMisused = 2;
+
+constexpr std::array kCommands = {
+    Command{"convert", "a recording in, an MMM motion out", RunConvert},
+    Command{"info", "what is in a recording, motion, model, configuration or plugin", RunInfo},
+    Command{"print-config", "a converter's configuration with every setting", RunPrintConfig}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF {}: motion capture markers to MMM motions
+
+Commands (each has --help)
+{}
+Examples
+  MMMConverterS2KF info walk.c3d
+  MMMConverterS2KF convert walk.c3d --height 1.75 -o walk_mmm.xml
+  MMMConverterS2KF print-config S2KFConverter > my.xml
+
+Environment
+  MMM_CONVERTER_PLUGIN_PATH  folders with more converter plugins, separated by colons
+  MMM_CONVERTER_DATA         folder of models, marker sets and configurations, instead of the shipped
+
+Exit codes: 0 done, 1 input or conversion failed, 2 not understood
+)";
+
+void PrintHelp() {
+  std::string commands;
+  for (const Command& command : kCommands) {
+    commands += fmt::format("  {:<13} {}\n", command.name, command.summary);
+  }
+  std::cout << fmt::format(kUsage, MMM_CONVERTER_VERSION, commands);
+}
+
+void Run(const std::vector<std::string>& words) {
+  const std::string first = words.empty() ? "--help" : words.front();
+  if (first == "--help" || first == "-h" || first == "help") return PrintHelp();
+  if (first == "--version") {
+    std::cout << "MMMConverterS2KF " MMM_CONVERTER_VERSION "\n";
+    return;
+  }
+  // A script that calls MMMMotionConverter names no command.
+  if (std::find(words.begin(), words.end(), "--inputMotion") != words.end() && first[0] == '-') {
+    return RunConvert(words);
+  }
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) {
+    if (first == command.name) return command.run({words.begin() + 1, words.end()});
+    names.emplace_back(command.name);
+  }
+  const std::string closest = ClosestName(first, names);
+  throw UsageError(fmt::format("unknown command \"{}\"{}; use {}", first,
+                               closest.empty() ? "" : " (did you mean " + closest + "?)",
+                               JoinNames(names)));
+}
+
+}  // namespace
+}  // namespace mmm_converter
+
+int main(int argc, char** argv) {
+  using mmm_converter::LogError;
+  try {
+    mmm_converter::StartLog("info");
+    mmm_converter::Run({argv + 1, argv + argc});
+    std::cout.flush();
+    if (!std::cout) throw mmm_converter::Error("can't write to the standard output");
+    return 0;
+  } catch (const mmm_converter::UsageError& error) {
+    LogError(error.what());
+    return mmm_converter::kMisused;
+  } catch (const mmm_converter::Error& error) {
+    LogError(error.what());
+    return mmm_converter::kFailed;
+  } catch (const std::exception& error) {
+    LogError(fmt::format("unexpected: {}", error.what()));
+    return mmm_converter::kFailed;
+  }
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/motion_output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "common/io/file_content.h"
+#include "common/io/mmm_motion.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string MotionName(const ConversionRequest& request, const Recording& recording) {
+  if (!request.motion_name.empty()) return request.motion_name;
+  if (!recording.motion.empty()) return recording.motion;
+  if (!recording.subject.empty()) return recording.subject;
+  return fs::path(request.input).stem().string();
+}
+
+bool IsMmm2(const Recording& recording) { return recording.format == "MMM 2.0"; }
+
+// The file's markers stay as they are if the motion is in the same coordinates.
+bool AreMarkersAsInFile(const Recording& recording) {
+  return recording.up_axis == UpAxis::kZ && recording.unit == "mm";
+}
+
+std::string Format(const MmmMotionOutput& output, const ConversionRequest& request,
+                   ConversionReport* report) {
+  const Recording& recording = report->recording;
+  if (report->output_format == "2.0" && IsMmm2(recording)) {
+    MmmMotionOutput converted = output;
+    converted.motion_name = recording.motion;
+    if (AreMarkersAsInFile(recording)) converted.markers = nullptr;
+    return WithConvertedMotion(ReadFileContent(request.input), request.input, converted);
+  }
+  if (recording.format.starts_with("MMM")) {
+    const std::size_t motions = ReadMmmMotionFile(request.input).motions.size();
+    if (motions > 1) {
+      report->warnings.push_back(
+          fmt::format("{}: has {} motions; the output has the converted one "
+                      "only (MMM 2.0 in and out keeps all)",
+                      request.input, motions));
+    }
+  }
+  return report->output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
+}
+
+}  // namespace
+
+std::string ChooseOutput(const ConversionRequest& request, const Recording& recording) {
+  std::string output = request.output;
+  if (output.empty()) {
+    const fs::path input = request.input;
+    output = (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
+  }
+  std::error_code failure;
+  const bool keeps_all = IsMmm2(recording) && request.output_format != "1.0";
+  if (!keeps_all && fs::equivalent(output, request.input, failure)) {
+    throw Error(
+        fmt::format("{}: is the recording itself, which would be lost; give another file "
+                    "with -o",
+                    output));
+  }
+  return output;
+}
+
+void WriteMotion(const ConversionRequest& request, ConversionReport* report) {
+  report->motion_name = MotionName(request, report->recording);
+  MmmMotionOutput output;
+  output.recording_name = fs::path(request.input).stem().string();
+  output.motion_name = report->motion_name;
+  output.model_path = !request.model_path.empty()
+                          ? request.model_path
+                          : ModelPathFor(report->model_file, report->output);
+  output.height = report->height.value;
+  output.mass = report->mass.value;
+  output.hand_length = report->hand_length;
+  output.trajectory = &report->result.trajectory;
+  output.markers = &report->recording.markers;
+  WriteFileAtomically(report->output, Format(output, request, report));
+}
+
+}  // namespace mmm_converter

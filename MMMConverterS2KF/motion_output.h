@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "MMMConverterS2KF/pipeline.h"
+
+namespace mmm_converter {
+
+/// Where the motion goes: request.output, or else the input's stem + "_mmm.xml" beside it.
+/// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
+std::string ChooseOutput(const ConversionRequest& request, const Recording& recording);
+
+/// Writes report.result. Of an MMM 2.0 recording, all other motions and sensors are kept as they
+/// are.
+void WriteMotion(const ConversionRequest& request, ConversionReport* report);
+
+}  // namespace mmm_converter

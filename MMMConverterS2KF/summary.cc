@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/math/statistics.h"
+#include "common/motion/marker_residuals.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMillimetres = 1000;  // in a metre
+constexpr double kMilliseconds = 1000;
+
+std::vector<double> FrameTimes(const ConversionReport& report) {
+  std::vector<double> times;
+  for (const FrameDiagnostic& frame : report.result.frames) {
+    if (frame.seconds > 0) times.push_back(kMilliseconds * frame.seconds);
+  }
+  return times;
+}
+
+template <typename Predicate>
+int CountFrames(const ConversionReport& report, Predicate is_counted) {
+  return static_cast<int>(
+      std::count_if(report.result.frames.begin(), report.result.frames.end(), is_counted));
+}
+
+int FramesNotConverged(const ConversionReport& report) {
+  return CountFrames(report, [](const FrameDiagnostic& f) { return !f.converged; });
+}
+
+int FramesReassembled(const ConversionReport& report) {
+  return CountFrames(report, [](const FrameDiagnostic& f) { return f.reassembled; });
+}
+
+// JSON has no NaN.
+Json Number(double value, double step = 1e-4) {
+  return std::isfinite(value) ? Json(std::round(value / step) * step) : Json(nullptr);
+}
+
+Json ToJson(const ResidualSummary& distance) {
+  return {{"mean", Number(kMillimetres * distance.mean)},
+          {"p95", Number(kMillimetres * distance.p95)},
+          {"max", Number(kMillimetres * distance.max)}};
+}
+
+Json DescribeInput(const ConversionReport& report) {
+  const Recording& recording = report.recording;
+  return {{"file", recording.file},
+          {"format", recording.format},
+          {"subject", recording.subject},
+          {"motion", recording.motion},
+          {"unit", recording.unit},
+          {"unit_guessed", recording.unit_was_guessed},
+          {"up_axis", Name(recording.up_axis)},
+          {"up_axis_decided_from_markers", recording.up_axis_was_decided},
+          {"first_frame", report.first_frame},
+          {"labels", recording.markers.labels()}};
+}
+
+Json DescribePerson(const ConversionReport& report) {
+  Json person = {{"height_m", Number(report.height.value)},
+                 {"height_source", report.height.source},
+                 {"mass_kg", Number(report.mass.value)},
+                 {"mass_source", report.mass.source}};
+  if (report.hand_length) person["hand_length_m"] = Number(*report.hand_length);
+  return person;
+}
+
+Json DescribeMarkers(const ConversionReport& report) {
+  Json used = Json::array();
+  const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
+  for (std::size_t i = 0; i < report.mapping.assignments.size(); ++i) {
+    const MarkerAssignment& assignment = report.mapping.assignments[i];
+    used.push_back({{"label", report.recording.markers.labels()[assignment.label]},
+                    {"marker", report.model_markers[assignment.marker]},
+                    {"noise_scale", assignment.noise_scale},
+                    {"frames_seen", distances[i].seen},
+                    {"distance_mm", ToJson(distances[i])}});
+  }
+  return {{"set", report.marker_set},
+          {"used", used},
+          {"ignored", report.mapping.ignored_labels},
+          {"absent", report.mapping.absent_markers}};
+}
+
+std::string WorstMarkers(const ConversionReport& report) {
+  std::vector<std::pair<double, std::string>> means;
+  const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double mean = kMillimetres * distances[i].mean;
+    const int label = report.mapping.assignments[i].label;
+    if (!std::isnan(mean)) means.emplace_back(mean, report.recording.markers.labels()[label]);
+  }
+  std::sort(means.rbegin(), means.rend());
+  means.resize(std::min<std::size_t>(means.size(), 3));
+  std::vector<std::string> texts;
+  for (const auto& [mean, label] : means) texts.push_back(fmt::format("{} {:.1f}", label, mean));
+  return JoinNames(texts, ", ");
+}
+
+std::string DescribePersonShortly(const ConversionReport& report) {
+  if (report.height.value <= 0) return report.height.source;
+  return fmt::format("{:.3g} m ({}), {:.4g} kg ({})", report.height.value, report.height.source,
+                     report.mass.value, report.mass.source);
+}
+
+std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
+  std::string text = fmt::format("{} used", mapping.assignments.size());
+  if (!mapping.absent_markers.empty()) {
+    text += fmt::format(", {} not in the recording ({})", mapping.absent_markers.size(),
+                        JoinNames(mapping.absent_markers, ", "));
+  }
+  if (!mapping.ignored_labels.empty()) {
+    text += fmt::format(", {} labels ignored", mapping.ignored_labels.size());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string FormatSummary(const ConversionReport& report) {
+  const Recording& recording = report.recording;
+  const MarkerSequence& markers = recording.markers;
+  const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
+  const std::vector<double> times = FrameTimes(report);
+  std::string text;
+  text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
+                      recording.format, markers.num_frames(), markers.rate(), recording.unit,
+                      recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
+  text += fmt::format("person     {}\n", DescribePersonShortly(report));
+  text += fmt::format("model      {}, {} joints tracked\n", report.model_file,
+                      report.result.trajectory.joint_names.size());
+  text += fmt::format("converter  {}, {}\n", report.converter, report.config.file);
+  text += fmt::format("markers    {}{}\n", DescribeMarkersShortly(report.mapping),
+                      report.marker_set.empty() ? "" : ", marker set " + report.marker_set);
+  text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
+                      kMillimetres * distance.mean, kMillimetres * distance.p95,
+                      kMillimetres * distance.max, WorstMarkers(report));
+  text += fmt::format("frames     {} with missing markers, {} not converged, {} taken up anew\n",
+                      FramesWithMissingMarkers(report.result.residuals), FramesNotConverged(report),
+                      FramesReassembled(report));
+  text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", Median(times),
+                      Percentile(times, 99));
+  text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
+                      report.motion_name);
+  return text;
+}
+
+std::string FormatSummaryJson(const ConversionReport& report) {
+  const MarkerSequence& markers = report.recording.markers;
+  const std::vector<double> times = FrameTimes(report);
+  const Json summary = {
+      {"input", DescribeInput(report)},
+      {"frames", markers.num_frames()},
+      {"rate_hz", markers.rate()},
+      {"output", report.output},
+      {"output_format", report.output_format},
+      {"motion", report.motion_name},
+      {"model", report.model_file},
+      {"person", DescribePerson(report)},
+      {"converter", report.converter},
+      {"plugin", report.plugin_file},
+      {"configuration", report.config.file},
+      {"joints", report.result.trajectory.joint_names},
+      {"markers", DescribeMarkers(report)},
+      {"distance_mm", ToJson(SummarizeResiduals(report.result.residuals))},
+      {"frames_with_missing_markers", FramesWithMissingMarkers(report.result.residuals)},
+      {"frames_not_converged", FramesNotConverged(report)},
+      {"frames_reassembled", FramesReassembled(report)},
+      {"ms_per_frame", {{"median", Number(Median(times))}, {"p99", Number(Percentile(times, 99))}}},
+      {"warnings", report.warnings}};
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace mmm_converter

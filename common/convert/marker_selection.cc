@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_set.h"
+#include "common/support/data_directory.h"
+#include "common/support/error.h"
+#include "common/support/suggestion.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string StemOf(const MarkerSet& set) { return fs::path(set.file).stem().string(); }
+
+const MarkerSet& FindSet(const std::vector<MarkerSet>& sets, const ConverterConfig& config) {
+  std::vector<std::string> names;
+  for (const MarkerSet& set : sets) {
+    if (EqualIgnoringCase(set.name, config.marker_set) ||
+        EqualIgnoringCase(StemOf(set), config.marker_set)) {
+      return set;
+    }
+    names.push_back(StemOf(set));
+  }
+  const std::string closest = ClosestName(config.marker_set, names);
+  names.emplace_back("auto");
+  throw Error(
+      fmt::format("{}:{}: <MarkerMapping>: there is no marker set \"{}\"{}; use {}, or a file "
+                  "(*.xml)",
+                  config.file, config.marker_set_line, config.marker_set,
+                  closest.empty() ? "" : " (did you mean " + closest + "?)", JoinNames(names)));
+}
+
+}  // namespace
+
+std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
+                                           const MarkerSequence& recording,
+                                           const KinematicModel& model, std::string* name) {
+  name->clear();
+  if (!config.marker_pairs.empty()) return config.marker_pairs;
+  if (config.marker_set.ends_with(".xml")) {
+    const MarkerSet set =
+        ReadMarkerSet((fs::path(config.file).parent_path() / config.marker_set).string());
+    *name = set.name;
+    return PairsInModel(set, model);
+  }
+  const std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
+  const MarkerSet& set =
+      config.marker_set == "auto" ? ChooseMarkerSet(sets, recording) : FindSet(sets, config);
+  *name = set.name;
+  return PairsInModel(set, model);
+}
+
+}  // namespace mmm_converter
