@@ -179,20 +179,22 @@ std::size_t FrameBytes(const MmmMotionOutput& output) {
   return 400 + 16 * output.trajectory->joint_names.size() + 80 * markers;
 }
 
-/// The joint rows of a 1.0 frame end in a blank, as in real files.
-void AppendLegacyRow(std::string_view name, const Eigen::Ref<const Eigen::VectorXd>& values,
-                     Text* text) {
-  *text << "\t\t\t\t<" << name << ">";
-  text->Radians(values) << (values.size() > 0 ? " </" : "</") << name << ">\n";
+/// A joint row of a 1.0 frame, which ends in a blank as in real files.
+std::string LegacyRow(std::string_view name, const Eigen::Ref<const Eigen::VectorXd>& values) {
+  Text text;
+  text << "\t\t\t\t<" << name << ">";
+  text.Radians(values) << (values.size() > 0 ? " </" : "</") << name << ">\n";
+  return text.Take();
 }
 
 void AppendLegacyFrames(const MmmMotionOutput& output, Text* text) {
   const PoseTrajectory& trajectory = *output.trajectory;
   const Eigen::VectorXd zeros =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trajectory.joint_names.size()));
-  const auto rates = [&](const Eigen::MatrixXd* given, int k) -> Eigen::VectorXd {
-    return given != nullptr ? given->col(k) : zeros;
-  };
+  const std::string no_velocity = LegacyRow("JointVelocity", zeros);
+  const std::string no_acceleration = LegacyRow("JointAcceleration", zeros);
+  const Eigen::MatrixXd* velocities = output.joint_velocities;
+  const Eigen::MatrixXd* accelerations = output.joint_accelerations;
   RpyWriter rpy;
   for (int k = 0; k < trajectory.num_frames(); ++k) {
     const Posture& q = trajectory.postures[k];
@@ -201,9 +203,10 @@ void AppendLegacyFrames(const MmmMotionOutput& output, Text* text) {
         << "</Timestep>\n\t\t\t\t<RootPosition>";
     text->Millimetres(q.position) << "</RootPosition>\n\t\t\t\t<RootRotation>";
     text->Radians(rpy.Next(q.orientation)) << "</RootRotation>\n";
-    AppendLegacyRow("JointPosition", q.joint_angles, text);
-    AppendLegacyRow("JointVelocity", rates(output.joint_velocities, k), text);
-    AppendLegacyRow("JointAcceleration", rates(output.joint_accelerations, k), text);
+    *text << LegacyRow("JointPosition", q.joint_angles)
+          << (velocities != nullptr ? LegacyRow("JointVelocity", velocities->col(k)) : no_velocity)
+          << (accelerations != nullptr ? LegacyRow("JointAcceleration", accelerations->col(k))
+                                       : no_acceleration);
     *text << "\t\t\t</MotionFrame>\n";
   }
 }

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <random>
 
 #include "common/io/mmm_motion.h"
+#include "common/io/xml_document.h"
 #include "common/support/error.h"
 #include "tests/common/io/mmm_motion_samples.h"
 
@@ -123,6 +125,27 @@ TEST(MmmMotionEdit, SaysWhyItCannot) {
   EXPECT_THAT(MessageOf("<MMM><Motion name='a'/></MMM>", "a"), HasSubstr("has no <Sensors>"));
   EXPECT_THAT(MessageOf("<Robot/>", "a"), HasSubstr("the root is <Robot>"));
   EXPECT_THAT(MessageOf("<MMM>", "a"), HasSubstr("not well-formed"));
+}
+
+// Where a damaged file is still XML, the edited one is XML too.
+TEST(MmmMotionEdit, DamagedFilesAreEditedOrRefused) {
+  const PoseTrajectory trajectory = OneFrame();
+  std::mt19937_64 random(3);
+  const std::string_view bytes("<>/='\"!-?[]& aM\0\xFF", 18);
+  int edited = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string content = kFile;
+    for (int n = 0; n < 1 + i % 3; ++n) content[random() % content.size()] = bytes[random() % 18];
+    try {
+      const std::string text =
+          WithConvertedMotion(content, "walk.xml", Output(trajectory, "human"));
+      EXPECT_NO_THROW(ParseXml(text, "own.xml")) << content;
+      ++edited;
+      ParseMmmMotionFile(content, "walk.xml");
+    } catch (const Error&) {
+    }
+  }
+  EXPECT_GT(edited, 1000);
 }
 
 TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
