@@ -35,8 +35,12 @@ double SeededRandom::Normal() {
 int SeededRandom::Poisson(double mean) {
   assert(mean >= 0 && mean <= 700);  // beyond, exp(-mean) underflows
   const double limit = std::exp(-mean);
+  double product = Uniform();
   int count = 0;
-  for (double product = Uniform(); product > limit; product *= Uniform()) ++count;
+  while (product > limit) {
+    product *= Uniform();
+    ++count;
+  }
   return count;
 }
 

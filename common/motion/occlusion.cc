@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "common/math/seeded_random.h"
 #include "common/support/error.h"
@@ -51,8 +52,8 @@ MarkerSequence OccludeShare(MarkerSequence sequence, double share, double mean_f
                             std::uint64_t seed) {
   assert(share >= 0 && share <= 1);
   SeededRandom random(seed);
-  std::vector<int> visible;
-  for (int i = 0; i < sequence.num_labels(); ++i) visible.push_back(i);
+  std::vector<int> visible(sequence.num_labels());
+  std::iota(visible.begin(), visible.end(), 0);
   struct Hidden {
     int marker;
     int frames_left;

@@ -32,7 +32,7 @@ struct Contact {
 constexpr double kHandOver = 0.3;  // [s]
 
 struct Script {
-  int num_frames;
+  int num_frames = 0;
   std::vector<double> times;
   Keyframes keyframes;
   std::vector<Contact> contacts;

@@ -11,9 +11,10 @@ namespace mmm_converter {
 namespace {
 
 MarkerSequence FullSequence(int num_labels, int num_frames) {
-  std::vector<std::string> labels;
-  for (int i = 0; i < num_labels; ++i)
-    labels.push_back(std::string(1, 'M').append(std::to_string(i)));
+  std::vector<std::string> labels(num_labels);
+  for (int i = 0; i < num_labels; ++i) {
+    labels[i] = std::string(1, 'M').append(std::to_string(i));
+  }
   MarkerSequence sequence(labels, num_frames, 100, 0);
   for (int k = 0; k < num_frames; ++k) {
     for (int i = 0; i < num_labels; ++i) sequence.frame(k).col(i) = Eigen::Vector3d(k, i, 1);
