@@ -2,6 +2,7 @@
 #include "plugins/s2kf/lcd_sampling.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -37,7 +38,7 @@ class LcdSamplingTest : public ::testing::Test {
  protected:
   void SetUp() override {
     const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::temp_directory_path() / ("mmm_converter_lcd_" + name);
+    folder_ = fs::temp_directory_path() / ("mmm_converter_lcd_" + name + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
