@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "common/convert/converter_config.h"
+#include "common/fit/height_estimate.h"
 #include "common/io/processor_config.h"
 #include "common/model/model_scaling.h"
-#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -23,9 +24,17 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
   return std::nullopt;
 }
 
-PersonValue Estimate(const ConversionReport& report) {
-  throw Error(report.recording.file +
-              ": says nothing of the person's height; give --height in metres, e.g. --height 1.75");
+PersonValue Estimate(const KinematicModel& reference, const ConversionReport& report) {
+  std::vector<int> markers;
+  std::vector<int> labels;
+  for (const MarkerAssignment& assignment : report.mapping.assignments) {
+    markers.push_back(assignment.marker);
+    labels.push_back(assignment.label);
+  }
+  const HeightEstimate estimate =
+      EstimateHeight(reference, ResolveJoints(report.config, reference), markers, labels,
+                     report.recording.markers);
+  return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
 }
 
 }  // namespace
@@ -50,7 +59,7 @@ KinematicModel ScaleToPerson(const ConversionRequest& request, const KinematicMo
   const auto mass = Choose(request.mass, file.mass, request.processor_file, recording.mass);
   const auto hand_length =
       Choose(request.hand_length, file.hand_length, request.processor_file, recording.hand_length);
-  report->height = height ? *height : Estimate(*report);
+  report->height = height ? *height : Estimate(reference, *report);
   report->mass = mass ? *mass : PersonValue{kAssumedMass, "assumed"};
   if (hand_length) report->hand_length = hand_length->value;
   return ScaleWinter(reference, {report->height.value, report->mass.value, report->hand_length});

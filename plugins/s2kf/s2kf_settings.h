@@ -33,7 +33,7 @@ struct S2kfSettings {
   LimitFunction limits = LimitFunction::kSine;
 
   MotionModelType motion_model = MotionModelType::kRandomWalk;
-  ProcessNoise noise = {0.3162, 0.3162, 0.1732};
+  ProcessNoise noise = {0.3, 0.3, 0.17};
   double natural_spread = 0.15;
   double velocity_decay = 0.2;
   ProcessNoise velocity_noise = {3.0, 10.0, 10.0};
