@@ -12,6 +12,7 @@
 #include "common/io/mmm_motion.h"
 #include "common/io/recording_axes.h"
 #include "common/io/trc_reader.h"
+#include "common/io/xml_text.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -174,28 +175,16 @@ void ReadMmm(std::string_view content, const ReadRecordingOptions& options, Reco
   }
 }
 
-/// The root element, if text starts like XML; empty otherwise.
-std::string RootName(std::string_view start) {
-  if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
-  if (!Trim(start).starts_with('<')) return "";
-  for (std::size_t at = 0; (at = start.find('<', at)) != std::string_view::npos; ++at) {
-    if (start.substr(at).starts_with("<!--")) {
-      at = std::min(start.find("-->", at), start.size() - 1);
-    } else if (at + 1 < start.size() && start[at + 1] != '?' && start[at + 1] != '!') {
-      return std::string(start.substr(at + 1, start.find_first_of(" \t\r\n/>", at + 1) - at - 1));
-    }
-  }
-  return "(none)";
-}
-
 void ReadText(std::string_view start, const ReadRecordingOptions& options, Recording* recording) {
   const std::string& file = recording->file;
-  const std::string root = RootName(start);
-  if (EqualIgnoringCase(root, "MMM")) return ReadMmm(ReadFileContent(file), options, recording);
-  if (!root.empty()) {
+  const bool markup =
+      Trim(start.substr(start.starts_with("\xEF\xBB\xBF") ? 3 : 0)).starts_with('<');
+  if (markup) {
+    const std::string content = ReadFileContent(file);
+    if (LooksLikeMmmMotion(content)) return ReadMmm(content, options, recording);
     throw Error(
         fmt::format("{}: is XML or a web page with the root <{}>, not an MMM motion (<MMM>)", file,
-                    root.substr(0, 40)));
+                    RootName(content).substr(0, 40)));
   }
   if (start.starts_with("version https://git-lfs")) {
     throw Error(fmt::format(
