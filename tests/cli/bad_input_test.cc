@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "common/io/c3d_writer.h"
+#include "common/motion/marker_sequence.h"
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/test_plugins.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::AllOf;
+using testing::Handstand;
+using ::testing::HasSubstr;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::SourcePath;
+using ::testing::StartsWith;
+using testing::TestFolder;
+using testing::WriteText;
+
+std::set<std::string> Names(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    names.insert(entry.path().filename());
+  }
+  return names;
+}
+
+// Fails with one line, exit code 1 or 2, and leaves an existing output as it was.
+void ExpectRefused(std::vector<std::string> arguments, const std::string& message) {
+  const std::string output = TestFolder() + "/out.xml";
+  WriteText(output, "as it was");
+  const std::set<std::string> before = Names(TestFolder());
+  arguments.insert(arguments.begin(), "convert");
+  arguments.insert(arguments.end(), {"-o", output, "--summary", TestFolder() + "/summary.json"});
+  const auto run = RunProgram(arguments);
+  EXPECT_TRUE(run.exit_code == 1 || run.exit_code == 2) << run.exit_code;
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, AllOf(StartsWith("error: "), HasSubstr(message)));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_EQ(ReadText(output), "as it was");
+  EXPECT_EQ(Names(TestFolder()), before);
+}
+
+// As the sample, with other labels or gaps.
+std::string WriteRecording(const std::vector<std::string>& labels, int num_seen) {
+  MarkerSequence markers(labels, 200, 100, 0);
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    for (int i = 0; i < num_seen; ++i) markers.frame(k).col(i) = Eigen::Vector3d(0.1 * i, 0.5, 1);
+  }
+  const std::string file = TestFolder() + "/recording.c3d";
+  WriteC3d(file, markers);
+  return file;
+}
+
+std::string ModelWith(const std::string& old_text, const std::string& new_text) {
+  std::string xml = ReadText(SourcePath("xml_config/models/mmm.xml"));
+  const std::size_t place = xml.find(old_text);
+  EXPECT_NE(place, std::string::npos);
+  xml.replace(place, old_text.size(), new_text);
+  const std::string file = TestFolder() + "/model.xml";
+  WriteText(file, xml);
+  return file;
+}
+
+std::string ConfigWith(const std::string& inside) {
+  const std::string file = TestFolder() + "/config.xml";
+  WriteText(file, "<ConverterConfig type='S2KFConverter'>\n" + inside + "\n</ConverterConfig>\n");
+  return file;
+}
+
+TEST(BadInput, NoSuchFile) {
+  ExpectRefused({TestFolder() + "/nothing.c3d", "--height", "1.8"}, "nothing.c3d: no such file");
+}
+
+TEST(BadInput, AFolder) { ExpectRefused({TestFolder(), "--height", "1.8"}, TestFolder()); }
+
+TEST(BadInput, EmptyFile) {
+  WriteText(TestFolder() + "/empty.c3d", "");
+  ExpectRefused({TestFolder() + "/empty.c3d", "--height", "1.8"}, "empty.c3d");
+}
+
+TEST(BadInput, TextNamedC3d) {
+  WriteText(TestFolder() + "/notes.c3d", "These are my notes of the session.\n");
+  ExpectRefused({TestFolder() + "/notes.c3d", "--height", "1.8"}, "notes.c3d");
+}
+
+TEST(BadInput, TruncatedFile) {
+  const std::string whole = ReadText(Handstand());
+  for (const std::size_t size : {2u, 100u, 512u, 700u}) {
+    WriteText(TestFolder() + "/cut.c3d", whole.substr(0, size));
+    ExpectRefused({TestFolder() + "/cut.c3d", "--height", "1.8"}, "cut.c3d");
+  }
+}
+
+TEST(BadInput, NoKnownLabel) {
+  ExpectRefused({WriteRecording({"X1", "X2", "X3", "X4"}, 4), "--height", "1.8"}, "X1, X2, X3, X4");
+}
+
+TEST(BadInput, FewerThanThreeMarkers) {
+  ExpectRefused({WriteRecording({"C7", "CLAV", "STRN", "T10"}, 2), "--height", "1.8"}, "marker");
+}
+
+TEST(BadInput, Height) {
+  for (const char* height : {"17.5", "0", "0.3", "175"}) {
+    ExpectRefused({Handstand(), "--height", height}, "height");
+  }
+}
+
+TEST(BadInput, CrossedLimits) {
+  const std::string model =
+      ModelWith("<Limits lo=\"-10\" hi=\"10\"", "<Limits lo=\"10\" hi=\"-10\"");
+  ExpectRefused({Handstand(), "--height", "1.8", "--model", model}, "model.xml:");
+}
+
+TEST(BadInput, UnknownJoint) {
+  const std::string config =
+      ConfigWith("<Model><Joints><Joint name='LKz_joint'/></Joints></Model>");
+  ExpectRefused({Handstand(), "--height", "1.8", "-c", config}, "config.xml:2: model");
+}
+
+TEST(BadInput, UnknownSetting) {
+  ExpectRefused({Handstand(), "--height", "1.8", "-c", ConfigWith("<Filter sample='93'/>")},
+                "config.xml:2: <Filter>: unknown attribute sample (did you mean samples?)");
+  ExpectRefused({Handstand(), "--height", "1.8", "-c", ConfigWith("<Noise><X/></Noise>")},
+                "config.xml:2: <X> can't be inside <Noise>");
+  ExpectRefused({Handstand(), "--height", "1.8", "-c", Handstand()}, "handstand.c3d");
+}
+
+TEST(BadInput, UnknownMarkerInMapping) {
+  ExpectRefused({Handstand(), "--height", "1.8", "-c",
+                 ConfigWith("<Model><MarkerMapping><Mapping source='C7' target='MARKER_C8'/>"
+                            "</MarkerMapping></Model>")},
+                "MARKER_C8");
+}
+
+TEST(BadInput, Plugins) {
+  ExpectRefused({Handstand(), "--height", "1.8", "--plugin", SourcePath("LICENSE")},
+                "can't be loaded as a shared library");
+  ExpectRefused({Handstand(), "--height", "1.8", "--plugin", testing::TestPlugin("old_version")},
+                "interface version");
+  ExpectRefused({Handstand(), "--height", "1.8", "--converter", "NoConverter"},
+                "there is no converter \"NoConverter\"");
+}
+
+TEST(BadInput, Frames) {
+  ExpectRefused({Handstand(), "--height", "1.8", "--frames", "5:5"}, "--frames 5:5");
+  ExpectRefused({Handstand(), "--height", "1.8", "--frames", "675:"}, "has no frame");
+}
+
+TEST(BadInput, OverridesThatDoNotExist) {
+  ExpectRefused({Handstand(), "--height", "1.8", "--unit", "furlong"}, "furlong");
+  ExpectRefused({Handstand(), "--height", "1.8", "--up", "w"}, "\"w\"");
+  ExpectRefused({Handstand(), "--height", "1.8", "--subject", "nobody"}, "nobody");
+}
+
+TEST(BadInput, OutputThatCannotBeWritten) {
+  const auto run =
+      RunProgram(testing::WithTestConverter({"convert", Handstand(), "--height", "1.8", "--frames",
+                                             ":3", "-o", TestFolder() + "/no/such/folder/o.xml"}));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("/no/such/folder"));
+}
+
+TEST(BadInput, TheRecordingItselfIsNeverOverwritten) {
+  const std::string input = TestFolder() + "/walk.c3d";
+  std::filesystem::copy_file(Handstand(), input);
+  const auto run = RunProgram({"convert", input, "--height", "1.8", "-o", input});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("is the recording itself"));
+  EXPECT_EQ(ReadText(input), ReadText(Handstand()));
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/test_plugins.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::RunProgram;
+using ::testing::StartsWith;
+
+TEST(Help, IsPrintedWithoutArgumentsToo) {
+  const auto run = RunProgram({});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("convert"), HasSubstr("print-config"), HasSubstr("Examples"),
+                             HasSubstr("Exit codes")));
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(RunProgram({"--help"}).out, run.out);
+  EXPECT_EQ(RunProgram({"help"}).out, run.out);
+}
+
+TEST(Help, EveryCommandHasOneWithExamples) {
+  for (const char* command : {"convert", "info", "print-config"}) {
+    const auto run = RunProgram({command, "--help"});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
+                               HasSubstr("Examples")));
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+TEST(Help, VersionIsPrinted) {
+  EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 0."));
+  EXPECT_THAT(RunProgram({"info", "--version"}).out, StartsWith("MMMConverterS2KF 0."));
+}
+
+struct Misuse {
+  std::vector<std::string> arguments;
+  std::string message;
+};
+
+TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
+  const std::vector<Misuse> misuses = {
+      {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
+      {{"fly"}, "unknown command \"fly\"; use convert, info or print-config"},
+      {{"convert", "walk.c3d", "--heigth", "1.8"},
+       "unknown option --heigth (did you mean --height?)"},
+      {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
+      {{"convert"}, "convert: which recording?"},
+      {{"convert", "a.c3d", "b.c3d"}, "one input only, but there are \"a.c3d\" and \"b.c3d\""},
+      {{"convert", "a.c3d", "--inputMotion", "b.c3d"}, "one input only"},
+      {{"convert", "a.c3d", "--height", "tall"}, "--height: \"tall\" is not a number; give metres"},
+      {{"convert", "a.c3d", "--height", "nan"}, "--height: \"nan\" is not a number"},
+      {{"convert", "a.c3d", "--height"}, "--height"},
+      {{"convert", "a.c3d", "-o", "a", "--outputMotion", "b"}, "is given twice"},
+      {{"convert", "a.c3d", "--frames", "1-5"}, "\"1-5\" is not A:B"},
+      {{"convert", "a.c3d", "--frames", "-5:9"}, "\"-5:9\" is not A:B"},
+      {{"convert", "a.c3d", "--format", "3"}, "\"3\" is not allowed; use 2.0 or 1.0"},
+      {{"convert", "a.c3d", "--log", "loud"}, "\"loud\" is not a level; use off, error"},
+      {{"info"}, "info: which file?"},
+      {{"print-config"}, "print-config: which converter?"}};
+  for (const Misuse& misuse : misuses) {
+    const auto run = RunProgram(misuse.arguments);
+    SCOPED_TRACE(misuse.message);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, AllOf(StartsWith("error: "), HasSubstr(misuse.message)));
+  }
+}
+
+TEST(PrintConfig, PrintsTheTemplateOfAPlugin) {
+  const std::string folder =
+      std::filesystem::path(testing::TestPlugin("test_converter")).parent_path();
+  const auto run =
+      RunProgram({"print-config", "TestConverter"}, {{"MMM_CONVERTER_PLUGIN_PATH", folder}});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out,
+              AllOf(StartsWith("<?xml"), HasSubstr("<ConverterConfig type=\"TestConverter\">"),
+                    HasSubstr("<MarkerMapping"), HasSubstr("heightOffset_mm=\"0\"")));
+  EXPECT_EQ(RunProgram({"print-config", "--plugin", testing::TestPlugin("test_converter")}).out,
+            run.out);
+}
+
+TEST(PrintConfig, TheShippedDefaultIsItsText) {
+  EXPECT_EQ(RunProgram({"print-config", "S2KFConverter"}).out,
+            testing::ReadText(testing::SourcePath("xml_config/converters/s2kf_default.xml")))
+      << "print-config S2KFConverter > xml_config/converters/s2kf_default.xml makes them equal";
+}
+
+TEST(PrintConfig, SaysWhichConvertersThereAre) {
+  const auto run = RunProgram({"print-config", "S2KF"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("there is no converter \"S2KF\""),
+                             HasSubstr("found S2KFConverter"), HasSubstr("looked in")));
+}
+
+TEST(PrintConfig, RefusesAPluginOfAnotherVersion) {
+  const auto run = RunProgram({"print-config", "--plugin", testing::TestPlugin("old_version")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("was built against interface version \"MMMConverterS2KF-0\""));
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mmm_converter::testing {
+
+struct ProgramRun {
+  int exit_code = -1;  ///< -1: did not end by itself
+  std::string out;
+  std::string err;
+};
+
+/// Runs the real MMMConverterS2KF, its output going to files (no terminal). environment: added.
+ProgramRun RunProgram(const std::vector<std::string>& arguments,
+                      const std::map<std::string, std::string>& environment = {});
+
+/// A folder of its own for the running test, empty at first; `TestFolder() + "/name"`.
+std::string TestFolder();
+
+std::string ReadText(const std::string& path);
+void WriteText(const std::string& path, const std::string& text);
+
+/// The shipped sample recording.
+std::string Handstand();
+
+/// Options that convert with the TestConverter, which is quick.
+std::vector<std::string> WithTestConverter(std::vector<std::string> arguments);
+
+}  // namespace mmm_converter::testing
