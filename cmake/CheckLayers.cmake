@@ -1,7 +1,7 @@
 # cmake -DROOT=<project> -P CheckLayers.cmake
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
-#   - support < math < model < fit < motion < io < convert < plugins/* < MMMConverterS2KF < examples, tests
+#   - support < math < model < motion < fit < io < convert < plugins/* < MMMConverterS2KF < examples, tests
 #   - common/dynamics uses model and motion (and what lies below model); only the application and the
 #     tests use dynamics
 #   - plugins never include each other, the application includes no plugin
@@ -10,7 +10,7 @@
 #   - every source starts with its licence line and has at most 400 lines; every folder has a README.md
 cmake_minimum_required(VERSION 3.25)
 
-set(layers common/support common/math common/model common/fit common/motion common/io common/convert
+set(layers common/support common/math common/model common/motion common/fit common/io common/convert
            plugins MMMConverterS2KF examples tests)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")
