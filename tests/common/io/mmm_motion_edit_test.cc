@@ -131,11 +131,12 @@ TEST(MmmMotionEdit, SaysWhyItCannot) {
 TEST(MmmMotionEdit, DamagedFilesAreEditedOrRefused) {
   const PoseTrajectory trajectory = OneFrame();
   std::mt19937_64 random(3);
-  const std::string_view bytes("<>/='\"!-?[]& aM\0\xFF", 18);
+  constexpr std::string_view kBytes("<>/='\"!-?[]& aM\0\xFF", 17);
   int edited = 0;
   for (int i = 0; i < 20000; ++i) {
     std::string content = kFile;
-    for (int n = 0; n < 1 + i % 3; ++n) content[random() % content.size()] = bytes[random() % 18];
+    for (int n = 0; n < 1 + i % 3; ++n)
+      content[random() % content.size()] = kBytes[random() % kBytes.size()];
     try {
       const std::string text =
           WithConvertedMotion(content, "walk.xml", Output(trajectory, "human"));

@@ -14,6 +14,7 @@ using ::testing::ElementsAre;
 
 std::vector<double> Times(double first, double rate, int frames, const char* format) {
   std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(frames));
   for (int k = 0; k < frames; ++k) {
     times.push_back(
         std::strtod(fmt::format(fmt::runtime(format), first + k / rate).c_str(), nullptr));
