@@ -7,10 +7,8 @@
 #include <exception>
 #include <iostream>
 #include <string>
-#include <vector>
 
 #include "common/convert/marker_mapping.h"
-#include "common/convert/marker_set.h"
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm_model.h"
 #include "common/io/mmm_motion.h"
@@ -39,10 +37,9 @@ void Run(const std::string& input, double height, const std::string& output) {
       ParseConverterConfig(plugin.factory().config_template(), "default configuration");
 
   // Labels are matched with the model's markers once; from here on there are only indices.
-  const std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
-  const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
-  const MarkerMapping mapping =
-      ResolveMarkerMapping(PairsInModel(set, model), recording.markers, model);
+  std::string set;
+  const MarkerMapping mapping = ResolveMarkerMapping(
+      ResolveMarkerPairs(config, recording.markers, model, &set), recording.markers, model);
   const auto converter = plugin.factory().Create(model, mapping.assignments, config);
   const ConversionResult result =
       converter->Convert(recording.markers, model, mapping.assignments, {});
@@ -57,8 +54,8 @@ void Run(const std::string& input, double height, const std::string& output) {
   WriteFileAtomically(output, FormatMmmMotion2(motion));
 
   const auto seen = result.residuals.array().isFinite();
-  std::cout << mapping.assignments.size() << " markers, " << result.trajectory.num_frames()
-            << " frames; mean marker distance "
+  std::cout << "marker set " << set << ", " << mapping.assignments.size() << " markers, "
+            << result.trajectory.num_frames() << " frames; mean marker distance "
             << 1e3 * seen.select(result.residuals, 0).sum() / static_cast<double>(seen.count())
             << " mm\n";
 }

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "common/convert/marker_mapping.h"
-#include "common/convert/marker_set.h"
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm_model.h"
 #include "common/io/recording.h"
@@ -39,8 +38,9 @@ void Run(const std::string& input, double height) {
   const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");
   const ConverterConfig config =
       ParseConverterConfig(plugin.factory().config_template(), "default configuration");
-  const MarkerMapping mapping = ResolveMarkerMapping(
-      PairsInModel(ReadMarkerSet(DataFile("marker_sets/kit53.xml")), model), stream, model);
+  std::string set;
+  const MarkerMapping mapping =
+      ResolveMarkerMapping(ResolveMarkerPairs(config, stream, model, &set), stream, model);
   const auto converter = plugin.factory().Create(model, mapping.assignments, config);
 
   // A first frame in which the person is seen, from nothing: this may take a while.
