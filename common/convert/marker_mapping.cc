@@ -57,8 +57,9 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
     }
   }
   if (unknown.empty()) return;
-  std::vector<std::string> markers;
-  for (const ModelMarker& marker : model.markers()) markers.push_back(marker.name);
+  std::vector<std::string> markers(model.markers().size());
+  std::transform(model.markers().begin(), model.markers().end(), markers.begin(),
+                 [](const ModelMarker& marker) { return marker.name; });
   throw Error(fmt::format("marker mapping: not markers of model {}: {}; it has: {}", model.name(),
                           Names(unknown), Names(markers)));
 }

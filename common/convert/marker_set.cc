@@ -26,7 +26,8 @@ constexpr double kMaxNoiseScale = 100;
 
 void CheckAttributes(const XmlElement& element, const std::vector<std::string>& allowed,
                      Diagnostics* diagnostics) {
-  for (const auto& [key, value] : element.attributes) {
+  for (const auto& attribute : element.attributes) {
+    const std::string& key = attribute.first;
     if (std::any_of(allowed.begin(), allowed.end(),
                     [&](const std::string& name) { return EqualIgnoringCase(name, key); })) {
       continue;

@@ -141,8 +141,8 @@ std::string NameOf(const Group& group) {
 }
 
 std::string Names(const std::vector<Group>& groups) {
-  std::vector<std::string> names;
-  for (const Group& group : groups) names.push_back(NameOf(group));
+  std::vector<std::string> names(groups.size());
+  std::transform(groups.begin(), groups.end(), names.begin(), NameOf);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

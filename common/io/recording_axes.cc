@@ -23,15 +23,15 @@ constexpr std::pair<const char*, double> kUnits[] = {
 /// Frames spread evenly over the trial.
 std::vector<int> SampleFrames(const MarkerSequence& markers) {
   const int count = std::min(markers.num_frames(), kMaxSampledFrames);
-  std::vector<int> frames;
+  std::vector<int> frames(count);
   for (int i = 0; i < count; ++i) {
-    frames.push_back(static_cast<int>(static_cast<long>(i) * markers.num_frames() / count));
+    frames[i] = static_cast<int>(static_cast<long>(i) * markers.num_frames() / count);
   }
   return frames;
 }
 
 double Quantile(std::vector<double> values, double q) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * (values.size() - 1) + 0.5);
+  const auto at = values.begin() + std::lround(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -182,8 +182,9 @@ UpAxisDecision DecideUpAxis(const MarkerSequence& markers) {
   }
   std::array<double, 3> lengths{};
   for (int i = 0; i < 3; ++i) {
-    std::vector<double> along;
-    for (const Eigen::Vector3d& d : axes) along.push_back(std::abs(d[i]));
+    std::vector<double> along(axes.size());
+    std::transform(axes.begin(), axes.end(), along.begin(),
+                   [i](const Eigen::Vector3d& d) { return std::abs(d[i]); });
     lengths[i] = Quantile(std::move(along), 0.5);
   }
   const int axis =
