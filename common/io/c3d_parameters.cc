@@ -61,6 +61,12 @@ bool IsEnd(Bytes section, std::size_t at) {
           (section[at] == 0 || (at + 1 < section.size() && section[at + 1] == 0)));
 }
 
+/// The record's offset leads to another record, or says that there is none.
+bool LeadsOn(Bytes section, const Record& record, C3dProcessor processor) {
+  const std::size_t next = record.offset_at + record.offset;
+  return record.offset == 0 || IsEnd(section, next) || ReadRecord(section, next, processor);
+}
+
 struct Step {
   std::size_t at = 0;
   std::optional<Record> record;  // nothing: the list ends
@@ -72,9 +78,11 @@ Step NextRecord(Bytes section, const Record& record, std::size_t by_size, C3dPro
   if (record.offset == 0) return {by_size, std::nullopt};
   const std::size_t by_offset = record.offset_at + record.offset;
   const bool forward = record.offset >= 2 && by_offset <= section.size();
+  const bool into_itself = by_offset < by_size;  // or its size is wrong
   if (forward) {
     Step step{by_offset, ReadRecord(section, by_offset, processor)};
-    if (step.record || (by_offset >= by_size && IsEnd(section, by_offset))) return step;
+    if (step.record && (!into_itself || LeadsOn(section, *step.record, processor))) return step;
+    if (!step.record && !into_itself && IsEnd(section, by_offset)) return step;
   }
   if (auto next = ReadRecord(section, by_size, processor)) {
     warnings->push_back(fmt::format("parameter {}: the offset {} to the next one is wrong",
