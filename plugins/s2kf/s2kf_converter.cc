@@ -113,6 +113,7 @@ const FrameEstimate& S2kfConverter::Assemble(const Ref<const Matrix3Xd>& frame) 
   const MarkerFilter::Outcome outcome = filter_.Update(z_, &belief_);
   usual_distance_ = ClippedDistance();
   doubt_ = kDoubtFrames;
+  far_ = false;
   FillEstimate(outcome, false);
   return estimate_;
 }
@@ -127,9 +128,8 @@ bool S2kfConverter::IsInDoubt(double distance, double dt) {
       hidden_for_[i] += dt;
     }
   }
-  const bool cause = returned >= kManyReturned ||
-                     distance > kDoubtFactor * usual_distance_ + kDoubtDistance;
-  doubt_ = cause ? kDoubtFrames : std::max(doubt_ - 1, 0);
+  far_ = distance > kDoubtFactor * usual_distance_ + kDoubtDistance;
+  doubt_ = far_ || returned >= kManyReturned ? kDoubtFrames : std::max(doubt_ - 1, 0);
   const double step = 1 - std::exp(-dt / kLevelTime);
   usual_distance_ += step * (distance - usual_distance_);
   return doubt_ > 0;
@@ -157,6 +157,7 @@ const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, dou
     reassembled = Recover();
     if (reassembled) {
       outcome = filter_.Update(z_, &belief_);
+      far_ = false;
       usual_distance_ = std::min(usual_distance_, ClippedDistance());
     }
   }
@@ -178,7 +179,7 @@ void S2kfConverter::FillEstimate(const MarkerFilter::Outcome& outcome, bool reas
   estimate_.markers_downweighted = outcome.downweighted;
   estimate_.nis = outcome.nis;
   estimate_.reassembled = reassembled;
-  estimate_.converged = outcome.seen > 0 && doubt_ == 0;
+  estimate_.converged = outcome.seen > 0 && !far_;
 }
 
 }  // namespace mmm_converter::s2kf

@@ -51,6 +51,7 @@ class S2kfConverter : public MotionConverter {
   Eigen::VectorXd deviations_;
   std::vector<double> hidden_for_;  // by assignment [s]
   double usual_distance_ = 0;       // running level of ClippedDistance [m]
+  bool far_ = false;                // distances are well above their usual level
   int doubt_ = 0;                   // frames for which the track stays in doubt
   FrameEstimate estimate_;
 };

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Counts every allocation of the process: malloc is replaced by one that counts.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "common/motion/marker_synthesis.h"
+#include "common/motion/occlusion.h"
+#include "common/motion/synthetic_motion.h"
+#include "plugins/s2kf/s2kf_converter.h"
+#include "tests/plugins/s2kf/tracking_run.h"
+
+#if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
+
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* p, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+}
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+extern "C" {
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* p, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(p, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+
+namespace mmm_converter::s2kf {
+namespace {
+
+class AllocationTest : public ::testing::TestWithParam<FilterType> {};
+
+TEST_P(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
+  const KinematicModel model = PersonModel(1.8);
+  const PoseTrajectory motion = MakeHandstand(model);
+  // With gaps and a lost track, so that recovery is counted too.
+  MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 250);
+  markers = OccludeShare(markers, 0.33, 30, 1);
+  markers = HideAllMarkers(markers, 100, 150);
+  for (const UpdateForm update : {UpdateForm::kRegression, UpdateForm::kExact}) {
+    S2kfSettings settings;
+    settings.filter = GetParam();
+    settings.update = update;
+    settings.iterations = update == UpdateForm::kExact ? 1 : 3;
+    S2kfConverter converter(model, AssignByName(model, markers), MotionJoints(model, 44), settings);
+    converter.Assemble(markers.frame(0));
+    converter.Track(markers.frame(1), 0.01);
+    const long before = allocations;
+    ASSERT_GT(before, 0);
+    for (int k = 2; k < markers.num_frames(); ++k) converter.Track(markers.frame(k), 0.01);
+    EXPECT_EQ(allocations - before, 0) << "update form " << static_cast<int>(update);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, AllocationTest,
+                         ::testing::Values(FilterType::kS2kf, FilterType::kUkf, FilterType::kEkf));
+
+}  // namespace
+}  // namespace mmm_converter::s2kf
+
+#else
+
+TEST(AllocationTest, NeedsTheSystemsOwnAllocator) {
+  GTEST_SKIP() << "allocations are counted in builds without a sanitizer";
+}
+
+#endif
