@@ -31,9 +31,8 @@ PersonValue Estimate(const KinematicModel& reference, const ConversionReport& re
     markers.push_back(assignment.marker);
     labels.push_back(assignment.label);
   }
-  const HeightEstimate estimate =
-      EstimateHeight(reference, ResolveJoints(report.config, reference), markers, labels,
-                     report.recording.markers);
+  const HeightEstimate estimate = EstimateHeight(reference, ResolveJoints(report.config, reference),
+                                                 markers, labels, report.recording.markers);
   return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
 }
 

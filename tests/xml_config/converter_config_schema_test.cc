@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "common/convert/converter_config.h"
 #include "common/support/text.h"
 #include "plugins/s2kf/s2kf_settings.h"
 #include "tests/support/shared_data.h"
+#include "tests/xml_config/xmllint.h"
 
 namespace mmm_converter {
 namespace {
@@ -19,23 +18,8 @@ namespace {
 using ::testing::ElementsAreArray;
 using testing::SourcePath;
 
-const std::string& SchemaFile() {
-  static const std::string file = SourcePath("xml_config/schema/converter_config.xsd");
-  return file;
-}
-
-// xmllint's exit code is 0 for a valid document.
-bool IsValid(const std::string& file) {
-  const std::string command =
-      std::string(XMLLINT) + " --noout --nonet --schema '" + SchemaFile() + "' '" + file + "' 2>&1";
-  return std::system(command.c_str()) == 0;
-}
-
 bool IsValidText(const std::string& xml) {
-  const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::string file = ::testing::TempDir() + "/schema_" + name + ".xml";
-  std::ofstream(file) << xml;
-  return IsValid(file);
+  return testing::IsValidText("converter_config.xsd", xml);
 }
 
 std::string Template() {
@@ -93,7 +77,7 @@ void ExpectSame(const Setting& setting, const XmlElement& attribute) {
 TEST(ConverterConfigSchema, HasTheSettingsOfTheConverterAndNoOthers) {
   s2kf::S2kfSettings defaults;
   const SettingTable table = s2kf::BindSettings(&defaults);
-  const XmlElement schema = ReadXmlFile(SchemaFile());
+  const XmlElement schema = ReadXmlFile(SourcePath("xml_config/schema/converter_config.xsd"));
   for (const auto& [element, unused] : table.elements()) {
     SCOPED_TRACE(element);
     const XmlElement* type = FindType(schema, element);
@@ -139,7 +123,7 @@ TEST(ConverterConfigSchema, ShippedConfigurationsAreValidAndReadable) {
     if (entry.path().extension() != ".xml") continue;
     SCOPED_TRACE(entry.path());
     ++files;
-    EXPECT_TRUE(IsValid(entry.path().string()));
+    EXPECT_TRUE(testing::IsValidFile("converter_config.xsd", entry.path().string()));
     const ConverterConfig config = ReadConverterConfig(entry.path().string());
     s2kf::S2kfSettings settings;
     Diagnostics diagnostics(config.file);

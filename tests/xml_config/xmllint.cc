@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "tests/xml_config/xmllint.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter::testing {
+
+bool IsValidFile(const std::string& schema, const std::string& file) {
+  const std::string command = std::string(XMLLINT) + " --noout --nonet --schema '" +
+                              SourcePath("xml_config/schema/" + schema) + "' '" + file + "' 2>&1";
+  return std::system(command.c_str()) == 0;
+}
+
+bool IsValidText(const std::string& schema, const std::string& xml) {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const std::string file =
+      ::testing::TempDir() + "/schema_" + test->test_suite_name() + "_" + test->name() + ".xml";
+  std::ofstream(file) << xml;
+  return IsValidFile(schema, file);
+}
+
+}  // namespace mmm_converter::testing
