@@ -67,6 +67,7 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
 [[noreturn]] void ThrowNoMatch(const std::vector<MarkerPair>& pairs,
                                const MarkerSequence& recording) {
   std::vector<std::string> sources;
+  sources.reserve(pairs.size());
   for (const MarkerPair& pair : pairs) sources.push_back(pair.source);
   throw Error(fmt::format("no label of the recording is mapped: it has {}; the mapping has {}",
                           recording.num_labels() == 0 ? "none" : Names(recording.labels()),

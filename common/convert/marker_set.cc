@@ -115,6 +115,7 @@ std::vector<MarkerSet> ReadMarkerSets(const std::string& folder) {
   if (files.empty()) throw Error(fmt::format("{}: there are no marker sets (*.xml) here", folder));
   std::sort(files.begin(), files.end());
   std::vector<MarkerSet> sets;
+  sets.reserve(files.size());
   for (const std::string& file : files) sets.push_back(ReadMarkerSet(file));
   return sets;
 }
@@ -147,6 +148,7 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
   }
   if (best != nullptr) return *best;
   std::vector<std::string> names;
+  names.reserve(sets.size());
   for (const MarkerSet& set : sets) names.push_back(set.name);
   std::vector<std::string> labels = recording.labels();
   labels.resize(std::min<std::size_t>(labels.size(), 12));

@@ -31,7 +31,7 @@ std::string TempPath() {
 }
 
 std::string WriteTemp(const std::string& content) {
-  const std::string path = TempPath();
+  std::string path = TempPath();
   std::filesystem::remove(path);  // to overwrite a file makes some file systems wait for the disk
   std::ofstream(path, std::ios::binary)
       .write(content.data(), static_cast<std::streamsize>(content.size()));

@@ -22,7 +22,6 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::string MessageOf(const std::string& path, const ReadRecordingOptions& options = {}) {
   try {
@@ -34,7 +33,7 @@ std::string MessageOf(const std::string& path, const ReadRecordingOptions& optio
 }
 
 std::string WriteTemp(const std::string& name, const std::string& content) {
-  const std::string path = ::testing::TempDir() + name;
+  std::string path = ::testing::TempDir() + name;
   std::ofstream(path, std::ios::binary) << content;
   return path;
 }
@@ -217,17 +216,17 @@ TEST(Recording, ReadsRealPeopleInPlausibleSize) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   struct {
     const char* file;
-    UpAxis up;
     const char* unit;
+    UpAxis up;
     int labels;
-  } const expected[] = {{"whole_body/85_02.c3d", UpAxis::kZ, "mm", 41},
-                        {"whole_body/cmu_02_05.c3d", UpAxis::kZ, "mm", 41},
-                        {"whole_body/kinematics_tennis_serve.c3d", UpAxis::kZ, "m", 39},
-                        {"whole_body/pycgm_movement_trial.c3d", UpAxis::kZ, "mm", 39},
-                        {"kit_bimanual_c3d/Pour_1480.c3d", UpAxis::kZ, "mm", 53},
-                        {"conformance/opensim_walking2.c3d", UpAxis::kZ, "mm", 44},
-                        {"trc/motek_T.trc", UpAxis::kY, "mm", 41},
-                        {"trc/tennis_serve.trc", UpAxis::kZ, "m", 39}};
+  } const expected[] = {{"whole_body/85_02.c3d", "mm", UpAxis::kZ, 41},
+                        {"whole_body/cmu_02_05.c3d", "mm", UpAxis::kZ, 41},
+                        {"whole_body/kinematics_tennis_serve.c3d", "m", UpAxis::kZ, 39},
+                        {"whole_body/pycgm_movement_trial.c3d", "mm", UpAxis::kZ, 39},
+                        {"kit_bimanual_c3d/Pour_1480.c3d", "mm", UpAxis::kZ, 53},
+                        {"conformance/opensim_walking2.c3d", "mm", UpAxis::kZ, 44},
+                        {"trc/motek_T.trc", "mm", UpAxis::kY, 41},
+                        {"trc/tennis_serve.trc", "m", UpAxis::kZ, 39}};
   for (const auto& e : expected) {
     SCOPED_TRACE(e.file);
     const Recording recording = ReadRecording(SharedData(std::string("recordings/") + e.file), {});
@@ -299,8 +298,7 @@ TEST(Recording, SaysWhatIsWrongWithAFile) {
               HasSubstr("root <html>, not an MMM motion"));
   EXPECT_THAT(MessageOf(WriteTemp("zeros.c3d", std::string(2000, '\0'))),
               HasSubstr("not a C3D file"));
-  EXPECT_THAT(MessageOf(WriteTemp("packed.c3d", "\x1f\x8b\x08\x01")),
-              HasSubstr("not a C3D file"));
+  EXPECT_THAT(MessageOf(WriteTemp("packed.c3d", "\x1f\x8b\x08\x01")), HasSubstr("not a C3D file"));
 }
 
 }  // namespace
