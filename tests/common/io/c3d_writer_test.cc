@@ -23,6 +23,7 @@ std::string TempPath(const std::string& name) { return ::testing::TempDir() + na
 /// Positions with a pattern of their own; every seventh point is not seen.
 MarkerSequence MakeSequence(int labels, int frames) {
   std::vector<std::string> names;
+  names.reserve(labels);
   for (int i = 0; i < labels; ++i) names.push_back("Marker" + std::to_string(i));
   MarkerSequence sequence(names, frames, 100, 0);
   for (int k = 0; k < frames; ++k) {
