@@ -66,8 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
                       KitRecording{"Peel_files_motions_3109_Peel1_cucumber_cb_07.xml", "true_1723"},
                       KitRecording{"Pour_files_motions_2967_Pour1_cs_ms_0_20l_04.xml", "true_1480"},
                       KitRecording{"Stir_files_motions_2941_Stir1_bc_s_right_03.xml", "true_1723"}),
-    [](const auto& info) {
-      const std::string file = info.param.file;
+    [](const auto& test) {
+      const std::string file = test.param.file;
       return file.substr(0, file.find('_'));
     });
 
@@ -80,7 +80,8 @@ TEST_P(CmuTest, FollowsTheOptimumThroughAcrobatics) {
   const KinematicModel model = PersonModel(1.7);
   const std::vector<MarkerSet> sets = ReadMarkerSets(testing::SourcePath("xml_config/marker_sets"));
   const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
-  const MarkerMapping mapping = ResolveMarkerMapping(PairsInModel(set, model), recording.markers, model);
+  const MarkerMapping mapping =
+      ResolveMarkerMapping(PairsInModel(set, model), recording.markers, model);
   const TrackedRun run =
       RunTracker(model, MotionJoints(model, 44), S2kfSettings{}, recording.markers,
                  recording.markers, nullptr, mapping.assignments);
@@ -93,7 +94,7 @@ TEST_P(CmuTest, FollowsTheOptimumThroughAcrobatics) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Recordings, CmuTest, ::testing::Values("85_02", "cmu_02_05"),
-                         [](const auto& info) { return "File" + std::string(info.param); });
+                         [](const auto& test) { return "File" + std::string(test.param); });
 
 }  // namespace
 }  // namespace mmm_converter::s2kf

@@ -32,8 +32,9 @@ Posture Tracked(const Posture& full, const std::vector<int>& joints) {
 /// The best of the fits from several postures.
 class FrameOptimum {
  public:
-  FrameOptimum(const MarkerKinematics& kinematics, int markers)
-      : fit_(kinematics), scale_(Eigen::VectorXd::Ones(markers)) {
+  FrameOptimum(const MarkerKinematics& kinematics, const std::vector<MarkerAssignment>& assignments)
+      : fit_(kinematics), scale_(kinematics.num_markers()) {
+    for (int m = 0; m < kinematics.num_markers(); ++m) scale_[m] = assignments[m].noise_scale;
     options_.tolerance = 1e-6;
     options_.max_iterations = 50;
   }
@@ -154,7 +155,7 @@ TrackedRun RunTracker(const KinematicModel& model, const std::vector<int>& joint
     labels.push_back(a.label);
   }
   const MarkerKinematics kinematics(model, joints, markers);
-  FrameOptimum optimum(kinematics, kinematics.num_markers());
+  FrameOptimum optimum(kinematics, assignments);
   TrackedRun run;
   const double share = 1.0 / (static_cast<double>(joints.size()) * seen.num_frames());
   Posture previous;

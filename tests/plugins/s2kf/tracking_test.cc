@@ -202,7 +202,7 @@ TEST_P(RecoveryTest, NoPelvisMarkerInTheFirst20Frames) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Motions, RecoveryTest, ::testing::Bool(),
-                         [](const auto& info) { return info.param ? "RealMotion" : "Handstand"; });
+                         [](const auto& test) { return test.param ? "RealMotion" : "Handstand"; });
 
 TEST(StartTest, FromRandomPosturesAndAnyHeading) {
   const KinematicModel model = PersonModel(kHeight);
