@@ -103,6 +103,7 @@ std::string WorstMarkers(const ConversionReport& report) {
   std::sort(means.rbegin(), means.rend());
   means.resize(std::min<std::size_t>(means.size(), 3));
   std::vector<std::string> texts;
+  texts.reserve(means.size());
   for (const auto& [mean, label] : means) texts.push_back(fmt::format("{} {:.1f}", label, mean));
   return JoinNames(texts, ", ");
 }

@@ -45,8 +45,12 @@ What is in a recording (C3D, TRC), an MMM motion, a model, a configuration or a 
 // What a file is, as text and as JSON.
 struct Description {
   std::string text;
-  Json json;
+  std::string json;
 };
+
+std::string Dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 Description DescribeRecording(const std::string& file, const Arguments& arguments) {
   ReadRecordingOptions options;
@@ -66,20 +70,21 @@ Description DescribeRecording(const std::string& file, const Arguments& argument
       recording.up_axis_was_decided ? " (decided from the markers)" : "",
       recording.subjects.empty() ? "not named" : JoinNames(recording.subjects, ", "),
       markers.num_labels(), FormatMarkers(markers));
-  description.json = {{"kind", "recording"},
-                      {"file", file},
-                      {"format", recording.format},
-                      {"frames", markers.num_frames()},
-                      {"rate_hz", markers.rate()},
-                      {"first_frame", recording.first_frame},
-                      {"unit", recording.unit},
-                      {"unit_guessed", recording.unit_was_guessed},
-                      {"up_axis", Name(recording.up_axis)},
-                      {"up_axis_decided_from_markers", recording.up_axis_was_decided},
-                      {"subjects", recording.subjects},
-                      {"subject", recording.subject},
-                      {"labels", Json::parse(FormatMarkersJson(markers))},
-                      {"warnings", recording.warnings}};
+  Json json = {{"kind", "recording"},
+               {"file", file},
+               {"format", recording.format},
+               {"frames", markers.num_frames()},
+               {"rate_hz", markers.rate()},
+               {"first_frame", recording.first_frame},
+               {"unit", recording.unit},
+               {"unit_guessed", recording.unit_was_guessed},
+               {"up_axis", Name(recording.up_axis)},
+               {"up_axis_decided_from_markers", recording.up_axis_was_decided},
+               {"subjects", recording.subjects},
+               {"subject", recording.subject},
+               {"labels", Json::parse(FormatMarkersJson(markers))},
+               {"warnings", recording.warnings}};
+  description.json = Dump(json);
   return description;
 }
 
@@ -89,12 +94,12 @@ Description DescribeMotions(const std::string& content, const std::string& file)
   Description description;
   description.text = fmt::format("{}: MMM {} file, {} motion{}\n", file, motions.version,
                                  motions.motions.size(), motions.motions.size() == 1 ? "" : "s");
-  description.json = {{"kind", "motion"},
-                      {"file", file},
-                      {"format", "MMM " + motions.version},
-                      {"name", motions.name},
-                      {"motions", Json::array()},
-                      {"warnings", motions.warnings}};
+  Json json = {{"kind", "motion"},
+               {"file", file},
+               {"format", "MMM " + motions.version},
+               {"name", motions.name},
+               {"motions", Json::array()},
+               {"warnings", motions.warnings}};
   for (const MmmMotion& motion : motions.motions) {
     const PoseTrajectory& poses = motion.trajectory;
     description.text += fmt::format(
@@ -118,8 +123,9 @@ Description DescribeMotions(const std::string& content, const std::string& file)
                   {"marker_frames", motion.markers.num_frames()},
                   {"marker_rate_hz", motion.markers.rate()},
                   {"labels", Json::parse(FormatMarkersJson(motion.markers))}};
-    description.json["motions"].push_back(entry);
+    json["motions"].push_back(entry);
   }
+  description.json = Dump(json);
   return description;
 }
 
@@ -132,20 +138,20 @@ Description DescribeModel(const std::string& content, const std::string& file) {
       "{}: model {}\nsegments   {}\nmass       {:.6g} kg\nnode sets  {}\njoints     {}\n", file,
       model.name(), model.segments().size(), model.total_mass(), model.node_sets().size(),
       model.num_joints());
-  description.json = {{"kind", "model"},
-                      {"file", file},
-                      {"name", model.name()},
-                      {"segments", model.segments().size()},
-                      {"mass_kg", model.total_mass()},
-                      {"joints", Json::array()},
-                      {"markers", Json::array()},
-                      {"node_sets", Json::array()},
-                      {"warnings", parsed.warnings}};
+  Json json = {{"kind", "model"},
+               {"file", file},
+               {"name", model.name()},
+               {"segments", model.segments().size()},
+               {"mass_kg", model.total_mass()},
+               {"joints", Json::array()},
+               {"markers", Json::array()},
+               {"node_sets", Json::array()},
+               {"warnings", parsed.warnings}};
   for (int j = 0; j < model.num_joints(); ++j) {
     const Segment& joint = model.joint(j);
     description.text +=
         fmt::format("  {:<24} {:9.6f} to {:9.6f} rad\n", joint.name, joint.lower, joint.upper);
-    description.json["joints"].push_back(
+    json["joints"].push_back(
         {{"name", joint.name}, {"lower_rad", joint.lower}, {"upper_rad", joint.upper}});
   }
   description.text += fmt::format("markers    {}\n", model.markers().size());
@@ -154,14 +160,14 @@ Description DescribeModel(const std::string& content, const std::string& file) {
     description.text +=
         fmt::format("  {:<14} on {:<24} at {:7.4f} {:7.4f} {:7.4f} m\n", marker.name, segment,
                     marker.p_SM.x(), marker.p_SM.y(), marker.p_SM.z());
-    description.json["markers"].push_back(
-        {{"name", marker.name},
-         {"segment", segment},
-         {"offset_m", {marker.p_SM.x(), marker.p_SM.y(), marker.p_SM.z()}}});
+    json["markers"].push_back({{"name", marker.name},
+                               {"segment", segment},
+                               {"offset_m", {marker.p_SM.x(), marker.p_SM.y(), marker.p_SM.z()}}});
   }
   for (const auto& [name, unused] : model.node_sets()) {
-    description.json["node_sets"].push_back(name);
+    json["node_sets"].push_back(name);
   }
+  description.json = Dump(json);
   return description;
 }
 
@@ -178,13 +184,13 @@ Description DescribeConfig(const std::string& content, const std::string& file) 
   return {fmt::format("{}: configuration for {}\nmapping    {}\njoints     {}\nsettings   {}\n",
                       file, config.type.empty() ? "another converter" : config.type, mapping,
                       joints, JoinNames(elements, ", ")),
-          {{"kind", "configuration"},
-           {"file", file},
-           {"converter", config.type},
-           {"marker_mapping", mapping},
-           {"joints", joints},
-           {"elements", elements},
-           {"warnings", config.warnings}}};
+          Dump({{"kind", "configuration"},
+                {"file", file},
+                {"converter", config.type},
+                {"marker_mapping", mapping},
+                {"joints", joints},
+                {"elements", elements},
+                {"warnings", config.warnings}})};
 }
 
 Description DescribePlugin(const std::string& file) {
@@ -192,11 +198,11 @@ Description DescribePlugin(const std::string& file) {
   const MotionConverterFactory& factory = plugin.factory();
   return {fmt::format("{}: converter plugin\nname       {}\nversion    {}\nwhat       {}\n", file,
                       factory.name(), plugin.version(), factory.description()),
-          {{"kind", "plugin"},
-           {"file", file},
-           {"name", factory.name()},
-           {"version", plugin.version()},
-           {"description", factory.description()}}};
+          Dump({{"kind", "plugin"},
+                {"file", file},
+                {"name", factory.name()},
+                {"version", plugin.version()},
+                {"description", factory.description()}})};
 }
 
 // The kind is told from the content.
@@ -237,11 +243,7 @@ void RunInfo(const std::vector<std::string>& words) {
   }
   StartLog(arguments.Get("log").value_or("info"));
   const Description description = Describe(*arguments.positional(), arguments);
-  if (arguments.Has("json")) {
-    std::cout << description.json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
-  } else {
-    std::cout << description.text;
-  }
+  std::cout << (arguments.Has("json") ? description.json : description.text);
 }
 
 }  // namespace mmm_converter

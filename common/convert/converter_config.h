@@ -24,8 +24,8 @@ struct ConverterConfig {
   std::vector<MarkerPair> marker_pairs;    ///< empty: see marker_set
   std::string marker_set = "auto";         ///< MarkerMapping@set, see ResolveMarkerPairs
   int marker_set_line = 0;
-  std::vector<ConfigJoint> joints;         ///< in output order; empty: see joint_set
-  std::string joint_set = "auto";          ///< Joints@set, see ResolveJoints
+  std::vector<ConfigJoint> joints;  ///< in output order; empty: see joint_set
+  std::string joint_set = "auto";   ///< Joints@set, see ResolveJoints
   int joint_set_line = 0;
   std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
   std::vector<std::string> warnings;

@@ -26,6 +26,7 @@ constexpr std::array kFeet = {"LFx_joint", "LMrot_joint", "RFx_joint", "RMrot_jo
 
 std::vector<std::string> JointNames(const KinematicModel& model) {
   std::vector<std::string> names;
+  names.reserve(model.num_joints());
   for (int j = 0; j < model.num_joints(); ++j) names.push_back(model.joint(j).name);
   return names;
 }

@@ -111,7 +111,7 @@ void SettingTable::Add(const std::string& element, const std::string& attribute,
   AddChoice<bool>(element, attribute, value, {{"true", true}, {"false", false}}, documentation);
 }
 
-void SettingTable::AddNames(Setting setting, std::vector<std::string> names,
+void SettingTable::AddNames(Setting setting, const std::vector<std::string>& names,
                             std::function<int()> get, std::function<void(int)> set) {
   setting.allowed = JoinNames(names);
   setting.choices = names;

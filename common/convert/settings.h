@@ -66,7 +66,7 @@ class SettingTable {
 
  private:
   void AddSetting(Setting setting);
-  void AddNames(Setting setting, std::vector<std::string> names, std::function<int()> get,
+  void AddNames(Setting setting, const std::vector<std::string>& names, std::function<int()> get,
                 std::function<void(int)> set);
   void ReadElement(const XmlElement& element, Diagnostics* diagnostics) const;
 
@@ -83,6 +83,7 @@ void SettingTable::AddChoice(const std::string& element, const std::string& attr
   setting.attribute = attribute;
   setting.documentation = documentation;
   std::vector<std::string> texts;
+  texts.reserve(names.size());
   for (const auto& [text, unused] : names) texts.push_back(text);
   const auto get = [value, names] {
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -91,7 +92,7 @@ void SettingTable::AddChoice(const std::string& element, const std::string& attr
     return 0;
   };
   const auto set = [value, names](int index) { *value = names[index].second; };
-  AddNames(std::move(setting), std::move(texts), get, set);
+  AddNames(std::move(setting), texts, get, set);
 }
 
 }  // namespace mmm_converter

@@ -55,7 +55,7 @@ std::string WriteRecording(const std::vector<std::string>& labels, int num_seen)
   for (int k = 0; k < markers.num_frames(); ++k) {
     for (int i = 0; i < num_seen; ++i) markers.frame(k).col(i) = Eigen::Vector3d(0.1 * i, 0.5, 1);
   }
-  const std::string file = TestFolder() + "/recording.c3d";
+  std::string file = TestFolder() + "/recording.c3d";
   WriteC3d(file, markers);
   return file;
 }
@@ -65,13 +65,13 @@ std::string ModelWith(const std::string& old_text, const std::string& new_text) 
   const std::size_t place = xml.find(old_text);
   EXPECT_NE(place, std::string::npos);
   xml.replace(place, old_text.size(), new_text);
-  const std::string file = TestFolder() + "/model.xml";
+  std::string file = TestFolder() + "/model.xml";
   WriteText(file, xml);
   return file;
 }
 
 std::string ConfigWith(const std::string& inside) {
-  const std::string file = TestFolder() + "/config.xml";
+  std::string file = TestFolder() + "/config.xml";
   WriteText(file, "<ConverterConfig type='S2KFConverter'>\n" + inside + "\n</ConverterConfig>\n");
   return file;
 }

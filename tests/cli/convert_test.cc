@@ -14,7 +14,6 @@ namespace mmm_converter {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using testing::Handstand;
 using ::testing::HasSubstr;
@@ -29,7 +28,7 @@ using testing::WriteText;
 
 // An MMM 2.0 file with the markers of the sample, and an object's motion behind the human's.
 std::string MakeRecordingOfTwo() {
-  const std::string file = TestFolder() + "/two.xml";
+  std::string file = TestFolder() + "/two.xml";
   const auto run =
       RunProgram(WithTestConverter({"convert", Handstand(), "--height", "1.8", "--frames", ":12",
                                     "--motion", "1723", "-o", file}));

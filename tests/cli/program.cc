@@ -34,7 +34,8 @@ ProgramRun RunProgram(const std::vector<std::string>& arguments,
                       const std::map<std::string, std::string>& environment) {
   const std::string base = ::testing::TempDir() + "/cli_" + TestName();
   std::string command = "env";
-  for (const auto& [name, value] : environment) command += " " + Quoted(name + "=" + value);
+  for (const auto& [name, value] : environment)
+    command.append(" ").append(Quoted(name)).append("=").append(Quoted(value));
   command += " " + Quoted(MMM_CONVERTER_BINARY_DIR "/bin/MMMConverterS2KF");
   for (const std::string& argument : arguments) command += " " + Quoted(argument);
   command += " >" + Quoted(base + ".out") + " 2>" + Quoted(base + ".err") + " </dev/null";
@@ -48,7 +49,7 @@ ProgramRun RunProgram(const std::vector<std::string>& arguments,
 
 std::string TestFolder() {
   static std::string made_for;
-  const std::string folder = ::testing::TempDir() + "/cli_" + TestName();
+  std::string folder = ::testing::TempDir() + "/cli_" + TestName();
   if (made_for != folder) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);

@@ -74,6 +74,10 @@ void ExpectSame(const Setting& setting, const XmlElement& attribute) {
   EXPECT_EQ(Limit(*restriction, "xs:maxInclusive", INFINITY), setting.maximum);
 }
 
+std::string Saying(std::string element, const std::string& attribute, const std::string& value) {
+  return element.append(" ").append(attribute).append("=").append(value);
+}
+
 TEST(ConverterConfigSchema, HasTheSettingsOfTheConverterAndNoOthers) {
   s2kf::S2kfSettings defaults;
   const SettingTable table = s2kf::BindSettings(&defaults);
@@ -106,11 +110,11 @@ TEST(ConverterConfigSchema, TemplateIsValidAndSaysTheDefaults) {
   std::set<std::string> said;
   for (const XmlElement& element : config.plugin_elements) {
     for (const auto& [attribute, value] : element.attributes) {
-      said.insert(element.name + " " + attribute + " " + value);
+      said.insert(Saying(element.name, attribute, value));
     }
   }
   for (const Setting& setting : table.settings()) {
-    EXPECT_EQ(said.erase(setting.element + " " + setting.attribute + " " + setting.text()), 1u)
+    EXPECT_EQ(said.erase(Saying(setting.element, setting.attribute, setting.text())), 1u)
         << setting.element << " " << setting.attribute;
   }
   EXPECT_TRUE(said.empty());
