@@ -220,6 +220,49 @@ TEST(Convert, ConfigurationAndConverterMustFit) {
   EXPECT_THAT(run.err, HasSubstr("is a configuration for TestConverter, not for S2KFConverter"));
 }
 
+TEST(Convert, HeightIsEstimatedWhereNobodyGivesIt) {
+  const std::string file = TestFolder() + "/o.xml";
+  const auto run =
+      RunProgram(WithTestConverter({"convert", Handstand(), "--frames", ":100", "-o", file}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("estimated from"));
+  // The sample's person is 1.8 m; its marker offsets of 28 mm leave a few per cent.
+  EXPECT_NEAR(ReadMmmMotionFile(file).motions.at(0).height.value(), 1.8, 0.1);
+}
+
+TEST(Convert, SaysThatMmm1KeepsOneMotionOnly) {
+  const std::string file = MakeRecordingOfTwo();
+  const auto run = RunProgram(WithTestConverter(
+      {"convert", file, "--motion", "1723", "--format", "1.0", "-o", TestFolder() + "/o.xml"}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("has 2 motions; the output has the converted one only"));
+  EXPECT_THAT(ReadMmmMotionFile(TestFolder() + "/o.xml").motions, SizeIs(1));
+}
+
+TEST(Convert, RealKitFileInPlace) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string file = TestFolder() + "/peel.xml";
+  WriteText(file,
+            ReadText(testing::SharedData("mmm/kit_bimanual_10hz/Peel_files_motions_3109_Peel1_"
+                                         "cucumber_cb_07.xml")));
+  const MmmMotionFile before = ReadMmmMotionFile(file);
+  ASSERT_GT(before.motions.size(), 1u);
+  const auto run = RunProgram({"convert", file, "--motion", "true_1723", "-o", file});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const MmmMotionFile after = ReadMmmMotionFile(file);
+  ASSERT_EQ(after.motions.size(), before.motions.size());
+  int changed = 0;
+  for (std::size_t i = 0; i < before.motions.size(); ++i) {
+    const auto& a = before.motions[i];
+    const auto& b = after.motions[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.markers.num_frames(), b.markers.num_frames());
+    if (a.model_path != b.model_path) ++changed;
+  }
+  EXPECT_EQ(changed, 1);  // the converted one names the shipped model
+}
+
 TEST(Convert, S2kfConverterIsTheDefault) {
   const std::string file = TestFolder() + "/o.xml";
   const std::string json_file = TestFolder() + "/o.json";

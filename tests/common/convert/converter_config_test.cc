@@ -163,6 +163,27 @@ TEST(ResolveJoints, KnowsSets) {
   EXPECT_THAT(ResolveJoints(config, model), ElementsAre(1));
 }
 
+TEST(ResolveJoints, KnowsTheJointsOfKitsMotions) {
+  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  const auto names = [&](const std::string& set) {
+    ConverterConfig config;
+    config.joint_set = set;
+    std::vector<std::string> list;
+    for (const int joint : ResolveJoints(config, model)) list.push_back(model.joint(joint).name);
+    return list;
+  };
+  const std::vector<std::string> mmm44 = names("mmm44");
+  ASSERT_EQ(mmm44.size(), 44u);
+  EXPECT_EQ(mmm44[0], "BLNx_joint");
+  EXPECT_EQ(mmm44[26], "LFx_joint");  // the order of KIT's 2.0 files
+  EXPECT_EQ(mmm44[43], "RMrot_joint");
+  EXPECT_EQ(names("auto"), mmm44);
+  const std::vector<std::string> mmm40 = names("mmm40");
+  ASSERT_EQ(mmm40.size(), 40u);
+  EXPECT_EQ(mmm40[26], "RAx_joint");
+  EXPECT_EQ(mmm40[39], "RWy_joint");
+}
+
 TEST(ResolveJoints, ErrorsNameEveryUnknownJointWithItsLine) {
   EXPECT_THAT(
       [] {
