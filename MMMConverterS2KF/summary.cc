@@ -41,9 +41,9 @@ int FramesReassembled(const ConversionReport& report) {
   return CountFrames(report, [](const FrameDiagnostic& f) { return f.reassembled; });
 }
 
-// JSON has no NaN.
-Json Number(double value, double step = 1e-4) {
-  return std::isfinite(value) ? Json(std::round(value / step) * step) : Json(nullptr);
+// Four decimals; JSON has no NaN.
+Json Number(double value) {
+  return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json(nullptr);
 }
 
 Json ToJson(const ResidualSummary& distance) {

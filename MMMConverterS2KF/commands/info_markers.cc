@@ -10,7 +10,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kShownStep = 1e-6;  // [m]
+constexpr double kShownParts = 1e6;  // of a metre
 
 struct LabelStatistics {
   int frames_seen = 0;
@@ -55,7 +55,7 @@ std::string FormatMarkersJson(const MarkerSequence& markers) {
                                     {"frames_seen", statistics.frames_seen}};
     if (statistics.frames_seen > 0) {
       for (const double x : statistics.mean) {
-        entry["mean_position_m"].push_back(std::round(x / kShownStep) * kShownStep);
+        entry["mean_position_m"].push_back(std::round(x * kShownParts) / kShownParts);
       }
     } else {
       entry["mean_position_m"] = nullptr;
