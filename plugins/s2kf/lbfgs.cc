@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 using Eigen::VectorXd;
@@ -70,4 +70,4 @@ VectorXd MinimizeLbfgs(const std::function<double(const VectorXd&, VectorXd&)>& 
   return x;
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 struct LbfgsOptions {
   int memory = 10;  ///< pairs of steps and gradient changes that are kept
@@ -20,4 +20,4 @@ Eigen::VectorXd MinimizeLbfgs(
     const std::function<double(const Eigen::VectorXd&, Eigen::VectorXd&)>& function,
     Eigen::VectorXd x, const LbfgsOptions& options);
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

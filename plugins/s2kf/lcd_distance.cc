@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 using Eigen::ArrayXd;
@@ -125,4 +125,4 @@ double LcdDistance::Evaluate(const MatrixXd& half_samples, MatrixXd* gradient) c
   return d1_ - 2 * d2 + d3;
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

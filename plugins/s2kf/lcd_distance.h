@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 /// Modified Cramer-von Mises distance D = D1 - 2 D2 + D3 between the standard normal in n
 /// dimensions and point-symmetric samples of equal weight (Steinbring, Pander, Hanebeck 2016;
@@ -24,4 +24,4 @@ class LcdDistance {
   double d1_;
 };
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 using Eigen::Index;
@@ -65,4 +65,4 @@ std::string_view ShippedLcdSamples(int dimension, int num_samples) {
   return {};
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -18,7 +18,7 @@
 #include "plugins/s2kf/lcd_distance.h"
 #include "plugins/s2kf/lcd_samples_text.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 using Eigen::MatrixXd;
@@ -148,4 +148,4 @@ MatrixXd ComputeLcdHalfSamples(int dimension, int num_samples) {
   return ((best * 1e6).array().round() / 1e6).matrix().reshaped(dimension, num_half);
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

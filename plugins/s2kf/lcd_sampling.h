@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 
 // Point-symmetric samples of the standard normal in n dimensions, all of weight 1/N, N = 2K + 1:
 // the origin, the K columns of the returned n x K matrix, and their negatives. Mean 0 by symmetry;
@@ -29,4 +29,4 @@ Eigen::MatrixXd RotatedUkfHalfSamples(int dimension, std::uint64_t seed);
 /// shipped and cached files. Deterministic. @throws Error as LcdHalfSamples.
 Eigen::MatrixXd ComputeLcdHalfSamples(int dimension, int num_samples);
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr unsigned kRotationSeed = 1;
-// A frame is linearised again while the samples leave more of the marker variance unexplained than this
-// share of the measurement noise.
+// A frame is linearised again while the samples leave more of the marker variance unexplained than
+// this share of the measurement noise.
 constexpr double kLargestUnexplainedShare = 0.25;
 
 MatrixXd HalfSamples(const S2kfSettings& settings, int n) {

@@ -20,8 +20,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A track is in doubt for this many frames after its start or after a cause of doubt.
 constexpr int kDoubtFrames = 20;
-// So many markers that come back together after having been hidden for longer than this [s] may stand
-// where the filter does not expect them.
+// So many markers that come back together after having been hidden for longer than this [s] may
+// stand where the filter does not expect them.
 constexpr int kManyReturned = 3;
 constexpr double kLongGap = 0.1;
 // Distances this much above their usual level are a cause of doubt.
@@ -32,6 +32,9 @@ constexpr double kLevelTime = 1.0;
 // A found posture must lower the cost by this share to replace the filter's: the filter smooths, so
 // its posture never has the least cost.
 constexpr double kClearlyBetter = 0.1;
+
+// Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
+constexpr int kFitIterations = 12;
 
 std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
   std::vector<int> markers;
@@ -59,6 +62,7 @@ S2kfConverter::S2kfConverter(const KinematicModel& model,
       at_(kinematics_.MakeJacobian()),
       z_(3, kinematics_.num_markers()),
       hidden_for_(assignments.size(), 0.0) {
+  fit_options_.max_iterations = kFitIterations;
   if (settings.robust_distance > 0) fit_options_.robust_distance = settings.robust_distance;
   posture_.joint_angles.setZero(kinematics_.num_joints());
   candidate_ = posture_;

@@ -36,7 +36,7 @@ struct S2kfSettings {
   ProcessNoise noise = {0.3, 0.3, 0.17};
   double natural_spread = 0.15;
   double velocity_decay = 0.2;
-  ProcessNoise velocity_noise = {3.0, 10.0, 10.0};
+  ProcessNoise velocity_noise = {1.0, 3.0, 3.0};
 
   double marker_deviation = 0.005;
   double robust_distance = 0.1;

@@ -12,7 +12,7 @@
 #include "plugins/s2kf/lcd_samples_text.h"
 #include "plugins/s2kf/lcd_sampling.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 int ParseCount(const char* text) {
@@ -30,10 +30,10 @@ void Make(int dimension, int num_samples, const char* file) {
 }
 
 }  // namespace
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf
 
 int main(int argc, char** argv) {
-  using namespace mmm_converter;
+  using namespace mmm_converter::s2kf;
   if (argc != 4) {
     fmt::print(stderr, "use: make_lcd_samples DIMENSION SAMPLES FILE\n");
     return 2;

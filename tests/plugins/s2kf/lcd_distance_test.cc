@@ -10,7 +10,7 @@
 #include "plugins/s2kf/lbfgs.h"
 #include "plugins/s2kf/lcd_sampling.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 using Eigen::MatrixXd;
@@ -117,4 +117,4 @@ TEST(LbfgsTest, SolvesRosenbrock) {
 }
 
 }  // namespace
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf

@@ -13,7 +13,7 @@
 #include "plugins/s2kf/lcd_distance.h"
 #include "plugins/s2kf/lcd_samples_text.h"
 
-namespace mmm_converter {
+namespace mmm_converter::s2kf {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST_F(LcdSamplingTest, ImpossibleSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace mmm_converter
+}  // namespace mmm_converter::s2kf
