@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "common/convert/plugin_loader.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/dll/shared_library.hpp>
 #include <cstdlib>
 #include <filesystem>
 
@@ -16,24 +16,6 @@ namespace mmm_converter {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The dynamic loader's own words for what just failed.
-std::string LoaderMessage() {
-  const char* message = dlerror();
-  return message == nullptr ? "unknown error" : message;
-}
-
-template <typename Function>
-Function* FindFunction(void* library, const char* name, const std::string& path) {
-  void* symbol = dlsym(library, name);
-  if (symbol == nullptr) {
-    throw Error(
-        fmt::format("{}: is a shared library, but no converter plugin: it does not export "
-                    "{}",
-                    path, name));
-  }
-  return reinterpret_cast<Function*>(symbol);
-}
 
 std::vector<std::string> LibrariesIn(const std::string& folder) {
   std::vector<std::string> paths;
@@ -55,19 +37,38 @@ std::string DescribeSearch(const std::vector<FoundPlugin>& plugins) {
 
 }  // namespace
 
-void LoadedPlugin::CloseLibrary::operator()(void* handle) const { dlclose(handle); }
+class LoadedPlugin::Library {
+ public:
+  explicit Library(const std::string& path) try : library_(path, boost::dll::load_mode::rtld_now) {
+  } catch (const boost::system::system_error& failure) {
+    throw Error(fmt::format("{}: can't be loaded as a shared library: {}", path, failure.what()));
+  }
+
+  template <typename Function>
+  Function* Find(const char* name) const {
+    if (!library_.has(name)) {
+      throw Error(
+          fmt::format("{}: is a shared library, but no converter plugin: it does not export {}",
+                      library_.location().string(), name));
+    }
+    return &library_.get<Function>(name);
+  }
+
+ private:
+  boost::dll::shared_library library_;
+};
+
+LoadedPlugin::LoadedPlugin(LoadedPlugin&& other) noexcept = default;
+LoadedPlugin::~LoadedPlugin() = default;
 
 LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).string()) {
   std::error_code failure;
   if (!fs::is_regular_file(path_, failure)) {
     throw Error(fmt::format("{}: no such plugin file", path));
   }
-  library_.reset(dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
-  if (library_ == nullptr) {
-    throw Error(fmt::format("{}: can't be loaded as a shared library: {}", path, LoaderMessage()));
-  }
-  auto* get_version = FindFunction<GetVersionFunction>(library_.get(), "getVersion", path);
-  auto* get_factory = FindFunction<GetFactoryFunction>(library_.get(), "getFactory", path);
+  library_ = std::make_unique<Library>(path_);
+  auto* get_version = library_->Find<GetVersionFunction>("getVersion");
+  auto* get_factory = library_->Find<GetFactoryFunction>("getFactory");
   const char* version = get_version();
   version_ = version == nullptr ? "" : version;
   if (version_ != kConverterInterfaceVersion) {

@@ -14,22 +14,21 @@ namespace mmm_converter {
 class LoadedPlugin {
  public:
   /// @throws Error where there is no such file, it is no shared library, does not export getVersion
-  /// and
-  ///         getFactory, or was built against another kConverterInterfaceVersion.
+  /// and getFactory, or was built against another kConverterInterfaceVersion.
   explicit LoadedPlugin(const std::string& path);
+  LoadedPlugin(LoadedPlugin&& other) noexcept;
+  ~LoadedPlugin();
 
   const std::string& path() const { return path_; }  ///< absolute
   const std::string& version() const { return version_; }
   const MotionConverterFactory& factory() const { return *factory_; }
 
  private:
-  struct CloseLibrary {
-    void operator()(void* handle) const;
-  };
+  class Library;
 
   std::string path_;
   std::string version_;
-  std::unique_ptr<void, CloseLibrary> library_;  // before factory_: destroyed after it
+  std::unique_ptr<Library> library_;  // before factory_: destroyed after it
   std::unique_ptr<MotionConverterFactory> factory_;
 };
 
