@@ -68,6 +68,7 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
   const int n = kinematics.num_dofs();
   const int all = motion_model_.velocity ? 2 * n : n;
   z_.setZero(3 * kinematics.num_markers());
+  expected_.setZero(3 * kinematics.num_markers());
   noise_.setZero(3 * kinematics.num_markers());
   L_.setZero(all, all);
   L_x_.setZero(n, n);
@@ -134,9 +135,10 @@ void MarkerFilter::Predict(double dt, Belief* belief) const {
 }
 
 void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, Outcome* outcome) {
-  *outcome = {};
+  outcome->seen = 0;
+  outcome->downweighted = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) {
-    const double distance = (z.col(m) - moments_.mean.segment<3>(3 * m)).norm();
+    const double distance = (z.col(m) - expected_.segment<3>(3 * m)).norm();
     if (!std::isfinite(distance)) {
       noise_.segment<3>(3 * m).setConstant(kInfinity);
       continue;
@@ -200,13 +202,20 @@ MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief
   L_x_ = L_.topLeftCorner(n, n);
   center_.setZero();
   measurement_model_.ComputeMoments(*belief, center_, L_x_, exact, &moments_);
+  expected_ = moments_.mean;
   Outcome outcome;
   Weigh(z, &outcome);
   if (outcome.seen == 0) return outcome;
   update_.Compute(moments_, z_, noise_, settings_.update);
   outcome.nis = update_.nis() / (3 * outcome.seen);
-  for (int i = 1; i < settings_.iterations && IsFarFromLinear(); ++i) {
-    Relinearize(*belief);
+  for (int i = 1; i < settings_.iterations; ++i) {
+    const bool is_far = IsFarFromLinear();
+    if (!is_far && outcome.downweighted == 0) break;
+    if (is_far) Relinearize(*belief);
+    // A marker that is far from where it was expected is wrong only if it is far from the estimate.
+    expected_ = moments_.mean;
+    expected_.noalias() += moments_.C_zs * update_.mean();
+    Weigh(z, &outcome);
     update_.Compute(moments_, z_, noise_, settings_.update);
   }
   Commit(belief);

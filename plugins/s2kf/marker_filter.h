@@ -45,6 +45,7 @@ class MarkerFilter {
   void Deviations(const Belief& belief, Eigen::VectorXd* deviations) const;
 
  private:
+  /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Outcome* outcome);
   bool IsFarFromLinear() const;
   void Relinearize(const Belief& belief);
@@ -57,10 +58,11 @@ class MarkerFilter {
   MarkerMeasurementModel measurement_model_;
   MeasurementMoments moments_;
   GaussianUpdate update_;
-  Eigen::VectorXd z_;      // measured coordinates, m
-  Eigen::VectorXd noise_;  // their variances, m
-  Eigen::MatrixXd L_;      // root of P, lower triangular
-  Eigen::MatrixXd L_x_;    // its part for the states that h depends on, n x n
+  Eigen::VectorXd expected_;  // of z, by the latest estimate
+  Eigen::VectorXd z_;         // measured coordinates, m
+  Eigen::VectorXd noise_;     // their variances, m
+  Eigen::MatrixXd L_;         // root of P, lower triangular
+  Eigen::MatrixXd L_x_;       // its part for the states that h depends on, n x n
   Eigen::MatrixXd spread_;
   Eigen::MatrixXd U_;
   Eigen::VectorXd center_;

@@ -71,12 +71,17 @@ INSTANTIATE_TEST_SUITE_P(
       return file.substr(0, file.find('_'));
     });
 
-class CmuTest : public ::testing::TestWithParam<const char*> {};
+struct PluginGaitRecording {
+  const char* file;
+  double bad_share;  ///< of frames that may be beyond 10 % + 1 mm of their optimum
+};
 
-TEST_P(CmuTest, FollowsTheOptimumThroughAcrobatics) {
+class PluginGaitTest : public ::testing::TestWithParam<PluginGaitRecording> {};
+
+TEST_P(PluginGaitTest, FollowsTheOptimum) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Recording recording = ReadRecording(
-      testing::SharedData(std::string("recordings/whole_body/") + GetParam() + ".c3d"), {});
+      testing::SharedData(std::string("recordings/whole_body/") + GetParam().file + ".c3d"), {});
   const KinematicModel model = PersonModel(1.7);
   const std::vector<MarkerSet> sets = ReadMarkerSets(testing::SourcePath("xml_config/marker_sets"));
   const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
@@ -87,14 +92,20 @@ TEST_P(CmuTest, FollowsTheOptimumThroughAcrobatics) {
                  recording.markers, nullptr, mapping.assignments);
   const int n = static_cast<int>(run.distance.size());
   std::printf("[ measured ] %s: mean %.2f mm, optimum %.2f, %d of %d frames beyond 10 %% + 1 mm\n",
-              GetParam(), 1e3 * run.MeanDistance(0, n), 1e3 * run.MeanOptimum(0, n),
+              GetParam().file, 1e3 * run.MeanDistance(0, n), 1e3 * run.MeanOptimum(0, n),
               run.BadFrames(0, n), n);
-  EXPECT_LE(run.BadFrames(0, n), n / 100);
+  EXPECT_LE(run.BadFrames(0, n), GetParam().bad_share * n);
   EXPECT_TRUE(run.inside_limits);
 }
 
-INSTANTIATE_TEST_SUITE_P(Recordings, CmuTest, ::testing::Values("85_02", "cmu_02_05"),
-                         [](const auto& test) { return "File" + std::string(test.param); });
+// In the serve, at 50 Hz, the straight arm passes the shoulder's singularity: the filter keeps to
+// its branch until recovery finds the better one.
+INSTANTIATE_TEST_SUITE_P(Recordings, PluginGaitTest,
+                         ::testing::Values(PluginGaitRecording{"85_02", 0.01},
+                                           PluginGaitRecording{"cmu_02_05", 0.01},
+                                           PluginGaitRecording{"pycgm_movement_trial", 0.01},
+                                           PluginGaitRecording{"kinematics_tennis_serve", 0.05}),
+                         [](const auto& test) { return "File" + std::string(test.param.file); });
 
 }  // namespace
 }  // namespace mmm_converter::s2kf
