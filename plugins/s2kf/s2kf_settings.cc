@@ -25,7 +25,8 @@ void BindFilter(S2kfSettings* v, SettingTable* table) {
       "regression: what the samples leave unexplained counts as noise of each coordinate (faster); "
       "exact: the full covariance of the measurement");
   table->Add("Filter", "iterations", &v->iterations, 1, 10,
-             "linearisations a frame, each about the last estimate; more than 1 needs "
+             "passes a frame at most: linearised anew about the last estimate where that is far "
+             "from linear, weighted anew where markers count less; more than 1 needs "
              "update=\"regression\"");
   table->AddChoice("Filter", "root", &v->root,
                    {{"so3", RootParameters::kSo3}, {"rpy", RootParameters::kRpy}},
