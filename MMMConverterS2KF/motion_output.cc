@@ -52,14 +52,14 @@ std::string Format(const MmmMotionOutput& output, const ConversionRequest& reque
 
 }  // namespace
 
-std::string ChooseOutput(const ConversionRequest& request, const Recording& recording) {
+std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report) {
   std::string output = request.output;
   if (output.empty()) {
     const fs::path input = request.input;
     output = (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
   }
   std::error_code failure;
-  const bool keeps_all = IsMmm2(recording) && request.output_format != "1.0";
+  const bool keeps_all = IsMmm2(report.recording) && report.output_format != "1.0";
   if (!keeps_all && fs::equivalent(output, request.input, failure)) {
     throw Error(
         fmt::format("{}: is the recording itself, which would be lost; give another file "

@@ -7,7 +7,7 @@ namespace mmm_converter {
 
 /// Where the motion goes: request.output, or else the input's stem + "_mmm.xml" beside it.
 /// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
-std::string ChooseOutput(const ConversionRequest& request, const Recording& recording);
+std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report);
 
 /// Writes report.result. Of an MMM 2.0 recording, all other motions and sensors are kept as they
 /// are.

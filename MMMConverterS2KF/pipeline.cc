@@ -9,6 +9,8 @@
 #include "MMMConverterS2KF/person.h"
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm_model.h"
+#include "common/io/trajectory_csv.h"
+#include "common/support/atomic_file.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
 
@@ -85,11 +87,12 @@ ConversionReport RunConversion(const ConversionRequest& request,
   report.recording = ReadRecording(request.input, request.recording);
   AddWarnings(report.recording.warnings, &report);
   TakeFrames(request, &report);
-  report.output = ChooseOutput(request, report.recording);
-  report.output_format = request.output_format.empty() ? "2.0" : request.output_format;
 
   const LoadedPlugin plugin = LoadConverter(request, &report);
   AddWarnings(report.config.warnings, &report);
+  report.output_format =
+      request.output_format.empty() ? report.config.output_format : request.output_format;
+  report.output = ChooseOutput(request, report);
 
   report.model_file = request.model_file.empty() ? DataFile(kDefaultModel) : request.model_file;
   const MmmModel reference = ReadMmmModel(report.model_file);
@@ -112,6 +115,9 @@ ConversionReport RunConversion(const ConversionRequest& request,
     return true;
   });
   WriteMotion(request, &report);
+  if (!request.csv_file.empty()) {
+    WriteFileAtomically(request.csv_file, FormatTrajectoryCsv(report.result.trajectory));
+  }
   return report;
 }
 

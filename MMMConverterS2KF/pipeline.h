@@ -17,7 +17,8 @@ namespace mmm_converter {
 struct ConversionRequest {
   std::string input;
   std::string output;         ///< input stem + "_mmm.xml", beside the input
-  std::string output_format;  ///< "2.0" or "1.0"
+  std::string output_format;  ///< "2.0" or "1.0"; empty: what the configuration says
+  std::string csv_file;       ///< also write the trajectory with its standard deviations
   ReadRecordingOptions recording;
   std::string motion_name;         ///< to write
   std::optional<int> first_frame;  ///< counted from 0

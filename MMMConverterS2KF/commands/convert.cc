@@ -19,7 +19,8 @@ const std::vector<OptionGroup> kOptions = {
     {"Files",
      {{"output,o", "FILE", "the motion; default: INPUT without its ending + _mmm.xml",
        "outputMotion"},
-      {"format", "2.0|1.0", "of the motion; default: 2.0", ""},
+      {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
+      {"csv", "FILE", "also write postures and their standard deviations as CSV", ""},
       {"summary", "FILE", "write a summary as JSON", ""}}},
     {"Recording",
      {{"subject", "NAME", "label prefix to take where a recording has several subjects", ""},
@@ -98,6 +99,7 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.input = ChooseInput(arguments);
   request.output = arguments.Get("output").value_or("");
   request.output_format = arguments.Get("format").value_or("");
+  request.csv_file = arguments.Get("csv").value_or("");
   if (arguments.Has("format") && request.output_format != "2.0" && request.output_format != "1.0") {
     throw UsageError(
         fmt::format("--format: \"{}\" is not allowed; use 2.0 or 1.0", request.output_format));

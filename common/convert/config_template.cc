@@ -35,10 +35,16 @@ constexpr const char* kShared = R"(<?xml version="1.0" encoding="UTF-8"?>
 
 )";
 
+constexpr const char* kOutput =
+    R"(  <!-- The motion that is written. format: version of MMM's motion format (2.0 or 1.0); the command
+       line's --format comes first -->
+  <Output format="2.0"/>
+)";
+
 }  // namespace
 
 std::string FormatConfigTemplate(const std::string& type, const SettingTable& plugin_settings) {
-  return fmt::format(kShared, type) + plugin_settings.ToXml(2) + "</ConverterConfig>\n";
+  return fmt::format(kShared, type) + plugin_settings.ToXml(2) + kOutput + "</ConverterConfig>\n";
 }
 
 }  // namespace mmm_converter

@@ -36,15 +36,16 @@ class ConfigReader {
     config_.file = diagnostics_.file();
     ReadType();
     const XmlElement* model = nullptr;
+    const XmlElement* output = nullptr;
     for (const XmlElement& child : root_.children) {
-      if (child.name != "Model") {
-        config_.plugin_elements.push_back(child);
-      } else if (model != nullptr) {
-        diagnostics_.AddError(child.line,
-                              fmt::format("<Model> is already in line {}", model->line));
+      if (child.name == "Model") {
+        CheckOnlyOne(child, &model);
+        if (model == &child) ReadModel(child);
+      } else if (child.name == "Output") {
+        CheckOnlyOne(child, &output);
+        if (output == &child) ReadOutput(child);
       } else {
-        model = &child;
-        ReadModel(child);
+        config_.plugin_elements.push_back(child);
       }
     }
     if (is_foreign_) LeaveOutForeignSettings();
@@ -93,6 +94,18 @@ class ConfigReader {
                                   child.name));
       }
     }
+  }
+
+  void ReadOutput(const XmlElement& output) {
+    AllowAttributes(output, {"format"});
+    const std::string* format = output.FindAttribute("format");
+    if (format == nullptr) return;
+    if (*format != "2.0" && *format != "1.0") {
+      ReportUnknown(output.line,
+                    fmt::format("<Output>: format=\"{}\" is not allowed; use 2.0 or 1.0", *format));
+      return;
+    }
+    config_.output_format = *format;
   }
 
   void ReadMarkerMapping(const XmlElement& mapping) {
@@ -195,6 +208,8 @@ class ConfigReader {
   void AllowAttributes(const XmlElement& element, const std::vector<std::string>& names) {
     for (const auto& [attribute, value] : element.attributes) {
       if (std::find(names.begin(), names.end(), attribute) != names.end()) continue;
+      // Where a file names its schema.
+      if (attribute.starts_with("xmlns") || attribute.starts_with("xsi:")) continue;
       ReportUnknown(element.line, fmt::format("<{}>: unknown attribute {}; use {}", element.name,
                                               attribute, JoinNames(names)));
     }

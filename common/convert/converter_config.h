@@ -27,6 +27,7 @@ struct ConverterConfig {
   std::vector<ConfigJoint> joints;  ///< in output order; empty: see joint_set
   std::string joint_set = "auto";   ///< Joints@set, see ResolveJoints
   int joint_set_line = 0;
+  std::string output_format = "2.0";  ///< Output@format: version of MMM's motion format to write
   std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
   std::vector<std::string> warnings;
 };
