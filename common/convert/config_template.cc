@@ -37,7 +37,7 @@ constexpr const char* kShared = R"(<?xml version="1.0" encoding="UTF-8"?>
 
 constexpr const char* kOutput =
     R"(  <!-- The motion that is written. format: version of MMM's motion format (2.0 or 1.0); the command
-       line's --format comes first -->
+       line's option of that name comes first -->
   <Output format="2.0"/>
 )";
 

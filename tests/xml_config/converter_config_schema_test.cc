@@ -98,7 +98,8 @@ TEST(ConverterConfigSchema, HasTheSettingsOfTheConverterAndNoOthers) {
     EXPECT_EQ(type->FindChildren("xs:attribute").size(), attributes);
   }
   const auto& config = *schema.FindChild("xs:element")->FindChild("xs:complexType");
-  EXPECT_EQ(config.FindChild("xs:all")->children.size(), table.elements().size() + 2);  // + Model, Output
+  EXPECT_EQ(config.FindChild("xs:all")->children.size(),
+            table.elements().size() + 2);  // + Model, Output
 }
 
 TEST(ConverterConfigSchema, TemplateIsValidAndSaysTheDefaults) {
