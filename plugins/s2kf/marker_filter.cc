@@ -51,6 +51,11 @@ MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransf
   return model;
 }
 
+/// With the rates, where the motion model has them.
+int NumStates(const S2kfSettings& settings, const MarkerKinematics& kinematics) {
+  return (settings.motion_model == MotionModelType::kVelocity ? 2 : 1) * kinematics.num_dofs();
+}
+
 }  // namespace
 
 MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSettings& settings,
@@ -62,11 +67,12 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
           kinematics, JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
           settings.root, HalfSamples(settings, kinematics.num_dofs())),
       moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
-      update_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
+      update_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
+      llt_(NumStates(settings, kinematics)) {
   motion_model_ =
       MakeMotionModel(settings, measurement_model_.transform(), NaturalAngles(kinematics));
   const int n = kinematics.num_dofs();
-  const int all = motion_model_.velocity ? 2 * n : n;
+  const int all = NumStates(settings, kinematics);
   z_.setZero(3 * kinematics.num_markers());
   expected_.setZero(3 * kinematics.num_markers());
   noise_.setZero(3 * kinematics.num_markers());
@@ -76,7 +82,6 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
   U_.setZero(n, all);
   center_.setZero(n);
   dx_.setZero(all);
-  llt_ = Eigen::LLT<MatrixXd>(all);
 }
 
 void MarkerFilter::StartAt(const Posture& posture, Belief* belief) const {

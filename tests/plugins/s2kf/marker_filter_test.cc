@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/marker_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+#include <random>
+
+#include "tests/support/test_models.h"
+
+namespace mmm_converter::s2kf {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+class MarkerFilterTest : public ::testing::TestWithParam<FilterType> {
+ protected:
+  MarkerFilterTest() {
+    settings_.filter = GetParam();
+    settings_.samples = 101;
+  }
+
+  Eigen::Matrix3Xd Markers(const Posture& q) {
+    MarkerJacobian at = kinematics_.MakeJacobian();
+    kinematics_.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
+    return at.p_WM;
+  }
+
+  KinematicModel model_ = testing::MakeBranchedModel();
+  MarkerKinematics kinematics_ = testing::MakeFullKinematics(model_);
+  VectorXd scale_ = VectorXd::Ones(kinematics_.num_markers());
+  S2kfSettings settings_;
+  std::mt19937 random_{5};
+};
+
+TEST_P(MarkerFilterTest, ConvergesToThePostureThatMadeTheMarkers) {
+  settings_.natural_spread = 0;
+  MarkerFilter filter(kinematics_, settings_, scale_);
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  const Eigen::Matrix3Xd z = Markers(truth);
+  Belief belief;
+  filter.StartAt(Retract(truth, 0.05 * VectorXd::Ones(kinematics_.num_dofs())), &belief);
+  for (int k = 0; k < 30; ++k) {
+    filter.Predict(0.01, &belief);
+    filter.Update(z, &belief);
+  }
+  Posture q;
+  filter.ToPosture(belief, &q);
+  // The mean over a spread is not the marker of the mean: a bias of second order stays.
+  EXPECT_LT((Markers(q) - z).colwise().norm().maxCoeff(), 0.001);
+}
+
+TEST_P(MarkerFilterTest, AMissingMarkerIsAFilterWithoutIt) {
+  MarkerFilter all(kinematics_, settings_, scale_);
+  const std::vector<int> kept = {0, 1, 2, 3, 5, 6, 7, 8, 10, 11};
+  const MarkerKinematics fewer_kinematics(model_, kinematics_.joints(), kept);
+  MarkerFilter fewer(fewer_kinematics, settings_, VectorXd::Ones(10));
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  Eigen::Matrix3Xd z = Markers(truth);
+  const Eigen::Matrix3Xd z_kept = z(Eigen::all, kept);
+  for (const int hidden : {4, 9}) z.col(hidden).setConstant(kNaN);
+  Belief a;
+  Belief b;
+  all.StartAt(Retract(truth, 0.02 * VectorXd::Ones(kinematics_.num_dofs())), &a);
+  b = a;
+  EXPECT_EQ(all.Update(z, &a).seen, 10);
+  fewer.Update(z_kept, &b);
+  // The same sums with zeros between.
+  EXPECT_LT((a.P - b.P).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((a.parameters - b.parameters).norm(), 1e-11);
+  EXPECT_LT((a.position - b.position).norm(), 1e-11);
+}
+
+TEST_P(MarkerFilterTest, NothingSeenLeavesThePrediction) {
+  MarkerFilter filter(kinematics_, settings_, scale_);
+  Belief belief;
+  filter.StartAt(testing::RandomPosture(kinematics_, 0.6, &random_), &belief);
+  filter.Predict(0.01, &belief);
+  const Belief before = belief;
+  const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Constant(3, kinematics_.num_markers(), kNaN);
+  EXPECT_EQ(filter.Update(none, &belief).seen, 0);
+  EXPECT_EQ(belief.position, before.position);
+  EXPECT_EQ(belief.parameters, before.parameters);
+  EXPECT_EQ(belief.P, before.P);
+}
+
+TEST_P(MarkerFilterTest, OneWildMarkerIsHeldOff) {
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  Eigen::Matrix3Xd z = Markers(truth);
+  z.col(6) += Eigen::Vector3d(0.5, 0.5, -0.5);
+  double error[2];
+  for (const bool robust : {false, true}) {
+    settings_.robust_distance = robust ? 0.02 : 0.0;
+    MarkerFilter filter(kinematics_, settings_, scale_);
+    Belief belief;
+    filter.StartAt(truth, &belief);
+    const MarkerFilter::Outcome outcome = filter.Update(z, &belief);
+    EXPECT_EQ(outcome.downweighted > 0, robust);
+    Posture q;
+    filter.ToPosture(belief, &q);
+    error[robust] = (Markers(q) - Markers(truth)).norm();
+  }
+  EXPECT_LT(error[1], 0.5 * error[0]);
+}
+
+TEST_P(MarkerFilterTest, TheCovarianceStaysOneAndBoundedThroughLongGaps) {
+  MarkerFilter filter(kinematics_, settings_, scale_);
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  std::normal_distribution<double> noise(0, 0.005);
+  Belief belief;
+  filter.StartAt(truth, &belief);
+  VectorXd seen_deviations;
+  VectorXd deviations;
+  for (int k = 0; k < 1000; ++k) {
+    Eigen::Matrix3Xd z = Markers(truth);
+    for (double& value : z.reshaped()) value += noise(random_);
+    // The last joints' markers are gone in the second half.
+    if (k >= 500) z.rightCols(4).setConstant(kNaN);
+    filter.Predict(0.01, &belief);
+    filter.Update(z, &belief);
+    EXPECT_EQ(belief.P, belief.P.transpose());
+    if (k == 499) filter.Deviations(belief, &seen_deviations);
+  }
+  filter.Deviations(belief, &deviations);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(belief.P);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), 0);
+  const int hidden = 6 + model_.FindJoint("d_x");
+  EXPECT_GT(deviations[hidden], 5 * seen_deviations[hidden]);
+  EXPECT_LT(std::sqrt(belief.P(hidden, hidden)), 1.1 * settings_.natural_spread);
+}
+
+TEST_P(MarkerFilterTest, RunsAreTheSameToTheLastBit) {
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  const Eigen::Matrix3Xd z = Markers(truth);
+  Belief belief[2];
+  for (Belief& b : belief) {
+    MarkerFilter filter(kinematics_, settings_, scale_);
+    filter.StartAt(Retract(truth, 0.05 * VectorXd::Ones(kinematics_.num_dofs())), &b);
+    for (int k = 0; k < 10; ++k) {
+      filter.Predict(0.01, &b);
+      filter.Update(z, &b);
+    }
+  }
+  EXPECT_EQ(belief[0].P, belief[1].P);
+  EXPECT_EQ(belief[0].parameters, belief[1].parameters);
+}
+
+TEST_P(MarkerFilterTest, StartsAsThePaperDoes) {
+  MarkerFilter filter(kinematics_, settings_, scale_);
+  Eigen::Matrix3Xd z = Eigen::Matrix3Xd::Constant(3, kinematics_.num_markers(), kNaN);
+  z.col(0) << 1, 0, 0;
+  z.col(1) << 3, 0, 0;
+  z.col(2) << 2, 3, 0;
+  Belief belief;
+  filter.StartAsPaper(z, &belief);
+  EXPECT_EQ(belief.position, Eigen::Vector3d(2, 1, 0));
+  EXPECT_EQ(belief.parameters, VectorXd::Zero(kinematics_.num_joints()));
+  EXPECT_NEAR(belief.P(0, 0), 1, 1e-15);  // of 1, 3 and 2
+  EXPECT_NEAR(belief.P(1, 1), 3, 1e-15);  // of 0, 0 and 3
+  EXPECT_EQ(belief.P(4, 4), 1e-6);
+  EXPECT_EQ(belief.P(7, 7), 1e-10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, MarkerFilterTest,
+                         ::testing::Values(FilterType::kS2kf, FilterType::kUkf, FilterType::kEkf));
+
+}  // namespace
+}  // namespace mmm_converter::s2kf
