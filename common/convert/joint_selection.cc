@@ -6,22 +6,14 @@
 
 #include "common/convert/converter_config.h"
 #include "common/model/kinematic_model.h"
+#include "common/model/kit_joints.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
 
 namespace mmm_converter {
 namespace {
 
-// The order of KIT's motion files; the feet's LFx, LMrot, RFx and RMrot came with the later models.
-constexpr std::array kMmm44 = {
-    "BLNx_joint", "BLNy_joint", "BLNz_joint", "BPx_joint",   "BPy_joint",  "BPz_joint",
-    "BTx_joint",  "BTy_joint",  "BTz_joint",  "BUNx_joint",  "BUNy_joint", "BUNz_joint",
-    "LAx_joint",  "LAy_joint",  "LAz_joint",  "LEx_joint",   "LEz_joint",  "LHx_joint",
-    "LHy_joint",  "LHz_joint",  "LKx_joint",  "LSx_joint",   "LSy_joint",  "LSz_joint",
-    "LWx_joint",  "LWy_joint",  "LFx_joint",  "LMrot_joint", "RAx_joint",  "RAy_joint",
-    "RAz_joint",  "REx_joint",  "REz_joint",  "RHx_joint",   "RHy_joint",  "RHz_joint",
-    "RKx_joint",  "RSx_joint",  "RSy_joint",  "RSz_joint",   "RWx_joint",  "RWy_joint",
-    "RFx_joint",  "RMrot_joint"};
+// These came with the later models.
 constexpr std::array kFeet = {"LFx_joint", "LMrot_joint", "RFx_joint", "RMrot_joint"};
 
 std::vector<std::string> JointNames(const KinematicModel& model) {
@@ -65,7 +57,7 @@ std::vector<int> ResolveList(const ConverterConfig& config, const KinematicModel
 // Joints of KIT's list that the model has.
 std::vector<int> KnownJoints(const KinematicModel& model, bool with_feet) {
   std::vector<int> joints;
-  for (const std::string name : kMmm44) {
+  for (const std::string& name : KitJointNames()) {
     const bool is_foot = std::find(kFeet.begin(), kFeet.end(), name) != kFeet.end();
     const int index = model.FindJoint(name);
     if (index >= 0 && (with_feet || !is_foot)) joints.push_back(index);

@@ -9,9 +9,6 @@
 
 namespace mmm_converter {
 
-/// The 44 joints of KIT's motions, in their order.
-const std::vector<std::string>& KitJointNames();
-
 // Made motions of a (scaled) MMM reference model at 100 Hz: joint angles run smoothly through
 // keyframes inside the limits, and the root moves so that the supporting foot or hand stands still.
 // The floor is z = 0, the subject looks along y.

@@ -38,6 +38,7 @@ constexpr int kFitIterations = 12;
 
 std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
   std::vector<int> markers;
+  markers.reserve(assignments.size());
   for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
   return markers;
 }

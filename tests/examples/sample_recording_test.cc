@@ -11,6 +11,7 @@
 #include "common/io/mmm_motion.h"
 #include "common/io/recording.h"
 #include "common/model/forward_kinematics.h"
+#include "common/model/kit_joints.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/motion/synthetic_motion.h"
+#include "common/model/kit_joints.h"
 
 #include <gtest/gtest.h>
 
