@@ -13,10 +13,12 @@
 
 #if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
 
+// glibc's own names.
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* p, std::size_t size);
+void* __libc_malloc(std::size_t size);                     // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* p, std::size_t size);           // NOLINT(bugprone-reserved-identifier)
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 }
 

@@ -20,7 +20,8 @@ class JointLimitTransformTest : public ::testing::TestWithParam<LimitFunction> {
 
 TEST_P(JointLimitTransformTest, EveryParameterIsInsideTheLimits) {
   const JointLimitTransform transform = MakeTransform(GetParam());
-  for (double parameter = -50; parameter < 50; parameter += 0.01) {
+  for (int i = -5000; i < 5000; ++i) {
+    const double parameter = 0.01 * i;
     EXPECT_GE(transform.Angle(0, parameter), -0.5);
     EXPECT_LE(transform.Angle(0, parameter), 1.5);
   }
@@ -28,7 +29,8 @@ TEST_P(JointLimitTransformTest, EveryParameterIsInsideTheLimits) {
 
 TEST_P(JointLimitTransformTest, ParameterInvertsAngleAwayFromTheLimits) {
   const JointLimitTransform transform = MakeTransform(GetParam());
-  for (double angle = 0.05; angle < 2.7; angle += 0.01) {
+  for (int i = 5; i < 270; ++i) {
+    const double angle = 0.01 * i;
     EXPECT_NEAR(transform.Angle(1, transform.Parameter(1, angle)), angle, 1e-13);
   }
   EXPECT_GT(transform.Slope(1, transform.Parameter(1, 2.8)), 0.04 * 1.4);

@@ -92,7 +92,7 @@ TEST_P(MarkerFilterTest, OneWildMarkerIsHeldOff) {
   const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
   Eigen::Matrix3Xd z = Markers(truth);
   z.col(6) += Eigen::Vector3d(0.5, 0.5, -0.5);
-  double error[2];
+  double error[2] = {};
   for (const bool robust : {false, true}) {
     settings_.robust_distance = robust ? 0.02 : 0.0;
     MarkerFilter filter(kinematics_, settings_, scale_);
