@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <limits>
 #include <random>
@@ -131,6 +132,48 @@ TEST_P(MarkerFilterTest, TheCovarianceStaysOneAndBoundedThroughLongGaps) {
   const int hidden = 6 + model_.FindJoint("d_x");
   EXPECT_GT(deviations[hidden], 5 * seen_deviations[hidden]);
   EXPECT_LT(std::sqrt(belief.P(hidden, hidden)), 1.1 * settings_.natural_spread);
+}
+
+TEST_P(MarkerFilterTest, TheCovarianceStaysPositiveWhileMarkersComeAndGo) {
+  MarkerFilter filter(kinematics_, settings_, scale_);
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  std::normal_distribution<double> noise(0, 0.005);
+  std::bernoulli_distribution is_hidden(0.33);
+  Belief belief;
+  filter.StartAt(truth, &belief);
+  VectorXd start;
+  VectorXd end;
+  filter.Deviations(belief, &start);
+  for (int k = 0; k < 1000; ++k) {
+    Eigen::Matrix3Xd z = Markers(truth);
+    for (double& value : z.reshaped()) value += noise(random_);
+    for (auto marker : z.colwise()) {
+      if (is_hidden(random_)) marker.setConstant(kNaN);
+    }
+    filter.Predict(0.01, &belief);
+    filter.Update(z, &belief);
+    ASSERT_EQ(belief.P, belief.P.transpose()) << "frame " << k;
+    ASSERT_EQ(Eigen::LLT<MatrixXd>(belief.P).info(), Eigen::Success) << "frame " << k;
+  }
+  filter.Deviations(belief, &end);
+  // Of the orientation, which all markers tell.
+  EXPECT_LT(end.segment<3>(3).norm(), start.segment<3>(3).norm());
+}
+
+TEST_P(MarkerFilterTest, FoldingKeepsThePosture) {
+  MarkerFilter filter(kinematics_, settings_, scale_);
+  const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);
+  Belief near;
+  filter.StartAt(Retract(truth, 0.02 * VectorXd::Ones(kinematics_.num_dofs())), &near);
+  Belief far = near;
+  far.parameters.array() += 2 * EIGEN_PI;
+  filter.Update(Markers(truth), &near);
+  filter.Update(Markers(truth), &far);
+  EXPECT_LE(far.parameters.cwiseAbs().maxCoeff(), EIGEN_PI / 2);
+  // The sine of an argument that is rounded at 2 pi, through one update.
+  EXPECT_LT((far.parameters - near.parameters).norm(), 1e-11);
+  EXPECT_LT((far.position - near.position).norm(), 1e-11);
+  EXPECT_LT((far.P - near.P).norm(), 1e-11);
 }
 
 TEST_P(MarkerFilterTest, RunsAreTheSameToTheLastBit) {

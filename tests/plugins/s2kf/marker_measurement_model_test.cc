@@ -98,6 +98,13 @@ TEST_P(MarkerMeasurementModelTest, SampledMomentsAreThoseOfAllSamples) {
     EXPECT_LT((moments.residual - residual).cwiseAbs().maxCoeff(), kRounding);
     EXPECT_LT((MatrixXd(moments.C_zz.selfadjointView<Eigen::Lower>()) - C_zz).cwiseAbs().maxCoeff(),
               kRounding);
+
+    MeasurementMoments without(n, m);
+    measurement.ComputeMoments(belief, center, spread, false, &without);
+    EXPECT_EQ(without.mean, moments.mean);
+    EXPECT_EQ(without.C_zs, moments.C_zs);
+    EXPECT_EQ(without.residual, moments.residual);
+    EXPECT_EQ(without.C_zz.size(), 0);
   }
 }
 
@@ -138,6 +145,11 @@ TEST_P(MarkerMeasurementModelTest, SamplesOfATinySpreadAreTheLinearization) {
   // Third order in 1e-5 for C_zs, second order for the mean.
   EXPECT_LT((a.C_zs - b.C_zs).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((a.mean - b.mean).cwiseAbs().maxCoeff(), 1e-8);
+
+  linearized.ComputeMoments(belief, VectorXd::Zero(n), spread, true, &b);
+  // Entries of about 1e-10, in another order of summation.
+  EXPECT_LT((MatrixXd(b.C_zz.selfadjointView<Eigen::Lower>()) - b.C_zs * b.C_zs.transpose()).norm(),
+            1e-22);
 }
 
 INSTANTIATE_TEST_SUITE_P(

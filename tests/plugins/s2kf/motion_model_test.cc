@@ -57,6 +57,14 @@ TEST(MotionModelTest, RandomWalkStaysAndSpreadsWithTime) {
   EXPECT_LT((belief.P - before.P - Q).norm(), kRounding);
 }
 
+TEST(MotionModelTest, TwoHalfStepsAreOneStep) {
+  Belief halves = SomeBelief(false);
+  Belief whole = halves;
+  for (int i = 0; i < 2; ++i) SomeModel().Predict(0.01, RootParameters::kSo3, &halves);
+  SomeModel().Predict(0.02, RootParameters::kSo3, &whole);
+  EXPECT_LT((halves.P - whole.P).norm(), kRounding);
+}
+
 TEST(MotionModelTest, ThePapersNoiseIsThatOfA10MsFrame) {
   MotionModel paper;
   paper.noise = {0.050, 1e-4, 1e-4};
@@ -100,6 +108,8 @@ TEST(MotionModelTest, VelocityIsTheLinearModelWithDamping) {
   q << NoiseOf(model.noise), NoiseOf(model.velocity_noise);
   const MatrixXd P = F * before.P * F.transpose() + dt * q.asDiagonal().toDenseMatrix();
   EXPECT_LT((belief.P - P).norm(), kRounding);
+  // Rows are scaled before columns: a term may be rounded otherwise than its mirror image.
+  EXPECT_LT((belief.P - belief.P.transpose()).norm(), kRounding);
   EXPECT_LT((belief.rate - a * before.rate).norm(), kRounding);
   EXPECT_LT((belief.position - before.position - T * before.rate.head<3>()).norm(), kRounding);
   EXPECT_LT((belief.parameters - before.parameters - T * before.rate.tail(kJoints)).norm(),
