@@ -1,7 +1,8 @@
 # cmake -DROOT=<project> -P CheckLayers.cmake
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
-#   - support < math < model < motion < fit < io < convert < plugins/* < MMMConverterS2KF < examples, tests
+#   - support < math < model < motion < fit < io < convert < evaluate <
+#     plugins/* < MMMConverterS2KF < examples, tests
 #   - common/dynamics uses model and motion (and what lies below model); only the application and the
 #     tests use dynamics
 #   - plugins never include each other, the application includes no plugin
@@ -11,7 +12,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(layers common/support common/math common/model common/motion common/fit common/io common/convert
-           plugins MMMConverterS2KF examples tests)
+           common/evaluate plugins MMMConverterS2KF examples tests)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/evaluate/comparison.h"
+
+namespace mmm_converter {
+
+/// A part of a report: what was compared, and what is said of it.
+struct ReportSection {
+  std::string title;
+  std::string text;  ///< paragraphs, separated by empty lines; may be empty
+  const Comparison* comparison = nullptr;
+};
+
+/// One self-contained HTML page: tables, a player, plots. A single conversion is a comparison of one
+/// contender on one trial.
+std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections);
+
+}  // namespace mmm_converter
