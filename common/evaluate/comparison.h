@@ -12,6 +12,7 @@
 #include "common/convert/converter_config.h"
 #include "common/convert/motion_converter.h"
 #include "common/convert/plugin_loader.h"
+#include "common/evaluate/hiding.h"
 #include "common/evaluate/tracking_quality.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
@@ -37,20 +38,12 @@ struct Contender {
   std::string failure;  ///< why it can't take part; empty: it can
 };
 
-enum class HidingModel { kPaper, kStationary };
-
 struct ComparisonOptions {
-  /// Markers are hidden from the converters: OccludeAtRandom with this probability a frame (the
-  /// paper: 0.005), or OccludeShare with this share; 0: none.
-  double hide = 0;
-  HidingModel hiding_model = HidingModel::kPaper;
-  double mean_hidden_frames = 100;
+  Hiding hiding;
   int runs = 1;            ///< run r hides with seed + r
   std::uint64_t seed = 1;  ///< every contender gets the same markers
   int jobs = 0;            ///< runs at a time; 0: as many as there are cores
 };
-
-using HiddenMarkers = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// What all contenders share on one trial. Only markers and joints that every contender uses count,
 /// so that no one is measured on other things than the others.
@@ -60,7 +53,8 @@ struct CommonGround {
   std::vector<int> joints;   ///< that are compared, indices of the model
   Eigen::VectorXd optimum;   ///< per frame: mean distance at the least-squares posture [m]
   HiddenMarkers hidden;      ///< labels x frames, in the first run
-  Eigen::VectorXd mean_hidden, most_hidden;  ///< per frame, number of labels, over the runs
+  /// Per frame, number of labels that are hidden from some contender, over the runs.
+  Eigen::VectorXd mean_hidden, most_hidden;
 };
 
 /// One contender on one trial.
@@ -95,7 +89,18 @@ struct Comparison {
 /// Runs every contender on every trial. What fails becomes a row with its reason. Apart from times
 /// the result is the same whatever options.jobs. progress(done, all): runs; called by one thread at
 /// a time.
+/// @throws Error where nothing can be compared: no trials or no contenders.
 Comparison Compare(std::vector<Trial> trials, std::vector<Contender> contenders,
                    const ComparisonOptions& options, const std::function<void(int, int)>& progress);
+
+/// A finished result: a motion of the trial's model, a posture for each of its frames.
+struct Finished {
+  MarkerMapping mapping;
+  ConversionResult result;
+};
+
+/// One trial, and a finished result for each contender; contenders need no plugin.
+Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
+                           std::vector<Finished> results);
 
 }  // namespace mmm_converter

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/convert/motion_converter.h"
+#include "common/evaluate/hiding.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
 
@@ -47,7 +48,7 @@ struct QualityReference {
   const KinematicModel* model = nullptr;
   std::vector<int> joints;  ///< that are compared, indices of the model
   /// Markers x frames: true where the marker was hidden from the converter.
-  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> hidden;
+  HiddenMarkers hidden;
   Eigen::VectorXd optimum;                ///< per frame, least mean distance [m]
   const PoseTrajectory* truth = nullptr;  ///< nullptr: not known
 };
