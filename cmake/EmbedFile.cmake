@@ -1,24 +1,32 @@
-# mmm_converter_embed_file(<target> <function> <file>): the bytes of a text file as
-# std::string_view <function>(), with its namespace, compiled into the target.
+# mmm_converter_embed_file(<target> <function> <file>...): the bytes of text files, one after the
+# other, as std::string_view <function>(), with its namespace, compiled into the target.
 #
 # As a script (-DINPUT= -DOUTPUT= -DFUNCTION=) it writes the source that does so.
 if(CMAKE_SCRIPT_MODE_FILE)
-  file(READ ${INPUT} bytes HEX)
+  set(names "")
+  set(bytes "")
+  foreach(file IN LISTS INPUT)
+    file(READ ${file} content HEX)
+    string(APPEND bytes ${content})
+    get_filename_component(name ${file} NAME)
+    string(APPEND names " ${name}")
+  endforeach()
   string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes}")
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
-  get_filename_component(name ${INPUT} NAME)
   string(REGEX REPLACE "^(.*)::([^:]+)$" "\\1;\\2" parts "${FUNCTION}")
   list(GET parts 0 namespace)
   list(GET parts 1 function)
-  file(WRITE ${OUTPUT} "// Made from ${name}.
+  file(WRITE ${OUTPUT} "// Made from${names}.
 #include <string_view>
 namespace ${namespace} {
 namespace {
-constexpr char kBytes[] = {
+constexpr unsigned char kBytes[] = {
 ${bytes}0};
 }
 std::string_view ${function}();
-std::string_view ${function}() { return {kBytes, sizeof(kBytes) - 1}; }
+std::string_view ${function}() {
+  return {reinterpret_cast<const char*>(kBytes), sizeof(kBytes) - 1};
+}
 }
 ")
   return()
@@ -26,15 +34,19 @@ endif()
 
 set(MMM_CONVERTER_EMBED_FILE ${CMAKE_CURRENT_LIST_FILE})
 
-function(mmm_converter_embed_file target function file)
-  get_filename_component(input ${file} ABSOLUTE)
-  get_filename_component(name ${file} NAME)
+function(mmm_converter_embed_file target function)
+  set(inputs "")
+  foreach(file IN LISTS ARGN)
+    get_filename_component(input ${file} ABSOLUTE)
+    list(APPEND inputs ${input})
+  endforeach()
+  string(REGEX REPLACE "^.*::" "" name ${function})
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DINPUT=${input} -DOUTPUT=${output} -DFUNCTION=${function}
+    COMMAND ${CMAKE_COMMAND} "-DINPUT=${inputs}" -DOUTPUT=${output} -DFUNCTION=${function}
             -P ${MMM_CONVERTER_EMBED_FILE}
-    DEPENDS ${input} ${MMM_CONVERTER_EMBED_FILE}
+    DEPENDS ${inputs} ${MMM_CONVERTER_EMBED_FILE}
     COMMENT "Embedding ${name}" VERBATIM)
   target_sources(${target} PRIVATE ${output})
 endfunction()
