@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "common/support/suggestion.h"
@@ -74,7 +76,33 @@ po::parsed_options Parse(const std::string& command, const po::options_descripti
 std::optional<std::string> Arguments::Get(const std::string& name) const {
   const auto found = values_.find(name);
   if (found == values_.end()) return std::nullopt;
-  return found->second;
+  return found->second.back();
+}
+
+std::vector<std::string> Arguments::GetAll(const std::string& name) const {
+  const auto found = values_.find(name);
+  return found == values_.end() ? std::vector<std::string>() : found->second;
+}
+
+std::string Arguments::GetChoice(const std::string& name, const std::vector<std::string>& choices,
+                                 const std::string& otherwise) const {
+  const std::string text = Get(name).value_or(otherwise);
+  if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+    throw UsageError(
+        fmt::format("--{}: \"{}\" is not allowed; use {}", name, text, JoinNames(choices)));
+  }
+  return text;
+}
+
+std::optional<int> Arguments::GetInteger(const std::string& name, int minimum, int maximum) const {
+  const auto text = Get(name);
+  if (!text) return std::nullopt;
+  const auto number = ParseLong(*text);
+  if (!number || *number < minimum || *number > maximum) {
+    throw UsageError(fmt::format("--{}: \"{}\" is not allowed; give a whole number from {} to {}",
+                                 name, *text, minimum, maximum));
+  }
+  return static_cast<int>(*number);
 }
 
 std::optional<double> Arguments::GetNumber(const std::string& name, const std::string& unit) const {
@@ -88,11 +116,13 @@ std::optional<double> Arguments::GetNumber(const std::string& name, const std::s
 }
 
 Arguments ParseArguments(const std::string& command, const std::vector<OptionGroup>& groups,
-                         const std::vector<std::string>& words) {
+                         const std::vector<std::string>& words, bool several_positionals) {
   std::map<std::string, std::string> long_names;  // also of aliases
+  std::set<std::string> repeatable;
   for (const OptionGroup& group : groups) {
     for (const OptionSpec& option : group.options) {
       long_names[LongName(option)] = LongName(option);
+      if (option.repeatable) repeatable.insert(LongName(option));
       if (!option.alias.empty()) long_names[option.alias] = LongName(option);
     }
   }
@@ -101,14 +131,19 @@ Arguments ParseArguments(const std::string& command, const std::vector<OptionGro
   for (const auto& option : parsed.options) {
     const std::string value = option.value.empty() ? "" : option.value.front();
     if (option.position_key >= 0 || option.string_key.empty()) {
-      if (arguments.positional_) {
+      if (!several_positionals && !arguments.positionals_.empty()) {
         throw UsageError(fmt::format("{}: one input only, but there are \"{}\" and \"{}\"", command,
-                                     *arguments.positional_, value));
+                                     arguments.positionals_.front(), value));
       }
-      arguments.positional_ = value;
-    } else if (!arguments.values_.emplace(long_names.at(option.string_key), value).second) {
+      arguments.positionals_.push_back(value);
+      continue;
+    }
+    const std::string& name = long_names.at(option.string_key);
+    std::vector<std::string>& values = arguments.values_[name];
+    if (!values.empty() && repeatable.count(name) == 0) {
       throw UsageError(fmt::format("{}: --{} is given twice", command, option.string_key));
     }
+    values.push_back(value);
   }
   return arguments;
 }

@@ -20,7 +20,8 @@ struct OptionSpec {
   std::string name;      ///< long name, and a short one behind a comma: "output,o"
   std::string argument;  ///< what help calls the value; empty: a switch
   std::string help;
-  std::string alias;  ///< MMMMotionConverter's name for it; may be empty
+  std::string alias;        ///< MMMMotionConverter's name for it; may be empty
+  bool repeatable = false;  ///< may be given several times
 };
 
 struct OptionGroup {
@@ -33,21 +34,31 @@ class Arguments {
  public:
   bool Has(const std::string& name) const { return values_.count(name) > 0; }
   std::optional<std::string> Get(const std::string& name) const;
+  /// @throws UsageError where the value is none of the choices, which the message lists.
+  std::string GetChoice(const std::string& name, const std::vector<std::string>& choices,
+                        const std::string& otherwise) const;
   /// @throws UsageError where the value is not a finite number. unit, for the message: "metres".
   std::optional<double> GetNumber(const std::string& name, const std::string& unit) const;
-  const std::optional<std::string>& positional() const { return positional_; }
+  std::optional<int> GetInteger(const std::string& name, int minimum, int maximum) const;
+  /// Of a repeatable option, in order.
+  std::vector<std::string> GetAll(const std::string& name) const;
+  const std::vector<std::string>& positionals() const { return positionals_; }
+  std::optional<std::string> positional() const {  ///< the first
+    return positionals_.empty() ? std::nullopt : std::optional(positionals_.front());
+  }
 
  private:
   friend Arguments ParseArguments(const std::string&, const std::vector<OptionGroup>&,
-                                  const std::vector<std::string>&);
-  std::map<std::string, std::string> values_;
-  std::optional<std::string> positional_;
+                                  const std::vector<std::string>&, bool);
+  std::map<std::string, std::vector<std::string>> values_;
+  std::vector<std::string> positionals_;
 };
 
-/// At most one positional argument; every option at most once, under its name or its alias.
+/// At most one positional argument unless several are allowed; every option that is not repeatable
+/// at most once, under its name or its alias.
 /// @throws UsageError, for an unknown option with what is near.
 Arguments ParseArguments(const std::string& command, const std::vector<OptionGroup>& groups,
-                         const std::vector<std::string>& words);
+                         const std::vector<std::string>& words, bool several_positionals = false);
 
 /// The options as help text.
 std::string FormatOptions(const std::vector<OptionGroup>& groups);

@@ -19,6 +19,7 @@ constexpr int kMisused = 2;
 
 constexpr std::array kCommands = {
     Command{"convert", "a recording in, an MMM motion out", RunConvert},
+    Command{"compare", "converters side by side on recordings", RunCompare},
     Command{"info", "what is in a recording, motion, model, configuration or plugin", RunInfo},
     Command{"print-config", "a converter's configuration with every setting", RunPrintConfig}};
 
@@ -46,12 +47,15 @@ void PrintHelp() {
   std::cout << fmt::format(kUsage, MMM_CONVERTER_VERSION, commands);
 }
 
-void Run(const std::vector<std::string>& words) {
+int Run(const std::vector<std::string>& words) {
   const std::string first = words.empty() ? "--help" : words.front();
-  if (first == "--help" || first == "-h" || first == "help") return PrintHelp();
+  if (first == "--help" || first == "-h" || first == "help") {
+    PrintHelp();
+    return 0;
+  }
   if (first == "--version") {
     std::cout << "MMMConverterS2KF " MMM_CONVERTER_VERSION "\n";
-    return;
+    return 0;
   }
   // A script that calls MMMMotionConverter names no command.
   if (std::find(words.begin(), words.end(), "--inputMotion") != words.end() && first[0] == '-') {
@@ -75,10 +79,10 @@ int main(int argc, char** argv) {
   using mmm_converter::LogError;
   try {
     mmm_converter::StartLog("info");
-    mmm_converter::Run({argv + 1, argv + argc});
+    const int exit_code = mmm_converter::Run({argv + 1, argv + argc});
     std::cout.flush();
     if (!std::cout) throw mmm_converter::Error("can't write to the standard output");
-    return 0;
+    return exit_code;
   } catch (const mmm_converter::UsageError& error) {
     LogError(error.what());
     return mmm_converter::kMisused;

@@ -19,7 +19,7 @@ std::string MotionName(const ConversionRequest& request, const Recording& record
   if (!request.motion_name.empty()) return request.motion_name;
   if (!recording.motion.empty()) return recording.motion;
   if (!recording.subject.empty()) return recording.subject;
-  return fs::path(request.input).stem().string();
+  return fs::path(request.input.file).stem().string();
 }
 
 bool IsMmm2(const Recording& recording) { return recording.format == "MMM 2.0"; }
@@ -31,20 +31,20 @@ bool AreMarkersAsInFile(const Recording& recording) {
 
 std::string Format(const MmmMotionOutput& output, const ConversionRequest& request,
                    ConversionReport* report) {
-  const Recording& recording = report->recording;
+  const Recording& recording = report->input.recording;
   if (report->output_format == "2.0" && IsMmm2(recording)) {
     MmmMotionOutput converted = output;
     converted.motion_name = recording.motion;
     if (AreMarkersAsInFile(recording)) converted.markers = nullptr;
-    return WithConvertedMotion(ReadFileContent(request.input), request.input, converted);
+    return WithConvertedMotion(ReadFileContent(request.input.file), request.input.file, converted);
   }
   if (recording.format.starts_with("MMM")) {
-    const std::size_t motions = ReadMmmMotionFile(request.input).motions.size();
+    const std::size_t motions = ReadMmmMotionFile(request.input.file).motions.size();
     if (motions > 1) {
       report->warnings.push_back(
           fmt::format("{}: has {} motions; the output has the converted one "
                       "only (MMM 2.0 in and out keeps all)",
-                      request.input, motions));
+                      request.input.file, motions));
     }
   }
   return report->output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
@@ -55,12 +55,12 @@ std::string Format(const MmmMotionOutput& output, const ConversionRequest& reque
 std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report) {
   std::string output = request.output;
   if (output.empty()) {
-    const fs::path input = request.input;
+    const fs::path input = request.input.file;
     output = (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
   }
   std::error_code failure;
-  const bool keeps_all = IsMmm2(report.recording) && report.output_format != "1.0";
-  if (!keeps_all && fs::equivalent(output, request.input, failure)) {
+  const bool keeps_all = IsMmm2(report.input.recording) && report.output_format != "1.0";
+  if (!keeps_all && fs::equivalent(output, request.input.file, failure)) {
     throw Error(
         fmt::format("{}: is the recording itself, which would be lost; give another file "
                     "with -o",
@@ -70,18 +70,18 @@ std::string ChooseOutput(const ConversionRequest& request, const ConversionRepor
 }
 
 void WriteMotion(const ConversionRequest& request, ConversionReport* report) {
-  report->motion_name = MotionName(request, report->recording);
+  report->motion_name = MotionName(request, report->input.recording);
   MmmMotionOutput output;
-  output.recording_name = fs::path(request.input).stem().string();
+  output.recording_name = fs::path(request.input.file).stem().string();
   output.motion_name = report->motion_name;
   output.model_path = !request.model_path.empty()
                           ? request.model_path
-                          : ModelPathFor(report->model_file, report->output);
-  output.height = report->height.value;
-  output.mass = report->mass.value;
-  output.hand_length = report->hand_length;
+                          : ModelPathFor(report->input.model_file, report->output);
+  output.height = report->person.height.value;
+  output.mass = report->person.mass.value;
+  output.hand_length = report->person.hand_length;
   output.trajectory = &report->result.trajectory;
-  output.markers = &report->recording.markers;
+  output.markers = &report->input.recording.markers;
   WriteFileAtomically(report->output, Format(output, request, report));
 }
 

@@ -24,44 +24,46 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
   return std::nullopt;
 }
 
-PersonValue Estimate(const KinematicModel& reference, const ConversionReport& report) {
+PersonValue Estimate(const KinematicModel& reference, const Recording& recording,
+                     const ConverterConfig& config,
+                     const std::vector<MarkerAssignment>& assignments) {
   std::vector<int> markers;
   std::vector<int> labels;
-  for (const MarkerAssignment& assignment : report.mapping.assignments) {
+  for (const MarkerAssignment& assignment : assignments) {
     markers.push_back(assignment.marker);
     labels.push_back(assignment.label);
   }
-  const HeightEstimate estimate = EstimateHeight(reference, ResolveJoints(report.config, reference),
-                                                 markers, labels, report.recording.markers);
+  const HeightEstimate estimate = EstimateHeight(reference, ResolveJoints(config, reference),
+                                                 markers, labels, recording.markers);
   return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
 }
 
 }  // namespace
 
-KinematicModel ScaleToPerson(const ConversionRequest& request, const KinematicModel& reference,
-                             ConversionReport* report) {
-  if (report->config.model_processor == "None") {
+KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
+                             const Recording& recording, const ConverterConfig& config,
+                             const std::vector<MarkerAssignment>& assignments, Person* person,
+                             std::vector<std::string>* warnings) {
+  if (config.model_processor == "None") {
     if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
-      report->warnings.push_back(
-          report->config.file +
-          ": <Model name=\"None\">: the model is not scaled; height, mass and "
-          "hand length are left out");
+      warnings->push_back(config.file +
+                          ": <Model name=\"None\">: the model is not scaled; height, mass and "
+                          "hand length are left out");
     }
-    report->height = {0, "model is not scaled"};
-    report->mass = report->height;
+    person->height = {0, "model is not scaled"};
+    person->mass = person->height;
     return reference;
   }
   ProcessorConfig file;
   if (!request.processor_file.empty()) file = ReadProcessorConfig(request.processor_file);
-  const Recording& recording = report->recording;
   const auto height = Choose(request.height, file.height, request.processor_file, recording.height);
   const auto mass = Choose(request.mass, file.mass, request.processor_file, recording.mass);
   const auto hand_length =
       Choose(request.hand_length, file.hand_length, request.processor_file, recording.hand_length);
-  report->height = height ? *height : Estimate(reference, *report);
-  report->mass = mass ? *mass : PersonValue{kAssumedMass, "assumed"};
-  if (hand_length) report->hand_length = hand_length->value;
-  return ScaleWinter(reference, {report->height.value, report->mass.value, report->hand_length});
+  person->height = height ? *height : Estimate(reference, recording, config, assignments);
+  person->mass = mass ? *mass : PersonValue{kAssumedMass, "assumed"};
+  if (hand_length) person->hand_length = hand_length->value;
+  return ScaleWinter(reference, {person->height.value, person->mass.value, person->hand_length});
 }
 
 }  // namespace mmm_converter

@@ -1,16 +1,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "MMMConverterS2KF/pipeline.h"
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_mapping.h"
+#include "common/io/recording.h"
 #include "common/model/kinematic_model.h"
 
 namespace mmm_converter {
 
+/// What the user says of the recorded person. Empty: a default.
+struct PersonRequest {
+  std::string processor_file;  ///< ModelProcessorConfig
+  std::optional<double> height, mass, hand_length;
+};
+
+/// A number of the person, and where it is from.
+struct PersonValue {
+  double value = 0;
+  std::string source;  ///< "given", a file, "assumed", "estimated from the recording"
+};
+
+struct Person {
+  PersonValue height, mass;
+  std::optional<double> hand_length;
+};
+
 /// The model of the recorded person: the reference scaled by height and mass, or as it is where the
 /// configuration says so. Height, mass and hand length are taken from the request, the processor
-/// file, or the recording, in this order; then the height is estimated from the markers and the
-/// mass assumed. Says in the report what was taken and from where.
-KinematicModel ScaleToPerson(const ConversionRequest& request, const KinematicModel& reference,
-                             ConversionReport* report);
+/// file, or the recording, in this order; then the height is estimated from the assigned markers
+/// and the mass assumed. Says in person what was taken and from where.
+KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
+                             const Recording& recording, const ConverterConfig& config,
+                             const std::vector<MarkerAssignment>& assignments, Person* person,
+                             std::vector<std::string>* warnings);
 
 }  // namespace mmm_converter

@@ -53,7 +53,7 @@ Json ToJson(const ResidualSummary& distance) {
 }
 
 Json DescribeInput(const ConversionReport& report) {
-  const Recording& recording = report.recording;
+  const Recording& recording = report.input.recording;
   return {{"file", recording.file},
           {"format", recording.format},
           {"subject", recording.subject},
@@ -62,16 +62,16 @@ Json DescribeInput(const ConversionReport& report) {
           {"unit_guessed", recording.unit_was_guessed},
           {"up_axis", Name(recording.up_axis)},
           {"up_axis_decided_from_markers", recording.up_axis_was_decided},
-          {"first_frame", report.first_frame},
+          {"first_frame", report.input.first_frame},
           {"labels", recording.markers.labels()}};
 }
 
 Json DescribePerson(const ConversionReport& report) {
-  Json person = {{"height_m", Number(report.height.value)},
-                 {"height_source", report.height.source},
-                 {"mass_kg", Number(report.mass.value)},
-                 {"mass_source", report.mass.source}};
-  if (report.hand_length) person["hand_length_m"] = Number(*report.hand_length);
+  Json person = {{"height_m", Number(report.person.height.value)},
+                 {"height_source", report.person.height.source},
+                 {"mass_kg", Number(report.person.mass.value)},
+                 {"mass_source", report.person.mass.source}};
+  if (report.person.hand_length) person["hand_length_m"] = Number(*report.person.hand_length);
   return person;
 }
 
@@ -80,8 +80,8 @@ Json DescribeMarkers(const ConversionReport& report) {
   const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
   for (std::size_t i = 0; i < report.mapping.assignments.size(); ++i) {
     const MarkerAssignment& assignment = report.mapping.assignments[i];
-    used.push_back({{"label", report.recording.markers.labels()[assignment.label]},
-                    {"marker", report.model_markers[assignment.marker]},
+    used.push_back({{"label", report.input.recording.markers.labels()[assignment.label]},
+                    {"marker", report.model->markers()[assignment.marker].name},
                     {"noise_scale", assignment.noise_scale},
                     {"frames_seen", distances[i].seen},
                     {"distance_mm", ToJson(distances[i])}});
@@ -98,7 +98,7 @@ std::string WorstMarkers(const ConversionReport& report) {
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double mean = kMillimetres * distances[i].mean;
     const int label = report.mapping.assignments[i].label;
-    if (!std::isnan(mean)) means.emplace_back(mean, report.recording.markers.labels()[label]);
+    if (!std::isnan(mean)) means.emplace_back(mean, report.input.recording.markers.labels()[label]);
   }
   std::sort(means.rbegin(), means.rend());
   means.resize(std::min<std::size_t>(means.size(), 3));
@@ -109,9 +109,10 @@ std::string WorstMarkers(const ConversionReport& report) {
 }
 
 std::string DescribePersonShortly(const ConversionReport& report) {
-  if (report.height.value <= 0) return report.height.source;
-  return fmt::format("{:.3g} m ({}), {:.4g} kg ({})", report.height.value, report.height.source,
-                     report.mass.value, report.mass.source);
+  if (report.person.height.value <= 0) return report.person.height.source;
+  return fmt::format("{:.3g} m ({}), {:.4g} kg ({})", report.person.height.value,
+                     report.person.height.source, report.person.mass.value,
+                     report.person.mass.source);
 }
 
 std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
@@ -129,7 +130,7 @@ std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
 }  // namespace
 
 std::string FormatSummary(const ConversionReport& report) {
-  const Recording& recording = report.recording;
+  const Recording& recording = report.input.recording;
   const MarkerSequence& markers = recording.markers;
   const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
   const std::vector<double> times = FrameTimes(report);
@@ -138,9 +139,10 @@ std::string FormatSummary(const ConversionReport& report) {
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
                       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
   text += fmt::format("person     {}\n", DescribePersonShortly(report));
-  text += fmt::format("model      {}, {} joints tracked\n", report.model_file,
+  text += fmt::format("model      {}, {} joints tracked\n", report.input.model_file,
                       report.result.trajectory.joint_names.size());
-  text += fmt::format("converter  {}, {}\n", report.converter, report.config.file);
+  text += fmt::format("converter  {}, {}\n", report.converter.config.type,
+                      report.converter.config.file);
   text += fmt::format("markers    {}{}\n", DescribeMarkersShortly(report.mapping),
                       report.marker_set.empty() ? "" : ", marker set " + report.marker_set);
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
@@ -157,7 +159,7 @@ std::string FormatSummary(const ConversionReport& report) {
 }
 
 std::string FormatSummaryJson(const ConversionReport& report) {
-  const MarkerSequence& markers = report.recording.markers;
+  const MarkerSequence& markers = report.input.recording.markers;
   const std::vector<double> times = FrameTimes(report);
   const Json summary = {
       {"input", DescribeInput(report)},
@@ -166,11 +168,11 @@ std::string FormatSummaryJson(const ConversionReport& report) {
       {"output", report.output},
       {"output_format", report.output_format},
       {"motion", report.motion_name},
-      {"model", report.model_file},
+      {"model", report.input.model_file},
       {"person", DescribePerson(report)},
-      {"converter", report.converter},
-      {"plugin", report.plugin_file},
-      {"configuration", report.config.file},
+      {"converter", report.converter.config.type},
+      {"plugin", report.converter.plugin->path()},
+      {"configuration", report.converter.config.file},
       {"joints", report.result.trajectory.joint_names},
       {"markers", DescribeMarkers(report)},
       {"distance_mm", ToJson(SummarizeResiduals(report.result.residuals))},

@@ -6,15 +6,16 @@
 
 namespace mmm_converter {
 
-/// A sub-command. Results go to stdout, everything else to stderr.
+/// A sub-command. Results go to stdout, everything else to stderr. Returns the exit code.
 struct Command {
   const char* name;
   const char* summary;  ///< one line
-  void (*run)(const std::vector<std::string>& words);
+  int (*run)(const std::vector<std::string>& words);
 };
 
-void RunConvert(const std::vector<std::string>& words);
-void RunInfo(const std::vector<std::string>& words);
-void RunPrintConfig(const std::vector<std::string>& words);
+int RunCompare(const std::vector<std::string>& words);
+int RunConvert(const std::vector<std::string>& words);
+int RunInfo(const std::vector<std::string>& words);
+int RunPrintConfig(const std::vector<std::string>& words);
 
 }  // namespace mmm_converter

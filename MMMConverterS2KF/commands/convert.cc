@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 
 #include "MMMConverterS2KF/command_line.h"
@@ -8,41 +9,25 @@
 #include "MMMConverterS2KF/log.h"
 #include "MMMConverterS2KF/pipeline.h"
 #include "MMMConverterS2KF/progress.h"
+#include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/summary.h"
 #include "common/support/atomic_file.h"
-#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOptions = {
+const std::vector<OptionGroup> kOwnOptions = {
     {"Files",
      {{"output,o", "FILE", "the motion; default: INPUT without its ending + _mmm.xml",
        "outputMotion"},
       {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
       {"csv", "FILE", "also write postures and their standard deviations as CSV", ""},
-      {"summary", "FILE", "write a summary as JSON", ""}}},
-    {"Recording",
-     {{"subject", "NAME", "label prefix to take where a recording has several subjects", ""},
-      {"motion", "NAME",
-       "of an MMM file: the motion to convert; else: the name of the motion that is written",
-       "motionName"},
-      {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
-      {"unit", "mm|cm|m|in", "instead of what the file says", ""},
-      {"rate", "HZ", "instead of what the file says", ""},
-      {"ignore-residuals", "", "of a C3D file: take also points that it marks as invalid", ""},
-      {"up", "AXIS", "the file's axis that points up: x, y, z, -x, -y or -z", ""}}},
-    {"Person and model",
-     {{"height", "METRES", "default: from the files, else estimated from the markers", ""},
-      {"mass", "KG", "default: from the files, else 70", ""},
-      {"hand-length", "METRES", "default: from the files, else by the height", ""},
-      {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length",
-       "outputModelProcessorConfigFile"},
-      {"model", "FILE", "reference model; default: the shipped MMM model", "outputModelFile"},
+      {"report", "FILE", "write a page (HTML) with player and plots", ""},
+      {"summary", "FILE", "write a summary as JSON", ""},
       {"model-path", "PATH", "what the motion says of where its model is; default: relative to it",
        ""}}},
     {"Converter",
-     {{"config,c", "FILE", "configuration; default: the shipped one of the S2KFConverter",
+     {{"config,c", "FILE", "configuration, or the name of a shipped one; default: s2kf_default",
        "converterConfigFile"},
       {"converter", "NAME", "default: what the configuration says, else S2KFConverter", ""},
       {"plugin", "FILE", "take the converter from this plugin file", ""}}},
@@ -65,20 +50,11 @@ Examples
   MMMConverterS2KF convert walk.c3d --frames 100:400 -c my.xml --format 1.0
 )";
 
-void ParseFrames(const std::string& text, ConversionRequest* request) {
-  const std::size_t colon = text.find(':');
-  const auto part = [&](const std::string& number) -> std::optional<int> {
-    if (number.empty()) return std::nullopt;
-    const auto value = ParseLong(number);
-    if (!value || *value < 0 || *value > std::numeric_limits<int>::max()) {
-      throw UsageError(
-          fmt::format("--frames: \"{}\" is not A:B; for instance 100:400, 100: or :400", text));
-    }
-    return static_cast<int>(*value);
-  };
-  if (colon == std::string::npos) part(text + ":");  // throws
-  request->first_frame = part(text.substr(0, colon));
-  request->end_frame = part(text.substr(colon + 1));
+std::vector<OptionGroup> Options() {
+  std::vector<OptionGroup> options = {kOwnOptions.front()};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  options.insert(options.end(), kOwnOptions.begin() + 1, kOwnOptions.end());
+  return options;
 }
 
 std::string ChooseInput(const Arguments& arguments) {
@@ -96,43 +72,42 @@ std::string ChooseInput(const Arguments& arguments) {
 
 ConversionRequest MakeRequest(const Arguments& arguments) {
   ConversionRequest request;
-  request.input = ChooseInput(arguments);
+  request.input = MakeInputRequest(arguments, ChooseInput(arguments));
   request.output = arguments.Get("output").value_or("");
-  request.output_format = arguments.Get("format").value_or("");
+  if (arguments.Has("format"))
+    request.output_format = arguments.GetChoice("format", {"2.0", "1.0"}, "");
   request.csv_file = arguments.Get("csv").value_or("");
-  if (arguments.Has("format") && request.output_format != "2.0" && request.output_format != "1.0") {
-    throw UsageError(
-        fmt::format("--format: \"{}\" is not allowed; use 2.0 or 1.0", request.output_format));
-  }
-  request.recording.unit = arguments.Get("unit");
-  request.recording.rate = arguments.GetNumber("rate", "frames a second, e.g. 100");
-  request.recording.ignore_residuals = arguments.Has("ignore-residuals");
-  if (const auto axis = arguments.Get("up")) request.recording.up_axis = ParseUpAxis(*axis);
-  request.recording.subject = arguments.Get("subject").value_or("");
-  request.recording.motion = arguments.Get("motion").value_or("");
-  request.motion_name = request.recording.motion;
-  if (const auto frames = arguments.Get("frames")) ParseFrames(*frames, &request);
-  request.model_file = arguments.Get("model").value_or("");
+  request.motion_name = request.input.reading.motion;
   request.model_path = arguments.Get("model-path").value_or("");
-  request.processor_file = arguments.Get("person").value_or("");
-  request.height = arguments.GetNumber("height", "metres, e.g. 1.75");
-  request.mass = arguments.GetNumber("mass", "kilograms, e.g. 70");
-  request.hand_length = arguments.GetNumber("hand-length", "metres, e.g. 0.18");
-  request.config_file = arguments.Get("config").value_or("");
-  request.converter = arguments.Get("converter").value_or("");
-  request.plugin_file = arguments.Get("plugin").value_or("");
+  request.converter = {arguments.Get("config").value_or(""),
+                       arguments.Get("converter").value_or(""),
+                       arguments.Get("plugin").value_or("")};
   return request;
+}
+
+std::string FormatConversionReport(const ConversionReport& report) {
+  Trial trial;
+  trial.name = std::filesystem::path(report.input.recording.file).filename().string();
+  trial.markers = report.input.recording.markers;
+  trial.model = report.model;
+  Contender contender;
+  contender.name = std::filesystem::path(report.converter.config.file).stem().string();
+  contender.configuration = report.converter.text;
+  contender.config = report.converter.config;
+  const Comparison comparison =
+      CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
+  return FormatReport(report.motion_name, {{report.motion_name, "", &comparison}});
 }
 
 }  // namespace
 
-void RunConvert(const std::vector<std::string>& words) {
-  std::vector<OptionGroup> options = kOptions;
+int RunConvert(const std::vector<std::string>& words) {
+  std::vector<OptionGroup> options = Options();
   options.push_back({"", {{"inputMotion", "FILE", "", ""}}});
   const Arguments arguments = ParseArguments("convert", options, words);
   if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-    return;
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
   }
   StartLog(arguments.Get("log").value_or("info"));
   const ConversionRequest request = MakeRequest(arguments);
@@ -144,7 +119,11 @@ void RunConvert(const std::vector<std::string>& words) {
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatSummaryJson(report));
   }
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatConversionReport(report));
+  }
   std::cout << FormatSummary(report);
+  return 0;
 }
 
 }  // namespace mmm_converter

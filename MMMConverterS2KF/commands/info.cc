@@ -228,15 +228,15 @@ Description Describe(const std::string& file, const Arguments& arguments) {
 
 }  // namespace
 
-void RunInfo(const std::vector<std::string>& words) {
+int RunInfo(const std::vector<std::string>& words) {
   const Arguments arguments = ParseArguments("info", kOptions, words);
   if (arguments.Has("help")) {
     std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-    return;
+    return 0;
   }
   if (arguments.Has("version")) {
     std::cout << "MMMConverterS2KF " MMM_CONVERTER_VERSION "\n";
-    return;
+    return 0;
   }
   if (!arguments.positional()) {
     throw UsageError("info: which file? For instance: MMMConverterS2KF info walk.c3d");
@@ -244,6 +244,7 @@ void RunInfo(const std::vector<std::string>& words) {
   StartLog(arguments.Get("log").value_or("info"));
   const Description description = Describe(*arguments.positional(), arguments);
   std::cout << (arguments.Has("json") ? description.json : description.text);
+  return 0;
 }
 
 }  // namespace mmm_converter

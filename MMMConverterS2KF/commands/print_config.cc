@@ -25,7 +25,7 @@ Prints the configuration of a converter with every setting, documented, at its d
 
 }  // namespace
 
-void RunPrintConfig(const std::vector<std::string>& words) {
+int RunPrintConfig(const std::vector<std::string>& words) {
   const Arguments arguments = ParseArguments("print-config", kOptions, words);
   if (arguments.Has("help")) {
     std::cout << fmt::format(kUsage, FormatOptions(kOptions));
@@ -38,6 +38,7 @@ void RunPrintConfig(const std::vector<std::string>& words) {
         "print-config: which converter? For instance: MMMConverterS2KF print-config "
         "S2KFConverter");
   }
+  return 0;
 }
 
 }  // namespace mmm_converter

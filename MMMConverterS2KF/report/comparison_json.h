@@ -11,10 +11,4 @@ namespace mmm_converter {
 /// no number for is null.
 std::string FormatComparisonJson(const Comparison& comparison);
 
-/// The same, one line for each trial and contender, as CSV.
-std::string FormatComparisonCsv(const Comparison& comparison);
-
-/// The same as a table for people.
-std::string FormatComparisonTable(const Comparison& comparison);
-
 }  // namespace mmm_converter

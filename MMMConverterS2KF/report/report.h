@@ -15,8 +15,8 @@ struct ReportSection {
   const Comparison* comparison = nullptr;
 };
 
-/// One self-contained HTML page: tables, a player, plots. A single conversion is a comparison of one
-/// contender on one trial.
+/// One self-contained HTML page: tables, a player, plots. A single conversion is a comparison of
+/// one contender on one trial.
 std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections);
 
 }  // namespace mmm_converter

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "common/evaluate/comparison.h"
+
+namespace mmm_converter {
+
+/// The figures of a comparison for people: a table for each trial, then what failed and why.
+std::string FormatComparisonTable(const Comparison& comparison);
+
+/// All figures, one line for each trial and contender; an empty cell: there is no number.
+std::string FormatComparisonCsv(const Comparison& comparison);
+
+}  // namespace mmm_converter
