@@ -13,7 +13,7 @@ namespace mmm_converter {
 /// The options for what a comparison is written to: --json, --csv, --gnuplot and --report.
 OptionGroup ComparisonOutputOptions();
 
-/// Writes the files asked for.
+/// Writes the files asked for; options that a command does not have are not.
 /// @throws Error
 void WriteComparison(const Arguments& arguments, const std::string& title,
                      const Comparison& comparison);

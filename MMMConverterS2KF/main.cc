@@ -21,7 +21,8 @@ constexpr std::array kCommands = {
     Command{"convert", "a recording in, an MMM motion out", RunConvert},
     Command{"compare", "converters side by side on recordings", RunCompare},
     Command{"info", "what is in a recording, motion, model, configuration or plugin", RunInfo},
-    Command{"print-config", "a converter's configuration with every setting", RunPrintConfig}};
+    Command{"print-config", "a converter's configuration with every setting", RunPrintConfig},
+    Command{"report", "a page that shows finished motions on their recording", RunReport}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF {}: motion capture markers to MMM motions
 

@@ -17,5 +17,6 @@ int RunCompare(const std::vector<std::string>& words);
 int RunConvert(const std::vector<std::string>& words);
 int RunInfo(const std::vector<std::string>& words);
 int RunPrintConfig(const std::vector<std::string>& words);
+int RunReport(const std::vector<std::string>& words);
 
 }  // namespace mmm_converter

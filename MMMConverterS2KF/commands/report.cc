@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/comparison_output.h"
+#include "MMMConverterS2KF/comparison_setup.h"
+#include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/report/comparison_table.h"
+#include "common/io/file_content.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kOwnOptions = {
+    {"Output",
+     {{"output,o", "FILE", "the page; default: RECORDING without its ending + _report.html", ""},
+      {"json", "FILE", "all figures as JSON", ""},
+      {"csv", "FILE", "all figures as CSV", ""},
+      {"gnuplot", "FILE", "a gnuplot script with its data, which draws SVG figures", ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF report RECORDING MOTION... [options]
+A page (HTML, opens without a network) that shows finished MMM motions on the recording that they
+were converted from: player, distances, joint angles. MOTION may be of any program, and may be
+RECORDING itself where that is an MMM file with joint angles. Nothing is converted; for a page of a
+conversion with its uncertainty and times use convert --report, for several compare --report.
+
+{}Examples
+  MMMConverterS2KF report walk.c3d walk_mmm.xml
+  MMMConverterS2KF report walk.xml walk.xml walk_mmm.xml -o walk.html
+)";
+
+std::vector<OptionGroup> Options() {
+  std::vector<OptionGroup> options = {kOwnOptions.front()};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  options.push_back(kOwnOptions.back());
+  return options;
+}
+
+// The motions as contenders, their results on the trial.
+struct Solutions {
+  std::vector<Contender> contenders;
+  std::vector<Finished> results;
+};
+
+void AddSolution(const Trial& trial, const MarkerMapping& mapping, const std::string& file,
+                 MmmMotion motion, Solutions* solutions) {
+  Contender contender;
+  contender.name = std::filesystem::path(file).filename().string();
+  contender.configuration = fmt::format("The motion \"{}\" of {}", motion.name, file);
+  Finished finished{mapping, {}};
+  finished.result.trajectory = AlignFrames(motion.trajectory, trial.markers, file);
+  solutions->contenders.push_back(std::move(contender));
+  solutions->results.push_back(std::move(finished));
+}
+
+Comparison CompareSolutions(const Arguments& arguments) {
+  const std::vector<std::string>& files = arguments.positionals();
+  InputRequest request = MakeInputRequest(arguments, files.front());
+  std::vector<MmmMotion> motions;
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    motions.push_back(ReadPostures(files[i], request.reading.motion));
+    if (!request.person.height) request.person.height = motions.back().height;
+    if (!request.person.mass) request.person.mass = motions.back().mass;
+  }
+  std::vector<std::string> warnings;
+  Trial trial = MakeTrial(request, "", ConverterConfig(), &warnings);
+  if (!trial.failure.empty()) throw Error(trial.failure);
+  for (const std::string& warning : warnings) LogWarning(warning);
+  std::string set;
+  const std::vector<MarkerPair> pairs =
+      ResolveMarkerPairs(ConverterConfig(), trial.markers, *trial.model, &set);
+  const MarkerMapping mapping = ResolveMarkerMapping(pairs, trial.markers, *trial.model);
+  Solutions solutions;
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    AddSolution(trial, mapping, files[i], std::move(motions[i - 1]), &solutions);
+  }
+  std::vector<Trial> trials = {std::move(trial)};
+  MakeNamesUnique(&trials, &solutions.contenders);
+  return CompareFinished(std::move(trials.front()), std::move(solutions.contenders),
+                         std::move(solutions.results));
+}
+
+std::string OutputFile(const Arguments& arguments) {
+  if (const auto file = arguments.Get("output")) return *file;
+  const std::filesystem::path input = arguments.positionals().front();
+  return (input.parent_path() / (input.stem().string() + "_report.html")).string();
+}
+
+}  // namespace
+
+int RunReport(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("report", Options(), words, true);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
+  }
+  if (arguments.positionals().size() < 2) {
+    throw UsageError(
+        "report: which recording and which motion? For instance: MMMConverterS2KF report walk.c3d "
+        "walk_mmm.xml");
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const Comparison comparison = CompareSolutions(arguments);
+  const std::string title = comparison.trials.front().name;
+  const std::string output = OutputFile(arguments);
+  WriteComparison(arguments, title, comparison);
+  WriteFileAtomically(output, FormatReport(title, {{title, "", &comparison}}));
+  std::cout << FormatComparisonTable(comparison) << output << '\n';
+  return 0;
+}
+
+}  // namespace mmm_converter
