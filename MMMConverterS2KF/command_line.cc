@@ -84,6 +84,23 @@ std::vector<std::string> Arguments::GetAll(const std::string& name) const {
   return found == values_.end() ? std::vector<std::string>() : found->second;
 }
 
+Arguments Arguments::ForPositional(int i, const std::vector<std::string>& options) const {
+  Arguments one = *this;
+  one.positionals_ = {positionals_[i]};
+  for (const std::string& option : options) {
+    const auto found = one.values_.find(option);
+    if (found == one.values_.end() || found->second.size() == 1) continue;
+    if (found->second.size() != positionals_.size()) {
+      throw UsageError(
+          fmt::format("--{} is given {} times for {} files; give it once for all, or once for each "
+                      "in their order",
+                      option, found->second.size(), positionals_.size()));
+    }
+    found->second = {found->second[i]};
+  }
+  return one;
+}
+
 std::string Arguments::GetChoice(const std::string& name, const std::vector<std::string>& choices,
                                  const std::string& otherwise) const {
   const std::string text = Get(name).value_or(otherwise);

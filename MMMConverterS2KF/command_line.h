@@ -42,6 +42,10 @@ class Arguments {
   std::optional<int> GetInteger(const std::string& name, int minimum, int maximum) const;
   /// Of a repeatable option, in order.
   std::vector<std::string> GetAll(const std::string& name) const;
+  /// What the i-th of the positional arguments was given: of these repeatable options, which stand
+  /// there once for all or once for each, the i-th value.
+  /// @throws UsageError where one is there another number of times.
+  Arguments ForPositional(int i, const std::vector<std::string>& options) const;
   const std::vector<std::string>& positionals() const { return positionals_; }
   std::optional<std::string> positional() const {  ///< the first
     return positionals_.empty() ? std::nullopt : std::optional(positionals_.front());

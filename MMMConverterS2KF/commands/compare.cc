@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 
@@ -22,10 +23,7 @@ const OptionGroup kContest = {
       "a configuration, or the name of a shipped one; several times; default: s2kf_default, "
       "jacobian_gradient, jacobian_least_squares and jacobian_pull",
       "", true},
-     {"truth", "FILE",
-      "MMM motion that the markers were made from; one for each recording, in the same order (-: "
-      "not known)",
-      "", true},
+     {"truth", "FILE", "MMM motion that the markers were made from; -: not known", "", true},
      {"hide", "P", "hide markers from the converters; errors are still taken over all markers", ""},
      {"hide-model", "paper|stationary",
       "paper (default): P is the probability with which a visible marker hides in a frame, for "
@@ -49,7 +47,9 @@ Distances are between measured and model markers, hidden ones included, over the
 that all configurations use. The optimum is the least-squares posture of each frame on its own. A
 frame is good up to 1.2 optimum + 2 mm, lost beyond 2 optimum + 20 mm.
 
-{}Exit code 1 where a pair failed; the others are compared all the same.
+{}The options truth, subject, motion, height, mass, person and up may be there once for all recordings,
+or once for each in their order. Exit code 1 where a pair failed; the
+others are compared all the same.
 
 Examples
   MMMConverterS2KF compare walk.c3d run.c3d --height 1.75 --report comparison.html
@@ -58,10 +58,19 @@ Examples
   MMMConverterS2KF compare handstand.c3d --truth handstand_true.xml
 )";
 
+// Given once for all recordings, or once for each in their order.
+const std::vector<std::string> kPerRecording = {"truth", "subject", "motion", "height",
+                                                "mass",  "person",  "up"};
+
 std::vector<OptionGroup> Options() {
   std::vector<OptionGroup> options = {kContest, ComparisonOutputOptions()};
   options.insert(options.end(), InputOptions().begin(), InputOptions().end());
   options.push_back(kGeneral);
+  for (OptionGroup& group : options) {
+    for (OptionSpec& option : group.options) {
+      option.repeatable |= std::count(kPerRecording.begin(), kPerRecording.end(), option.name) > 0;
+    }
+  }
   return options;
 }
 
@@ -93,19 +102,14 @@ std::vector<Contender> MakeContenders(const Arguments& arguments) {
 }
 
 std::vector<Trial> MakeTrials(const Arguments& arguments, const ConverterConfig& config) {
-  const std::vector<std::string>& files = arguments.positionals();
-  const std::vector<std::string> truths = arguments.GetAll("truth");
-  if (!truths.empty() && truths.size() != files.size()) {
-    throw UsageError(
-        fmt::format("compare: {} recordings, but {} times --truth; give one for each "
-                    "recording, - where it is not known",
-                    files.size(), truths.size()));
-  }
   std::vector<Trial> trials;
   std::vector<std::string> warnings;
+  const std::vector<std::string>& files = arguments.positionals();
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::string truth = truths.empty() || truths[i] == "-" ? "" : truths[i];
-    trials.push_back(MakeTrial(MakeInputRequest(arguments, files[i]), truth, config, &warnings));
+    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
+    const std::string truth = own.Get("truth").value_or("-");
+    trials.push_back(
+        MakeTrial(MakeInputRequest(own, files[i]), truth == "-" ? "" : truth, config, &warnings));
   }
   for (const std::string& warning : warnings) LogWarning(warning);
   return trials;
