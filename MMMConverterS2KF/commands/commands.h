@@ -15,6 +15,7 @@ struct Command {
 
 int RunCompare(const std::vector<std::string>& words);
 int RunConvert(const std::vector<std::string>& words);
+int RunEvaluate(const std::vector<std::string>& words);
 int RunInfo(const std::vector<std::string>& words);
 int RunPrintConfig(const std::vector<std::string>& words);
 int RunReport(const std::vector<std::string>& words);

@@ -20,10 +20,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A trial's contenders that take part, and all labels that one of them uses.
+// A trial's contenders that take part, and what one of them uses.
 struct Field {
   std::vector<ComparisonRow*> rows;
+  std::vector<std::vector<int>> joints;  // of each row
   std::vector<int> used_labels;
+  std::vector<int> used_joints;
 };
 
 void ResolveRow(const Trial& trial, const Contender& contender, std::vector<int>* joints,
@@ -57,9 +59,7 @@ std::vector<int> Intersection(const std::vector<int>& ordered, const std::vector
   return both;
 }
 
-// What the contenders share; joints[i] are those of the i-th row of the field.
-void FindCommonGround(const Field& field, const std::vector<std::vector<int>>& joints,
-                      CommonGround* ground) {
+void FindCommonGround(const Field& field, CommonGround* ground) {
   if (field.rows.empty()) return;
   for (const MarkerAssignment& assignment : field.rows.front()->mapping.assignments) {
     const bool is_common =
@@ -73,20 +73,23 @@ void FindCommonGround(const Field& field, const std::vector<std::vector<int>>& j
     ground->labels.push_back(assignment.label);
     ground->markers.push_back(assignment.marker);
   }
-  ground->joints = joints.front();
-  for (const std::vector<int>& other : joints) {
+  ground->joints = field.joints.front();
+  for (const std::vector<int>& other : field.joints) {
     ground->joints = Intersection(ground->joints, other);
   }
 }
 
-void FindUsedLabels(Field* field) {
+void FindUsed(Field* field) {
   std::set<int> labels;
+  std::set<int> joints;
+  for (const std::vector<int>& own : field->joints) joints.insert(own.begin(), own.end());
   for (const ComparisonRow* row : field->rows) {
     for (const MarkerAssignment& assignment : row->mapping.assignments) {
       labels.insert(assignment.label);
     }
   }
   field->used_labels.assign(labels.begin(), labels.end());
+  field->used_joints.assign(joints.begin(), joints.end());
 }
 
 // Rows of `hidden`, which are for the used labels, that belong to the common ones.
@@ -224,17 +227,16 @@ Field PrepareTrial(int index, Comparison* comparison) {
   const Trial& trial = comparison->trials[index];
   CommonGround& ground = comparison->grounds[index];
   Field field;
-  std::vector<std::vector<int>> joints;
   for (std::size_t c = 0; c < comparison->contenders.size(); ++c) {
     ComparisonRow& row = comparison->rows[index * comparison->contenders.size() + c];
     std::vector<int> own;
     ResolveRow(trial, comparison->contenders[c], &own, &row);
     if (!row.failure.empty()) continue;
     field.rows.push_back(&row);
-    joints.push_back(own);
+    field.joints.push_back(own);
   }
-  FindUsedLabels(&field);
-  FindCommonGround(field, joints, &ground);
+  FindUsed(&field);
+  FindCommonGround(field, &ground);
   if (!field.rows.empty() && ground.labels.empty()) {
     for (ComparisonRow* row : field.rows) row->failure = "no marker is used by all configurations";
     field.rows.clear();
@@ -244,10 +246,10 @@ Field PrepareTrial(int index, Comparison* comparison) {
   return field;
 }
 
-void FindOptimum(const Trial& trial, CommonGround* ground) {
-  std::vector<int> joints = ResolveJoints(ConverterConfig(), *trial.model);
-  ground->optimum =
-      OptimalDistances(*trial.model, joints, ground->markers, ground->labels, trial.markers);
+// The floor of every contender: with all joints that one of them has.
+void FindOptimum(const Trial& trial, const Field& field, CommonGround* ground) {
+  ground->optimum = OptimalDistances(*trial.model, field.used_joints, ground->markers,
+                                     ground->labels, trial.markers);
 }
 
 }  // namespace
@@ -273,7 +275,8 @@ Comparison Compare(std::vector<Trial> trials, std::vector<Contender> contenders,
     }
   }
   ParallelFor(num_trials, options.jobs, [&](int t) {
-    if (!fields[t].rows.empty()) FindOptimum(comparison.trials[t], &comparison.grounds[t]);
+    if (!fields[t].rows.empty())
+      FindOptimum(comparison.trials[t], fields[t], &comparison.grounds[t]);
   });
 
   std::vector<RunOutcome> outcomes(runs.size());
@@ -304,18 +307,17 @@ Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
   comparison.rows = MakeRows(1, comparison.contenders.size());
   CommonGround& ground = comparison.grounds.front();
   Field field;
-  std::vector<std::vector<int>> joints;
   for (std::size_t i = 0; i < results.size(); ++i) {
     ComparisonRow& row = comparison.rows[i];
     row.mapping = std::move(results[i].mapping);
     row.result = std::move(results[i].result);
     field.rows.push_back(&row);
-    joints.push_back(JointsOf(only, row.result.trajectory));
+    field.joints.push_back(JointsOf(only, row.result.trajectory));
   }
-  FindUsedLabels(&field);
-  FindCommonGround(field, joints, &ground);
+  FindUsed(&field);
+  FindCommonGround(field, &ground);
   CountHidden(field, only, comparison.options, &ground);
-  FindOptimum(only, &ground);
+  FindOptimum(only, field, &ground);
   for (ComparisonRow* row : field.rows) {
     row->distances = MeasureDistances(only, ground, row->result.trajectory);
     RunOutcome outcome;

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/comparison_setup.h"
+#include "MMMConverterS2KF/evaluation.h"
+#include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/progress.h"
+#include "MMMConverterS2KF/report/comparison_json.h"
+#include "MMMConverterS2KF/report/comparison_plot.h"
+#include "MMMConverterS2KF/report/comparison_table.h"
+#include "MMMConverterS2KF/report/report.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<OptionGroup> kOwnOptions = {
+    {"Evaluation",
+     {{"output,o", "FOLDER", "where the report goes; default: evaluation", ""},
+      {"repeat", "N", "runs of the occlusion experiment; default: 100, as in the paper", ""},
+      {"jobs", "N", "runs at a time; default: all cores", ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF evaluate [RECORDING...] [options]
+The evaluation of the paper, done anew: a (synthetic) handstand with all markers and with markers
+that hide at random, tracked by the S2KF in the paper's and in the default configuration, by the UKF
+and EKF, and by framewise fits. Recordings that are named are compared too. One to two minutes on
+two cores. Writes report.html, evaluation.json and a gnuplot script for each experiment into FOLDER.
+
+{}Examples
+  MMMConverterS2KF evaluate
+  MMMConverterS2KF evaluate walk.c3d -o results --height 1.75
+)";
+
+std::vector<OptionGroup> Options() {
+  std::vector<OptionGroup> options = {kOwnOptions.front()};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  options.push_back(kOwnOptions.back());
+  return options;
+}
+
+std::vector<Trial> ReadOthers(const Arguments& arguments) {
+  std::vector<Trial> trials;
+  std::vector<std::string> warnings;
+  for (const std::string& file : arguments.positionals()) {
+    trials.push_back(
+        MakeTrial(MakeInputRequest(arguments, file), "", ConverterConfig(), &warnings));
+  }
+  for (const std::string& warning : warnings) LogWarning(warning);
+  return trials;
+}
+
+void WriteFiles(const std::string& folder, const std::vector<Experiment>& experiments) {
+  std::vector<ReportSection> sections;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Experiment& experiment : experiments) {
+    const Comparison& comparison = experiment.comparison;
+    sections.push_back({experiment.title, experiment.text, &comparison});
+    json[experiment.name] = nlohmann::ordered_json::parse(FormatComparisonJson(comparison));
+    WriteFileAtomically(fmt::format("{}/{}.gp", folder, experiment.name),
+                        FormatComparisonPlot(comparison, experiment.name));
+  }
+  WriteFileAtomically(folder + "/evaluation.json", json.dump(2) + "\n");
+  WriteFileAtomically(folder + "/report.html", FormatReport("Evaluation", sections));
+}
+
+}  // namespace
+
+int RunEvaluate(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("evaluate", Options(), words, true);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const std::string folder = arguments.Get("output").value_or("evaluation");
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw Error(fmt::format("{}: {}", folder, failure.message()));
+
+  EvaluationRequest request;
+  request.runs = arguments.GetInteger("repeat", 1, 100000).value_or(request.runs);
+  request.jobs = arguments.GetInteger("jobs", 1, 1024).value_or(0);
+  request.others = ReadOthers(arguments);
+  ProgressBar bar;
+  const std::vector<Experiment> experiments =
+      Evaluate(request, [&](const std::string&, int done, int all) { bar.Show(done, all); });
+  bar.Clear();
+  WriteFiles(folder, experiments);
+  int failures = 0;
+  for (const Experiment& experiment : experiments) {
+    std::cout << experiment.title << "\n\n" << FormatComparisonTable(experiment.comparison) << '\n';
+    failures += experiment.comparison.num_failures();
+  }
+  std::cout << FormatPaperTable(experiments) << '\n' << folder << "/report.html\n";
+  return failures > 0 ? 1 : 0;
+}
+
+}  // namespace mmm_converter
