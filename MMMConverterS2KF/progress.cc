@@ -15,16 +15,17 @@ constexpr const char* kEraseLine = "\r\033[K";
 
 }  // namespace
 
-ProgressBar::ProgressBar() : is_terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(const char* unit)
+    : unit_(unit), is_terminal_(isatty(STDERR_FILENO) == 1) {}
 
-void ProgressBar::Show(int done, int all) {
+void ProgressBar::Show(int done, int all, const std::string& stage) {
   if (!is_terminal_ || all <= 0) return;
   const int percent = static_cast<int>(100LL * done / all);
   if (percent == percent_) return;
   percent_ = percent;
   const int filled = kWidth * percent / 100;
-  fmt::print(stderr, "{}[{:<{}}] {}/{} frames", kEraseLine, std::string(filled, '='), kWidth, done,
-             all);
+  fmt::print(stderr, "{}[{:<{}}] {}/{} {}{}{}", kEraseLine, std::string(filled, '='), kWidth, done,
+             all, unit_, stage.empty() ? "" : ": ", stage);
   std::fflush(stderr);
 }
 

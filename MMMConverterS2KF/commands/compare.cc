@@ -132,7 +132,7 @@ int RunCompare(const std::vector<std::string>& words) {
   std::vector<Contender> contenders = MakeContenders(arguments);
   std::vector<Trial> trials = MakeTrials(arguments, contenders.front().config);
   MakeNamesUnique(&trials, &contenders);
-  ProgressBar bar;
+  ProgressBar bar("runs");
   const Comparison comparison = Compare(std::move(trials), std::move(contenders), options,
                                         [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();

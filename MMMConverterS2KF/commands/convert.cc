@@ -111,7 +111,7 @@ int RunConvert(const std::vector<std::string>& words) {
   }
   StartLog(arguments.Get("log").value_or("info"));
   const ConversionRequest request = MakeRequest(arguments);
-  ProgressBar bar;
+  ProgressBar bar("frames");
   const ConversionReport report =
       RunConversion(request, [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();

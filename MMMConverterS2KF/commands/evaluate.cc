@@ -94,9 +94,9 @@ int RunEvaluate(const std::vector<std::string>& words) {
   request.runs = arguments.GetInteger("repeat", 1, 100000).value_or(request.runs);
   request.jobs = arguments.GetInteger("jobs", 1, 1024).value_or(0);
   request.others = ReadOthers(arguments);
-  ProgressBar bar;
-  const std::vector<Experiment> experiments =
-      Evaluate(request, [&](const std::string&, int done, int all) { bar.Show(done, all); });
+  ProgressBar bar("runs");
+  const std::vector<Experiment> experiments = Evaluate(
+      request, [&](const std::string& stage, int done, int all) { bar.Show(done, all, stage); });
   bar.Clear();
   WriteFiles(folder, experiments);
   int failures = 0;

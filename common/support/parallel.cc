@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "common/support/parallel.h"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <cstddef>
 
 namespace mmm_converter {
 
@@ -15,6 +18,8 @@ void ParallelFor(int count, int jobs, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
+  const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(jobs));
   oneapi::tbb::task_arena arena(jobs);
   arena.execute([&] {
     const oneapi::tbb::blocked_range<int> all(0, count, 1);

@@ -27,7 +27,7 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 }
 
 TEST(Help, EveryCommandHasOneWithExamples) {
-  for (const char* command : {"convert", "info", "print-config"}) {
+  for (const char* command : {"compare", "convert", "evaluate", "info", "print-config", "report"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -49,11 +49,20 @@ struct Misuse {
 TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
   const std::vector<Misuse> misuses = {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
-      {{"fly"}, "unknown command \"fly\"; use convert, info or print-config"},
+      {{"fly"}, "unknown command \"fly\"; use compare, convert, evaluate, info, print-config or report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
       {{"convert"}, "convert: which recording?"},
+      {{"compare"}, "compare: which recordings?"},
+      {{"report", "walk.c3d"}, "report: which recording and which motion?"},
+      {{"compare", "a.c3d", "--hide", "2"}, "--hide: 2 is not allowed; give a number from 0 to 1"},
+      {{"compare", "a.c3d", "--hide-model", "x"},
+       "--hide-model: \"x\" is not allowed; use paper or stationary"},
+      {{"compare", "a.c3d", "--repeat", "0"},
+       "--repeat: \"0\" is not allowed; give a whole number from 1 to"},
+      {{"compare", "a", "b", "c", "--height", "1.7", "--height", "1.8"},
+       "--height is given 2 times for 3 files; give it once for all, or once for each"},
       {{"convert", "a.c3d", "b.c3d"}, "one input only, but there are \"a.c3d\" and \"b.c3d\""},
       {{"convert", "a.c3d", "--inputMotion", "b.c3d"}, "one input only"},
       {{"convert", "a.c3d", "--height", "tall"}, "--height: \"tall\" is not a number; give metres"},
