@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// A body in three.js' scene graph: an Object3D for each segment of the model, bones and markers as
+// its children, so that a posture is the root's pose and an angle for each joint.
+
+const kShortestBone = 0.012;  // [m]
+
+// A spindle along +y from 0 to 1.
+function makeBoneGeometry() {
+  const outline = [[0, 0], [0.75, 0.06], [1, 0.18], [0.7, 0.75], [0.45, 0.94], [0, 1]];
+  return new THREE.LatheBufferGeometry(outline.map(([x, y]) => new THREE.Vector2(x, y)), 10);
+}
+
+class Body {
+  // labels: which model marker belongs to which label, as trial.markers.
+  constructor(model, markers) {
+    this.model = model;
+    this.material = new THREE.MeshLambertMaterial({transparent: true});
+    this.nodes = [];
+    this.bones = [];
+    this.root = new THREE.Group();
+    this.addSegments(model.segments);
+    this.markers = markers.map((index) => {
+      const marker = model.markers[index];
+      const node = new THREE.Object3D();
+      node.position.fromArray(marker.position);
+      this.nodes[marker.segment].add(node);
+      return node;
+    });
+    this.addEnds(model, markers);
+  }
+
+  addSegments(segments) {
+    const geometry = Body.bone = Body.bone || makeBoneGeometry();
+    const joints = new THREE.SphereBufferGeometry(1, 12, 8);
+    segments.forEach((segment, i) => {
+      const node = i === 0 ? this.root : new THREE.Object3D();
+      node.position.fromArray(segment.position);
+      node.quaternion.fromArray(segment.orientation);
+      this.nodes.push(node);
+      if (i === 0) return;
+      const parent = this.nodes[segment.parent];
+      parent.add(node);
+      this.addBone(parent, node.position, geometry);
+      if (segment.joint >= 0) this.addKnob(node, joints);
+    });
+  }
+
+  addBone(parent, tip, geometry) {
+    const length = tip.length();
+    if (length < kShortestBone) return;
+    const bone = new THREE.Mesh(geometry, this.material);
+    const width = Math.min(0.11 * length, 0.03);
+    bone.scale.set(width, length, width);
+    bone.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), tip.clone().normalize());
+    parent.add(bone);
+    this.bones.push(bone);
+  }
+
+  addKnob(node, geometry) {
+    const knob = new THREE.Mesh(geometry, this.material);
+    knob.scale.setScalar(node.position.length() < 0.06 ? 0.008 : 0.018);
+    node.add(knob);
+    this.bones.push(knob);
+  }
+
+  // The head and the feet: segments without a child get a bone to the middle of their markers.
+  addEnds(model, markers) {
+    const middles = new Map();
+    for (const index of markers) {
+      const marker = model.markers[index];
+      const middle = middles.get(marker.segment) || {sum: new THREE.Vector3(), count: 0};
+      middle.sum.add(new THREE.Vector3().fromArray(marker.position));
+      ++middle.count;
+      middles.set(marker.segment, middle);
+    }
+    for (const [segment, middle] of middles) {
+      const isEnd = !model.segments.some((other) => other.parent === segment);
+      if (isEnd && middle.count > 1) {
+        this.addBone(this.nodes[segment], middle.sum.divideScalar(middle.count), Body.bone);
+      }
+    }
+  }
+
+  // The posture of frame k.
+  setPose(motion, frames, k) {
+    this.root.position.fromArray(motion.position, 3 * k);
+    this.root.quaternion.fromArray(motion.orientation, 4 * k).normalize();
+    const turn = new THREE.Quaternion();
+    const axis = new THREE.Vector3();
+    this.model.segments.forEach((segment, i) => {
+      const column = segment.joint < 0 ? -1 : motion.joints.indexOf(segment.joint);
+      if (column < 0) return;
+      turn.setFromAxisAngle(axis.fromArray(segment.axis), motion.angles[column * frames + k]);
+      this.nodes[i].quaternion.fromArray(segment.orientation).multiply(turn);
+    });
+    this.root.updateMatrixWorld(true);
+  }
+
+  markerPosition(label, target) {
+    return target.setFromMatrixPosition(this.markers[label].matrixWorld);
+  }
+
+  setLook(colour, opacity, showBones) {
+    this.material.color.set(colour);
+    this.material.opacity = opacity;
+    for (const bone of this.bones) bone.visible = showBones;
+  }
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// A plot over time with a cursor at the player's frame. Zooming one zooms all.
+
+// One line of a plot. values(k) is a number, or [low, middle, high] for a line with a band.
+//   {name, colour, dash, width, values, inReadout}
+
+class Chart {
+  // host: an empty element. unit: for the readout.
+  constructor(host, view, {lines, unit, digits, logarithmic, range, label}) {
+    this.host = host;
+    this.view = view;
+    this.lines = lines;
+    this.unit = unit;
+    this.digits = digits;
+    this.hasBands = lines.some((line) => line.band);
+    this.plot = element("div", {class: "plot-area", role: "img", "aria-label": label});
+    this.cursor = element("div", {class: "cursor"});
+    this.readout = element("p", {class: "readout", "aria-hidden": "true"});
+    replaceContent(host, this.plot, this.readout);
+    this.graph = new Dygraph(this.plot, this.rows(), this.options(logarithmic, range));
+    this.plot.append(this.cursor);
+    this.setFrame(view.frame);
+    this.write(null);
+  }
+
+  rows() {
+    const trial = this.view.trial;
+    const rows = new Array(trial.frames);
+    for (let k = 0; k < trial.frames; ++k) {
+      const row = [trial.time(k)];
+      for (const line of this.lines) {
+        const value = line.values(k);
+        row.push(this.hasBands ? line.band ? [line.band(k)[0], value, line.band(k)[1]] : [value, value, value]
+          : value);
+      }
+      rows[k] = row;
+    }
+    return rows;
+  }
+
+  options(logarithmic, range) {
+    const series = {};
+    // Names of users never reach the library, which would take them for markup.
+    this.lines.forEach((line, i) => {
+      series["line" + i] = {color: line.colour, strokePattern: line.dash, strokeWidth: line.width || 1.6};
+    });
+    return {
+      labels: ["time", ...this.lines.map((_, i) => "line" + i)], series, customBars: this.hasBands,
+      legend: "never", fillAlpha: 0.16, xlabel: "time, s", logscale: logarithmic || false,
+      valueRange: range || null, includeZero: !logarithmic && !range,
+      gridLineColor: themeColour("grid"), axisLineColor: themeColour("line"), gridLineWidth: 1,
+      axisLabelFontSize: 12, xRangePad: 0, animatedZooms: false, highlightCircleSize: 3,
+      axes: {y: {axisLabelWidth: 46}},
+      interactionModel: withoutTouch(Dygraph.defaultInteractionModel),
+      clickCallback: (event, x) => this.view.seek(this.view.trial.frameAt(x)),
+      highlightCallback: (event, x) => this.write(this.view.trial.frameAt(x)),
+      unhighlightCallback: () => this.write(null),
+      drawCallback: (graph, isInitial) => {
+        if (isInitial) return;
+        this.placeCursor();
+        this.view.zoom(this, graph.xAxisRange());
+      },
+    };
+  }
+
+  // The values at a frame, or at the player's.
+  write(frame) {
+    const k = frame === null ? this.view.frame : frame;
+    this.pointed = frame;
+    const parts = this.lines.filter((line) => line.name).flatMap((line) => [
+      element("span", {class: "value"}, line.swatch ? line.swatch() : null,
+        `${line.name} `, element("b", {}, formatNumber(line.values(k), this.digits)))]);
+    replaceContent(this.readout,
+      element("span", {class: "value"}, `${formatNumber(this.view.trial.time(k), 2)} s`), ...parts,
+      element("span", {}, this.unit));
+  }
+
+  setFrame() {
+    this.placeCursor();
+    if (this.pointed === null || this.pointed === undefined) this.write(null);
+  }
+
+  placeCursor() {
+    if (!this.graph) return;
+    const x = this.graph.toDomXCoord(this.view.trial.time(this.view.frame));
+    const area = this.graph.getArea();
+    this.cursor.hidden = x < area.x - 1 || x > area.x + area.w + 1;
+    this.cursor.style.transform = `translateX(${x}px)`;
+    this.cursor.style.height = `${area.h}px`;
+  }
+
+  zoom(range) {
+    this.graph.updateOptions({dateWindow: range});
+  }
+
+  destroy() {
+    this.graph.destroy();
+    this.graph = null;
+  }
+}
+
+// On a phone a finger scrolls the page; a tap still jumps.
+function withoutTouch(model) {
+  const mouseOnly = Object.assign({}, model);
+  for (const name of ["touchstart", "touchmove", "touchend"]) delete mouseOnly[name];
+  return mouseOnly;
+}

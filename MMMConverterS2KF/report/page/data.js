@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// What the page was given: parts of a comparison, unpacked when they are first looked at. SI units.
+
+function decodeBase64(text) {
+  const characters = atob(text);
+  const bytes = new Uint8Array(characters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = characters.charCodeAt(i);
+  return bytes;
+}
+
+// The numbers of a PackedArray (packed_array.h); of bits, their bytes.
+function unpack(packed) {
+  const bytes = decodeBase64(packed.base64);
+  if (packed.type === "bits") return bytes;
+  if (packed.type === "f32") return new Float32Array(bytes.buffer);
+  const raw = new Uint16Array(bytes.buffer);
+  const numbers = new Float32Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) {
+    numbers[i] = raw[i] === 65535 ? NaN : raw[i] * packed.scale + packed.offset;
+  }
+  return numbers;
+}
+
+// Gives `owner` a property that is unpacked at its first use.
+function lazily(owner, name, packed) {
+  Object.defineProperty(owner, name, {
+    configurable: true,
+    get() {
+      const numbers = packed ? unpack(packed) : null;
+      Object.defineProperty(owner, name, {value: numbers});
+      return numbers;
+    },
+  });
+}
+
+// Postures over time: position (x y z per frame), orientation (x y z w per frame), angles and
+// deviations (frames of the first joint, of the second, ...).
+class Motion {
+  constructor(json) {
+    this.joints = json.joints;  // of the model
+    for (const name of ["position", "orientation", "angles", "deviations"]) {
+      lazily(this, name, json[name]);
+    }
+  }
+}
+
+// One converter on one recording.
+class Track {
+  constructor(json, contender, trial) {
+    this.contender = json.contender;
+    this.name = contender.name;
+    this.trial = trial;
+    this.failure = json.failure;
+    this.warnings = json.warnings;
+    this.ignored = json.ignored;
+    this.absent = json.absent;
+    if (this.failure) return;
+    this.motion = new Motion(json.motion);
+    for (const name of ["distances", "mean", "p05", "p95", "max", "seconds"]) {
+      lazily(this, name, json[name]);
+    }
+  }
+
+  distance(label, frame) {
+    return this.distances[label * this.trial.frames + frame];
+  }
+
+  // Mean over the markers in a frame of the first run; NaN where none was measured.
+  frameMean(frame) {
+    let sum = 0;
+    let count = 0;
+    for (let label = 0; label < this.trial.labels.length; ++label) {
+      const distance = this.distance(label, frame);
+      if (Number.isNaN(distance)) continue;
+      sum += distance;
+      ++count;
+    }
+    return count ? sum / count : NaN;
+  }
+}
+
+// One recording with the model of its person.
+class Trial {
+  constructor(json) {
+    this.name = json.name;
+    this.failure = json.failure;
+    this.frames = json.frames || 0;
+    this.labels = json.labels || [];
+    this.tracks = [];  // of the converters that have a result
+    this.failed = [];  // of the others
+    if (!this.frames) return;
+    this.rate = json.rate;
+    this.firstTime = json.first_time;
+    this.markers = json.markers;  // of the model, one for each label
+    this.model = json.model;
+    this.truth = json.truth ? new Motion(json.truth) : null;
+    for (const name of ["positions", "hidden", "optimum", "mean_hidden", "most_hidden"]) {
+      lazily(this, name, json[name]);
+    }
+  }
+
+  time(frame) {
+    return this.firstTime + frame / this.rate;
+  }
+
+  frameAt(time) {
+    const frame = Math.round((time - this.firstTime) * this.rate);
+    return Math.min(Math.max(frame, 0), this.frames - 1);
+  }
+
+  // Hidden from the converters in the first run.
+  isHidden(label, frame) {
+    const bit = label * this.frames + frame;
+    return (this.hidden[bit >> 3] >> (bit & 7) & 1) === 1;
+  }
+
+  isMeasured(label, frame) {
+    return !Number.isNaN(this.positions[3 * (frame * this.labels.length + label)]);
+  }
+
+  // The middle of the measured markers, smoothed: what a camera looks at. Three numbers.
+  middle(frame) {
+    if (!this.middles) this.middles = smoothedMiddles(this);
+    return Array.from(this.middles.subarray(3 * frame, 3 * frame + 3));
+  }
+
+  // The largest extent of the measured markers of a frame, over some frames [m].
+  get size() {
+    if (!this.extent) {
+      this.extent = 0.5;
+      const step = Math.max(1, Math.floor(this.frames / 50));
+      for (let k = 0; k < this.frames; k += step) {
+        this.extent = Math.max(this.extent, extentOfFrame(this, k));
+      }
+    }
+    return this.extent;
+  }
+
+  get hidesMarkers() {
+    return this.most_hidden.some((count) => count > 0);
+  }
+}
+
+function extentOfFrame(trial, frame) {
+  let extent = 0;
+  for (let axis = 0; axis < 3; ++axis) {
+    let least = Infinity;
+    let most = -Infinity;
+    for (let label = 0; label < trial.labels.length; ++label) {
+      const value = trial.positions[3 * (frame * trial.labels.length + label) + axis];
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+    extent = Math.max(extent, most - least);
+  }
+  return extent;
+}
+
+// Means of the measured markers, running over a third of a second; where none is measured, the last.
+function smoothedMiddles(trial) {
+  const middles = new Float32Array(3 * trial.frames);
+  const share = Math.min(1, 6 / trial.rate);
+  const smooth = [0, 0, 1];
+  let started = false;
+  for (let frame = 0; frame < trial.frames; ++frame) {
+    const sum = [0, 0, 0];
+    let count = 0;
+    for (let label = 0; label < trial.labels.length; ++label) {
+      if (!trial.isMeasured(label, frame)) continue;
+      const place = 3 * (frame * trial.labels.length + label);
+      for (let axis = 0; axis < 3; ++axis) sum[axis] += trial.positions[place + axis];
+      ++count;
+    }
+    for (let axis = 0; axis < 3; ++axis) {
+      if (count) smooth[axis] += (started ? share : 1) * (sum[axis] / count - smooth[axis]);
+      middles[3 * frame + axis] = smooth[axis];
+    }
+    started = started || count > 0;
+  }
+  return middles;
+}
+
+// A part of the report: one comparison.
+class Section {
+  constructor(heading, figures, tracks) {
+    Object.assign(this, heading);  // title, text
+    this.figures = figures;        // as --json says it
+    this.tracksText = tracks;
+  }
+
+  // The data that are drawn, read at first use as they are large.
+  load() {
+    if (this.trials) return;
+    const tracks = JSON.parse(this.tracksText);
+    this.tracksText = null;
+    this.contenders = tracks.contenders;
+    this.trials = tracks.trials.map((trial) => new Trial(trial));
+    for (const row of tracks.rows) {
+      const trial = this.trials[row.trial];
+      const track = new Track(row, this.contenders[row.contender], trial);
+      (track.failure ? trial.failed : trial.tracks).push(track);
+    }
+  }
+}
+
+function readSections() {
+  const texts = (name) =>
+    Array.from(document.querySelectorAll(`script.${name}`), (block) => block.textContent);
+  const figures = texts("figures");
+  const tracks = texts("tracks");
+  return texts("heading").map((heading, i) =>
+    new Section(JSON.parse(heading), JSON.parse(figures[i]), tracks[i]));
+}

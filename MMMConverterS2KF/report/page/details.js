@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Configurations, warnings and failures of the part that is shown.
+
+function makeNotes(section) {
+  const items = [];
+  const add = (about, text) => items.push(element("li", {}, element("strong", {}, about + ": "), text));
+  section.trials.forEach((trial) => {
+    for (const track of trial.failed) add(`${trial.name}, ${track.name}`, track.failure);
+    const seen = new Set();
+    for (const track of trial.tracks) {
+      const about = section.trials.length > 1 ? `${trial.name}, ${track.name}` : track.name;
+      const texts = track.warnings.slice();
+      if (track.ignored.length) texts.push(`labels that stand for no marker: ${track.ignored.join(", ")}`);
+      if (track.absent.length) texts.push(`markers that the recording does not have: ${track.absent.join(", ")}`);
+      for (const text of texts) {
+        // What is said of all converters is said once.
+        if (!seen.has(text)) add(about, text);
+        seen.add(text);
+      }
+    }
+  });
+  return items.length ? element("ul", {class: "notes"}, ...items)
+    : element("p", {class: "muted"}, "No warnings, no failures.");
+}
+
+function makeConfigurations(section) {
+  return section.contenders.map((contender, i) => element("details", {},
+    element("summary", {}, lineSwatch(i), contender.name),
+    element("pre", {tabindex: "0"}, contender.configuration || "No configuration is known.")));
+}

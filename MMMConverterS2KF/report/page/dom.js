@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Elements, numbers and colours. Text of users enters the page through text nodes only.
+
+function byId(id) {
+  return document.getElementById(id);
+}
+
+// element("a", {href: "#x"}, "text", child): attributes that are null or false are left out.
+function element(tag, attributes, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (value !== null && value !== false) made.setAttribute(name, value === true ? "" : value);
+  }
+  made.append(...children.filter((child) => child !== null));
+  return made;
+}
+
+function replaceContent(parent, ...children) {
+  parent.replaceChildren(...children.filter((child) => child !== null));
+}
+
+function option(value, text) {
+  return element("option", {value}, text);
+}
+
+// A number with as many digits as were asked for; a dash where there is none.
+function formatNumber(value, digits) {
+  return Number.isFinite(value) ? value.toFixed(digits) : "–";
+}
+
+function formatMillimetres(metres) {
+  return formatNumber(1000 * metres, 1) + " mm";
+}
+
+function plural(count, noun) {
+  return `${count} ${noun}${count === 1 ? "" : "s"}`;
+}
+
+const kNumConverterColours = 6;
+const kDashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [4, 4], [12, 4]];
+
+// A colour of the style sheet as it is now, light or dark.
+function themeColour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+}
+
+function converterColour(index) {
+  return themeColour("converter-" + (index % kNumConverterColours));
+}
+
+function converterDash(index) {
+  return kDashes[index % kDashes.length];
+}
+
+// The line that stands for a converter in the plots.
+function lineSwatch(index) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 28 8");
+  svg.setAttribute("class", "swatch");
+  svg.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+  const dash = converterDash(index);
+  for (const [name, value] of Object.entries({x1: 1, y1: 4, x2: 27, y2: 4, "stroke-width": 3})) {
+    line.setAttribute(name, value);
+  }
+  if (dash) line.setAttribute("stroke-dasharray", dash.join(" "));
+  line.style.stroke = `var(--converter-${index % kNumConverterColours})`;
+  svg.append(line);
+  return svg;
+}
+
+// Calls `redraw` once before the next picture, however often it is asked for.
+function oncePerPicture(redraw) {
+  let waiting = false;
+  return () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      redraw();
+    });
+  };
+}

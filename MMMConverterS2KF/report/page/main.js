@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// What is shown, and who is told when it changes.
+
+class View {
+  constructor(sections) {
+    this.sections = sections;
+    this.frame = 0;
+    this.shown = new Set();  // converters, by index
+    this.trial = null;
+    this.player = new Player(this);
+    this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player)];
+    byId("trial").addEventListener("change", (event) => this.showTrial(Number(event.target.value)));
+  }
+
+  get shownTracks() {
+    return this.trial.tracks.filter((track) => this.shown.has(track.contender));
+  }
+
+  showSection(index) {
+    this.section = this.sections[index];
+    this.section.load();
+    Array.from(byId("sections").children).forEach((button, i) =>
+      button.setAttribute("aria-pressed", i === index));
+    Array.from(byId("summary").children).forEach((summary, i) =>
+      summary.classList.toggle("other", i !== index));
+    replaceContent(byId("notes"), makeNotes(this.section));
+    replaceContent(byId("configurations"), ...makeConfigurations(this.section));
+    const drawn = this.section.trials.map((trial, i) => i)
+      .filter((i) => this.section.trials[i].tracks.length > 0);
+    byId("view").hidden = drawn.length === 0;
+    this.player.pause();
+    this.trial = null;
+    if (drawn.length === 0) return;
+    replaceContent(byId("trial"), ...drawn.map((i) => option(i, this.section.trials[i].name)));
+    this.showTrial(drawn[0]);
+  }
+
+  showTrial(index) {
+    this.trial = this.section.trials[index];
+    byId("trial").value = index;
+    this.frame = 0;
+    this.shown = new Set(this.trial.tracks.map((track) => track.contender));
+    this.listConverters();
+    for (const part of this.parts) part.show(this.trial);
+    this.refresh();
+  }
+
+  listConverters() {
+    this.distances = [];
+    replaceContent(byId("converters"), ...this.trial.tracks.map((track) => {
+      const box = element("input", {type: "checkbox", checked: true});
+      box.addEventListener("change", () => this.setShown(track.contender, box.checked));
+      const distance = element("output", {});
+      this.distances.push({track, distance});
+      return element("label", {class: "converter"}, box, lineSwatch(track.contender), track.name, distance);
+    }));
+  }
+
+  setShown(contender, isShown) {
+    if (isShown) this.shown.add(contender); else this.shown.delete(contender);
+    this.refresh();
+  }
+
+  // Colours or what is shown have changed.
+  refresh() {
+    if (!this.trial) return;
+    for (const part of this.parts) if (part.refresh) part.refresh();
+    this.seek(this.frame);
+  }
+
+  seek(frame) {
+    if (!this.trial) return;
+    this.frame = Math.min(Math.max(Math.round(frame), 0), this.trial.frames - 1);
+    for (const {track, distance} of this.distances) {
+      distance.textContent = formatMillimetres(track.frameMean(this.frame));
+    }
+    for (const part of this.parts) part.setFrame(this.frame);
+  }
+
+  // A part was zoomed to a range of time; the others follow.
+  zoom(source, range) {
+    if (this.zooming) return;
+    this.zooming = true;
+    for (const part of this.parts) if (part.zoom) part.zoom(source, range);
+    this.zooming = false;
+  }
+}
+
+function listSections(view) {
+  byId("program").textContent = view.sections.length ? view.sections[0].figures.program : "";
+  replaceContent(byId("summary"), ...view.sections.map(makeSummary));
+  if (view.sections.length < 2) return;
+  replaceContent(byId("sections"), ...view.sections.map((section, i) => {
+    const button = element("button", {type: "button", "aria-pressed": "false"},
+      element("strong", {}, section.title), element("span", {}, verdictOf(section.figures)));
+    button.addEventListener("click", () => view.showSection(i));
+    return button;
+  }));
+}
+
+function start() {
+  const view = new View(readSections());
+  listSections(view);
+  if (view.sections.length) view.showSection(0);
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => view.refresh());
+  }
+  window.addEventListener("beforeprint", () => {
+    for (const details of document.querySelectorAll("details")) details.open = true;
+  });
+  // For tests, and for who looks at the data in the browser's console.
+  window.mmmReport = {
+    figures: view.sections.map((section) => section.figures),
+    get frame() { return view.frame; },
+    get frames() { return view.trial ? view.trial.frames : 0; },
+    get playing() { return view.player.playing; },
+    play: () => view.player.play(),
+    pause: () => view.player.pause(),
+    seek: (frame) => view.seek(frame),
+    showSection: (index) => view.showSection(index),
+    showTrial: (index) => view.showTrial(index),
+  };
+}
+
+start();

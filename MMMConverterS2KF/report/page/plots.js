@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// What is plotted: marker distances, hidden markers, joint angles, times.
+
+const kDegrees = 180 / Math.PI;
+
+class Plots {
+  constructor(view) {
+    this.view = view;
+    this.charts = [];
+    byId("joint").addEventListener("change", () => this.refreshJoint());
+  }
+
+  show(trial) {
+    const runs = this.view.section.figures.options.runs;
+    byId("distance-caption").textContent = "Mean distance between measured and model markers in each frame" +
+      (runs > 1 ? `, over ${runs} runs: the line is their mean, the band their 5th to 95th percentile, the thin line their largest.` : ".") +
+      " Click to jump, drag to zoom, double-click to zoom out.";
+    byId("hidden-part").hidden = !trial.hidesMarkers;
+    this.listJoints(trial);
+  }
+
+  // The joints that some converter tracks, starting with the one that moves most.
+  listJoints(trial) {
+    const joints = trial.model.joints.map((_, i) => i)
+      .filter((joint) => trial.tracks.some((track) => track.motion.joints.includes(joint)));
+    replaceContent(byId("joint"), ...joints.map((joint) => option(joint, trial.model.joints[joint].name)));
+    const motion = trial.tracks[0].motion;
+    let widest = -1;
+    motion.joints.forEach((joint, column) => {
+      const angles = motion.angles.subarray(column * trial.frames, (column + 1) * trial.frames);
+      const range = angles.reduce((most, angle) => Math.max(most, angle), -Infinity) -
+        angles.reduce((least, angle) => Math.min(least, angle), Infinity);
+      if (range <= widest) return;
+      widest = range;
+      byId("joint").value = joint;
+    });
+  }
+
+  refresh() {
+    for (const chart of this.charts) chart.destroy();
+    const tracks = this.view.shownTracks;
+    this.charts = [this.distanceChart(tracks), this.timeChart(tracks)];
+    if (this.view.trial.hidesMarkers) this.charts.push(this.hiddenChart());
+    this.jointChart = this.makeJointChart(tracks);
+    this.charts.push(this.jointChart);
+  }
+
+  refreshJoint() {
+    this.jointChart.destroy();
+    this.charts.pop();
+    this.jointChart = this.makeJointChart(this.view.shownTracks);
+    this.charts.push(this.jointChart);
+  }
+
+  setFrame(frame) {
+    for (const chart of this.charts) chart.setFrame(frame);
+  }
+
+  zoom(source, range) {
+    for (const chart of this.charts) {
+      if (chart !== source) chart.zoom(range);
+    }
+  }
+
+  lineOf(track, values) {
+    return {name: track.name, colour: converterColour(track.contender), dash: converterDash(track.contender),
+      swatch: () => lineSwatch(track.contender), values};
+  }
+
+  distanceChart(tracks) {
+    const trial = this.view.trial;
+    const hasRuns = this.view.section.figures.options.runs > 1;
+    const lines = [];
+    for (const track of tracks) {
+      const line = this.lineOf(track, (k) => 1000 * track.mean[k]);
+      if (hasRuns) {
+        line.band = (k) => [1000 * track.p05[k], 1000 * track.p95[k]];
+        lines.push({name: null, colour: line.colour, width: 0.7, values: (k) => 1000 * track.max[k]});
+      }
+      lines.push(line);
+    }
+    lines.push({name: "least possible", colour: themeColour("muted"), dash: [1, 3], width: 1.6,
+      values: (k) => 1000 * trial.optimum[k]});
+    return new Chart(byId("distance-plot"), this.view,
+      {lines, unit: "mm", digits: 1, label: "Marker distance over time, millimetres"});
+  }
+
+  hiddenChart() {
+    const trial = this.view.trial;
+    return new Chart(byId("hidden-plot"), this.view, {lines: [
+      {name: "mean", colour: themeColour("text"), values: (k) => trial.mean_hidden[k]},
+      {name: "most", colour: themeColour("muted"), width: 0.8, values: (k) => trial.most_hidden[k]},
+    ], unit: "markers", digits: 1, label: "Number of hidden markers over time"});
+  }
+
+  timeChart(tracks) {
+    // A logarithmic axis knows no 0.
+    const lines = tracks.map((track) => this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN));
+    return new Chart(byId("time-plot"), this.view,
+      {lines, unit: "ms", digits: 2, logarithmic: true, label: "Time per frame, milliseconds, logarithmic"});
+  }
+
+  makeJointChart(tracks) {
+    const trial = this.view.trial;
+    const index = Number(byId("joint").value);
+    const joint = trial.model.joints[index];
+    const series = (motion, name) => {
+      const column = motion.joints.indexOf(index);
+      const numbers = motion[name];
+      if (column < 0 || !numbers) return null;
+      return (k) => kDegrees * numbers[column * trial.frames + k];
+    };
+    const lines = [];
+    const grey = themeColour("muted");
+    for (const limit of [joint.lower, joint.upper]) {
+      lines.push({name: null, colour: grey, dash: [8, 4], width: 1, values: () => kDegrees * limit});
+    }
+    const truth = trial.truth ? series(trial.truth, "angles") : null;
+    if (truth) lines.push({name: "truth", colour: themeColour("text"), width: 3, values: truth});
+    let hasBand = false;
+    for (const track of tracks) {
+      const angle = series(track.motion, "angles");
+      if (!angle) continue;
+      const line = this.lineOf(track, angle);
+      const deviation = series(track.motion, "deviations");
+      if (deviation) line.band = (k) => [angle(k) - 2 * deviation(k), angle(k) + 2 * deviation(k)];
+      hasBand = hasBand || Boolean(deviation);
+      lines.push(line);
+    }
+    byId("joint-caption").textContent = `Limits ${formatNumber(kDegrees * joint.lower, 0)}° and ` +
+      `${formatNumber(kDegrees * joint.upper, 0)}° (dashed)` +
+      (hasBand ? "; the band is ±2 standard deviations, as the converter states them" : "") +
+      (truth ? "; the broad line is the true angle" : "") + ".";
+    return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,
+      range: rangeOf(lines, trial.frames), label: `Angle of ${joint.name} over time, degrees`});
+  }
+}
+
+// From the least to the largest value of lines, and a little more; bands may be cut off.
+function rangeOf(lines, frames) {
+  let least = Infinity;
+  let most = -Infinity;
+  for (const line of lines) {
+    for (let k = 0; k < frames; ++k) {
+      const value = line.values(k);
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+  }
+  const margin = 0.06 * (most - least) || 1;
+  return [least - margin, most + margin];
+}

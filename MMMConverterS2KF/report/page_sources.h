@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace mmm_converter {
+
+// Files that are compiled in; CMakeLists.txt says which.
+
+std::string_view PageTemplate();  ///< with places {{name}}
+std::string_view PageStyles();
+std::string_view PageScript();
+std::string_view PlotLibrary();
+std::string_view SceneLibrary();
+std::string_view LibraryLicences();
+
+}  // namespace mmm_converter
