@@ -49,7 +49,8 @@ struct Misuse {
 TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
   const std::vector<Misuse> misuses = {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
-      {{"fly"}, "unknown command \"fly\"; use compare, convert, evaluate, info, print-config or report"},
+      {{"fly"},
+       "unknown command \"fly\"; use convert, compare, evaluate, info, print-config or report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
