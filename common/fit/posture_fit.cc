@@ -22,6 +22,7 @@ VectorXd NaturalAngles(const MarkerKinematics& kinematics) {
 PostureFit::PostureFit(const MarkerKinematics& kinematics)
     : kinematics_(kinematics),
       natural_(NaturalAngles(kinematics)),
+      start_(natural_),
       at_(kinematics.MakeJacobian()),
       llt_(kinematics.num_dofs()) {
   const int n = kinematics.num_dofs();
@@ -36,6 +37,14 @@ PostureFit::PostureFit(const MarkerKinematics& kinematics)
 
 PostureFit::Result PostureFit::Evaluate(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
                                         const PostureFitOptions& options, const Posture& posture) {
+  start_ = posture.joint_angles;
+  return ComputeCost(z, noise_scale, options, posture);
+}
+
+PostureFit::Result PostureFit::ComputeCost(const Ref<const Matrix3Xd>& z,
+                                           const VectorXd& noise_scale,
+                                           const PostureFitOptions& options,
+                                           const Posture& posture) {
   kinematics_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                              posture.joint_angles, &at_);
   Result result;
@@ -51,6 +60,8 @@ PostureFit::Result PostureFit::Evaluate(const Ref<const Matrix3Xd>& z, const Vec
   result.mean_distance /= std::max(seen, 1);
   result.cost += options.natural_weight * options.natural_weight *
                  (posture.joint_angles - natural_).squaredNorm();
+  result.cost +=
+      options.start_weight * options.start_weight * (posture.joint_angles - start_).squaredNorm();
   return result;
 }
 
@@ -75,9 +86,11 @@ void PostureFit::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& noise_
   const double w2 = options.natural_weight * options.natural_weight;
   hessian_.triangularView<Eigen::Lower>().setZero();
   hessian_.selfadjointView<Eigen::Lower>().rankUpdate(J_.transpose());
-  hessian_.diagonal().tail(joints).array() += w2;
+  const double v2 = options.start_weight * options.start_weight;
+  hessian_.diagonal().tail(joints).array() += w2 + v2;
   gradient_.noalias() = J_.transpose() * residual_;
-  gradient_.tail(joints) += w2 * (natural_ - posture.joint_angles);
+  gradient_.tail(joints) +=
+      w2 * (natural_ - posture.joint_angles) + v2 * (start_ - posture.joint_angles);
 }
 
 void PostureFit::ComputeStep(const Posture& posture, double damping) {
@@ -122,7 +135,7 @@ PostureFit::Result PostureFit::Solve(const Ref<const Matrix3Xd>& z, const Vector
       trial_.joint_angles = (posture->joint_angles + step_.tail(kinematics_.num_joints()))
                                 .cwiseMax(kinematics_.lower())
                                 .cwiseMin(kinematics_.upper());
-      const Result trial = Evaluate(z, noise_scale, options, trial_);
+      const Result trial = ComputeCost(z, noise_scale, options, trial_);
       accepted = trial.cost < best.cost;
       if (accepted) {
         const bool converged = best.cost - trial.cost < options.tolerance * best.cost;

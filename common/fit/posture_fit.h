@@ -21,11 +21,13 @@ struct PostureFitOptions {
   double robust_distance = 1e9;
   /// Pull to the natural angle: 1 rad costs as much as one marker this far off [m/rad].
   double natural_weight = 0.003;
+  /// Pull to the angles that the fit starts from, in the same unit.
+  double start_weight = 0;
 };
 
 /// Levenberg-Marquardt fit of a posture to marker positions, inside the joint limits:
-///   min over q   sum_m rho(|z_m - p_m(q)|^2) / s_m^2 + w^2 sum_j (theta_j - natural_j)^2,  l <=
-///   theta <= u,
+///   min over q   sum_m rho(|z_m - p_m(q)|^2) / s_m^2 + w^2 sum_j (theta_j - natural_j)^2
+///               + v^2 sum_j (theta_j - start_j)^2,  l <= theta <= u,
 /// with projected steps and the joints that press on a limit held there. Postures hold the tracked
 /// joints of `kinematics`. No allocation after construction.
 class PostureFit {
@@ -44,7 +46,7 @@ class PostureFit {
   Result Solve(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                const PostureFitOptions& options, Posture* posture);
 
-  /// The cost and the distances at a posture, without a step.
+  /// The cost and the distances at a posture that a fit would start from.
   Result Evaluate(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                   const PostureFitOptions& options, const Posture& posture);
 
@@ -52,12 +54,16 @@ class PostureFit {
   const Eigen::VectorXd& natural_angles() const { return natural_; }
 
  private:
+  Result ComputeCost(const Eigen::Ref<const Eigen::Matrix3Xd>& z,
+                     const Eigen::VectorXd& noise_scale, const PostureFitOptions& options,
+                     const Posture& posture);
   void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                  const PostureFitOptions& options, const Posture& posture);
   void ComputeStep(const Posture& posture, double damping);
 
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;
+  Eigen::VectorXd start_;  // joint angles
   MarkerJacobian at_;
   Eigen::MatrixXd J_;         // weighted Jacobian
   Eigen::VectorXd residual_;  // weighted

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/convert/motion_converter.h"
+#include "common/fit/posture_search.h"
+#include "common/model/marker_kinematics.h"
+#include "plugins/jacobian/damped_steps.h"
+#include "plugins/jacobian/jacobian_settings.h"
+
+namespace mmm_converter::jacobian {
+
+/// Fits each frame on its own, from the posture of the previous one. What no marker determines
+/// stays as it was, apart from a weak pull to the natural posture; where nothing is seen, the whole
+/// posture stays. Knows no uncertainty: standard deviations are NaN.
+class JacobianConverter : public MotionConverter {
+ public:
+  /// model must outlive the converter. joints: indices of the model.
+  JacobianConverter(const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
+                    const std::vector<int>& joints, const JacobianSettings& settings);
+
+  const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) override;
+  const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override;
+  const std::vector<int>& joints() const override { return kinematics_.joints(); }
+
+ private:
+  /// Takes the assigned markers out of a frame into z_.
+  void Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
+  bool TakeSteps();
+  void FillEstimate(bool converged);
+
+  JacobianSettings settings_;
+  MarkerKinematics kinematics_;
+  std::vector<MarkerAssignment> assignments_;
+  Eigen::VectorXd noise_scale_;
+  PostureSearch search_;
+  PostureFitOptions fit_options_;
+  DampedSteps steps_;
+  DampedStepOptions step_options_;
+  MarkerJacobian at_;
+
+  Eigen::Matrix3Xd z_;
+  Posture posture_;  // tracked joints
+  FrameEstimate estimate_;
+};
+
+}  // namespace mmm_converter::jacobian
