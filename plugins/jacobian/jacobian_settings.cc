@@ -22,6 +22,8 @@ SettingTable BindSettings(JacobianSettings* v) {
             "their square");
   table.Add("Method", "naturalWeight_mm_per_rad", &v->natural_weight, kMillimetre, 0, 1e6,
             "pull to the natural posture: 1 rad costs as much as one marker this far off");
+  table.Add("Method", "startAttempts", &v->start_attempts, 0, 1000,
+            "the first posture is a rigid fit, then least squares, then so many random restarts");
 
   table.AddElement("LeastSquares", "For type=\"leastSquares\".");
   table.Add("LeastSquares", "iterations", &v->max_iterations, 1, 1000, "a frame at most");
@@ -38,9 +40,6 @@ SettingTable BindSettings(JacobianSettings* v) {
   table.Add("Gradient", "stepLimit_rad", &v->step_limit, 1, 1e-6, 10,
             "largest change of a joint, and of the root's rotation, in a step; the whole step is "
             "shortened to it");
-
-  table.AddElement("Start", "The first posture: rigid fit, least squares and random restarts.");
-  table.Add("Start", "attempts", &v->start_attempts, 0, 1000, "random restarts");
   return table;
 }
 

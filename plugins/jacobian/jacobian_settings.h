@@ -16,6 +16,7 @@ struct JacobianSettings {
   Method method = Method::kLeastSquares;
   double robust_distance = 0;     ///< [m]; 0: all markers count in full
   double natural_weight = 0.003;  ///< [m/rad]
+  int start_attempts = 4;
 
   int max_iterations = 50;
   double tolerance = 1e-6;
@@ -24,8 +25,6 @@ struct JacobianSettings {
   int steps = 2;
   double damping = 0.1;      ///< [m/rad]
   double step_limit = 0.02;  ///< [rad]
-
-  int start_attempts = 4;
 };
 
 /// The settings of `values` as attributes of a configuration. `values` must outlive the table.

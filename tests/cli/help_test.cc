@@ -100,9 +100,14 @@ TEST(PrintConfig, PrintsTheTemplateOfAPlugin) {
 }
 
 TEST(PrintConfig, TheShippedDefaultIsItsText) {
-  EXPECT_EQ(RunProgram({"print-config", "S2KFConverter"}).out,
-            testing::ReadText(testing::SourcePath("xml_config/converters/s2kf_default.xml")))
-      << "print-config S2KFConverter > xml_config/converters/s2kf_default.xml makes them equal";
+  const std::vector<std::pair<std::string, std::string>> shipped = {
+      {"S2KFConverter", "xml_config/converters/s2kf_default.xml"},
+      {"JacobianConverter", "xml_config/converters/jacobian_least_squares.xml"}};
+  for (const auto& [converter, file] : shipped) {
+    EXPECT_EQ(RunProgram({"print-config", converter}).out,
+              testing::ReadText(testing::SourcePath(file)))
+        << "print-config " << converter << " > " << file << " makes them equal";
+  }
 }
 
 TEST(PrintConfig, SaysWhichConvertersThereAre) {

@@ -8,6 +8,7 @@
 
 #include "common/convert/converter_config.h"
 #include "common/support/text.h"
+#include "plugins/jacobian/jacobian_settings.h"
 #include "plugins/s2kf/s2kf_settings.h"
 #include "tests/support/shared_data.h"
 #include "tests/xml_config/xmllint.h"
@@ -22,10 +23,31 @@ bool IsValidText(const std::string& xml) {
   return testing::IsValidText("converter_config.xsd", xml);
 }
 
-std::string Template() {
-  s2kf::S2kfSettings defaults;
-  return FormatConfigTemplate("S2KFConverter", s2kf::BindSettings(&defaults));
-}
+// The settings of one converter at their defaults, and the file that ships them.
+struct Settings {
+  explicit Settings(std::string converter)
+      : type(std::move(converter)),
+        table(type == "S2KFConverter" ? s2kf::BindSettings(&s2kf)
+                                      : jacobian::BindSettings(&jacobian)),
+        shipped(SourcePath(type == "S2KFConverter"
+                               ? "xml_config/converters/s2kf_default.xml"
+                               : "xml_config/converters/jacobian_least_squares.xml")) {}
+  Settings(const Settings&) = delete;
+  Settings& operator=(const Settings&) = delete;
+
+  std::string type;
+  s2kf::S2kfSettings s2kf;
+  jacobian::JacobianSettings jacobian;
+  SettingTable table;
+  std::string shipped;
+};
+
+class ConverterSettings : public ::testing::TestWithParam<const char*> {
+ protected:
+  Settings defaults_{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(Converters, ConverterSettings,
+                         ::testing::Values("S2KFConverter", "JacobianConverter"));
 
 // The <xs:complexType> of an element's attributes.
 const XmlElement* FindType(const XmlElement& schema, const std::string& name) {
@@ -78,9 +100,8 @@ std::string Saying(std::string element, const std::string& attribute, const std:
   return element.append(" ").append(attribute).append("=").append(value);
 }
 
-TEST(ConverterConfigSchema, HasTheSettingsOfTheConverterAndNoOthers) {
-  s2kf::S2kfSettings defaults;
-  const SettingTable table = s2kf::BindSettings(&defaults);
+TEST_P(ConverterSettings, AreInTheSchema) {
+  const SettingTable& table = defaults_.table;
   const XmlElement schema = ReadXmlFile(SourcePath("xml_config/schema/converter_config.xsd"));
   for (const auto& [element, unused] : table.elements()) {
     SCOPED_TRACE(element);
@@ -97,17 +118,21 @@ TEST(ConverterConfigSchema, HasTheSettingsOfTheConverterAndNoOthers) {
     }
     EXPECT_EQ(type->FindChildren("xs:attribute").size(), attributes);
   }
-  const auto& config = *schema.FindChild("xs:element")->FindChild("xs:complexType");
-  EXPECT_EQ(config.FindChild("xs:all")->children.size(),
-            table.elements().size() + 2);  // + Model, Output
 }
 
-TEST(ConverterConfigSchema, TemplateIsValidAndSaysTheDefaults) {
-  const std::string xml = Template();
+TEST(ConverterConfigSchema, HasNoOtherElements) {
+  const XmlElement schema = ReadXmlFile(SourcePath("xml_config/schema/converter_config.xsd"));
+  const auto& config = *schema.FindChild("xs:element")->FindChild("xs:complexType");
+  EXPECT_EQ(config.FindChild("xs:all")->children.size(),
+            Settings("S2KFConverter").table.elements().size() +
+                Settings("JacobianConverter").table.elements().size() + 2);  // + Model, Output
+}
+
+TEST_P(ConverterSettings, TemplateIsValidAndSaysTheDefaults) {
+  const SettingTable& table = defaults_.table;
+  const std::string xml = FormatConfigTemplate(defaults_.type, table);
   EXPECT_TRUE(IsValidText(xml)) << xml;
   const ConverterConfig config = ParseConverterConfig(xml, "template");
-  s2kf::S2kfSettings defaults;
-  const SettingTable table = s2kf::BindSettings(&defaults);
   std::set<std::string> said;
   for (const XmlElement& element : config.plugin_elements) {
     for (const auto& [attribute, value] : element.attributes) {
@@ -130,27 +155,23 @@ TEST(ConverterConfigSchema, ShippedConfigurationsAreValidAndReadable) {
     ++files;
     EXPECT_TRUE(testing::IsValidFile("converter_config.xsd", entry.path().string()));
     const ConverterConfig config = ReadConverterConfig(entry.path().string());
-    s2kf::S2kfSettings settings;
+    const Settings settings(config.type);
     Diagnostics diagnostics(config.file);
-    s2kf::BindSettings(&settings).Read(config.plugin_elements, &diagnostics);
+    settings.table.Read(config.plugin_elements, &diagnostics);
     EXPECT_THAT(diagnostics.errors(), ::testing::IsEmpty());
     EXPECT_THAT(config.warnings, ::testing::IsEmpty());
   }
-  EXPECT_GE(files, 2);
+  EXPECT_GE(files, 7);
 }
 
-TEST(ConverterConfigSchema, ShippedDefaultSaysWhatTheProgramDoesWithoutIt) {
-  const ConverterConfig shipped =
-      ReadConverterConfig(SourcePath("xml_config/converters/s2kf_default.xml"));
-  s2kf::S2kfSettings defaults;
-  s2kf::S2kfSettings read;
+TEST_P(ConverterSettings, ShippedDefaultSaysWhatTheProgramDoesWithoutIt) {
+  const ConverterConfig shipped = ReadConverterConfig(defaults_.shipped);
+  const Settings read(defaults_.type);
   Diagnostics diagnostics(shipped.file);
-  const SettingTable read_table = s2kf::BindSettings(&read);
-  read_table.Read(shipped.plugin_elements, &diagnostics);
-  const SettingTable default_table = s2kf::BindSettings(&defaults);
-  for (std::size_t i = 0; i < default_table.settings().size(); ++i) {
-    const Setting& setting = default_table.settings()[i];
-    EXPECT_EQ(read_table.settings()[i].text(), setting.text())
+  read.table.Read(shipped.plugin_elements, &diagnostics);
+  for (std::size_t i = 0; i < defaults_.table.settings().size(); ++i) {
+    const Setting& setting = defaults_.table.settings()[i];
+    EXPECT_EQ(read.table.settings()[i].text(), setting.text())
         << setting.element << " " << setting.attribute;
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -18,8 +19,9 @@ bool IsValidFile(const std::string& schema, const std::string& file) {
 
 bool IsValidText(const std::string& schema, const std::string& xml) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const std::string file =
-      ::testing::TempDir() + "/schema_" + test->test_suite_name() + "_" + test->name() + ".xml";
+  std::string name = std::string(test->test_suite_name()) + "_" + test->name();
+  std::replace(name.begin(), name.end(), '/', '_');
+  const std::string file = ::testing::TempDir() + "/schema_" + name + ".xml";
   std::ofstream(file) << xml;
   return IsValidFile(schema, file);
 }

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/jacobian/damped_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <limits>
+#include <random>
+
+#include "common/model/forward_kinematics.h"
+#include "tests/support/test_models.h"
+
+namespace mmm_converter::jacobian {
+namespace {
+
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+class DampedStepsTest : public ::testing::Test {
+ protected:
+  DampedStepsTest() {
+    options_.cost.natural_weight = 0;
+    options_.limit = 10;
+    q_ = testing::RandomPosture(kinematics_, 0.5, &random_);
+    target_ = testing::RandomPosture(kinematics_, 0.5, &random_);
+  }
+
+  Matrix3Xd Markers(const Posture& q) const {
+    MarkerJacobian at = kinematics_.MakeJacobian();
+    kinematics_.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
+    return at.p_WM;
+  }
+
+  const KinematicModel model_ = testing::MakeBranchedModel();
+  const MarkerKinematics kinematics_ = testing::MakeFullKinematics(model_);
+  const VectorXd scale_ = VectorXd::Ones(kinematics_.num_markers());
+  DampedSteps steps_{kinematics_};
+  DampedStepOptions options_;
+  std::mt19937 random_{1};
+  Posture q_, target_;
+};
+
+TEST_F(DampedStepsTest, IsTheDampedLeastSquaresStep) {
+  options_.damping = 0.3;
+  MarkerJacobian at = kinematics_.MakeJacobian();
+  kinematics_.ComputeJacobian(q_.position, q_.orientation.toRotationMatrix(), q_.joint_angles, &at);
+  const Matrix3Xd offset = 0.001 * Matrix3Xd::Random(3, kinematics_.num_markers());
+  MatrixXd H = at.J.transpose() * at.J;
+  H.diagonal().tail(kinematics_.num_dofs() - 3).array() += 0.09;
+  const VectorXd expected = H.fullPivLu().solve(at.J.transpose() * offset.reshaped());
+
+  Posture q = q_;
+  const double asked = steps_.Step(at.p_WM + offset, scale_, options_, &q);
+  // The root's tiny curvature of 1e-9 and rounding.
+  EXPECT_LT((Local(q_, q) - expected).norm(), 1e-7 * expected.norm() + 1e-12);
+  EXPECT_LE(asked, expected.norm());
+}
+
+TEST_F(DampedStepsTest, TheLimitShortensTheWholeStep) {
+  Posture free = q_;
+  Posture limited = q_;
+  const double asked = steps_.Step(Markers(target_), scale_, options_, &free);
+  options_.limit = 0.01;
+  EXPECT_EQ(steps_.Step(Markers(target_), scale_, options_, &limited), asked);
+  ASSERT_GT(asked, 0.1);
+  const VectorXd step = Local(q_, limited);
+  EXPECT_NEAR(std::max(step.segment<3>(3).norm(), step.tail(step.size() - 6).cwiseAbs().maxCoeff()),
+              0.01, 1e-9);
+}
+
+TEST_F(DampedStepsTest, ManyStepsReachAReachableTarget) {
+  options_.damping = 0.01;
+  options_.limit = 0.1;
+  const Matrix3Xd z = Markers(target_);
+  Posture q = target_;
+  q.position += Eigen::Vector3d(0.1, -0.2, 0.05);
+  q.joint_angles += VectorXd::Constant(q.joint_angles.size(), 0.05);
+  for (int i = 0; i < 200; ++i) steps_.Step(z, scale_, options_, &q);
+  EXPECT_LT((Markers(q) - z).colwise().norm().maxCoeff(), 1e-6);
+}
+
+TEST_F(DampedStepsTest, JointLimitsHold) {
+  Matrix3Xd z = Markers(target_);
+  z *= 3;  // out of reach
+  for (int i = 0; i < 50; ++i) {
+    steps_.Step(z, scale_, options_, &q_);
+    EXPECT_TRUE((q_.joint_angles.array() >= kinematics_.lower().array()).all());
+    EXPECT_TRUE((q_.joint_angles.array() <= kinematics_.upper().array()).all());
+  }
+}
+
+TEST_F(DampedStepsTest, WithoutMarkersNothingMoves) {
+  const Posture before = q_;
+  const Matrix3Xd nothing = Matrix3Xd::Constant(3, kinematics_.num_markers(), kNaN);
+  EXPECT_EQ(steps_.Step(nothing, scale_, options_, &q_), 0);
+  EXPECT_EQ(q_.joint_angles, before.joint_angles);
+  EXPECT_EQ(q_.position, before.position);
+}
+
+}  // namespace
+}  // namespace mmm_converter::jacobian
