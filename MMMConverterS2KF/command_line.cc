@@ -103,7 +103,7 @@ Arguments Arguments::ForPositional(int i, const std::vector<std::string>& option
 
 std::string Arguments::GetChoice(const std::string& name, const std::vector<std::string>& choices,
                                  const std::string& otherwise) const {
-  const std::string text = Get(name).value_or(otherwise);
+  std::string text = Get(name).value_or(otherwise);
   if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
     throw UsageError(
         fmt::format("--{}: \"{}\" is not allowed; use {}", name, text, JoinNames(choices)));

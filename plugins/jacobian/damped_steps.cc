@@ -24,12 +24,10 @@ DampedSteps::DampedSteps(const MarkerKinematics& kinematics)
   step_.setZero(kinematics.num_dofs());
 }
 
-double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
-                         const DampedStepOptions& options, Posture* posture) {
-  // Curvature [1] that keeps the root where no marker is seen.
-  constexpr double kLeastCurvature = 1e-9;
-  kinematics_.ComputeJacobian(posture->position, posture->orientation.toRotationMatrix(),
-                              posture->joint_angles, &at_);
+void DampedSteps::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
+                            double robust_distance, const Posture& posture) {
+  kinematics_.ComputeJacobian(posture.position, posture.orientation.toRotationMatrix(),
+                              posture.joint_angles, &at_);
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
     const Vector3d r = z.col(m) - at_.p_WM.col(m);
     const double distance = r.norm();
@@ -38,19 +36,25 @@ double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_sc
       residual_.segment<3>(3 * m).setZero();
       continue;
     }
-    const double weight =
-        std::sqrt(std::min(1.0, options.cost.robust_distance / distance)) / noise_scale[m];
+    const double weight = std::sqrt(std::min(1.0, robust_distance / distance)) / noise_scale[m];
     J_.middleRows<3>(3 * m) = weight * at_.J.middleRows<3>(3 * m);
     residual_.segment<3>(3 * m) = weight * r;
   }
-  const int joints = kinematics_.num_joints();
-  const double natural2 = options.cost.natural_weight * options.cost.natural_weight;
   hessian_.triangularView<Eigen::Lower>().setZero();
   hessian_.selfadjointView<Eigen::Lower>().rankUpdate(J_.transpose());
+  step_.noalias() = J_.transpose() * residual_;
+}
+
+double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
+                         const DampedStepOptions& options, Posture* posture) {
+  // Curvature [1] that keeps the root where no marker is seen.
+  constexpr double kLeastCurvature = 1e-9;
+  Linearize(z, noise_scale, options.cost.robust_distance, *posture);
+  const int joints = kinematics_.num_joints();
+  const double natural2 = options.cost.natural_weight * options.cost.natural_weight;
   hessian_.diagonal().head<3>().array() += kLeastCurvature;
   hessian_.diagonal().tail(3 + joints).array() += options.damping * options.damping;
   hessian_.diagonal().tail(joints).array() += natural2;
-  step_.noalias() = J_.transpose() * residual_;
   step_.tail(joints) += natural2 * (natural_ - posture->joint_angles);
   llt_.compute(hessian_);
   llt_.solveInPlace(step_);

@@ -32,6 +32,9 @@ class DampedSteps {
               const DampedStepOptions& options, Posture* posture);
 
  private:
+  void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
+                 double robust_distance, const Posture& posture);
+
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;
   MarkerJacobian at_;
