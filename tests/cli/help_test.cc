@@ -114,7 +114,8 @@ TEST(PrintConfig, SaysWhichConvertersThereAre) {
   const auto run = RunProgram({"print-config", "S2KF"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, AllOf(HasSubstr("there is no converter \"S2KF\""),
-                             HasSubstr("found JacobianConverter and S2KFConverter"), HasSubstr("looked in")));
+                             HasSubstr("found JacobianConverter and S2KFConverter"),
+                             HasSubstr("looked in")));
 }
 
 TEST(PrintConfig, RefusesAPluginOfAnotherVersion) {
