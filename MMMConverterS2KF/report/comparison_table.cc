@@ -63,17 +63,42 @@ std::string Cell(const Column& column, const Quality& quality) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, column.decimals) : "";
 }
 
-// Columns in which some row of the trial has a number.
-std::vector<const Column*> UsedColumns(const std::vector<const ComparisonRow*>& rows) {
+// A contender's figures, for a line of the table.
+struct Line {
+  std::string name;
+  Quality quality;
+};
+
+// Columns in which some line has a number.
+std::vector<const Column*> UsedColumns(const std::vector<Line>& lines) {
   std::vector<const Column*> used;
   for (const Column& column : kColumns) {
-    if (std::any_of(rows.begin(), rows.end(), [&](const ComparisonRow* row) {
-          return std::isfinite(column.value(row->quality));
-        })) {
+    if (std::any_of(lines.begin(), lines.end(),
+                    [&](const Line& line) { return std::isfinite(column.value(line.quality)); })) {
       used.push_back(&column);
     }
   }
   return used;
+}
+
+std::string FormatLines(const std::vector<Line>& lines, std::size_t name_width) {
+  const std::vector<const Column*> columns = UsedColumns(lines);
+  std::string text = fmt::format("  {:<{}}", "", name_width);
+  std::string units;
+  for (const Column* column : columns) {
+    text += fmt::format(" {:>9}", column->heading);
+    units += fmt::format(" {:>9}", column->unit);
+  }
+  text += fmt::format("\n  {:<{}}{}\n", "", name_width, units);
+  for (const Line& line : lines) {
+    text += fmt::format("  {:<{}}", line.name, name_width);
+    for (const Column* column : columns) {
+      const std::string cell = Cell(*column, line.quality);
+      text += fmt::format(" {:>9}", cell.empty() ? "-" : cell);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 std::string DescribeHiding(const ComparisonOptions& options) {
@@ -90,35 +115,37 @@ std::string DescribeHiding(const ComparisonOptions& options) {
 }
 
 std::string FormatTrial(const Comparison& comparison, int trial, std::size_t name_width) {
-  std::vector<const ComparisonRow*> rows;
+  std::vector<Line> lines;
   for (const ComparisonRow& row : comparison.rows) {
-    if (row.trial == trial && row.failure.empty()) rows.push_back(&row);
+    if (row.trial != trial || !row.failure.empty()) continue;
+    lines.push_back({comparison.contenders[row.contender].name, row.quality});
   }
-  if (rows.empty()) return "";
+  if (lines.empty()) return "";
   const CommonGround& ground = comparison.grounds[trial];
   const MarkerSequence& markers = comparison.trials[trial].markers;
   const std::span optimum(ground.optimum.data(), static_cast<std::size_t>(ground.optimum.size()));
-  std::string text = fmt::format(
-      "{}: {} frames at {:g} Hz; {} markers and {} joints compared{}; optimum {:.2f} mm\n",
-      comparison.trials[trial].name, markers.num_frames(), markers.rate(), ground.labels.size(),
-      ground.joints.size(), DescribeHiding(comparison.options), kMillimetres * Mean(optimum));
-  const std::vector<const Column*> columns = UsedColumns(rows);
-  std::string units;
-  text += fmt::format("  {:<{}}", "", name_width);
-  for (const Column* column : columns) {
-    text += fmt::format(" {:>9}", column->heading);
-    units += fmt::format(" {:>9}", column->unit);
-  }
-  text += fmt::format("\n  {:<{}}{}\n", "", name_width, units);
-  for (const ComparisonRow* row : rows) {
-    text += fmt::format("  {:<{}}", comparison.contenders[row->contender].name, name_width);
-    for (const Column* column : columns) {
-      const std::string cell = Cell(*column, row->quality);
-      text += fmt::format(" {:>9}", cell.empty() ? "-" : cell);
+  return fmt::format(
+             "{}: {} frames at {:g} Hz; {} markers and {} joints compared{}; optimum {:.2f} mm\n",
+             comparison.trials[trial].name, markers.num_frames(), markers.rate(),
+             ground.labels.size(), ground.joints.size(), DescribeHiding(comparison.options),
+             kMillimetres * Mean(optimum)) +
+         FormatLines(lines, name_width);
+}
+
+// Means over the recordings, of contenders that failed on none.
+std::string FormatMeans(const Comparison& comparison, std::size_t name_width) {
+  std::vector<Line> lines;
+  for (std::size_t c = 0; c < comparison.contenders.size(); ++c) {
+    std::vector<Quality> all;
+    for (const ComparisonRow& row : comparison.rows) {
+      if (row.contender == static_cast<int>(c) && row.failure.empty()) all.push_back(row.quality);
     }
-    text += '\n';
+    if (all.size() < comparison.trials.size()) continue;
+    lines.push_back({comparison.contenders[c].name, Summarize(all)});
   }
-  return text;
+  if (lines.empty() || comparison.trials.size() < 2) return "";
+  return fmt::format("All {} recordings, each counting the same\n", comparison.trials.size()) +
+         FormatLines(lines, name_width);
 }
 
 std::string CsvText(const std::string& text) {
@@ -139,6 +166,7 @@ std::string FormatComparisonTable(const Comparison& comparison) {
   for (std::size_t t = 0; t < comparison.trials.size(); ++t) {
     text += FormatTrial(comparison, static_cast<int>(t), name_width);
   }
+  text += FormatMeans(comparison, name_width);
   for (const ComparisonRow& row : comparison.rows) {
     if (row.failure.empty()) continue;
     text += fmt::format("failed: {} on {}: {}\n", comparison.contenders[row.contender].name,

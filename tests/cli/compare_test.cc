@@ -171,6 +171,17 @@ TEST_F(Compare, OptionsMayBeGivenForEachRecording) {
   EXPECT_LT(figures["trials"][0]["optimum_mm"], figures["trials"][1]["optimum_mm"]);
 }
 
+TEST_F(Compare, SeveralRecordingsEndWithTheirMeans) {
+  const std::string copy = folder_ + "/again.c3d";
+  std::filesystem::copy_file(Handstand(), copy);
+  const std::vector<std::string> one = {Handstand(), "--height", "1.8", "--frames",
+                                        ":10",       "-c",       low_};
+  std::vector<std::string> two = one;
+  two.insert(two.begin() + 1, copy);
+  EXPECT_THAT(Run(one).out, Not(HasSubstr("All")));
+  EXPECT_THAT(Run(two).out, HasSubstr("All 2 recordings, each counting the same"));
+}
+
 TEST_F(Compare, TruthOfAnotherRateIsRefused) {
   const ProgramRun run = Run({Handstand(), "--truth", truth_, "--rate", "50", "-c", low_});
   EXPECT_EQ(run.exit_code, 1);
