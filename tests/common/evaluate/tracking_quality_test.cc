@@ -39,7 +39,7 @@ class TrackingQualityTest : public ::testing::Test {
   }
 
   TrackingQuality Measure(const MatrixXd& distances, const PoseTrajectory& trajectory) {
-    if (reference_.hidden.size() == 0) {
+    if (reference_.hidden.cols() != distances.cols()) {
       reference_.hidden.setConstant(distances.rows(), distances.cols(), false);
     }
     reference_.optimum.setZero(distances.cols());
