@@ -45,6 +45,21 @@ void DampedSteps::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& noise
   step_.noalias() = J_.transpose() * residual_;
 }
 
+void DampedSteps::HoldJointsOnLimits(const Posture& posture) {
+  const int joints = kinematics_.num_joints();
+  for (int j = 0; j < joints; ++j) {
+    const double angle = posture.joint_angles[j];
+    const double slope = step_[6 + j];
+    const bool held = (angle <= kinematics_.lower()[j] && slope < 0) ||
+                      (angle >= kinematics_.upper()[j] && slope > 0);
+    if (!held) continue;
+    hessian_.row(6 + j).head(6 + j).setZero();
+    hessian_.col(6 + j).tail(joints - 1 - j).setZero();
+    hessian_(6 + j, 6 + j) = 1;
+    step_[6 + j] = 0;
+  }
+}
+
 double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
                          const DampedStepOptions& options, Posture* posture) {
   // Curvature [1] that keeps the root where no marker is seen.
@@ -56,12 +71,14 @@ double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_sc
   hessian_.diagonal().tail(3 + joints).array() += options.damping * options.damping;
   hessian_.diagonal().tail(joints).array() += natural2;
   step_.tail(joints) += natural2 * (natural_ - posture->joint_angles);
+  HoldJointsOnLimits(*posture);
   llt_.compute(hessian_);
   llt_.solveInPlace(step_);
 
-  const double asked = std::max(step_.segment<3>(3).norm(),
-                                joints > 0 ? step_.tail(joints).cwiseAbs().maxCoeff() : 0.0);
-  if (asked > options.limit) step_ *= options.limit / asked;
+  const double turn = step_.segment<3>(3).norm();
+  const double asked = std::max(turn, joints > 0 ? step_.tail(joints).cwiseAbs().maxCoeff() : 0.0);
+  if (turn > options.limit) step_.segment<3>(3) *= options.limit / turn;
+  step_.tail(joints) = step_.tail(joints).cwiseMax(-options.limit).cwiseMin(options.limit);
   posture->position += step_.head<3>();
   posture->orientation = (posture->orientation * Exp(step_.segment<3>(3))).normalized();
   posture->joint_angles = (posture->joint_angles + step_.tail(joints))

@@ -18,8 +18,9 @@ struct DampedStepOptions {
 
 /// Damped least squares (Wampler 1986; Nakamura, Hanafusa 1986): a step
 ///   dq = (J^T W J + lambda^2 I)^-1 J^T W (z - p(q)),
-/// shortened as a whole until no rotation exceeds the limit, then clamped into the joint limits.
-/// The root's position is not damped. No allocation after construction.
+/// over the joints that do not press on a joint limit (those are held: what they ask for must not
+/// slow the others down). Then each joint's step and the root's rotation are cut to the step limit.
+/// The root's position is neither damped nor limited. No allocation after construction.
 class DampedSteps {
  public:
   /// kinematics must outlive it.
@@ -27,13 +28,15 @@ class DampedSteps {
 
   /// Moves the posture (tracked joints) by one step. z: 3 x markers [m], NaN = not seen.
   /// noise_scale: per marker. Returns the largest rotation that the step asked for, before it was
-  /// shortened [rad].
+  /// cut [rad].
   double Step(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
               const DampedStepOptions& options, Posture* posture);
 
  private:
   void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                  double robust_distance, const Posture& posture);
+  /// Takes the joints that press on a limit out of the normal equations.
+  void HoldJointsOnLimits(const Posture& posture);
 
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;

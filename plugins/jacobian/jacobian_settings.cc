@@ -38,8 +38,7 @@ SettingTable BindSettings(JacobianSettings* v) {
   table.Add("Gradient", "damping_mm_per_rad", &v->damping, kMillimetre, 0, 1e6,
             "damped least squares: a step of 1 rad costs as much as one marker this far off");
   table.Add("Gradient", "stepLimit_rad", &v->step_limit, 1, 1e-6, 10,
-            "largest change of a joint, and of the root's rotation, in a step; the whole step is "
-            "shortened to it");
+            "largest change of a joint, and of the root's rotation, in a step");
   return table;
 }
 

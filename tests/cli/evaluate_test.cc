@@ -36,7 +36,13 @@ void ExpectCompleteDataFavoursTheOptimum(const Json& complete) {
     EXPECT_LE(least_squares, Mean(Row(complete, kHandstand, filter)) + kTolerance) << filter;
   }
   EXPECT_NEAR(least_squares, complete["trials"][0]["optimum_mm"], kTolerance);
-  EXPECT_GT(Mean(Row(complete, kHandstand, "jacobian_gradient")), 1.1 * least_squares);
+  // The gradient lags where joints are fast, and has nearly the optimum elsewhere.
+  const Json& gradient = Row(complete, kHandstand, "jacobian_gradient");
+  const double worst_of_least_squares =
+      Row(complete, kHandstand, "jacobian_least_squares")["distance_mm"]["worst_frame"];
+  EXPECT_GT(gradient["distance_mm"]["worst_frame"].get<double>(), 1.3 * worst_of_least_squares);
+  EXPECT_GT(Mean(gradient), least_squares);
+  EXPECT_LT(Mean(gradient), 1.1 * least_squares);
 }
 
 void ExpectOcclusionFavoursTheFilter(const Json& occlusion) {

@@ -59,16 +59,48 @@ TEST_F(DampedStepsTest, IsTheDampedLeastSquaresStep) {
   EXPECT_LE(asked, expected.norm());
 }
 
-TEST_F(DampedStepsTest, TheLimitShortensTheWholeStep) {
+TEST_F(DampedStepsTest, TheLimitCutsEachJointAndTheRootsRotationOnly) {
   Posture free = q_;
   Posture limited = q_;
   const double asked = steps_.Step(Markers(target_), scale_, options_, &free);
-  options_.limit = 0.01;
+  constexpr double kLimit = 0.1;
+  options_.limit = kLimit;
   EXPECT_EQ(steps_.Step(Markers(target_), scale_, options_, &limited), asked);
-  ASSERT_GT(asked, 0.1);
-  const VectorXd step = Local(q_, limited);
-  EXPECT_NEAR(std::max(step.segment<3>(3).norm(), step.tail(step.size() - 6).cwiseAbs().maxCoeff()),
-              0.01, 1e-9);
+  ASSERT_GT(asked, kLimit);
+  const VectorXd expected =
+      (q_.joint_angles + (free.joint_angles - q_.joint_angles).cwiseMax(-kLimit).cwiseMin(kLimit))
+          .cwiseMax(kinematics_.lower())
+          .cwiseMin(kinematics_.upper());
+  // Rounding.
+  EXPECT_LT((limited.joint_angles - expected).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT((free.joint_angles - limited.joint_angles).cwiseAbs().maxCoeff(), 0);
+  EXPECT_LE(Local(q_, limited).segment<3>(3).norm(), kLimit + 1e-12);
+  EXPECT_EQ(limited.position, free.position);
+}
+
+TEST_F(DampedStepsTest, AJointThatPressesOnItsLimitIsHeldAndSlowsNobodyDown) {
+  constexpr int kJoint = 1;
+  q_.joint_angles[kJoint] = kinematics_.upper()[kJoint];
+  Posture beyond = q_;
+  beyond.joint_angles[kJoint] += 0.05;
+  beyond.joint_angles[0] += 0.01;
+  MarkerJacobian at = kinematics_.MakeJacobian();
+  kinematics_.ComputeJacobian(q_.position, q_.orientation.toRotationMatrix(), q_.joint_angles, &at);
+  const Matrix3Xd z = Markers(beyond);
+  const VectorXd residual = (z - at.p_WM).reshaped();
+  ASSERT_GT(at.J.col(6 + kJoint).dot(residual), 0);
+  // The problem without the joint.
+  at.J.col(6 + kJoint).setZero();
+  MatrixXd H = at.J.transpose() * at.J;
+  H.diagonal().tail(kinematics_.num_dofs() - 3).array() += options_.damping * options_.damping;
+  const VectorXd expected = H.fullPivLu().solve(at.J.transpose() * residual);
+
+  Posture q = q_;
+  const double asked = steps_.Step(z, scale_, options_, &q);
+  // The root's tiny curvature of 1e-9 and rounding.
+  EXPECT_LT((Local(q_, q) - expected).norm(), 1e-7 * expected.norm() + 1e-12);
+  EXPECT_EQ(q.joint_angles[kJoint], q_.joint_angles[kJoint]);
+  EXPECT_LE(asked, expected.norm() * (1 + 1e-6));
 }
 
 TEST_F(DampedStepsTest, ManyStepsReachAReachableTarget) {
