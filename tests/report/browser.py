@@ -37,6 +37,9 @@ class Browser:
         return self
 
     def __exit__(self, *_):
+        self.close()
+
+    def close(self):
         self.driver.quit()
         shutil.rmtree(self.profile, ignore_errors=True)
 

@@ -15,7 +15,7 @@ def main():
     parser.add_argument("picture")
     parser.add_argument("width", type=int)
     parser.add_argument("--height", type=int, help="cut off below; default: the whole page")
-    parser.add_argument("--from", dest="start", default="body", help="CSS selector of what is uppermost")
+    parser.add_argument("--from", dest="start", default="html", help="CSS selector of what is uppermost")
     parser.add_argument("--scheme", choices=["light", "dark"], default="light")
     parser.add_argument("--section", type=int, default=0)
     parser.add_argument("--time", type=float, help="share of the motion, 0 to 1")

@@ -63,22 +63,35 @@ class Body {
     this.bones.push(knob);
   }
 
-  // The head and the feet: segments without a child get a bone to the middle of their markers.
+  // Segments without a child end in the middle of their markers: toes in a bone, the head, which
+  // markers surround, in an ellipsoid.
   addEnds(model, markers) {
-    const middles = new Map();
+    const places = new Map();
     for (const index of markers) {
-      const marker = model.markers[index];
-      const middle = middles.get(marker.segment) || {sum: new THREE.Vector3(), count: 0};
-      middle.sum.add(new THREE.Vector3().fromArray(marker.position));
-      ++middle.count;
-      middles.set(marker.segment, middle);
+      const {segment, position} = model.markers[index];
+      if (model.segments.some((other) => other.parent === segment)) continue;
+      if (!places.has(segment)) places.set(segment, []);
+      places.get(segment).push(new THREE.Vector3().fromArray(position));
     }
-    for (const [segment, middle] of middles) {
-      const isEnd = !model.segments.some((other) => other.parent === segment);
-      if (isEnd && middle.count > 1) {
-        this.addBone(this.nodes[segment], middle.sum.divideScalar(middle.count), Body.bone);
+    for (const [segment, points] of places) {
+      const middle = points.reduce((sum, point) => sum.add(point), new THREE.Vector3())
+        .divideScalar(points.length);
+      if (points.length < 3) {
+        this.addBone(this.nodes[segment], middle, Body.bone);
+      } else {
+        const spread = points.reduce((sum, point) => sum + point.distanceTo(middle), 0);
+        this.addBall(this.nodes[segment], middle, spread / points.length);
       }
     }
+  }
+
+  addBall(node, middle, radius) {
+    const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 20, 14), this.material);
+    ball.position.copy(middle);
+    ball.scale.set(0.72 * radius, 1.15 * radius, 0.85 * radius);
+    ball.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), node.position.clone().normalize());
+    node.add(ball);
+    this.bones.push(ball);
   }
 
   // The posture of frame k.

@@ -130,7 +130,10 @@ class Trial {
       this.extent = 0.5;
       const step = Math.max(1, Math.floor(this.frames / 50));
       for (let k = 0; k < this.frames; k += step) {
-        this.extent = Math.max(this.extent, extentOfFrame(this, k));
+        for (let axis = 0; axis < 3; ++axis) {
+          const [least, most] = boundsOfFrame(this, k, axis);
+          this.extent = Math.max(this.extent, most - least);
+        }
       }
     }
     return this.extent;
@@ -141,41 +144,30 @@ class Trial {
   }
 }
 
-function extentOfFrame(trial, frame) {
-  let extent = 0;
-  for (let axis = 0; axis < 3; ++axis) {
-    let least = Infinity;
-    let most = -Infinity;
-    for (let label = 0; label < trial.labels.length; ++label) {
-      const value = trial.positions[3 * (frame * trial.labels.length + label) + axis];
-      if (value < least) least = value;
-      if (value > most) most = value;
-    }
-    extent = Math.max(extent, most - least);
+// Least and most of the measured markers of a frame along an axis; infinite where there is none.
+function boundsOfFrame(trial, frame, axis) {
+  let least = Infinity;
+  let most = -Infinity;
+  for (let label = 0; label < trial.labels.length; ++label) {
+    const value = trial.positions[3 * (frame * trial.labels.length + label) + axis];
+    if (value < least) least = value;
+    if (value > most) most = value;
   }
-  return extent;
+  return [least, most];
 }
 
-// Means of the measured markers, running over a third of a second; where none is measured, the last.
+// Middles of the bounds, running over a third of a second; where nothing is measured, the last.
 function smoothedMiddles(trial) {
   const middles = new Float32Array(3 * trial.frames);
   const share = Math.min(1, 6 / trial.rate);
-  const smooth = [0, 0, 1];
-  let started = false;
-  for (let frame = 0; frame < trial.frames; ++frame) {
-    const sum = [0, 0, 0];
-    let count = 0;
-    for (let label = 0; label < trial.labels.length; ++label) {
-      if (!trial.isMeasured(label, frame)) continue;
-      const place = 3 * (frame * trial.labels.length + label);
-      for (let axis = 0; axis < 3; ++axis) sum[axis] += trial.positions[place + axis];
-      ++count;
+  for (let axis = 0; axis < 3; ++axis) {
+    let smooth = NaN;
+    for (let frame = 0; frame < trial.frames; ++frame) {
+      const [least, most] = boundsOfFrame(trial, frame, axis);
+      const middle = (least + most) / 2;
+      if (least <= most) smooth = Number.isNaN(smooth) ? middle : smooth + share * (middle - smooth);
+      middles[3 * frame + axis] = Number.isNaN(smooth) ? 0 : smooth;
     }
-    for (let axis = 0; axis < 3; ++axis) {
-      if (count) smooth[axis] += (started ? share : 1) * (sum[axis] / count - smooth[axis]);
-      middles[3 * frame + axis] = smooth[axis];
-    }
-    started = started || count > 0;
   }
   return middles;
 }

@@ -50,7 +50,7 @@ class View {
     replaceContent(byId("converters"), ...this.trial.tracks.map((track) => {
       const box = element("input", {type: "checkbox", checked: true});
       box.addEventListener("change", () => this.setShown(track.contender, box.checked));
-      const distance = element("output", {});
+      const distance = element("output", {title: "Mean marker distance in this frame of the first run"});
       this.distances.push({track, distance});
       return element("label", {class: "converter"}, box, lineSwatch(track.contender), track.name, distance);
     }));
@@ -88,7 +88,8 @@ class View {
 
 function listSections(view) {
   byId("program").textContent = view.sections.length ? view.sections[0].figures.program : "";
-  replaceContent(byId("summary"), ...view.sections.map(makeSummary));
+  replaceContent(byId("summary"), ...view.sections.map((section) =>
+    makeSummary(section, view.sections.length === 1 && section.title === document.title)));
   if (view.sections.length < 2) return;
   replaceContent(byId("sections"), ...view.sections.map((section, i) => {
     const button = element("button", {type: "button", "aria-pressed": "false"},
@@ -120,6 +121,7 @@ function start() {
     showSection: (index) => view.showSection(index),
     showTrial: (index) => view.showTrial(index),
   };
+  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
 }
 
 start();

@@ -99,10 +99,11 @@ class Player {
     byId("scrub").setAttribute("aria-valuetext", `frame ${frame}, ${time}`);
     const hidden = trial.labels.filter((_, label) => trial.isHidden(label, frame)).length;
     byId("now").textContent = `${time} · frame ${frame} of ${trial.frames}` +
-      (trial.hidesMarkers ? ` · ${plural(hidden, "marker")} hidden` : "");
+      (trial.hidesMarkers ? ` · ${plural(hidden, "marker")} hidden` : "") +
+      (this.view.section.figures.options.runs > 1 ? " · the first run" : "");
     if (this.scene && byId("follow").checked) {
       const middle = trial.middle(frame);
-      this.scene.moveCamera(middle[0] - this.followed[0], middle[1] - this.followed[1]);
+      this.scene.moveCamera(middle.map((value, axis) => value - this.followed[axis]));
     }
     if (this.scene) this.followed = trial.middle(frame);
     this.redraw();

@@ -81,8 +81,11 @@ class Plots {
     }
     lines.push({name: "least possible", colour: themeColour("muted"), dash: [1, 3], width: 1.6,
       values: (k) => 1000 * trial.optimum[k]});
+    const {range, largest} = rangeWithoutPeaks(lines, trial.frames);
+    byId("distance-peak").textContent = largest > range[1]
+      ? `Peaks are cut off: the largest value is ${formatNumber(largest, 1)} mm.` : "";
     return new Chart(byId("distance-plot"), this.view,
-      {lines, unit: "mm", digits: 1, label: "Marker distance over time, millimetres"});
+      {lines, unit: "mm", digits: 1, range, label: "Marker distance over time, millimetres"});
   }
 
   hiddenChart() {
@@ -95,7 +98,8 @@ class Plots {
 
   timeChart(tracks) {
     // A logarithmic axis knows no 0.
-    const lines = tracks.map((track) => this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN));
+    const lines = tracks.map((track) => Object.assign(
+      this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN), {dash: null, width: 1}));
     return new Chart(byId("time-plot"), this.view,
       {lines, unit: "ms", digits: 2, logarithmic: true, label: "Time per frame, milliseconds, logarithmic"});
   }
@@ -132,12 +136,12 @@ class Plots {
       (hasBand ? "; the band is ±2 standard deviations, as the converter states them" : "") +
       (truth ? "; the broad line is the true angle" : "") + ".";
     return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,
-      range: rangeOf(lines, trial.frames), label: `Angle of ${joint.name} over time, degrees`});
+      range: withMargin(extremes(lines, trial.frames)), label: `Angle of ${joint.name} over time, degrees`});
   }
 }
 
-// From the least to the largest value of lines, and a little more; bands may be cut off.
-function rangeOf(lines, frames) {
+// Least and largest value of lines, their bands left out.
+function extremes(lines, frames) {
   let least = Infinity;
   let most = -Infinity;
   for (const line of lines) {
@@ -147,6 +151,26 @@ function rangeOf(lines, frames) {
       if (value > most) most = value;
     }
   }
+  return [least, most];
+}
+
+function withMargin([least, most]) {
   const margin = 0.06 * (most - least) || 1;
   return [least - margin, most + margin];
+}
+
+// The range that is shown, so that rare peaks, such as a slow start, do not press all else flat.
+function rangeWithoutPeaks(lines, frames) {
+  const values = [];
+  for (const line of lines) {
+    for (let k = 0; k < frames; ++k) {
+      const value = line.band ? line.band(k)[1] : line.values(k);
+      if (!Number.isNaN(value)) values.push(value);
+    }
+  }
+  values.sort((a, b) => a - b);
+  const largest = values[values.length - 1];
+  const usual = values[Math.floor(0.98 * (values.length - 1))];
+  const least = extremes(lines, frames)[0];
+  return {range: withMargin([least, largest > 1.6 * usual ? 1.2 * usual : largest]), largest};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The three-dimensional picture: floor, measured markers, and a figure for each converter.
 
-const kMarkerSize = 0.034;  // [m]
+const kMarkerSize = 0.038;  // [m]
 const kFieldOfView = 32;    // [degrees], vertical, in a picture as wide as high or wider
 
 // A sign of a marker, white, so that it takes any colour.
@@ -31,7 +31,9 @@ function makeSigns() {
 
 // Up to `capacity` points or line ends whose places change from frame to frame.
 class Cloud {
-  constructor(capacity, made) {
+  // size: of a point [m].
+  constructor(capacity, made, size) {
+    this.size = size;
     this.places = new THREE.BufferAttribute(new Float32Array(3 * capacity), 3);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", this.places);
@@ -42,7 +44,7 @@ class Cloud {
 
   static signs(capacity, sign, size) {
     return new Cloud(capacity, (geometry) => new THREE.Points(geometry, new THREE.PointsMaterial(
-      {map: sign, size, alphaTest: 0.35, transparent: true})));
+      {map: sign, size, alphaTest: 0.35, transparent: true})), size);
   }
 
   static lines(capacity) {
@@ -65,6 +67,11 @@ class Cloud {
 
   setColour(colour) {
     this.object.material.color.set(colour);
+  }
+
+  // three.js takes points to be seen at 90 degrees, in a picture that fills the canvas.
+  setScale(scale) {
+    this.object.material.size = scale * this.size;
   }
 }
 
@@ -132,7 +139,7 @@ class Scene {
     sun.position.set(2, -1, 4);
     this.scene.add(sun);
     this.signs = makeSigns();
-    this.options = {body: true, residuals: true, truth: false, beside: false};
+    this.options = {body: true, residuals: true, truth: false, beside: true};
     this.measured = (label, k, target) =>
       target.fromArray(this.trial.positions, 3 * (k * this.trial.labels.length + label));
   }
@@ -167,7 +174,7 @@ class Scene {
     const ink = themeColour("text");
     this.seen.setColour(ink);
     this.unseen.setColour(themeColour("muted"));
-    const line = new THREE.Color(themeColour("grid"));
+    const line = new THREE.Color(themeColour("floor"));
     this.floor.geometry.getAttribute("color").array.set(
       Array.from({length: 4 * 25}, () => line.toArray()).flat());
     this.floor.geometry.getAttribute("color").needsUpdate = true;
@@ -200,7 +207,7 @@ class Scene {
 
   // Looks at `middle` from the front right, a little from above, so that a body fits.
   placeCamera(camera, middle, size) {
-    const distance = 0.62 * size / Math.tan(kFieldOfView / 2 * Math.PI / 180);
+    const distance = 0.57 * size / Math.tan(kFieldOfView / 2 * Math.PI / 180);
     camera.position.set(middle[0] + 0.80 * distance, middle[1] + 0.55 * distance,
       middle[2] + 0.22 * distance);
     camera.lookAt(...middle);
@@ -212,8 +219,8 @@ class Scene {
     this.controls.update();
   }
 
-  moveCamera(x, y) {
-    const step = new THREE.Vector3(x, y, 0);
+  moveCamera(way) {
+    const step = new THREE.Vector3(...way);
     this.camera.position.add(step);
     this.controls.target.add(step);
     this.controls.update();
@@ -225,11 +232,16 @@ class Scene {
     return this.options.beside && shown.length > 1 ? shown.map((one) => [one]) : [shown];
   }
 
-  // Columns such that each picture is as nearly as wide as high as it can be.
+  // Columns such that the pictures, as wide as high, are as large as they can be.
   get columns() {
     const count = this.pictures.length;
-    const aspect = this.canvas.clientWidth / this.canvas.clientHeight;
-    return Math.min(count, Math.max(1, Math.round(Math.sqrt(count * aspect))));
+    const side = (columns) => Math.min(this.canvas.clientWidth / columns,
+      this.canvas.clientHeight / Math.ceil(count / columns));
+    let best = 1;
+    for (let columns = 2; columns <= count; ++columns) {
+      if (side(columns) > side(best)) best = columns;
+    }
+    return best;
   }
 
   draw() {
@@ -261,6 +273,9 @@ class Scene {
     const tangent = Math.tan(kFieldOfView / 2 * Math.PI / 180) / Math.min(1, camera.aspect);
     camera.fov = 2 * Math.atan(tangent) * 180 / Math.PI;
     camera.updateProjectionMatrix();
+    for (const cloud of [this.seen, this.unseen, ...this.figures.map((one) => one.crosses)]) {
+      cloud.setScale(height / this.canvas.clientHeight / tangent);
+    }
     this.renderer.setViewport(x, y, width, height);
     this.renderer.setScissor(x, y, width, height);
     this.renderer.render(this.scene, camera);
@@ -272,7 +287,7 @@ class Scene {
     const ratio = this.renderer.getPixelRatio();
     const side = Math.min(this.canvas.clientWidth, this.canvas.clientHeight, canvas.width / ratio);
     const camera = this.camera.clone();
-    this.placeCamera(camera, this.trial.middle(k), 0.9 * this.trial.size);
+    this.placeCamera(camera, this.trial.middle(k), this.trial.size);
     this.setFrame(k);
     this.renderer.setScissor(0, 0, side, side);
     this.renderer.clear();

@@ -100,17 +100,19 @@ function describeOptions(options) {
   }
   if (options.runs > 1) parts.push(plural(options.runs, "run"));
   if (options.hide > 0) parts.push(`seed ${options.seed}`);
-  return parts.join(", ");
+  const text = parts.join(", ");
+  return text && text[0].toUpperCase() + text.slice(1) + ".";
 }
 
-function makeSummary(section) {
+// isOnly: the page's title says already what it is.
+function makeSummary(section, isOnly) {
   const table = new FiguresTable(section);
   const paragraphs = section.text.split(/\n\s*\n/).filter((text) => text.trim());
   const options = describeOptions(section.figures.options);
   return element("article", {class: "summary"},
-    section.title ? element("h2", {}, section.title) : null,
+    section.title && !isOnly ? element("h2", {}, section.title) : null,
     element("p", {class: "verdict"}, verdictOf(section.figures)),
     ...paragraphs.map((text) => element("p", {}, text)),
-    options ? element("p", {class: "muted"}, options + ".") : null,
+    options ? element("p", {class: "muted"}, options) : null,
     table.make(), table.makeExplanation());
 }

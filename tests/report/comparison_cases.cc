@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "tests/report/comparison_cases.h"
+
+#include "common/io/mmm_model.h"
+#include "common/model/model_scaling.h"
+#include "common/motion/marker_synthesis.h"
+#include "common/motion/synthetic_motion.h"
+#include "tests/support/stick_model.h"
+
+namespace mmm_converter::testing {
+namespace {
+
+constexpr double kRate = 100;  // [Hz]
+
+// The stick with a hostile name for each of its parts.
+KinematicModel HostileModel() {
+  const KinematicModel stick = StickModel();
+  ModelDescription description;
+  description.name = kHostileText;
+  description.segments = stick.segments();
+  for (Segment& segment : description.segments) segment.name += kHostileText;
+  description.markers = stick.markers();
+  for (ModelMarker& marker : description.markers) marker.name += kHostileText;
+  return KinematicModel(description);
+}
+
+PoseTrajectory SwayingMotion(const KinematicModel& model, int frames) {
+  PoseTrajectory motion;
+  motion.rate = kRate;
+  for (int i = 0; i < model.num_joints(); ++i) motion.joint_names.push_back(model.joint(i).name);
+  for (int k = 0; k < frames; ++k) {
+    Posture posture = ZeroPosture(model);
+    posture.joint_angles.setConstant(0.5 * std::sin(0.1 * k));
+    motion.postures.push_back(posture);
+  }
+  return motion;
+}
+
+MarkerMapping MapAll(const KinematicModel& model) {
+  MarkerMapping mapping;
+  for (int i = 0; i < static_cast<int>(model.markers().size()); ++i) {
+    mapping.assignments.push_back({i, i});
+  }
+  return mapping;
+}
+
+Finished AsFinished(const KinematicModel& model, const PoseTrajectory& motion) {
+  Finished finished;
+  finished.mapping = MapAll(model);
+  finished.result.trajectory = motion;
+  finished.result.frames.resize(motion.num_frames());
+  for (FrameDiagnostic& frame : finished.result.frames) frame.seconds = 0.0005;
+  return finished;
+}
+
+Trial MakeTrial(const KinematicModel& model, const PoseTrajectory& motion) {
+  Trial trial;
+  trial.model = std::make_shared<KinematicModel>(model);
+  trial.markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1);
+  return trial;
+}
+
+Contender HostileContender() {
+  Contender contender;
+  contender.name = kHostileText;
+  contender.configuration = kHostileText;
+  return contender;
+}
+
+}  // namespace
+
+Comparison HostileComparison() {
+  const KinematicModel model = HostileModel();
+  const PoseTrajectory motion = SwayingMotion(model, 50);
+  Trial trial = MakeTrial(model, motion);
+  trial.name = kHostileText;
+  Finished finished = AsFinished(model, motion);
+  finished.mapping.warnings = {kHostileText};
+  finished.mapping.ignored_labels = {kHostileText};
+  finished.mapping.absent_markers = {kHostileText};
+  Comparison comparison =
+      CompareFinished(trial, {HostileContender(), HostileContender()}, {finished, finished});
+  comparison.rows[1].failure = kHostileText;
+  return comparison;
+}
+
+Comparison FailedComparison() {
+  Comparison comparison;
+  comparison.trials.resize(1);
+  comparison.trials[0].name = "unreadable.c3d";
+  comparison.trials[0].failure = "unreadable.c3d: no such file";
+  comparison.contenders.resize(1);
+  comparison.contenders[0].name = "any";
+  comparison.grounds.resize(1);
+  comparison.rows.resize(1);
+  comparison.rows[0].failure = comparison.trials[0].failure;
+  return comparison;
+}
+
+Comparison LongComparison() {
+  const std::string file = MMM_CONVERTER_SOURCE_DIR "/xml_config/models/mmm.xml";
+  const KinematicModel model = ScaleWinter(ReadMmmModel(file).model, {1.8, 75, {}});
+  const PoseTrajectory handstand = MakeHandstand(model);
+  PoseTrajectory motion = handstand;
+  constexpr int kFrames = 6000;
+  const int last = handstand.num_frames() - 1;
+  // Back and forth.
+  for (int k = handstand.num_frames(); k < kFrames; ++k) {
+    const int step = k % (2 * last);
+    motion.postures.push_back(handstand.postures[step <= last ? step : 2 * last - step]);
+  }
+  const auto num_joints = static_cast<Eigen::Index>(motion.joint_names.size());
+  // Numbers that differ from each other, like those of a filter.
+  motion.standard_deviations =
+      (Eigen::MatrixXd::Random(6 + num_joints, kFrames).array() + 2) * 0.01;
+  Trial trial = MakeTrial(model, motion);
+  trial.name = "60 s";
+  return CompareFinished(
+      trial,
+      {Contender{
+          .name = "truth", .configuration = "", .config = {}, .plugin = nullptr, .failure = ""}},
+      {AsFinished(model, motion)});
+}
+
+}  // namespace mmm_converter::testing

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// make_report_cases FOLDER: the reports that no command makes on purpose, for the browser.
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "MMMConverterS2KF/report/report.h"
+#include "common/support/atomic_file.h"
+#include "tests/report/comparison_cases.h"
+
+namespace {
+
+void MakeReports(const std::string& folder) {
+  using namespace mmm_converter;
+  const Comparison hostile = testing::HostileComparison();
+  const Comparison failed = testing::FailedComparison();
+  const std::string text = testing::kHostileText;
+  WriteFileAtomically(folder + "/hostile.html",
+                      FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
+  const Comparison whole = testing::LongComparison();
+  WriteFileAtomically(folder + "/long.html", FormatReport("60 s", {{"60 s", "", &whole}}));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "use: make_report_cases FOLDER\n";
+    return 2;
+  }
+  try {
+    MakeReports(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

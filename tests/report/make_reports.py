@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+"""make_reports.py PROGRAM CASES_PROGRAM EXAMPLES FOLDER: the reports that page_test.py opens."""
+
+import pathlib
+import subprocess
+import sys
+
+# A converter that no one has; its rows must show why.
+MISSING = '<ConverterConfig type="MissingConverter"/>'
+
+
+def main():
+    program, cases, examples, folder = sys.argv[1:]
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "missing.xml").write_text(MISSING)
+    recording = f"{examples}/handstand.c3d"
+    compared = subprocess.run(
+        [program, "compare", recording, "-c", "s2kf_default", "-c", "ekf", "-c", folder / "missing.xml",
+         "--height", "1.8", "--truth", f"{examples}/handstand_true.xml", "--hide", "0.005", "--repeat", "2",
+         "--json", folder / "compare.json", "--report", folder / "compare.html"], check=False)
+    if compared.returncode != 1:  # as one of the converters failed
+        sys.exit(f"compare: exit code {compared.returncode} instead of 1")
+    subprocess.run([program, "convert", recording, "--height", "1.8", "-o", folder / "motion.xml",
+                    "--report", folder / "convert.html"], check=True)
+    subprocess.run([cases, folder], check=True)
+
+
+if __name__ == "__main__":
+    main()

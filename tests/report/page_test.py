@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: MIT
+"""page_test.py FOLDER [unittest arguments]: the reports of make_reports.py in a real browser."""
+
+import json
+import pathlib
+import sys
+import unittest
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from browser import Browser
+
+FOLDER = pathlib.Path()
+COLOURS = ["--converter-0", "--converter-1"]  # of the converters that have a result
+
+# Pixels of a picture or canvas, read from a copy, as reading slows a canvas down.
+PIXELS = """
+function pixelsOf(picture) {
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [picture.width, picture.height];
+  const pen = copy.getContext("2d", {willReadFrequently: true});
+  pen.drawImage(picture, 0, 0);
+  return pen.getImageData(0, 0, copy.width, copy.height).data;
+}
+function shadesOf(picture) {
+  return new Set(new Uint32Array(pixelsOf(picture).buffer)).size;
+}
+// Opaque pixels of a colour of the style sheet.
+function countColour(pictures, name, tolerance) {
+  const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const rgb = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+  let count = 0;
+  for (const picture of pictures) {
+    const data = pixelsOf(picture);
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 200 && rgb.every((value, j) => Math.abs(data[i + j] - value) <= tolerance)) ++count;
+    }
+  }
+  return count;
+}
+"""
+
+# Of a picture of an element (PNG, base64): its number of shades, or of pixels of a colour.
+COUNT_SHOWN = PIXELS + """
+const [png, name, done] = arguments;
+const image = new Image();
+image.onload = () => done(name === null ? shadesOf(image) : countColour([image], name, 10));
+image.src = "data:image/png;base64," + png;
+"""
+
+# Numbers of pixels of a colour in the canvases of an element.
+COUNT_DRAWN = PIXELS + """
+return countColour(document.querySelectorAll(arguments[0] + " canvas"), arguments[1], 8);
+"""
+
+
+class ReportPage(unittest.TestCase):
+    """Each test opens reports in a browser of its own, and ends with an empty console."""
+
+    def setUp(self):
+        self.browser = Browser()
+        self.addCleanup(lambda: self.browser.close())
+
+    def tearDown(self):
+        self.assertEqual(self.browser.errors(), [])
+
+    def open(self, name):
+        self.browser.open(FOLDER / name)
+
+    def run_script(self, script, *arguments):
+        return self.browser.run(script, *arguments)
+
+    def find(self, selector):
+        return self.browser.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def text(self, selector):
+        return self.run_script("return document.querySelector(arguments[0]).textContent", selector)
+
+    def frame(self):
+        return self.run_script("return mmmReport.frame")
+
+    def pixels(self, selector, colour=None):
+        self.browser.settle()
+        element = self.find(selector)
+        self.run_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        self.browser.settle()
+        return self.browser.driver.execute_async_script(COUNT_SHOWN, element.screenshot_as_base64, colour)
+
+    def test_scene_is_drawn(self):
+        for name in ("compare.html", "convert.html"):
+            self.open(name)
+            self.run_script("mmmReport.seek(mmmReport.frames / 2)")
+            # Floor and background alone have some 200 shades.
+            self.assertGreater(self.pixels("#scene"), 1000, name)
+
+    def test_player_plays_and_pauses(self):
+        self.open("compare.html")
+        self.assertEqual(self.run_script("return mmmReport.frames"), 675)
+        self.find("#play").click()
+        self.browser.wait("return mmmReport.frame > 10")
+        self.assertEqual(self.find("#play").get_attribute("aria-label"), "Pause")
+        self.find("#play").click()
+        frame = self.frame()
+        self.browser.settle()
+        self.assertEqual(self.frame(), frame)
+        self.assertIn(f"frame {frame} of 675", self.text("#now"))
+
+    def test_player_stops_at_the_end_and_starts_anew(self):
+        self.open("convert.html")
+        self.run_script("mmmReport.seek(670); mmmReport.play()")
+        self.browser.wait("return !mmmReport.playing")
+        self.assertEqual(self.frame(), 674)
+        self.run_script("mmmReport.play()")
+        self.assertLess(self.frame(), 674)
+
+    def test_keys(self):
+        self.open("compare.html")
+        player = self.find("#player")
+        for keys, frame in (((Keys.ARROW_RIGHT,), 1), ((Keys.ARROW_LEFT,), 0), ((Keys.END,), 674),
+                            ((Keys.HOME,), 0), ((Keys.SHIFT, Keys.ARROW_RIGHT), 10)):
+            player.send_keys(*keys)
+            self.assertEqual(self.frame(), frame, keys)
+        player.send_keys(Keys.NULL, " ")
+        self.browser.wait("return mmmReport.frame > 12")
+        player.send_keys(" ")
+        self.assertFalse(self.run_script("return mmmReport.playing"))
+        self.assertEqual(self.run_script("return document.activeElement.id"), "player")
+
+    def test_keyboard_reaches_every_control(self):
+        self.open("compare.html")
+        reached = set()
+        for _ in range(60):
+            ActionChains(self.browser.driver).send_keys(Keys.TAB).perform()
+            reached.add(self.run_script("return document.activeElement.id"))
+        self.assertLessEqual({"trial", "player", "play", "scrub", "speed", "show-body", "heat-order", "joint"},
+                             reached)
+
+    def test_scrubbing(self):
+        self.open("compare.html")
+        scrub = self.find("#scrub")
+        ActionChains(self.browser.driver).move_to_element(scrub).click().perform()
+        self.assertAlmostEqual(self.frame(), 337, delta=4)  # the slider's middle, to a few pixels
+        self.assertIn(f"frame {self.frame()}", scrub.get_attribute("aria-valuetext"))
+
+    def test_figures_equal_the_json(self):
+        self.open("compare.html")
+        figures = json.loads((FOLDER / "compare.json").read_text())
+        self.assertEqual(self.run_script("return mmmReport.figures"), [figures])
+        compared = 0
+        for row in figures["rows"]:
+            cells = self.run_script(
+                "return Array.from(document.querySelectorAll(`tr[data-contender='${arguments[0]}'] td[data-figure]`),"
+                "  (cell) => [cell.dataset.figure, cell.firstChild.textContent])", row["contender"])
+            for path, shown in cells:
+                value = row
+                for key in path.split("."):
+                    value = value[key]
+                if path == "limit_share":
+                    value *= 100  # shown in per cent
+                digits = len(shown.partition(".")[2])
+                # Half a unit of the last digit, and the rounding of a double.
+                self.assertAlmostEqual(float(shown), value, delta=0.5 * 10**-digits + 1e-9, msg=path)
+                compared += 1
+        self.assertEqual(compared, 2 * 17)
+
+    def test_failure_is_a_row_with_its_reason(self):
+        self.open("compare.html")
+        failed = [row for row in json.loads((FOLDER / "compare.json").read_text())["rows"] if row["failure"]]
+        self.assertEqual(len(failed), 1)
+        self.assertIn(failed[0]["failure"], self.text("tr.failed"))
+        self.assertIn("1 of 3 failed", self.text(".verdict"))
+        self.assertIn(failed[0]["failure"], self.text("#notes"))
+
+    def test_plots_are_drawn(self):
+        self.open("compare.html")
+        for plot in ("#distance-plot", "#joint-plot", "#time-plot"):
+            for colour in COLOURS:
+                self.assertGreater(self.run_script(COUNT_DRAWN, plot, colour), 30, plot + colour)
+        self.assertGreater(self.run_script(COUNT_DRAWN, "#hidden-plot", "--text"), 100)
+
+    def test_a_hidden_converter_is_in_no_plot(self):
+        self.open("compare.html")
+        self.find(".converter input").click()
+        self.browser.settle()
+        self.assertEqual(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[0]), 0)
+        self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[1]), 100)
+
+    def test_click_in_a_plot_jumps_there(self):
+        self.open("compare.html")
+        plot = self.find("#distance-plot .plot-area")
+        ActionChains(self.browser.driver).move_to_element(plot).click().perform()
+        # The middle of the element; the axis takes some of its left side.
+        self.assertAlmostEqual(self.frame(), 337, delta=40)
+
+    def test_joint_can_be_chosen(self):
+        self.open("compare.html")
+        before = self.text("#joint-caption")
+        self.run_script("const joint = document.querySelector('#joint'); joint.value = '0';"
+                        "joint.dispatchEvent(new Event('change'))")
+        self.browser.settle()
+        self.assertNotEqual(self.text("#joint-caption"), before)
+        self.assertIn("true angle", self.text("#joint-caption"))
+        self.assertGreater(self.run_script(COUNT_DRAWN, "#joint-plot", COLOURS[0]), 30)
+
+    def test_heat_map(self):
+        self.open("compare.html")
+        self.assertGreater(self.run_script(PIXELS + "return shadesOf(document.querySelector('#heat-map'))"), 100)
+        means = [float(text) for text in self.run_script(
+            "return Array.from(document.querySelectorAll('#heat-names .mean'), (one) => one.textContent)")]
+        self.assertEqual(len(means), 53)
+        self.assertEqual(means, sorted(means, reverse=True))
+        ActionChains(self.browser.driver).move_to_element(self.find("#heat-map")).click().perform()
+        self.assertAlmostEqual(self.frame(), 337, delta=4)
+        names = self.run_script(
+            "return Array.from(document.querySelectorAll('#heat-names .name'), (one) => one.textContent)")
+        self.assertRegex(self.text("#heat-readout"), rf"^{names[26]} · 3\.\d\d s · \d+\.\d mm")
+
+    def test_hidden_markers_are_shown_as_hidden(self):
+        self.open("compare.html")
+        self.assertTrue(self.find("#hidden-legend").is_displayed())
+        self.find("#show-body").click()  # bones blend into many colours
+        self.assertIn(" 0 markers hidden", self.text("#now"))
+        filled, grey = self.pixels("#scene", "--text"), self.pixels("#scene", "--muted")
+        self.run_script("mmmReport.seek(400)")
+        self.assertIn(" 26 markers hidden", self.text("#now"))
+        filled_then, grey_then = self.pixels("#scene", "--text"), self.pixels("#scene", "--muted")
+        # Of 50 full discs 24 are left; the edges of discs have grey pixels too.
+        self.assertLess(filled_then, 0.75 * filled)
+        self.assertGreater(grey_then / filled_then, 1.8 * grey / filled)
+        self.open("convert.html")
+        self.assertFalse(self.find("#hidden-legend").is_displayed())
+
+    def test_stills_jump(self):
+        self.open("compare.html")
+        stills = self.browser.driver.find_elements(By.CSS_SELECTOR, ".still")
+        self.assertEqual(len(stills), 6)
+        for still in stills:
+            still.click()
+            self.assertIn(f"frame {self.frame()}", still.get_attribute("aria-label"))
+        self.assertEqual(self.frame(), 674)
+        shades = self.run_script(
+            PIXELS + "return Array.from(document.querySelectorAll('.still canvas'), shadesOf)")
+        self.assertGreater(min(shades), 500)
+
+    def test_light_and_dark(self):
+        shown = {}
+        for scheme in ("light", "dark"):
+            self.browser.prefer(scheme)
+            self.open("compare.html")
+            shown[scheme] = self.run_script("return getComputedStyle(document.body).backgroundColor")
+            self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[0]), 100)
+        self.assertNotEqual(shown["light"], shown["dark"])
+        # The change of a page that is open: plots take the other colours.
+        self.browser.prefer("light")
+        self.browser.settle()
+        self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[0]), 100)
+
+    def test_no_page_scrolls_sideways(self):
+        for width in (1200, 400):
+            self.browser.resize(width, 800)
+            for name in ("compare.html", "convert.html", "hostile.html"):
+                self.open(name)
+                self.assertEqual(self.run_script("return document.documentElement.scrollWidth"), width, name)
+
+    def test_hostile_text_stays_text(self):
+        self.open("hostile.html")
+        self.run_script("mmmReport.seek(20); document.querySelectorAll('details').forEach((one) => one.open = true)")
+        ActionChains(self.browser.driver).move_to_element(self.find("#heat-map")).perform()
+        ActionChains(self.browser.driver).move_to_element(self.find("#distance-plot .plot-area")).perform()
+        self.browser.settle()
+        self.assertIsNone(self.run_script("return window.hacked === undefined ? null : window.hacked"))
+        self.assertEqual(self.run_script("return document.images.length"), 0)
+        for selector in ("h1", "#sections", "tr.failed", "#converters", "#heat-names", "#heat-readout",
+                         "#configurations pre", "#notes", "#joint", "#trial", "#distance-plot .readout"):
+            self.assertIn("<script>window.hacked=1</script>", self.text(selector), selector)
+
+    def test_parts_of_a_report(self):
+        self.open("hostile.html")
+        buttons = self.browser.driver.find_elements(By.CSS_SELECTOR, "#sections button")
+        self.assertEqual(len(buttons), 2)
+        self.assertTrue(self.find("#view").is_displayed())
+        buttons[1].click()
+        # Nothing can be drawn of a part in which all failed, but its reason.
+        self.assertFalse(self.find("#view").is_displayed())
+        self.assertIn("no such file", self.text(".summary:not(.other)"))
+        buttons[0].click()
+        self.assertTrue(self.find("#view").is_displayed())
+
+    def test_long_recording(self):
+        self.assertLess((FOLDER / "long.html").stat().st_size, 15_000_000)
+        self.open("long.html")
+        self.assertEqual(self.run_script("return mmmReport.frames"), 6000)
+        self.run_script("mmmReport.seek(5999)")
+        self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[0]), 30)
+        print("[ measured ] ms until the report is ready:",
+              self.run_script("return performance.getEntriesByName('ready')[0].startTime"))
+
+    def test_without_webgl_the_rest_works(self):
+        self.browser.close()
+        self.browser = Browser(webgl=False)
+        self.open("compare.html")
+        self.assertIn("WebGL", self.text("#no-webgl"))
+        self.assertTrue(self.find("#no-webgl").is_displayed())
+        for plot in ("#distance-plot", "#joint-plot", "#time-plot"):
+            self.assertGreater(self.run_script(COUNT_DRAWN, plot, COLOURS[0]), 30, plot)
+        self.find("#play").click()
+        self.browser.wait("return mmmReport.frame > 5")
+
+    def test_nothing_is_loaded(self):
+        self.open("compare.html")
+        self.assertEqual(self.run_script("return performance.getEntriesByType('resource').length"), 0)
+
+
+if __name__ == "__main__":
+    FOLDER = pathlib.Path(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/comparison_json.h"
+#include "tests/report/comparison_cases.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+int Count(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+// The first data block of a name, as a browser would see its text.
+std::string Block(const std::string& page, const std::string& name) {
+  const std::string start = "<script type=\"application/json\" class=\"" + name + "\">";
+  const std::size_t begin = page.find(start) + start.size();
+  return page.substr(begin, page.find("</script>", begin) - begin);
+}
+
+std::string HostilePage() {
+  const Comparison comparison = testing::HostileComparison();
+  return FormatReport(testing::kHostileText,
+                      {{testing::kHostileText, testing::kHostileText, &comparison}});
+}
+
+TEST(Report, FiguresAreThoseOfTheJson) {
+  const Comparison comparison = testing::HostileComparison();
+  const std::string page = FormatReport("title", {{"title", "", &comparison}});
+  EXPECT_EQ(nlohmann::json::parse(Block(page, "figures")),
+            nlohmann::json::parse(FormatComparisonJson(comparison)));
+}
+
+TEST(Report, HostileTextEndsNoElement) {
+  const std::string page = HostilePage();
+  // Three libraries' and our scripts, three data blocks.
+  EXPECT_EQ(Count(page, "<script"), 6);
+  EXPECT_EQ(Count(page, "</script"), 6);
+  EXPECT_EQ(Count(page, "<title>"), 1);
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  EXPECT_THAT(page, HasSubstr("<title>&lt;/script&gt;&lt;script&gt;window.hacked=1"));
+  EXPECT_EQ(nlohmann::json::parse(Block(page, "heading"))["text"], testing::kHostileText);
+}
+
+TEST(Report, BytesThatAreNoUtf8AreReplaced) {
+  Comparison comparison = testing::HostileComparison();
+  comparison.contenders[0].configuration = "\xff\xfe";
+  comparison.trials[0].name = "\x80";
+  const std::string page = FormatReport("t", {{"\xc3", "\xe2\x82", &comparison}});
+  EXPECT_EQ(nlohmann::json::parse(Block(page, "heading"))["title"], "\xef\xbf\xbd");
+  EXPECT_EQ(nlohmann::json::parse(Block(page, "tracks"))["trials"][0]["name"], "\xef\xbf\xbd");
+}
+
+TEST(Report, NothingIsLoadedFromElsewhere) {
+  const std::string page = HostilePage();
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  EXPECT_THAT(page, Not(HasSubstr("<script src")));
+}
+
+TEST(Report, ALongRecordingStaysSmall) {
+  const Comparison comparison = testing::LongComparison();
+  ASSERT_EQ(comparison.trials[0].markers.num_frames(), 6000);
+  ASSERT_EQ(comparison.grounds[0].labels.size(), 53);
+  ASSERT_EQ(comparison.rows[0].result.trajectory.joint_names.size(), 44);
+  const std::string page = FormatReport("60 s", {{"60 s", "", &comparison}});
+  std::cout << "[ measured ] 60 s at 100 Hz: " << static_cast<double>(page.size()) * 1e-6
+            << " MB\n";
+  EXPECT_LT(page.size(), 8'000'000);
+}
+
+TEST(Report, MayBeEmpty) { EXPECT_THAT(FormatReport("nothing", {}), HasSubstr("nothing</h1>")); }
+
+}  // namespace
+}  // namespace mmm_converter
