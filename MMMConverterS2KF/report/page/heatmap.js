@@ -85,8 +85,9 @@ class HeatMap {
   }
 
   draw() {
-    const width = Math.max(1, Math.round(byId("heat-stage").clientWidth));
     const trial = this.view.trial;
+    if (!trial) return;
+    const width = Math.max(1, Math.round(byId("heat-stage").clientWidth));
     this.canvas.width = width;
     this.canvas.height = kRowHeight * this.rows.length;
     const pen = this.canvas.getContext("2d");
