@@ -23,6 +23,8 @@ def main():
         sys.exit(f"compare: exit code {compared.returncode} instead of 1")
     subprocess.run([program, "convert", recording, "--height", "1.8", "-o", folder / "motion.xml",
                     "--report", folder / "convert.html"], check=True)
+    subprocess.run([program, "report", recording, folder / "motion.xml", f"{examples}/handstand_true.xml",
+                    "-o", folder / "finished.html"], check=True)
     subprocess.run([cases, folder], check=True)
 
 

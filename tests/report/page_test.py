@@ -170,7 +170,7 @@ class ReportPage(unittest.TestCase):
         failed = [row for row in json.loads((FOLDER / "compare.json").read_text())["rows"] if row["failure"]]
         self.assertEqual(len(failed), 1)
         self.assertIn(failed[0]["failure"], self.text("tr.failed"))
-        self.assertIn("1 of 3 failed", self.text(".verdict"))
+        self.assertRegex(self.text(".verdict"), r"s2kf_default \d\d\.\d\d mm.* 1 of 3 failed")
         self.assertIn(failed[0]["failure"], self.text("#notes"))
 
     def test_plots_are_drawn(self):
@@ -187,12 +187,27 @@ class ReportPage(unittest.TestCase):
         self.assertEqual(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[0]), 0)
         self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[1]), 100)
 
+    def test_all_converters_hidden(self):
+        self.open("compare.html")
+        for box in self.browser.driver.find_elements(By.CSS_SELECTOR, ".converter input"):
+            box.click()
+        self.browser.settle()
+        self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", "--muted"), 30)  # the optimum
+        self.run_script("mmmReport.seek(100)")
+        self.assertEqual(self.frame(), 100)
+
     def test_click_in_a_plot_jumps_there(self):
         self.open("compare.html")
         plot = self.find("#distance-plot .plot-area")
         ActionChains(self.browser.driver).move_to_element(plot).click().perform()
         # The middle of the element; the axis takes some of its left side.
         self.assertAlmostEqual(self.frame(), 337, delta=40)
+
+    def test_finished_motions_have_no_times(self):
+        self.open("finished.html")
+        self.assertTrue(self.find("#distance-plot").is_displayed())
+        self.assertFalse(self.find("#time-part").is_displayed())
+        self.assertNotIn("Time a frame", self.text("table.figures"))
 
     def test_joint_can_be_chosen(self):
         self.open("compare.html")
@@ -260,7 +275,7 @@ class ReportPage(unittest.TestCase):
     def test_no_page_scrolls_sideways(self):
         for width in (1200, 400):
             self.browser.resize(width, 800)
-            for name in ("compare.html", "convert.html", "hostile.html"):
+            for name in ("compare.html", "convert.html", "finished.html", "hostile.html"):
                 self.open(name)
                 self.assertEqual(self.run_script("return document.documentElement.scrollWidth"), width, name)
 

@@ -9,10 +9,11 @@ class Chart {
   constructor(host, view, {lines, unit, digits, logarithmic, range, label}) {
     this.host = host;
     this.view = view;
-    this.lines = lines;
+    // The library wants a line.
+    this.lines = lines.length ? lines : [{name: null, colour: "transparent", values: () => NaN}];
     this.unit = unit;
     this.digits = digits;
-    this.hasBands = lines.some((line) => line.band);
+    this.hasBands = this.lines.some((line) => line.band);
     this.plot = element("div", {class: "plot-area", role: "img", "aria-label": label});
     this.cursor = element("div", {class: "cursor"});
     this.readout = element("p", {class: "readout", "aria-hidden": "true"});
@@ -46,7 +47,7 @@ class Chart {
     });
     return {
       labels: ["time", ...this.lines.map((_, i) => "line" + i)], series, customBars: this.hasBands,
-      legend: "never", fillAlpha: 0.16, xlabel: "time, s", logscale: logarithmic || false,
+      legend: "never", fillAlpha: Math.max(0.07, 0.3 / this.lines.length), xlabel: "time, s", logscale: logarithmic || false,
       valueRange: range || null, includeZero: !logarithmic && !range,
       gridLineColor: themeColour("grid"), axisLineColor: themeColour("line"), gridLineWidth: 1,
       axisLabelFontSize: 12, xRangePad: 0, animatedZooms: false, highlightCircleSize: 3,

@@ -5,15 +5,20 @@ function makeNotes(section) {
   const items = [];
   const add = (about, text) => items.push(element("li", {}, element("strong", {}, about + ": "), text));
   section.trials.forEach((trial) => {
-    for (const track of trial.failed) add(`${trial.name}, ${track.name}`, track.failure);
+    // What is said of all converters is said once.
     const seen = new Set();
+    for (const track of trial.failed) {
+      if (!seen.has(track.failure)) {
+        add(trial.failure ? trial.name : `${trial.name}, ${track.name}`, track.failure);
+      }
+      seen.add(track.failure);
+    }
     for (const track of trial.tracks) {
       const about = section.trials.length > 1 ? `${trial.name}, ${track.name}` : track.name;
       const texts = track.warnings.slice();
       if (track.ignored.length) texts.push(`labels that stand for no marker: ${track.ignored.join(", ")}`);
       if (track.absent.length) texts.push(`markers that the recording does not have: ${track.absent.join(", ")}`);
       for (const text of texts) {
-        // What is said of all converters is said once.
         if (!seen.has(text)) add(about, text);
         seen.add(text);
       }

@@ -28,6 +28,12 @@ function formatNumber(value, digits) {
   return Number.isFinite(value) ? value.toFixed(digits) : "–";
 }
 
+// A name that may be broken after each underscore.
+function breakable(name) {
+  const parts = name.split(/(?<=_)/);
+  return parts.flatMap((part, i) => i === 0 ? [part] : [element("wbr"), part]);
+}
+
 function formatMillimetres(metres) {
   return formatNumber(1000 * metres, 1) + " mm";
 }
@@ -36,8 +42,8 @@ function plural(count, noun) {
   return `${count} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-const kNumConverterColours = 6;
-const kDashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [4, 4], [12, 4]];
+const kNumConverterColours = 8;
+const kDashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [4, 4], [12, 4], [6, 2, 2, 2, 2, 2], [1, 3]];
 
 // A colour of the style sheet as it is now, light or dark.
 function themeColour(name) {

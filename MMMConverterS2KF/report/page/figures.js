@@ -66,22 +66,24 @@ function rowsOfTrial(figures, trial) {
   return figures.rows.slice(trial * count, (trial + 1) * count);
 }
 
-// In one line: who comes how near to the markers, over all recordings on which all have a result.
+// In one line: who comes how near to the markers, in the mean over the recordings on which anyone
+// has a result; of those who have one on each of them.
 function verdictOf(figures) {
   const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
-  const whole = figures.trials
+  const used = figures.trials
     .map((trial, i) => ({trial, rows: rowsOfTrial(figures, i)}))
-    .filter(({rows}) => rows.length > 0 && rows.every((row) => !row.failure));
+    .filter(({rows}) => rows.some((row) => !row.failure));
+  const means = figures.contenders
+    .map((contender, i) => ({name: contender.name, rows: used.map(({rows}) => rows[i])}))
+    .filter(({rows}) => rows.length > 0 && rows.every((row) => !row.failure))
+    .map(({name, rows}) => ({name, distance: mean(rows.map((row) => figureOf(row, "distance_mm.mean")))}))
+    .sort((a, b) => a.distance - b.distance);
   const parts = [];
-  if (whole.length > 0) {
-    const means = figures.contenders.map((contender, i) => ({
-      name: contender.name,
-      distance: mean(whole.map(({rows}) => figureOf(rows[i], "distance_mm.mean"))),
-    }));
-    means.sort((a, b) => a.distance - b.distance);
-    const optimum = mean(whole.map(({trial}) => trial.optimum_mm));
-    const names = means.map((one) => `${one.name} ${formatNumber(one.distance, 2)} mm`).join(", ");
-    parts.push(`Mean marker distance: ${names}; least possible ${formatNumber(optimum, 2)} mm`);
+  if (means.length > 0) {
+    const named = means.map((one) => `${one.name} ${formatNumber(one.distance, 2)} mm`);
+    const listed = named.length <= 3 ? named.join(", ") : `${named[0]} to ${named[named.length - 1]}`;
+    const optimum = mean(used.map(({trial}) => trial.optimum_mm));
+    parts.push(`Mean marker distance: ${listed} (optimum ${formatNumber(optimum, 2)} mm)`);
   }
   const failures = figures.rows.filter((row) => row.failure).length;
   if (failures > 0) parts.push(`${failures} of ${figures.rows.length} failed`);

@@ -11,7 +11,10 @@ class Player {
     if (hasWebGl()) {
       this.scene = new Scene(byId("scene"), this.redraw);
       byId("scene").addEventListener("pointerdown", () => byId("player").focus({preventScroll: true}));
-      new ResizeObserver(this.redraw).observe(byId("stage"));
+      new ResizeObserver(() => {
+        this.nameParts();
+        this.redraw();
+      }).observe(byId("stage"));
     } else {
       byId("no-webgl").hidden = false;
       byId("no-webgl").textContent = "This browser shows no three-dimensional pictures (WebGL is missing " +
@@ -85,11 +88,12 @@ class Player {
 
   // Where bodies stand side by side, the name of each.
   nameParts() {
+    if (!this.view.trial) return;
     const pictures = this.scene.pictures;
     const columns = this.scene.columns;
     byId("stage-names").style.gridTemplateColumns = `repeat(${columns}, 1fr)`;
     replaceContent(byId("stage-names"), ...(pictures.length < 2 ? [] : pictures.map(([one]) =>
-      element("span", {}, lineSwatch(one.track.contender), one.track.name))));
+      element("span", {}, lineSwatch(one.track.contender), ...breakable(one.track.name)))));
   }
 
   setFrame(frame) {
@@ -110,7 +114,7 @@ class Player {
   }
 
   draw() {
-    if (!this.scene || !this.scene.trial) return;
+    if (!this.scene || !this.view.trial) return;
     this.scene.setFrame(this.view.frame);
     this.scene.draw();
   }

@@ -16,6 +16,7 @@ class Plots {
       (runs > 1 ? `, over ${runs} runs: the line is their mean, the band their 5th to 95th percentile, the thin line their largest.` : ".") +
       " Click to jump, drag to zoom, double-click to zoom out.";
     byId("hidden-part").hidden = !trial.hidesMarkers;
+    byId("time-part").hidden = !trial.tracks.some((track) => track.seconds.some((seconds) => seconds > 0));
     this.listJoints(trial);
   }
 
@@ -23,6 +24,7 @@ class Plots {
   listJoints(trial) {
     const joints = trial.model.joints.map((_, i) => i)
       .filter((joint) => trial.tracks.some((track) => track.motion.joints.includes(joint)));
+    byId("joint-part").hidden = joints.length === 0;
     replaceContent(byId("joint"), ...joints.map((joint) => option(joint, trial.model.joints[joint].name)));
     const motion = trial.tracks[0].motion;
     let widest = -1;
@@ -39,17 +41,15 @@ class Plots {
   refresh() {
     for (const chart of this.charts) chart.destroy();
     const tracks = this.view.shownTracks;
-    this.charts = [this.distanceChart(tracks), this.timeChart(tracks)];
+    this.charts = [this.distanceChart(tracks)];
+    if (!byId("time-part").hidden) this.charts.push(this.timeChart(tracks));
     if (this.view.trial.hidesMarkers) this.charts.push(this.hiddenChart());
-    this.jointChart = this.makeJointChart(tracks);
-    this.charts.push(this.jointChart);
+    if (!byId("joint-part").hidden) this.charts.push(this.jointChart(tracks));
   }
 
   refreshJoint() {
-    this.jointChart.destroy();
-    this.charts.pop();
-    this.jointChart = this.makeJointChart(this.view.shownTracks);
-    this.charts.push(this.jointChart);
+    this.charts.pop().destroy();
+    this.charts.push(this.jointChart(this.view.shownTracks));
   }
 
   setFrame(frame) {
@@ -79,7 +79,7 @@ class Plots {
       }
       lines.push(line);
     }
-    lines.push({name: "least possible", colour: themeColour("muted"), dash: [1, 3], width: 1.6,
+    lines.push({name: "optimum", colour: themeColour("muted"), dash: [1, 3], width: 1.6,
       values: (k) => 1000 * trial.optimum[k]});
     const {range, largest} = rangeWithoutPeaks(lines, trial.frames);
     byId("distance-peak").textContent = largest > range[1]
@@ -101,10 +101,10 @@ class Plots {
     const lines = tracks.map((track) => Object.assign(
       this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN), {dash: null, width: 1}));
     return new Chart(byId("time-plot"), this.view,
-      {lines, unit: "ms", digits: 2, logarithmic: true, label: "Time per frame, milliseconds, logarithmic"});
+      {lines, unit: "ms", digits: 2, logarithmic: tracks.length > 0, label: "Time per frame, milliseconds, logarithmic"});
   }
 
-  makeJointChart(tracks) {
+  jointChart(tracks) {
     const trial = this.view.trial;
     const index = Number(byId("joint").value);
     const joint = trial.model.joints[index];
@@ -155,6 +155,7 @@ function extremes(lines, frames) {
 }
 
 function withMargin([least, most]) {
+  if (!(least <= most)) return [0, 1];
   const margin = 0.06 * (most - least) || 1;
   return [least - margin, most + margin];
 }
@@ -169,6 +170,7 @@ function rangeWithoutPeaks(lines, frames) {
     }
   }
   values.sort((a, b) => a - b);
+  if (values.length === 0) return {range: [0, 1], largest: 0};
   const largest = values[values.length - 1];
   const usual = values[Math.floor(0.98 * (values.length - 1))];
   const least = extremes(lines, frames)[0];

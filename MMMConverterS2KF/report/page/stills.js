@@ -57,7 +57,7 @@ class Stills {
   }
 
   draw() {
-    if (!this.player.scene) return;
+    if (!this.player.scene || !this.view.trial) return;
     this.buttons.forEach((button, i) =>
       this.player.scene.drawStill(this.frames[i], button.querySelector("canvas")));
     this.player.draw();

@@ -43,10 +43,10 @@ class FiguresTable {
 
   trialBody(trial, rows) {
     const whole = rows.filter((row) => !row.failure);
-    const about = trial.failure ? trial.failure : [
+    const about = trial.failure ? "" : [
       plural(trial.frames, "frame") + ` at ${formatNumber(trial.rate_hz, 0)} Hz`,
       plural(trial.compared_markers, "marker"), plural(trial.compared_joints, "joint"),
-      `least possible mean distance ${formatNumber(trial.optimum_mm, 2)} mm`].join(" · ");
+      `optimum ${formatNumber(trial.optimum_mm, 2)} mm`].join(" · ");
     return element("tbody", {},
       element("tr", {class: "trial"}, element("th", {scope: "rowgroup", colspan: this.columns.length + 1},
         element("span", {class: "stay"}, trial.name + " ", element("span", {class: "muted"}, about)))),
@@ -68,12 +68,13 @@ class FiguresTable {
   failedRow(row, contender) {
     return element("tr", {class: "failed", "data-trial": row.trial, "data-contender": row.contender},
       this.rowHead(row, contender),
-      element("td", {colspan: this.columns.length},
-        element("span", {class: "stay"}, element("strong", {}, "failed: "), row.failure)));
+      element("td", {colspan: Math.max(1, this.columns.length)},
+        element("span", {class: "stay reason"}, element("strong", {}, "failed: "), row.failure)));
   }
 
   rowHead(row, contender) {
-    return element("th", {scope: "row"}, lineSwatch(contender), row.contender);
+    return element("th", {scope: "row"}, 
+      element("span", {class: "row-name"}, lineSwatch(contender), element("span", {}, ...breakable(row.contender))));
   }
 
   makeExplanation() {
@@ -83,9 +84,9 @@ class FiguresTable {
       element("summary", {}, "What the figures mean"),
       element("dl", {}, ...terms,
         element("dt", {}, "Bold, with a dot"), element("dd", {}, "The best of its recording."),
-        element("dt", {}, "Least possible"), element("dd", {},
-          "The mean distance at the least-squares posture of every frame on its own, with all markers seen: " +
-          "no tracker can have less.")));
+        element("dt", {}, "Optimum"), element("dd", {},
+          "The mean distance at the least-squares posture of each frame on its own, all markers seen: " +
+          "what a tracker can reach in marker distance. It says nothing of hidden markers or of joints.")));
   }
 }
 
