@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A plot over time with a cursor at the player's frame. Zooming one zooms all.
 
-// One line of a plot. values(k) is a number, or [low, middle, high] for a line with a band.
-//   {name, colour, dash, width, values, inReadout}
+// One line of a plot: {name, colour, dash, width, values, band}. values(k) is a number, band(k) [low, high];
+// a line without a name is not in the readout.
 
 class Chart {
   // host: an empty element. unit: for the readout.
@@ -69,7 +69,7 @@ class Chart {
     const k = frame === null ? this.view.frame : frame;
     this.pointed = frame;
     const parts = this.lines.filter((line) => line.name).flatMap((line) => [
-      element("span", {class: "value"}, line.swatch ? line.swatch() : null,
+      element("span", {class: "value"}, lineSwatch(line.colour, line.dash),
         `${line.name} `, element("b", {}, formatNumber(line.values(k), this.digits)))]);
     replaceContent(this.readout,
       element("span", {class: "value"}, `${formatNumber(this.view.trial.time(k), 2)} s`), ...parts,

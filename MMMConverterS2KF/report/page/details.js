@@ -30,6 +30,6 @@ function makeNotes(section) {
 
 function makeConfigurations(section) {
   return section.contenders.map((contender, i) => element("details", {},
-    element("summary", {}, lineSwatch(i), contender.name),
+    element("summary", {}, converterSwatch(i), contender.name),
     element("pre", {tabindex: "0"}, contender.configuration || "No configuration is known.")));
 }

@@ -42,8 +42,9 @@ function plural(count, noun) {
   return `${count} ${noun}${count === 1 ? "" : "s"}`;
 }
 
+// Numbers without a common divisor: 56 converters differ in colour or dash.
 const kNumConverterColours = 8;
-const kDashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [4, 4], [12, 4], [6, 2, 2, 2, 2, 2], [1, 3]];
+const kDashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [4, 4], [12, 4], [6, 2, 2, 2, 2, 2]];
 
 // A colour of the style sheet as it is now, light or dark.
 function themeColour(name) {
@@ -58,21 +59,24 @@ function converterDash(index) {
   return kDashes[index % kDashes.length];
 }
 
-// The line that stands for a converter in the plots.
-function lineSwatch(index) {
+// The line that stands for a curve in a legend.
+function lineSwatch(colour, dash) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 28 8");
   svg.setAttribute("class", "swatch");
   svg.setAttribute("aria-hidden", "true");
   const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-  const dash = converterDash(index);
   for (const [name, value] of Object.entries({x1: 1, y1: 4, x2: 27, y2: 4, "stroke-width": 3})) {
     line.setAttribute(name, value);
   }
   if (dash) line.setAttribute("stroke-dasharray", dash.join(" "));
-  line.style.stroke = `var(--converter-${index % kNumConverterColours})`;
+  line.style.stroke = colour;
   svg.append(line);
   return svg;
+}
+
+function converterSwatch(index) {
+  return lineSwatch(`var(--converter-${index % kNumConverterColours})`, converterDash(index));
 }
 
 // Calls `redraw` once before the next picture, however often it is asked for.

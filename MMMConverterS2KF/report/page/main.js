@@ -52,7 +52,7 @@ class View {
       box.addEventListener("change", () => this.setShown(track.contender, box.checked));
       const distance = element("output", {title: "Mean marker distance in this frame of the first run"});
       this.distances.push({track, distance});
-      return element("label", {class: "converter"}, box, lineSwatch(track.contender), track.name, distance);
+      return element("label", {class: "converter"}, box, converterSwatch(track.contender), track.name, distance);
     }));
   }
 

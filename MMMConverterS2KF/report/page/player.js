@@ -93,7 +93,7 @@ class Player {
     const columns = this.scene.columns;
     byId("stage-names").style.gridTemplateColumns = `repeat(${columns}, 1fr)`;
     replaceContent(byId("stage-names"), ...(pictures.length < 2 ? [] : pictures.map(([one]) =>
-      element("span", {}, lineSwatch(one.track.contender), ...breakable(one.track.name)))));
+      element("span", {}, converterSwatch(one.track.contender), ...breakable(one.track.name)))));
   }
 
   setFrame(frame) {

@@ -64,7 +64,7 @@ class Plots {
 
   lineOf(track, values) {
     return {name: track.name, colour: converterColour(track.contender), dash: converterDash(track.contender),
-      swatch: () => lineSwatch(track.contender), values};
+      values};
   }
 
   distanceChart(tracks) {

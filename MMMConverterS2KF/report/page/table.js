@@ -73,8 +73,8 @@ class FiguresTable {
   }
 
   rowHead(row, contender) {
-    return element("th", {scope: "row"}, 
-      element("span", {class: "row-name"}, lineSwatch(contender), element("span", {}, ...breakable(row.contender))));
+    return element("th", {scope: "row"},
+      element("span", {class: "row-name"}, converterSwatch(contender), element("span", {}, ...breakable(row.contender))));
   }
 
   makeExplanation() {

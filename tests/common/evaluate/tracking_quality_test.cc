@@ -100,6 +100,7 @@ TEST_F(TrackingQualityTest, CountsFramesToConvergeAndLostFrames) {
 
 TEST_F(TrackingQualityTest, JitterIsTheRmsJointAcceleration) {
   std::vector<Vector2d> angles;
+  angles.reserve(6);
   for (int k = 0; k < 6; ++k) angles.emplace_back(0.5 * 3 * k * k * 0.01, 0.1);  // 3 rad/s^2, 0
   EXPECT_NEAR(Measure(Move(angles)).jitter, 3 / std::sqrt(2.0), 1e-9);
   EXPECT_EQ(Measure(Move({{0.1, 0.1}, {0.1, 0.1}, {0.1, 0.1}})).jitter, 0);
