@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
-namespace mmm_converter {
+// Only for files that mmm_converter_kernels() compiles (cmake/InstructionSets.cmake).
+namespace mmm_converter::MMM_CONVERTER_VARIANT {
 
-/// Eight doubles that are computed at once; the compiler maps them to the vector registers there
-/// are.
-using Lanes [[gnu::vector_size(64)]] = double;
-using LaneBits [[gnu::vector_size(64)]] = std::uint64_t;
+/// As many doubles as one vector register of the instruction set holds, computed at once.
+#if defined(__AVX512F__)
 inline constexpr int kLanes = 8;
+#elif defined(__AVX__)
+inline constexpr int kLanes = 4;
+#else
+inline constexpr int kLanes = 2;
+#endif
+using Lanes [[gnu::vector_size(8 * kLanes)]] = double;
+using LaneBits [[gnu::vector_size(8 * kLanes)]] = std::uint64_t;
 
 inline Lanes Broadcast(double x) { return x - Lanes{}; }
 
@@ -21,9 +28,6 @@ inline Lanes LoadLanes(const double* source) {
 }
 
 inline void StoreLanes(const Lanes& x, double* target) { std::memcpy(target, &x, sizeof x); }
-
-/// The smallest multiple of kLanes that is not below n.
-inline int PaddedToLanes(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
 /// sine and cosine of every lane for |x| < 1e4: x = k pi + r, then the Taylor series on |r| <=
 /// pi/2, of which the first term left out is below 3e-16.
@@ -75,4 +79,4 @@ inline void SinCos(const Lanes& x, Lanes* sine, Lanes* cosine) {
   std::memcpy(cosine, &c_bits, sizeof c_bits);
 }
 
-}  // namespace mmm_converter
+}  // namespace mmm_converter::MMM_CONVERTER_VARIANT

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/model/marker_kinematics.h"
 
-#include <cassert>
 #include <cmath>
 #include <utility>
-
-#include "common/math/lanes.h"
 
 namespace mmm_converter {
 
@@ -23,38 +20,12 @@ Matrix3d FrameWithZ(const Vector3d& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
 }
 
-/// The rotation whose rows are split over nine lanes, times R, in place.
-void RotateLanes(const Matrix3d& R, Lanes* m) {
-  for (int row = 0; row < 3; ++row) {
-    const Lanes a = m[3 * row];
-    const Lanes b = m[3 * row + 1];
-    const Lanes c = m[3 * row + 2];
-    for (int col = 0; col < 3; ++col) {
-      m[3 * row + col] = a * R(0, col) + b * R(1, col) + c * R(2, col);
-    }
-  }
+Eigen::Map<const Matrix3d> Rotation(const TrackedLink& link) {
+  return Eigen::Map<const Matrix3d>(link.R_PF);
 }
-
-/// p += m * t.
-void TranslateLanes(const Lanes* m, const Vector3d& t, Lanes* p) {
-  for (int row = 0; row < 3; ++row) {
-    p[row] += m[3 * row] * t.x() + m[3 * row + 1] * t.y() + m[3 * row + 2] * t.z();
-  }
+Eigen::Map<const Vector3d> Translation(const TrackedLink& link) {
+  return Eigen::Map<const Vector3d>(link.p_PF);
 }
-
-/// m = m * Rot(axis, angle).
-void TurnLanes(int axis, const Lanes& sine, const Lanes& cosine, Lanes* m) {
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
-  for (int row = 0; row < 3; ++row) {
-    const Lanes a = m[3 * row + u];
-    const Lanes b = m[3 * row + v];
-    m[3 * row + u] = a * cosine + b * sine;
-    m[3 * row + v] = b * cosine - a * sine;
-  }
-}
-
-constexpr int kLinkLanes = 12;  // nine of the rotation, three of the position
 
 }  // namespace
 
@@ -72,6 +43,7 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
   }
 
   // For every segment the link that carries it and its constant pose X_LS there.
+  links_.emplace_back();
   std::vector<int> link_of_segment(num_segments, 0);
   std::vector<Isometry3d> X_LS(num_segments, Isometry3d::Identity());
   for (int s = 1; s < num_segments; ++s) {
@@ -83,7 +55,7 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
       X_LS[s] = X_LF;
       continue;
     }
-    Link link;
+    TrackedLink link;
     link.parent = link_of_segment[segment.parent];
     link.column = column;
     Matrix3d R_PF = X_LF.linear();
@@ -96,33 +68,42 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
       R_PF = R_PF * A;
       X_LS[s].linear() = A.transpose();
     }
-    link.R_PF = R_PF;
     link.rotated = !R_PF.isIdentity(kIdentityTolerance);
-    link.p_PF = X_LF.translation();
-    link.translated = link.p_PF.squaredNorm() > 0;
-    links_.push_back(link);
+    link.translated = X_LF.translation().squaredNorm() > 0;
+    Eigen::Map<Matrix3d>(link.R_PF) = R_PF;
+    Eigen::Map<Vector3d>(link.p_PF) = X_LF.translation();
     link_of_segment[s] = static_cast<int>(links_.size());
+    links_[link.parent].kept |= link.parent + 1 < link_of_segment[s];
+    links_.push_back(link);
   }
 
   moves_.setConstant(num_joints(), num_markers(), false);
+  std::vector<Vector3d> p_LM;
   for (int m = 0; m < num_markers(); ++m) {
     const ModelMarker& marker = model.markers()[markers_[m]];
-    sites_.push_back({link_of_segment[marker.segment], X_LS[marker.segment] * marker.p_SM});
-    for (int link = sites_.back().link; link > 0; link = links_[link - 1].parent) {
-      moves_(links_[link - 1].column, m) = true;
+    link_of_marker_.push_back(link_of_segment[marker.segment]);
+    p_LM.emplace_back(X_LS[marker.segment] * marker.p_SM);
+    for (int link = link_of_marker_[m]; link > 0; link = links_[link].parent) {
+      moves_(links_[link].column, m) = true;
+    }
+  }
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    links_[l].first_site = static_cast<int>(sites_.size());
+    for (int m = 0; m < num_markers(); ++m) {
+      if (link_of_marker_[m] != static_cast<int>(l)) continue;
+      sites_.push_back({m, {p_LM[m].x(), p_LM[m].y(), p_LM[m].z()}});
+      ++links_[l].num_sites;
     }
   }
 }
 
 MarkerBatch MarkerKinematics::MakeBatch(int num_samples) const {
-  const int rows = PaddedToLanes(num_samples);
   MarkerBatch batch;
-  batch.num_samples = num_samples;
-  batch.rotation = Eigen::MatrixXd::Zero(rows, 9);
-  batch.position = Eigen::MatrixXd::Zero(rows, 3);
-  batch.angles = Eigen::MatrixXd::Zero(rows, num_joints());
-  batch.markers = Eigen::MatrixXd::Zero(rows, 3 * num_markers());
-  batch.links.resize((links_.size() + 1) * kLinkLanes * kLanes);
+  batch.rotation = PaddedMatrix(num_samples, 9);
+  batch.position = PaddedMatrix(num_samples, 3);
+  batch.angles = PaddedMatrix(num_samples, num_joints());
+  batch.markers = PaddedMatrix(num_samples, 3 * num_markers());
+  batch.frames = PaddedMatrix(kFrameSize, static_cast<int>(links_.size()));
   return batch;
 }
 
@@ -130,56 +111,18 @@ MarkerJacobian MarkerKinematics::MakeJacobian() const {
   MarkerJacobian result;
   result.p_WM = Eigen::Matrix3Xd::Zero(3, num_markers());
   result.J = Eigen::MatrixXd::Zero(3 * num_markers(), num_dofs());
-  result.R_WL.resize(links_.size() + 1);
-  result.p_WL.resize(links_.size() + 1);
+  result.R_WL.resize(links_.size());
+  result.p_WL.resize(links_.size());
   return result;
 }
 
-void MarkerKinematics::ComputeBatch(MarkerBatch* batch) const {
-  const int rows = static_cast<int>(batch->rotation.rows());
-  assert(rows % kLanes == 0);
-  for (int first = 0; first < rows; first += kLanes) ComputeLanes(first, batch);
-}
-
-void MarkerKinematics::ComputeLanes(int first, MarkerBatch* batch) const {
-  double* scratch = batch->links.data();
-  constexpr int kStride = kLinkLanes * kLanes;
-  const auto store = [&](int link, const Lanes* m, const Lanes* p) {
-    double* target = scratch + link * kStride;
-    for (int i = 0; i < 9; ++i) StoreLanes(m[i], target + i * kLanes);
-    for (int i = 0; i < 3; ++i) StoreLanes(p[i], target + (9 + i) * kLanes);
-  };
-  const auto load = [&](int link, Lanes* m, Lanes* p) {
-    const double* source = scratch + link * kStride;
-    for (int i = 0; i < 9; ++i) m[i] = LoadLanes(source + i * kLanes);
-    for (int i = 0; i < 3; ++i) p[i] = LoadLanes(source + (9 + i) * kLanes);
-  };
-
-  Lanes m[9];
-  Lanes p[3];
-  for (int i = 0; i < 9; ++i) m[i] = LoadLanes(&batch->rotation(first, i));
-  for (int i = 0; i < 3; ++i) p[i] = LoadLanes(&batch->position(first, i));
-  store(0, m, p);
-  int current = 0;
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
-    if (link.parent != current) load(link.parent, m, p);
-    if (link.translated) TranslateLanes(m, link.p_PF, p);
-    if (link.rotated) RotateLanes(link.R_PF, m);
-    Lanes sine;
-    Lanes cosine;
-    SinCos(link.sign * LoadLanes(&batch->angles(first, link.column)), &sine, &cosine);
-    TurnLanes(link.axis, sine, cosine, m);
-    current = static_cast<int>(i) + 1;
-    store(current, m, p);
-  }
-  for (int k = 0; k < num_markers(); ++k) {
-    const Site& site = sites_[k];
-    if (site.link != current) load(current = site.link, m, p);
-    Lanes q[3] = {p[0], p[1], p[2]};
-    TranslateLanes(m, site.p_LM, q);
-    for (int i = 0; i < 3; ++i) StoreLanes(q[i], &batch->markers(first, 3 * k + i));
-  }
+void MarkerKinematics::ComputeBatch(MarkerBatch* batch, InstructionSet set) const {
+  static constexpr KernelTables<MarkerKernels> kTables = MMM_CONVERTER_KERNELS(GetMarkerKernels);
+  const MarkerBatchColumns columns = {batch->rotation.data(), batch->position.data(),
+                                      batch->angles.data(),   batch->markers.data(),
+                                      batch->frames.data(),   batch->rotation.padded_rows()};
+  kTables.For(set).place_markers(links_.data(), static_cast<int>(links_.size()), sites_.data(),
+                                 columns);
 }
 
 void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& R_WS,
@@ -187,13 +130,13 @@ void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& 
                                       MarkerJacobian* result) const {
   result->R_WL[0] = R_WS;
   result->p_WL[0] = position;
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
+  for (std::size_t i = 1; i < links_.size(); ++i) {
+    const TrackedLink& link = links_[i];
     const Matrix3d& R_WP = result->R_WL[link.parent];
-    Matrix3d& R = result->R_WL[i + 1];
-    result->p_WL[i + 1] = result->p_WL[link.parent] + R_WP * link.p_PF;
+    Matrix3d& R = result->R_WL[i];
+    result->p_WL[i] = result->p_WL[link.parent] + R_WP * Translation(link);
     if (link.rotated) {
-      R.noalias() = R_WP * link.R_PF;
+      R.noalias() = R_WP * Rotation(link);
     } else {
       R = R_WP;
     }
@@ -206,9 +149,12 @@ void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& 
     R.col(u) = a * cosine + R.col(v) * sine;
     R.col(v) = R.col(v) * cosine - a * sine;
   }
-  for (int k = 0; k < num_markers(); ++k) {
-    const Site& site = sites_[k];
-    result->p_WM.col(k) = result->p_WL[site.link] + result->R_WL[site.link] * site.p_LM;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const TrackedLink& link = links_[i];
+    for (int s = link.first_site; s < link.first_site + link.num_sites; ++s) {
+      const Eigen::Map<const Vector3d> p_LM(sites_[s].p_LM);
+      result->p_WM.col(sites_[s].marker) = result->p_WL[i] + result->R_WL[i] * p_LM;
+    }
   }
 }
 
@@ -222,8 +168,8 @@ void MarkerKinematics::ComputeJacobian(const Vector3d& position, const Matrix3d&
     for (int i = 0; i < 3; ++i) {
       result->J.block<3, 1>(3 * k, 3 + i) = R_WS.col(i).cross(p - position);
     }
-    for (int link = sites_[k].link; link > 0; link = links_[link - 1].parent) {
-      const Link& l = links_[link - 1];
+    for (int link = link_of_marker_[k]; link > 0; link = links_[link].parent) {
+      const TrackedLink& l = links_[link];
       const Vector3d axis = l.sign * result->R_WL[link].col(l.axis);
       result->J.block<3, 1>(3 * k, 6 + l.column) = axis.cross(p - result->p_WL[link]);
     }

@@ -4,7 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/math/instruction_set.h"
+#include "common/math/padded_matrix.h"
 #include "common/model/kinematic_model.h"
+#include "common/model/marker_kernels.h"
 #include "common/model/posture.h"
 
 namespace mmm_converter {
@@ -12,13 +15,11 @@ namespace mmm_converter {
 /// Marker positions of many postures at once, in structure-of-arrays form: each column holds one
 /// quantity of all samples. Sized once by MarkerKinematics::MakeBatch.
 struct MarkerBatch {
-  int num_samples = 0;
-  Eigen::MatrixXd
-      rotation;  ///< in: rows of R_WS of the root, padded samples x 9 (R00 R01 R02 R10 ...)
-  Eigen::MatrixXd position;   ///< in: root origin in W [m], padded samples x 3
-  Eigen::MatrixXd angles;     ///< in: tracked joint angles [rad], padded samples x joints
-  Eigen::MatrixXd markers;    ///< out: p_WM [m], padded samples x (3 * markers), marker-major x y z
-  std::vector<double> links;  // scratch: frames of all links for one group of samples
+  PaddedMatrix rotation;  ///< in: rows of R_WS of the root, samples x 9 (R00 R01 R02 R10 ...)
+  PaddedMatrix position;  ///< in: root origin in W [m], samples x 3
+  PaddedMatrix angles;    ///< in: tracked joint angles [rad], samples x joints
+  PaddedMatrix markers;   ///< out: p_WM [m], samples x (3 * markers), marker-major x y z
+  PaddedMatrix frames;    // scratch: frames of links for one group of samples
 };
 
 /// One posture with its derivative. Sized once by MarkerKinematics::MakeJacobian.
@@ -50,7 +51,7 @@ class MarkerKinematics {
   MarkerJacobian MakeJacobian() const;
 
   /// Fills batch->markers. Padding samples are computed from whatever stands there.
-  void ComputeBatch(MarkerBatch* batch) const;
+  void ComputeBatch(MarkerBatch* batch, InstructionSet set = ActiveInstructionSet()) const;
 
   /// Marker positions only. angles: tracked joints [rad].
   void ComputeMarkers(const Eigen::Vector3d& position, const Eigen::Matrix3d& R_WS,
@@ -66,30 +67,11 @@ class MarkerKinematics {
   bool Moves(int joint, int marker) const { return moves_(joint, marker); }
 
  private:
-  /// A tracked joint: R_WL = R_W,parent * R_PF * Rot(axis, sign * q), p_WL = parent's + R_W,parent
-  /// p_PF.
-  struct Link {
-    int parent =
-        0;  // link index; 0 is the root, link i + 1 belongs to the i-th joint in tree order
-    int column = 0;  // index of the joint in `joints_`
-    int axis = 2;    // 0 x, 1 y, 2 z
-    double sign = 1;
-    bool rotated = false;     // R_PF is not the identity
-    bool translated = false;  // p_PF is not zero
-    Eigen::Matrix3d R_PF = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d p_PF = Eigen::Vector3d::Zero();
-  };
-  struct Site {
-    int link = 0;
-    Eigen::Vector3d p_LM = Eigen::Vector3d::Zero();
-  };
-
-  void ComputeLanes(int first, MarkerBatch* batch) const;
-
   std::vector<int> joints_;
   std::vector<int> markers_;
-  std::vector<Link> links_;
-  std::vector<Site> sites_;  // by used marker
+  std::vector<TrackedLink> links_;  // the root first, then one for each joint, in tree order
+  std::vector<MarkerSite> sites_;   // by link
+  std::vector<int> link_of_marker_;
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> moves_;

@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/gaussian_update.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "common/math/dense.h"
 
 namespace mmm_converter::s2kf {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+void MeasurementMoments::ClearCovariance() {
+  const int m = static_cast<int>(mean.size());
+  if (C_zz.rows() == 0) C_zz = PaddedMatrix(m, m);
+  C_zz.view().setZero();
+}
+
 GaussianUpdate::GaussianUpdate(int n, int m)
-    : mean_(n),
-      root_(n, n),
-      scaled_(m, n),
-      innovation_(m),
-      information_(n, n),
-      information_llt_(n) {}
+    : mean_(n, 1), scaled_(n, m), innovation_(m, 1), factor_(n, n), product_(n, m) {}
 
 void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& z,
                              const VectorXd& noise, UpdateForm form) {
+  form_ = form;
   if (form == UpdateForm::kRegression) {
     ComputeRegression(moments, z, noise);
   } else {
@@ -27,53 +31,72 @@ void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& 
 
 void GaussianUpdate::ComputeRegression(const MeasurementMoments& moments, const VectorXd& z,
                                        const VectorXd& noise) {
-  // Rows scaled by the standard deviation of noise and residual: information = I + A^T A.
+  // Columns scaled by the standard deviation of noise and residual: information = I + A A^T.
+  auto A = scaled_.view();
+  auto innovation = innovation_.view().col(0);
   for (Eigen::Index i = 0; i < z.size(); ++i) {
     const double weight = std::isinf(noise[i]) ? 0 : 1 / std::sqrt(noise[i] + moments.residual[i]);
-    scaled_.row(i) = weight * moments.C_zs.row(i);
-    innovation_[i] = weight > 0 ? weight * (z[i] - moments.mean[i]) : 0;
+    A.col(i) = weight * moments.C_sz.view().col(i);
+    innovation[i] = weight > 0 ? weight * (z[i] - moments.mean[i]) : 0;
   }
-  information_.setIdentity();
-  information_.selfadjointView<Eigen::Lower>().rankUpdate(scaled_.transpose());
-  information_llt_.compute(information_);
-  mean_.noalias() = scaled_.transpose() * innovation_;
-  information_llt_.matrixL().solveInPlace(mean_);
-  nis_ = innovation_.squaredNorm() - mean_.squaredNorm();
-  information_llt_.matrixU().solveInPlace(mean_);
-  // information = G G^T, so its inverse is (G^-1)^T G^-1.
-  root_.setIdentity();
-  information_llt_.matrixL().solveInPlace(root_);
+  factor_.view().setIdentity();
+  AddSquare(1, scaled_, &factor_);
+  Factorize(&factor_);
+  mean_.view().col(0).noalias() = A * innovation;
+  SolveLower(factor_, &mean_);
+  nis_ = innovation.squaredNorm() - mean_.view().squaredNorm();
+  // information = G G^T, so the covariance is G^-T G^-1.
+  SolveLowerTransposed(factor_, &mean_);
 }
 
 void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const VectorXd& z,
                                   const VectorXd& noise) {
   const Eigen::Index m = z.size();
-  S_.resize(m, m);
-  S_.triangularView<Eigen::Lower>() = moments.C_zz;
-  scaled_ = moments.C_zs;
+  S_ = moments.C_zz;
+  scaled_ = moments.C_sz;
+  auto S = S_.view();
+  auto innovation = innovation_.view().col(0);
   for (Eigen::Index i = 0; i < m; ++i) {
     if (std::isinf(noise[i])) {
       // An unmeasured coordinate: independent of everything, with innovation 0.
-      S_.row(i).head(i).setZero();
-      S_.col(i).tail(m - i - 1).setZero();
-      S_(i, i) = 1;
-      scaled_.row(i).setZero();
-      innovation_[i] = 0;
+      S.row(i).head(i).setZero();
+      S.col(i).tail(m - i - 1).setZero();
+      S(i, i) = 1;
+      scaled_.view().col(i).setZero();
+      innovation[i] = 0;
     } else {
-      S_(i, i) += noise[i];
-      innovation_[i] = z[i] - moments.mean[i];
+      S(i, i) += noise[i];
+      innovation[i] = z[i] - moments.mean[i];
     }
   }
-  S_llt_.compute(S_);
-  S_llt_.matrixL().solveInPlace(scaled_);
-  S_llt_.matrixL().solveInPlace(innovation_);
-  nis_ = innovation_.squaredNorm();
-  mean_.noalias() = scaled_.transpose() * innovation_;
-  // Cov(s | z) = I - V^T V = M M^T with V = S^(-1/2) C_zs.
-  information_.setIdentity();
-  information_.selfadjointView<Eigen::Lower>().rankUpdate(scaled_.transpose(), -1.0);
-  information_llt_.compute(information_);
-  root_ = information_llt_.matrixU();
+  // S = F F^T; with V = F^-1 C_zs the gain is V^T F^-1, and Cov(s | z) = I - V^T V.
+  Factorize(&S_);
+  DivideByTransposed(S_, &scaled_);
+  SolveLower(S_, &innovation_);
+  nis_ = innovation.squaredNorm();
+  mean_.view().col(0).noalias() = scaled_.view() * innovation;
+  factor_.view().setIdentity();
+  AddSquare(-1, scaled_, &factor_);
+  Factorize(&factor_);
+}
+
+void GaussianUpdate::Spread(const PaddedMatrix& L, PaddedMatrix* X) const {
+  if (form_ == UpdateForm::kRegression) {
+    *X = L;
+    DivideByTransposed(factor_, X);
+  } else {
+    Multiply(1, L, factor_, X);
+  }
+}
+
+void GaussianUpdate::FromPosteriorSpace(PaddedMatrix* C_sz) {
+  // C_sz = T^-T C_tz.
+  if (form_ == UpdateForm::kRegression) {
+    Multiply(1, factor_, *C_sz, &product_);
+  } else {
+    product_.view() = factor_.view().transpose().triangularView<Eigen::Upper>().solve(C_sz->view());
+  }
+  std::swap(*C_sz, product_);
 }
 
 }  // namespace mmm_converter::s2kf

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+
+#include "common/math/padded_matrix.h"
 
 namespace mmm_converter::s2kf {
 
 /// Second-order statistics of z = h(x0 + L s) with s ~ N(0, I) of n dimensions: what a Gaussian
-/// filter knows of a measurement model. Coordinates that were not measured have variance_of_noise =
-/// infinity.
+/// filter knows of a measurement model.
 struct MeasurementMoments {
   /// n states that h depends on, m coordinates of z.
-  MeasurementMoments(int n, int m) : mean(m), C_zs(m, n), residual(m) {}
+  MeasurementMoments(int n, int m) : mean(m), C_sz(n, m), residual(m) {}
+
+  /// C_zz = 0.
+  void ClearCovariance();
 
   Eigen::VectorXd mean;      ///< E[z], m
-  Eigen::MatrixXd C_zs;      ///< Cov(z, s), m x n
-  Eigen::VectorXd residual;  ///< diagonal of Cov(z) - C_zs C_zs^T: what no linear model explains
-  Eigen::MatrixXd C_zz;      ///< Cov(z), m x m; the exact form only
+  PaddedMatrix C_sz;         ///< Cov(s, z), n x m
+  Eigen::VectorXd residual;  ///< diagonal of Cov(z) - C_zs C_sz: what no linear model explains
+  PaddedMatrix C_zz;         ///< Cov(z), m x m, lower triangle; the exact form only
 };
 
 /// How C_zz enters the gain.
@@ -25,8 +28,8 @@ enum class UpdateForm {
   kRegression,  ///< z = H x + e with cov(e) kept diagonal; an n x n solve (Woodbury)
 };
 
-/// Kalman update in the space of s: x = x0 + L s with the prior s ~ N(0, I). The posterior of x is
-/// x0 + L mean(), with covariance L root()^T root() L^T. Sized once.
+/// Kalman update in the space of s: x = x0 + L s with the prior s ~ N(0, I) has the posterior mean
+/// x0 + L mean() and covariance (L T)(L T)^T. Sized once.
 class GaussianUpdate {
  public:
   /// n states that h depends on, m measured coordinates.
@@ -37,8 +40,11 @@ class GaussianUpdate {
   void Compute(const MeasurementMoments& moments, const Eigen::VectorXd& z,
                const Eigen::VectorXd& noise, UpdateForm form);
 
-  const Eigen::VectorXd& mean() const { return mean_; }
-  const Eigen::MatrixXd& root() const { return root_; }  ///< upper or lower triangular, n x n
+  Eigen::Map<const Eigen::VectorXd> mean() const { return {mean_.data(), mean_.rows()}; }
+  /// X = L T. L: as many columns as s is long.
+  void Spread(const PaddedMatrix& L, PaddedMatrix* X) const;
+  /// Cov(s, z) of the linear model whose C_sz in the space of t, s = mean() + T t, is given.
+  void FromPosteriorSpace(PaddedMatrix* C_sz);
   /// Normalised innovation squared, (z - E z)^T (C_zz + R)^-1 (z - E z).
   double nis() const { return nis_; }
 
@@ -48,15 +54,14 @@ class GaussianUpdate {
   void ComputeExact(const MeasurementMoments& moments, const Eigen::VectorXd& z,
                     const Eigen::VectorXd& noise);
 
-  Eigen::VectorXd mean_;
-  Eigen::MatrixXd root_;
+  UpdateForm form_ = UpdateForm::kRegression;
+  PaddedMatrix mean_;  // n x 1
   double nis_ = 0;
-  Eigen::MatrixXd scaled_;       // m x n
-  Eigen::VectorXd innovation_;   // m
-  Eigen::MatrixXd information_;  // n x n
-  Eigen::LLT<Eigen::MatrixXd> information_llt_;
-  Eigen::MatrixXd S_;  // m x m, exact form
-  Eigen::LLT<Eigen::MatrixXd> S_llt_;
+  PaddedMatrix scaled_;      // n x m
+  PaddedMatrix innovation_;  // m x 1
+  PaddedMatrix factor_;      // G with T = G^-T (regression) or T itself (exact), lower triangular
+  PaddedMatrix product_;     // n x m
+  PaddedMatrix S_;           // m x m, exact form
 };
 
 }  // namespace mmm_converter::s2kf

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/fit/posture_fit.h"
+#include "common/math/dense.h"
 #include "common/math/rotation.h"
 #include "plugins/s2kf/lcd_sampling.h"
 
@@ -67,8 +68,7 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
           kinematics, JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
           settings.root, HalfSamples(settings, kinematics.num_dofs())),
       moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
-      update_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
-      llt_(NumStates(settings, kinematics)) {
+      update_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
   motion_model_ =
       MakeMotionModel(settings, measurement_model_.transform(), NaturalAngles(kinematics));
   const int n = kinematics.num_dofs();
@@ -76,10 +76,12 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
   z_.setZero(3 * kinematics.num_markers());
   expected_.setZero(3 * kinematics.num_markers());
   noise_.setZero(3 * kinematics.num_markers());
-  L_.setZero(all, all);
-  L_x_.setZero(n, n);
-  spread_.setZero(n, n);
-  U_.setZero(n, all);
+  L_ = PaddedMatrix(all, n);
+  if (all > n) L_rates_ = PaddedMatrix(all, n);
+  L_x_ = PaddedMatrix(n, n);
+  P_ = PaddedMatrix(all, all);
+  posterior_ = PaddedMatrix(all, n);
+  posterior_x_ = PaddedMatrix(n, n);
   center_.setZero(n);
   dx_.setZero(all);
 }
@@ -99,7 +101,7 @@ void MarkerFilter::StartAt(const Posture& posture, Belief* belief) const {
   for (int j = 0; j < n - 6; ++j) {
     belief->parameters[j] = measurement_model_.transform().Parameter(j, posture.joint_angles[j]);
   }
-  belief->P.resize(L_.rows(), L_.rows());
+  belief->P.resize(P_.rows(), P_.rows());
   belief->P.setZero();
   const auto set = [](auto&& diagonal, double position, double orientation, double parameter) {
     diagonal.template head<3>().setConstant(position * position);
@@ -172,39 +174,44 @@ bool MarkerFilter::IsFarFromLinear() const {
 }
 
 void MarkerFilter::Relinearize(const Belief& belief) {
-  // About N(mu, Sigma) of s, Sigma = root^T root: z = C_zt t + mean with t = root^-T (s - mu),
-  // which is then the line z = H s + (mean - H mu) with H = C_zt root^-T (Garcia-Fernandez et al.
-  // 2015).
-  center_.noalias() = L_x_ * update_.mean();
-  spread_.noalias() = L_x_ * update_.root().transpose();
-  measurement_model_.ComputeMoments(belief, center_, spread_, false, &moments_);
-  update_.root().transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
-      moments_.C_zs);
-  moments_.mean.noalias() -= moments_.C_zs * update_.mean();
+  // About N(mu, T T^T) of s: z = C_zt t + mean with t = T^-1 (s - mu), which is then the line
+  // z = H s + (mean - H mu) with H = C_zt T^-1 (Garcia-Fernandez et al. 2015).
+  const auto mu = update_.mean();
+  center_.noalias() = L_x_.view() * mu;
+  update_.Spread(L_x_, &posterior_x_);
+  measurement_model_.ComputeMoments(belief, center_, posterior_x_, false, &moments_);
+  update_.FromPosteriorSpace(&moments_.C_sz);
+  moments_.mean.noalias() -= moments_.C_sz.view().transpose() * mu;
 }
 
 void MarkerFilter::Commit(Belief* belief) {
-  const Eigen::Index n = L_x_.rows();
+  const Eigen::Index n = L_.cols();
   const Eigen::Index all = L_.rows();
-  dx_.noalias() = L_.leftCols(n) * update_.mean();
+  dx_.noalias() = L_.view() * update_.mean();
   Move(dx_.head(n), settings_.root, belief);
   if (motion_model_.velocity) belief->rate += dx_.tail(n);
-  // P = L_left root^T root L_left^T + L_right L_right^T.
-  U_.noalias() = update_.root() * L_.leftCols(n).transpose();
-  belief->P.setZero();
-  auto P = belief->P.selfadjointView<Eigen::Lower>();
-  P.rankUpdate(U_.transpose());
-  if (all > n) P.rankUpdate(L_.rightCols(all - n));
+  // What the markers said of L_'s part of the state leaves the rest as it was.
+  update_.Spread(L_, &posterior_);
+  P_.view().setZero();
+  AddSquare(1, posterior_, &P_);
+  if (all > n) AddSquare(1, L_rates_, &P_);
+  belief->P.triangularView<Eigen::Lower>() = P_.view();
   belief->P.triangularView<Eigen::StrictlyUpper>() = belief->P.transpose();
   measurement_model_.transform().Fold(6, belief->parameters, &belief->P);
 }
 
+void MarkerFilter::FactorizeCovariance(const Belief& belief) {
+  const Eigen::Index n = L_.cols();
+  P_.view() = belief.P;
+  Factorize(&P_);
+  L_.view() = P_.view().leftCols(n);
+  L_x_.view() = P_.view().topLeftCorner(n, n);
+  if (L_.rows() > n) L_rates_.view() = P_.view().rightCols(n);
+}
+
 MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief* belief) {
-  const Eigen::Index n = L_x_.rows();
   const bool exact = settings_.update == UpdateForm::kExact;
-  llt_.compute(belief->P);
-  L_ = llt_.matrixL();
-  L_x_ = L_.topLeftCorner(n, n);
+  FactorizeCovariance(*belief);
   center_.setZero();
   measurement_model_.ComputeMoments(*belief, center_, L_x_, exact, &moments_);
   expected_ = moments_.mean;
@@ -219,7 +226,7 @@ MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief
     if (is_far) Relinearize(*belief);
     // A marker that is far from where it was expected is wrong only if it is far from the estimate.
     expected_ = moments_.mean;
-    expected_.noalias() += moments_.C_zs * update_.mean();
+    expected_.noalias() += moments_.C_sz.view().transpose() * update_.mean();
     Weigh(z, &outcome);
     update_.Compute(moments_, z_, noise_, settings_.update);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "common/model/marker_kinematics.h"
@@ -47,6 +46,7 @@ class MarkerFilter {
  private:
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Outcome* outcome);
+  void FactorizeCovariance(const Belief& belief);
   bool IsFarFromLinear() const;
   void Relinearize(const Belief& belief);
   void Commit(Belief* belief);
@@ -61,13 +61,14 @@ class MarkerFilter {
   Eigen::VectorXd expected_;  // of z, by the latest estimate
   Eigen::VectorXd z_;         // measured coordinates, m
   Eigen::VectorXd noise_;     // their variances, m
-  Eigen::MatrixXd L_;         // root of P, lower triangular
-  Eigen::MatrixXd L_x_;       // its part for the states that h depends on, n x n
-  Eigen::MatrixXd spread_;
-  Eigen::MatrixXd U_;
+  PaddedMatrix L_;            // root of P, lower triangular; n columns of n or, with rates, 2n rows
+  PaddedMatrix L_rates_;      // its other n columns, with rates
+  PaddedMatrix L_x_;          // the part of L_ for the states that h depends on, n x n
+  PaddedMatrix P_;
+  PaddedMatrix posterior_;    // L_ T
+  PaddedMatrix posterior_x_;  // L_x_ T
   Eigen::VectorXd center_;
   Eigen::VectorXd dx_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
 };
 
 }  // namespace mmm_converter::s2kf

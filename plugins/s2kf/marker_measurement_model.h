@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 
+#include "common/math/padded_matrix.h"
 #include "common/model/marker_kinematics.h"
 #include "plugins/s2kf/belief.h"
 #include "plugins/s2kf/gaussian_update.h"
 #include "plugins/s2kf/joint_limit_transform.h"
+#include "plugins/s2kf/sample_kernels.h"
 
 namespace mmm_converter::s2kf {
 
@@ -26,34 +28,37 @@ class MarkerMeasurementModel {
   const JointLimitTransform& transform() const { return transform_; }
 
   /// Moments of h about belief moved by `center`, spread by `spread` (n x n, a root of the
-  /// covariance: L T). with_covariance: fill C_zz too.
+  /// covariance). with_covariance: fill C_zz too.
   void ComputeMoments(const Belief& belief, const Eigen::VectorXd& center,
-                      const Eigen::MatrixXd& spread, bool with_covariance,
+                      const PaddedMatrix& spread, bool with_covariance,
                       MeasurementMoments* moments);
 
  private:
   void ComputeSampled(const Belief& belief, const Eigen::VectorXd& center,
-                      const Eigen::MatrixXd& spread, bool with_covariance,
+                      const PaddedMatrix& spread, bool with_covariance,
                       MeasurementMoments* moments);
   void ComputeLinearized(const Belief& belief, const Eigen::VectorXd& center,
-                         const Eigen::MatrixXd& spread, bool with_covariance,
+                         const PaddedMatrix& spread, bool with_covariance,
                          MeasurementMoments* moments);
-  void PlaceSamples(const Belief& belief, const Eigen::VectorXd& center);
   void PlaceRoots(const Belief& belief, const Eigen::VectorXd& center);
   void PlaceAngles(const Belief& belief, const Eigen::VectorXd& center);
 
   const MarkerKinematics& kinematics_;
   JointLimitTransform transform_;
   RootParameters root_;
+  const SampleKernels& kernels_;
   int num_pairs_;
-  int rows_;                 // of one half: pairs, the centre, padding
-  Eigen::MatrixXd samples_;  // rows_ x n: half samples, then zeros
-  Eigen::MatrixXd offsets_;  // rows_ x n: samples_ * spread^T
-  MarkerBatch batch_;        // first half: centre + offset, second half: centre - offset
+  int rows_;                   // of one half: pairs, the centre, padding
+  PaddedMatrix half_samples_;  // n x rows_: half samples, then zeros
+  PaddedMatrix samples_;       // the same transposed
+  PaddedMatrix offsets_;       // rows_ x n: samples_ * spread^T
+  MarkerBatch batch_;          // first half: centre + offset, second half: centre - offset
+  PaddedMatrix parts_;         // m x 2 rows_: odd and even parts of z, for the covariance
+  PaddedMatrix mean_of_even_;  // m x 1
   MarkerJacobian at_;
   Eigen::VectorXd angles_;
-  Eigen::MatrixXd H_;             // m x n, analytic
-  Eigen::VectorXd mean_of_even_;  // m
+  PaddedMatrix H_transposed_;       // n x m, analytic
+  PaddedMatrix spread_transposed_;  // n x n
 };
 
 }  // namespace mmm_converter::s2kf

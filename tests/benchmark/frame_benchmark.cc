@@ -66,11 +66,12 @@ constexpr int kMarkers = 50;
 void ForwardKinematics(benchmark::State& state) {
   const Task task(static_cast<int>(state.range(1)), kMarkers);
   MarkerBatch batch = task.kinematics->MakeBatch(static_cast<int>(state.range(0)));
-  batch.rotation.leftCols<1>().setOnes();
-  batch.rotation.col(4).setOnes();
-  batch.rotation.col(8).setOnes();
+  batch.rotation.view().col(0).setOnes();
+  batch.rotation.view().col(4).setOnes();
+  batch.rotation.view().col(8).setOnes();
   for (int j = 0; j < batch.angles.cols(); ++j) {
-    batch.angles.col(j).setLinSpaced(task.kinematics->lower()[j], task.kinematics->upper()[j]);
+    batch.angles.view().col(j).setLinSpaced(task.kinematics->lower()[j],
+                                            task.kinematics->upper()[j]);
   }
   for (auto _ : state) {
     task.kinematics->ComputeBatch(&batch);

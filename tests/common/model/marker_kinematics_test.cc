@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "common/math/lanes.h"
 #include "common/math/rotation.h"
 #include "common/model/forward_kinematics.h"
 #include "tests/support/test_models.h"
@@ -20,23 +19,6 @@ using testing::RandomPosture;
 
 // A chain of five rotations and offsets below 1 m: some tens of roundings of 1e-16.
 constexpr double kRounding = 1e-14;
-
-TEST(LanesTest, SinCosIsTheStandardLibrarysToTwoRoundings) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> uniform(-20, 20);
-  for (int i = 0; i < 20000; ++i) {
-    Lanes x;
-    for (int k = 0; k < kLanes; ++k) x[k] = uniform(random);
-    Lanes sine;
-    Lanes cosine;
-    SinCos(x, &sine, &cosine);
-    for (int k = 0; k < kLanes; ++k) {
-      // The series ends below 3e-16, and adds one rounding of 1.1e-16 to the library's.
-      ASSERT_NEAR(sine[k], std::sin(x[k]), 6e-16) << x[k];
-      ASSERT_NEAR(cosine[k], std::cos(x[k]), 6e-16) << x[k];
-    }
-  }
-}
 
 TEST(MarkerKinematicsTest, OnePostureEqualsTheModelsForwardKinematics) {
   const KinematicModel model = MakeBranchedModel();
@@ -81,19 +63,23 @@ TEST(MarkerKinematicsTest, BatchEqualsOnePostureAtATime) {
   std::vector<Posture> postures;
   for (int i = 0; i < kSamples; ++i) {
     const Posture q = RandomPosture(kinematics, 1.0, &random);
-    batch.position.row(i) = q.position.transpose();
+    batch.position.view().row(i) = q.position.transpose();
     const Eigen::Matrix3d R = q.orientation.toRotationMatrix();
-    for (int r = 0; r < 3; ++r) batch.rotation.block<1, 3>(i, 3 * r) = R.row(r);
-    batch.angles.row(i) = q.joint_angles.transpose();
+    for (int r = 0; r < 3; ++r) batch.rotation.view().block<1, 3>(i, 3 * r) = R.row(r);
+    batch.angles.view().row(i) = q.joint_angles.transpose();
     postures.push_back(q);
   }
-  kinematics.ComputeBatch(&batch);
   MarkerJacobian at = kinematics.MakeJacobian();
-  for (int i = 0; i < kSamples; ++i) {
-    const Posture& q = postures[i];
-    kinematics.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
-    const Eigen::VectorXd row = batch.markers.row(i).transpose();
-    EXPECT_LT((row - at.p_WM.reshaped()).cwiseAbs().maxCoeff(), kRounding) << "sample " << i;
+  for (const InstructionSet set : SupportedInstructionSets()) {
+    batch.markers.view().setZero();
+    kinematics.ComputeBatch(&batch, set);
+    for (int i = 0; i < kSamples; ++i) {
+      const Posture& q = postures[i];
+      kinematics.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
+      const Eigen::VectorXd row = batch.markers.view().row(i).transpose();
+      EXPECT_LT((row - at.p_WM.reshaped()).cwiseAbs().maxCoeff(), kRounding)
+          << ToString(set) << ", sample " << i;
+    }
   }
 }
 

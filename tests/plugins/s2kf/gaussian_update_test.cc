@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <limits>
 #include <random>
@@ -32,9 +33,10 @@ struct LinearProblem {
   MeasurementMoments Moments() const {
     MeasurementMoments moments(static_cast<int>(x0.size()), static_cast<int>(z.size()));
     moments.mean = H * x0;
-    moments.C_zs = H * L;
+    moments.C_sz.view() = (H * L).transpose();
     moments.residual.setZero(z.size());
-    moments.C_zz = H * P * H.transpose();
+    moments.ClearCovariance();
+    moments.C_zz.view() = H * P * H.transpose();
     return moments;
   }
 
@@ -50,6 +52,15 @@ struct LinearProblem {
   MatrixXd P, L, H;
 };
 
+/// L T of the posterior.
+MatrixXd Spread(const GaussianUpdate& update, const MatrixXd& L) {
+  PaddedMatrix padded(static_cast<int>(L.rows()), static_cast<int>(L.cols()));
+  padded.view() = L;
+  PaddedMatrix result(padded.rows(), padded.cols());
+  update.Spread(padded, &result);
+  return result.view();
+}
+
 class GaussianUpdateTest : public ::testing::TestWithParam<UpdateForm> {};
 
 TEST_P(GaussianUpdateTest, IsTheKalmanFilterOnALinearModel) {
@@ -60,7 +71,7 @@ TEST_P(GaussianUpdateTest, IsTheKalmanFilterOnALinearModel) {
   MatrixXd P;
   double nis = 0;
   problem.Textbook(&x, &P, &nis);
-  const MatrixXd T = problem.L * update.root().transpose();
+  const MatrixXd T = Spread(update, problem.L);
   EXPECT_LT((problem.x0 + problem.L * update.mean() - x).norm(), kRounding);
   EXPECT_LT((T * T.transpose() - P).norm(), kRounding);
   EXPECT_NEAR(update.nis(), nis, kRounding * nis);
@@ -82,8 +93,9 @@ TEST_P(GaussianUpdateTest, ACoordinateThatWasNotMeasuredIsLeftOut) {
   GaussianUpdate fewer(4, 5);
   fewer.Compute(problem.Moments(), problem.z, problem.noise, GetParam());
   EXPECT_LT((all.mean() - fewer.mean()).norm(), kRounding);
-  EXPECT_LT((all.root().transpose() * all.root() - fewer.root().transpose() * fewer.root()).norm(),
-            kRounding);
+  const MatrixXd T = Spread(all, MatrixXd::Identity(4, 4));
+  const MatrixXd U = Spread(fewer, MatrixXd::Identity(4, 4));
+  EXPECT_LT((T * T.transpose() - U * U.transpose()).norm(), kRounding);
   EXPECT_NEAR(all.nis(), fewer.nis(), kRounding * fewer.nis());
 }
 
@@ -93,14 +105,14 @@ TEST_P(GaussianUpdateTest, NothingMeasuredChangesNothing) {
   update.Compute(problem.Moments(), problem.z,
                  VectorXd::Constant(4, std::numeric_limits<double>::infinity()), GetParam());
   EXPECT_EQ(update.mean(), VectorXd::Zero(3));
-  EXPECT_EQ(update.root(), MatrixXd::Identity(3, 3));
+  EXPECT_EQ(Spread(update, MatrixXd::Identity(3, 3)), MatrixXd::Identity(3, 3));
 }
 
 TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {
   const LinearProblem problem(5, 8);
   MeasurementMoments moments = problem.Moments();
   moments.residual = VectorXd::LinSpaced(8, 0.01, 0.2);
-  moments.C_zz += MatrixXd(moments.residual.asDiagonal());
+  moments.C_zz.view() += MatrixXd(moments.residual.asDiagonal());
   GaussianUpdate exact(5, 8);
   GaussianUpdate regression(5, 8);
   exact.Compute(moments, problem.z, problem.noise, UpdateForm::kExact);

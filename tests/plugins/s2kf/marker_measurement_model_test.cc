@@ -47,6 +47,12 @@ class MarkerMeasurementModelTest : public ::testing::TestWithParam<Case> {
     return spread;
   }
 
+  static PaddedMatrix Padded(const MatrixXd& matrix) {
+    PaddedMatrix padded(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()));
+    padded.view() = matrix;
+    return padded;
+  }
+
   /// The plain definition of h, one state at a time.
   VectorXd Measure(Belief belief, const VectorXd& dx) {
     Move(dx, root(), &belief);
@@ -77,7 +83,7 @@ TEST_P(MarkerMeasurementModelTest, SampledMomentsAreThoseOfAllSamples) {
     const VectorXd center = RandomVector(0.1);
     const MatrixXd spread = RandomSpread(0.03);
     MeasurementMoments moments(n, m);
-    measurement.ComputeMoments(belief, center, spread, true, &moments);
+    measurement.ComputeMoments(belief, center, Padded(spread), true, &moments);
 
     MatrixXd samples(n, 2 * pairs + 1);
     samples << half, -half, VectorXd::Zero(n);
@@ -94,17 +100,19 @@ TEST_P(MarkerMeasurementModelTest, SampledMomentsAreThoseOfAllSamples) {
     // Sums of 81 terms below 1, in another order.
     constexpr double kRounding = 1e-13;
     EXPECT_LT((moments.mean - mean).cwiseAbs().maxCoeff(), kRounding);
-    EXPECT_LT((moments.C_zs - C_zs).cwiseAbs().maxCoeff(), kRounding);
+    EXPECT_LT((moments.C_sz.view() - C_zs.transpose()).cwiseAbs().maxCoeff(), kRounding);
     EXPECT_LT((moments.residual - residual).cwiseAbs().maxCoeff(), kRounding);
-    EXPECT_LT((MatrixXd(moments.C_zz.selfadjointView<Eigen::Lower>()) - C_zz).cwiseAbs().maxCoeff(),
+    EXPECT_LT((MatrixXd(moments.C_zz.view().selfadjointView<Eigen::Lower>()) - C_zz)
+                  .cwiseAbs()
+                  .maxCoeff(),
               kRounding);
 
     MeasurementMoments without(n, m);
-    measurement.ComputeMoments(belief, center, spread, false, &without);
+    measurement.ComputeMoments(belief, center, Padded(spread), false, &without);
     EXPECT_EQ(without.mean, moments.mean);
-    EXPECT_EQ(without.C_zs, moments.C_zs);
+    EXPECT_EQ(without.C_sz.view(), moments.C_sz.view());
     EXPECT_EQ(without.residual, moments.residual);
-    EXPECT_EQ(without.C_zz.size(), 0);
+    EXPECT_EQ(without.C_zz.rows(), 0);
   }
 }
 
@@ -115,7 +123,7 @@ TEST_P(MarkerMeasurementModelTest, LinearizedMomentsMatchFiniteDifferences) {
   for (const double scale : {0.0, 1e-8, 0.7}) {
     const Belief belief = RandomBelief(scale);
     const VectorXd center = RandomVector(scale);
-    measurement.ComputeMoments(belief, center, MatrixXd::Identity(n, n), false, &moments);
+    measurement.ComputeMoments(belief, center, Padded(MatrixXd::Identity(n, n)), false, &moments);
     EXPECT_LT((moments.mean - Measure(belief, center)).cwiseAbs().maxCoeff(), 1e-14);
     EXPECT_EQ(moments.residual.norm(), 0);
     for (int i = 0; i < n; ++i) {
@@ -125,7 +133,7 @@ TEST_P(MarkerMeasurementModelTest, LinearizedMomentsMatchFiniteDifferences) {
       const VectorXd step = h * VectorXd::Unit(n, i);
       const VectorXd column =
           (Measure(belief, center + step) - Measure(belief, center - step)) / (2 * h);
-      EXPECT_LT((moments.C_zs.col(i) - column).cwiseAbs().maxCoeff(), 1e-9)
+      EXPECT_LT((moments.C_sz.view().row(i).transpose() - column).cwiseAbs().maxCoeff(), 1e-9)
           << "scale " << scale << ", column " << i;
     }
   }
@@ -140,16 +148,18 @@ TEST_P(MarkerMeasurementModelTest, SamplesOfATinySpreadAreTheLinearization) {
   const MatrixXd spread = RandomSpread(1e-5);
   MeasurementMoments a(n, m);
   MeasurementMoments b(n, m);
-  sampled.ComputeMoments(belief, VectorXd::Zero(n), spread, false, &a);
-  linearized.ComputeMoments(belief, VectorXd::Zero(n), spread, false, &b);
+  sampled.ComputeMoments(belief, VectorXd::Zero(n), Padded(spread), false, &a);
+  linearized.ComputeMoments(belief, VectorXd::Zero(n), Padded(spread), false, &b);
   // Third order in 1e-5 for C_zs, second order for the mean.
-  EXPECT_LT((a.C_zs - b.C_zs).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((a.C_sz.view() - b.C_sz.view()).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((a.mean - b.mean).cwiseAbs().maxCoeff(), 1e-8);
 
-  linearized.ComputeMoments(belief, VectorXd::Zero(n), spread, true, &b);
+  linearized.ComputeMoments(belief, VectorXd::Zero(n), Padded(spread), true, &b);
   // Entries of about 1e-10, in another order of summation.
-  EXPECT_LT((MatrixXd(b.C_zz.selfadjointView<Eigen::Lower>()) - b.C_zs * b.C_zs.transpose()).norm(),
-            1e-22);
+  const MatrixXd C_zs = b.C_sz.view().transpose();
+  EXPECT_LT(
+      (MatrixXd(b.C_zz.view().selfadjointView<Eigen::Lower>()) - C_zs * C_zs.transpose()).norm(),
+      1e-22);
 }
 
 INSTANTIATE_TEST_SUITE_P(

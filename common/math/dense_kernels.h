@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace mmm_converter {
+
+/// B(k, j) = data[k * row + j * col]: a matrix, a transposed one, or a part of one.
+struct StridedFactor {
+  const double* data;
+  std::ptrdiff_t row;
+  std::ptrdiff_t col;
+};
+
+/// Which part of a product or of a factor is not zero by construction.
+enum class Shape {
+  kFull,
+  kLowerResult,  ///< only C's lower triangle is asked for
+  kUpperFactor,  ///< B is upper triangular
+};
+
+/// Products and factorisations of small dense matrices, as dense.h uses them. Sizes are padded,
+/// columns contiguous and aligned (PaddedMatrix).
+struct DenseKernels {
+  /// C (rows x cols) = beta C + alpha A (rows x depth) B (depth x cols).
+  void (*multiply)(double alpha, const double* A, std::ptrdiff_t A_col, const StridedFactor& B,
+                   double beta, double* C, std::ptrdiff_t C_col, int rows, int cols, int depth,
+                   Shape shape);
+  /// The lower triangle of A = G G^T becomes G, the rest 0.
+  void (*factorize)(double* A, int size);
+  /// X (rows x size) becomes X G^-T.
+  void (*divide)(const double* G, int size, double* X, std::ptrdiff_t X_col, int rows);
+  /// x becomes G^-1 x.
+  void (*solve)(const double* G, int size, double* x);
+  /// x becomes G^-T x.
+  void (*solve_transposed)(const double* G, int size, double* x);
+};
+
+namespace baseline {
+const DenseKernels& GetDenseKernels();
+}
+namespace avx2 {
+const DenseKernels& GetDenseKernels();
+}
+namespace avx512 {
+const DenseKernels& GetDenseKernels();
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace mmm_converter {
+
+/// A marker on a link: p_WM = p_WL + R_WL p_LM.
+struct MarkerSite {
+  int marker = 0;  ///< its place in the results
+  double p_LM[3] = {};
+};
+
+/// A rigid body between tracked joints. R_WL = R_WP R_PF Rot(axis, sign angle), p_WL = p_WP + R_WP
+/// p_PF; the first link is the root and has no joint.
+struct TrackedLink {
+  int parent = 0;
+  int column = 0;  ///< of the joint's angle
+  int axis = 2;    ///< 0 x, 1 y, 2 z
+  double sign = 1;
+  bool rotated = false;     ///< R_PF is not the identity
+  bool translated = false;  ///< p_PF is not zero
+  bool kept = false;        ///< a later link than the next one starts from it
+  double R_PF[9] = {};      ///< column-major
+  double p_PF[3] = {};
+  int first_site = 0;
+  int num_sites = 0;
+};
+
+/// Columns of MarkerBatch.
+struct MarkerBatchColumns {
+  const double* rotation;
+  const double* position;
+  const double* angles;
+  double* markers;
+  double* frames;  ///< scratch: kFrameSize * links
+  std::ptrdiff_t rows;
+};
+
+/// Doubles that a link's frame needs, for one group of samples.
+inline constexpr int kFrameSize = 12 * 8;
+
+struct MarkerKernels {
+  /// Forward kinematics of all rows; rows is padded. Links stand behind their parents.
+  void (*place_markers)(const TrackedLink* links, int num_links, const MarkerSite* sites,
+                        const MarkerBatchColumns& batch);
+};
+
+namespace baseline {
+const MarkerKernels& GetMarkerKernels();
+}
+namespace avx2 {
+const MarkerKernels& GetMarkerKernels();
+}
+namespace avx512 {
+const MarkerKernels& GetMarkerKernels();
+}
+
+}  // namespace mmm_converter
