@@ -29,23 +29,20 @@ bool AreMarkersAsInFile(const Recording& recording) {
   return recording.up_axis == UpAxis::kZ && recording.unit == "mm";
 }
 
-std::string Format(const MmmMotionOutput& output, const ConversionRequest& request,
-                   ConversionReport* report) {
+TextPieces Format(const MmmMotionOutput& output, const ConversionRequest& request,
+                  ConversionReport* report) {
   const Recording& recording = report->input.recording;
   if (report->output_format == "2.0" && IsMmm2(recording)) {
     MmmMotionOutput converted = output;
     converted.motion_name = recording.motion;
     if (AreMarkersAsInFile(recording)) converted.markers = nullptr;
-    return WithConvertedMotion(ReadFileContent(request.input.file), request.input.file, converted);
+    return WithConvertedMotion(BytesOfFile(request.input.file), request.input.file, converted);
   }
-  if (recording.format.starts_with("MMM")) {
-    const std::size_t motions = ReadMmmMotionFile(request.input.file).motions.size();
-    if (motions > 1) {
-      report->warnings.push_back(
-          fmt::format("{}: has {} motions; the output has the converted one "
-                      "only (MMM 2.0 in and out keeps all)",
-                      request.input.file, motions));
-    }
+  if (recording.num_motions > 1) {
+    report->warnings.push_back(
+        fmt::format("{}: has {} motions; the output has the converted one "
+                    "only (MMM 2.0 in and out keeps all)",
+                    request.input.file, recording.num_motions));
   }
   return report->output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }

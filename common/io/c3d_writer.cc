@@ -13,6 +13,7 @@
 
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/text_pieces.h"
 
 namespace mmm_converter {
 namespace {
@@ -189,6 +190,14 @@ double ScaleOf(const MarkerSequence& markers) {
   return largest > 0 ? largest * kMillimetres / 32000 : 1;
 }
 
+void AppendFrame(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, std::string* bytes) {
+  for (int i = 0; i < frame.cols(); ++i) {
+    const bool seen = IsSeen(frame.col(i));
+    for (int j = 0; j < 3; ++j) AppendFloat(bytes, seen ? kMillimetres * frame(j, i) : 0);
+    AppendFloat(bytes, seen ? 0 : -1);
+  }
+}
+
 }  // namespace
 
 void WriteC3d(const std::string& path, const MarkerSequence& markers,
@@ -201,20 +210,19 @@ void WriteC3d(const std::string& path, const MarkerSequence& markers,
                             path, section_bytes, kMaxParameterBlocks * kBlock));
   }
   const int data_block = static_cast<int>(2 + section_bytes / kBlock);
-  std::string file = FormatHeader(markers, options, scale, data_block);
-  file += FormatParameters(markers, options, scale, data_block);
-  file.reserve(file.size() + std::size_t{16} * markers.num_labels() * markers.num_frames() +
-               kBlock);
-  for (int k = 0; k < markers.num_frames(); ++k) {
-    const auto frame = markers.frame(k);
-    for (int i = 0; i < frame.cols(); ++i) {
-      const bool seen = IsSeen(frame.col(i));
-      for (int j = 0; j < 3; ++j) AppendFloat(&file, seen ? kMillimetres * frame(j, i) : 0);
-      AppendFloat(&file, seen ? 0 : -1);
+  WriteFileAtomically(path, [&](const TextSink& sink) {
+    PieceWriter pieces(sink);
+    std::string* const bytes = pieces.text();
+    *bytes += FormatHeader(markers, options, scale, data_block);
+    *bytes += FormatParameters(markers, options, scale, data_block);
+    for (int k = 0; k < markers.num_frames(); ++k) {
+      AppendFrame(markers.frame(k), bytes);
+      pieces.EndPart();
     }
-  }
-  file.resize((file.size() + kBlock - 1) / kBlock * kBlock, '\0');
-  WriteFileAtomically(path, file);
+    const std::size_t point_bytes = std::size_t{16} * markers.num_labels() * markers.num_frames();
+    bytes->append((kBlock - point_bytes % kBlock) % kBlock, '\0');
+    pieces.Flush();
+  });
 }
 
 }  // namespace mmm_converter

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "common/support/error.h"
@@ -32,24 +33,42 @@ std::uint64_t RegularFileSize(const std::string& path) {
   return size;
 }
 
-std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
+ByteSource BytesOf(std::string_view content) {
+  return {content.size(), [content](std::uint64_t begin, std::size_t count, char* bytes) {
+            content.copy(bytes, count, begin);
+          }};
+}
+
+ByteSource BytesOfFile(const std::string& path, std::size_t max_bytes) {
   const std::uint64_t size = RegularFileSize(path);
   if (size > max_bytes) {
     throw Error(fmt::format("{}: has {} bytes, more than the {} that are read at most", path, size,
                             max_bytes));
   }
-  return ReadFileStart(path, size);
+  const std::shared_ptr<std::FILE> file(std::fopen(path.c_str(), "rb"), [](std::FILE* opened) {
+    if (opened != nullptr) std::fclose(opened);
+  });
+  if (!file) throw Error(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
+  std::setvbuf(file.get(), nullptr, _IONBF, 0);
+  return {size, [path, file](std::uint64_t begin, std::size_t count, char* bytes) {
+            if (std::fseek(file.get(), static_cast<long>(begin), SEEK_SET) != 0 ||
+                std::fread(bytes, 1, count, file.get()) != count) {
+              throw Error(fmt::format("{}: can't be read to its end", path));
+            }
+          }};
+}
+
+std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
+  const ByteSource file = BytesOfFile(path, max_bytes);
+  std::string content(file.size, '\0');
+  file.read(0, content.size(), content.data());
+  return content;
 }
 
 std::string ReadFileStart(const std::string& path, std::size_t count) {
-  std::string content(std::min<std::uint64_t>(count, RegularFileSize(path)), '\0');
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  if (!file) throw Error(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
-  std::setvbuf(file.get(), nullptr, _IONBF, 0);
-  if (std::fread(content.data(), 1, content.size(), file.get()) != content.size()) {
-    throw Error(fmt::format("{}: can't be read to its end", path));
-  }
+  const ByteSource file = BytesOfFile(path, std::numeric_limits<std::size_t>::max());
+  std::string content(std::min<std::uint64_t>(count, file.size), '\0');
+  file.read(0, content.size(), content.data());
   return content;
 }
 

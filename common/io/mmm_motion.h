@@ -10,6 +10,7 @@
 #include "common/io/file_content.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
+#include "common/support/text_pieces.h"
 
 namespace mmm_converter {
 
@@ -70,19 +71,20 @@ struct MmmMotionOutput {
   const Eigen::MatrixXd* joint_accelerations = nullptr;
 };
 
-/// The text of a whole file with one motion.
+/// The text of a whole file with one motion. Trajectory and markers must outlive it.
 /// @throws Error where a posture is not finite.
-std::string FormatMmmMotion2(const MmmMotionOutput& output);
-std::string FormatMmmMotion1(const MmmMotionOutput& output);
+TextPieces FormatMmmMotion2(const MmmMotionOutput& output);
+TextPieces FormatMmmMotion1(const MmmMotionOutput& output);
 
 /// The MMM 2.0 file `content` with its motion `output.motion_name` converted: Model and
 /// ModelProcessorConfig, the ModelPose sensors and those Kinematic sensors that have one of the
 /// converted joints are replaced; the MoCapMarker sensors too if `output.markers` is given. Every
 /// other byte stays: other motions, other sensors, annotations, comments. `file` is only named in
-/// messages.
-/// @throws Error where `content` is not an MMM 2.0 file or has not exactly one motion of that name.
-std::string WithConvertedMotion(std::string_view content, const std::string& file,
-                                const MmmMotionOutput& output);
+/// messages. Trajectory and markers must outlive the text.
+/// @throws Error where `content` is not an MMM 2.0 file or has not exactly one motion of that name,
+/// or a posture is not finite.
+TextPieces WithConvertedMotion(const ByteSource& content, const std::string& file,
+                               const MmmMotionOutput& output);
 
 /// The path to write for a model: relative to the output file's folder, with forward slashes;
 /// absolute where there is no relative one. Neither file needs to exist. A relative argument counts

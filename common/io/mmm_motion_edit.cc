@@ -17,31 +17,34 @@
 namespace mmm_converter {
 namespace {
 
-/// Replacements in a text, in the order of their places.
-class Edits {
- public:
-  explicit Edits(std::string_view content) : content_(content) {}
-
-  void Replace(std::size_t begin, std::size_t end, std::string_view replacement) {
-    edited_ += content_.substr(done_, begin - done_);
-    edited_ += replacement;
-    done_ = end;
-  }
-  /// Removes the element and the white space before it.
-  void Remove(const XmlRange& range) {
-    const std::size_t last = content_.find_last_not_of(" \t\r\n", range.begin - 1);
-    Replace(std::max(last + 1, done_), range.end, "");
-  }
-  std::string Finish() {
-    Replace(content_.size(), content_.size(), "");
-    return std::move(edited_);
-  }
-
- private:
-  std::string_view content_;
-  std::string edited_;
-  std::size_t done_ = 0;
+/// A part of a text that is replaced.
+struct Edit {
+  std::uint64_t begin;
+  std::uint64_t end;
+  std::string before;         ///< new text
+  bool with_sensors = false;  ///< the sensors' elements follow it, and then
+  std::string after = {};
 };
+
+void CopyBytes(const ByteSource& content, std::uint64_t begin, std::uint64_t end,
+               PieceWriter* pieces) {
+  constexpr std::uint64_t kMost = 1 << 16;
+  while (begin < end) {
+    const std::size_t count = std::min(end - begin, kMost);
+    std::string& text = *pieces->text();
+    text.resize(text.size() + count);
+    content.read(begin, count, text.data() + text.size() - count);
+    begin += count;
+    pieces->EndPart();
+  }
+}
+
+/// An element and the white space before it, from `from` on.
+Edit Removal(const ByteSource& content, std::uint64_t from, const XmlRange& range) {
+  std::string space(range.begin - from, '\0');
+  content.read(from, space.size(), space.data());
+  return {from + space.find_last_not_of(" \t\r\n") + 1, range.end, ""};
+}
 
 std::string NameOf(const XmlElement& motion) {
   const std::string* name = motion.FindAttribute("name");
@@ -89,32 +92,58 @@ bool IsReplaced(const XmlElement& sensor, const MmmMotionOutput& output,
   return EqualIgnoringCase(*type, "Kinematic") && HasConvertedJoint(sensor, joints);
 }
 
-void EditSensors(const XmlElement& element, const XmlRange& range, const MmmMotionOutput& output,
-                 Edits* edits) {
-  const std::string sensors = FormatSensorElements(output);
+void EditSensors(const XmlElement& element, const XmlRange& range, const ByteSource& content,
+                 const MmmMotionOutput& output, std::vector<Edit>* edits) {
   if (range.inner_begin == range.end) {  // <Sensors/>
-    edits->Replace(range.begin, range.end, "<Sensors>\n" + sensors + "\t\t</Sensors>");
+    edits->push_back({range.begin, range.end, "<Sensors>\n\t\t\t", true, "\n\t\t</Sensors>"});
     return;
   }
-  std::string_view text = sensors;  // without the first indentation and the last new line
-  text.remove_prefix(text.find('<'));
-  text.remove_suffix(1);
   const std::unordered_set<std::string> joints(output.trajectory->joint_names.begin(),
                                                output.trajectory->joint_names.end());
-  std::vector<const XmlRange*> replaced;
+  const std::size_t first = edits->size();
+  std::uint64_t before = range.inner_begin;
   for (std::size_t i = 0; i < element.children.size(); ++i) {
-    if (IsReplaced(element.children[i], output, joints)) replaced.push_back(&range.children[i]);
-  }
-  if (replaced.empty()) {
-    edits->Replace(range.inner_begin, range.inner_begin, "\n\t\t\t" + std::string(text));
-  }
-  for (const XmlRange* old : replaced) {
-    if (old == replaced.front()) {
-      edits->Replace(old->begin, old->end, text);
-    } else {
-      edits->Remove(*old);
+    const XmlRange& sensor = range.children[i];
+    if (IsReplaced(element.children[i], output, joints)) {
+      edits->push_back(edits->size() == first ? Edit{sensor.begin, sensor.end, "", true}
+                                              : Removal(content, before, sensor));
     }
+    before = sensor.end;
   }
+  if (edits->size() == first) {
+    edits->push_back({range.inner_begin, range.inner_begin, "\n\t\t\t", true});
+  }
+}
+
+std::vector<Edit> EditsOf(const XmlElement& motion, const XmlRange& range,
+                          const ByteSource& content, const std::string& file,
+                          const MmmMotionOutput& output) {
+  const XmlElement* model = motion.FindChild("Model");
+  const XmlElement* sensors = motion.FindChild("Sensors");
+  if (sensors == nullptr) {
+    throw Error(
+        fmt::format("{}:{}: motion \"{}\" has no <Sensors>; only MMM 2.0 motions can be "
+                    "converted in place",
+                    file, motion.line, output.motion_name));
+  }
+  std::vector<Edit> edits;
+  std::uint64_t before = range.inner_begin;
+  for (std::size_t i = 0; i < motion.children.size(); ++i) {
+    const XmlElement& child = motion.children[i];
+    const XmlRange& place = range.children[i];
+    if (&child == model) {
+      edits.push_back({place.begin, place.end, FormatModelElement(output)});
+    } else if (&child == sensors) {
+      if (model == nullptr) {
+        edits.push_back({place.begin, place.begin, FormatModelElement(output) + "\n\t\t"});
+      }
+      EditSensors(child, place, content, output, &edits);
+    } else if (child.Is("ModelProcessorConfig")) {  // as in 1.0; 2.0 has it in the model
+      edits.push_back(Removal(content, before, place));
+    }
+    before = place.end;
+  }
+  return edits;
 }
 
 void CheckSameTree(const XmlElement& element, const XmlRange& range, int depth,
@@ -132,43 +161,35 @@ void CheckSameTree(const XmlElement& element, const XmlRange& range, int depth,
 
 }  // namespace
 
-std::string WithConvertedMotion(std::string_view content, const std::string& file,
-                                const MmmMotionOutput& output) {
+TextPieces WithConvertedMotion(const ByteSource& content, const std::string& file,
+                               const MmmMotionOutput& output) {
   constexpr int kDepth = 3;  // MMM / Motion / Sensors / Sensor
-  const XmlElement root = ParseXml(content, file);
+  std::string text(content.size, '\0');
+  content.read(0, text.size(), text.data());
+  const XmlElement root = ParseXml(text, file);
   if (!root.Is("MMM")) {
     throw Error(fmt::format("{}:{}: the root is <{}>; an MMM motion has <MMM>", file, root.line,
                             root.name));
   }
-  const XmlRange root_range = FindXmlRanges(content, kDepth);
-  CheckSameTree(root, root_range, kDepth, file);
+  const XmlRange range = FindXmlRanges(text, kDepth);
+  CheckSameTree(root, range, kDepth, file);
   const std::size_t index = FindMotion(root, file, output.motion_name);
-  const XmlElement& motion = root.children[index];
-  const XmlRange& range = root_range.children[index];
-  const XmlElement* sensors = motion.FindChild("Sensors");
-  if (sensors == nullptr) {
-    throw Error(
-        fmt::format("{}:{}: motion \"{}\" has no <Sensors>; only MMM 2.0 motions can be "
-                    "converted in place",
-                    file, motion.line, output.motion_name));
-  }
-  const XmlElement* model = motion.FindChild("Model");
-  Edits edits(content);
-  for (std::size_t i = 0; i < motion.children.size(); ++i) {
-    const XmlElement& child = motion.children[i];
-    if (&child == model) {
-      edits.Replace(range.children[i].begin, range.children[i].end, FormatModelElement(output));
-    } else if (&child == sensors) {
-      if (model == nullptr) {
-        edits.Replace(range.children[i].begin, range.children[i].begin,
-                      FormatModelElement(output) + "\n\t\t");
-      }
-      EditSensors(child, range.children[i], output, &edits);
-    } else if (child.Is("ModelProcessorConfig")) {  // as in 1.0; 2.0 has it in the model
-      edits.Remove(range.children[i]);
+  CheckWritable(output);
+  return [content, output,
+          edits = EditsOf(root.children[index], range.children[index], content, file, output)](
+             const TextSink& sink) {
+    PieceWriter pieces(sink);
+    std::uint64_t done = 0;
+    for (const Edit& edit : edits) {
+      CopyBytes(content, done, edit.begin, &pieces);
+      *pieces.text() += edit.before;
+      if (edit.with_sensors) AppendSensorElements(output, &pieces);
+      *pieces.text() += edit.after;
+      done = edit.end;
     }
-  }
-  return edits.Finish();
+    CopyBytes(content, done, content.size, &pieces);
+    pieces.Flush();
+  };
 }
 
 std::string ModelPathFor(const std::string& model_file, const std::string& output_file) {

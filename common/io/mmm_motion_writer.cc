@@ -53,9 +53,11 @@ class RpyWriter {
   Eigen::Vector3d rpy_ = Eigen::Vector3d::Zero();
 };
 
-/// Text that grows; indentation is part of what callers append.
+/// Appends to a text; indentation is part of what callers append.
 class Text {
  public:
+  explicit Text(std::string* text) : text_(*text) {}
+
   Text& operator<<(std::string_view text) {
     text_ += text;
     return *this;
@@ -84,11 +86,9 @@ class Text {
     AppendDecimal(value, kDecimalsOfSeconds, &text_);
     return *this;
   }
-  void Reserve(std::size_t size) { text_.reserve(text_.size() + size); }
-  std::string Take() { return std::move(text_); }
 
  private:
-  std::string text_;
+  std::string& text_;
 };
 
 void CheckFinite(const PoseTrajectory& trajectory) {
@@ -106,50 +106,54 @@ void CheckFinite(const PoseTrajectory& trajectory) {
 }
 
 void AppendProcessor(const MmmMotionOutput& output, std::string_view indent, char quote,
-                     Text* text) {
+                     Text text) {
   const std::string quoted = fmt::format("{0}Winter{0}", quote);
-  *text << indent << "<ModelProcessorConfig type=" << quoted << ">\n" << indent << "\t<Height>";
-  text->Number(output.height) << "</Height>\n" << indent << "\t<Mass>";
-  text->Number(output.mass) << "</Mass>\n";
+  text << indent << "<ModelProcessorConfig type=" << quoted << ">\n" << indent << "\t<Height>";
+  text.Number(output.height) << "</Height>\n" << indent << "\t<Mass>";
+  text.Number(output.mass) << "</Mass>\n";
   if (output.hand_length) {
-    *text << indent << "\t<HandLength>";
-    text->Number(*output.hand_length * kCentimetresPerMetre) << "</HandLength>\n";
+    text << indent << "\t<HandLength>";
+    text.Number(*output.hand_length * kCentimetresPerMetre) << "</HandLength>\n";
   }
-  *text << indent << "</ModelProcessorConfig>\n";
+  text << indent << "</ModelProcessorConfig>\n";
 }
 
-void AppendModelPose(const PoseTrajectory& trajectory, Text* text) {
-  *text << "\t\t\t<Sensor type=\"ModelPose\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
-           "\t\t\t\t<Data>\n";
+void AppendModelPose(const PoseTrajectory& trajectory, PieceWriter* pieces) {
+  Text text(pieces->text());
+  text << "<Sensor type=\"ModelPose\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
+          "\t\t\t\t<Data>\n";
   RpyWriter rpy;
   for (int k = 0; k < trajectory.num_frames(); ++k) {
     const Posture& q = trajectory.postures[k];
-    *text << "\t\t\t\t\t<Measurement timestep=\"";
-    text->Seconds(trajectory.first_time, trajectory.rate, k) << "\">\n\t\t\t\t\t\t<RootPosition>";
-    text->Millimetres(q.position) << "</RootPosition>\n\t\t\t\t\t\t<RootRotation>";
-    text->Radians(rpy.Next(q.orientation)) << "</RootRotation>\n\t\t\t\t\t</Measurement>\n";
+    text << "\t\t\t\t\t<Measurement timestep=\"";
+    text.Seconds(trajectory.first_time, trajectory.rate, k) << "\">\n\t\t\t\t\t\t<RootPosition>";
+    text.Millimetres(q.position) << "</RootPosition>\n\t\t\t\t\t\t<RootRotation>";
+    text.Radians(rpy.Next(q.orientation)) << "</RootRotation>\n\t\t\t\t\t</Measurement>\n";
+    pieces->EndPart();
   }
-  *text << "\t\t\t\t</Data>\n\t\t\t</Sensor>\n";
+  text << "\t\t\t\t</Data>\n\t\t\t</Sensor>";
 }
 
-void AppendKinematic(const PoseTrajectory& trajectory, Text* text) {
+void AppendKinematic(const PoseTrajectory& trajectory, PieceWriter* pieces) {
   if (trajectory.joint_names.empty()) return;
-  *text << "\t\t\t<Sensor type=\"Kinematic\" version=\"1.0\">\n\t\t\t\t<Configuration>\n";
+  Text text(pieces->text());
+  text << "\n\t\t\t<Sensor type=\"Kinematic\" version=\"1.0\">\n\t\t\t\t<Configuration>\n";
   for (const std::string& name : trajectory.joint_names) {
-    *text << "\t\t\t\t\t<Joint name=\"" << EscapeXml(name) << "\"/>\n";
+    text << "\t\t\t\t\t<Joint name=\"" << EscapeXml(name) << "\"/>\n";
   }
-  *text << "\t\t\t\t</Configuration>\n\t\t\t\t<Data>\n";
+  text << "\t\t\t\t</Configuration>\n\t\t\t\t<Data>\n";
   for (int k = 0; k < trajectory.num_frames(); ++k) {
-    *text << "\t\t\t\t\t<Measurement timestep=\"";
-    text->Seconds(trajectory.first_time, trajectory.rate, k) << "\">\n\t\t\t\t\t\t<JointPosition>";
-    text->Radians(trajectory.postures[k].joint_angles)
+    text << "\t\t\t\t\t<Measurement timestep=\"";
+    text.Seconds(trajectory.first_time, trajectory.rate, k) << "\">\n\t\t\t\t\t\t<JointPosition>";
+    text.Radians(trajectory.postures[k].joint_angles)
         << "</JointPosition>\n\t\t\t\t\t</Measurement>\n";
+    pieces->EndPart();
   }
-  *text << "\t\t\t\t</Data>\n\t\t\t</Sensor>\n";
+  text << "\t\t\t\t</Data>\n\t\t\t</Sensor>";
 }
 
 /// Labels in alphabetical order, as in real files.
-void AppendMarkers(const MarkerSequence& markers, Text* text) {
+void AppendMarkers(const MarkerSequence& markers, PieceWriter* pieces) {
   std::map<std::string, int> sorted;
   for (int i = 0; i < markers.num_labels(); ++i) sorted.emplace(markers.labels()[i], i);
   std::vector<std::pair<std::string, int>> starts;
@@ -157,108 +161,121 @@ void AppendMarkers(const MarkerSequence& markers, Text* text) {
   for (const auto& [label, i] : sorted) {
     starts.emplace_back("\t\t\t\t\t\t<MarkerPosition name=\"" + EscapeXml(label) + "\">", i);
   }
-  *text << "\t\t\t<Sensor type=\"MoCapMarker\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
-           "\t\t\t\t<Data>\n";
+  Text text(pieces->text());
+  text << "\n\t\t\t<Sensor type=\"MoCapMarker\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
+          "\t\t\t\t<Data>\n";
   for (int k = 0; k < markers.num_frames(); ++k) {
-    *text << "\t\t\t\t\t<Measurement timestep=\"";
-    text->Seconds(markers.first_time(), markers.rate(), k) << "\">\n";
+    text << "\t\t\t\t\t<Measurement timestep=\"";
+    text.Seconds(markers.first_time(), markers.rate(), k) << "\">\n";
     const auto frame = markers.frame(k);
     for (const auto& [start, i] : starts) {
       if (!IsSeen(frame.col(i))) continue;
-      *text << start;
-      text->Millimetres(frame.col(i)) << "</MarkerPosition>\n";
+      text << start;
+      text.Millimetres(frame.col(i)) << "</MarkerPosition>\n";
     }
-    *text << "\t\t\t\t\t</Measurement>\n";
+    text << "\t\t\t\t\t</Measurement>\n";
+    pieces->EndPart();
   }
-  *text << "\t\t\t\t</Data>\n\t\t\t</Sensor>\n";
-}
-
-/// Bytes that a frame takes at most, about.
-std::size_t FrameBytes(const MmmMotionOutput& output) {
-  const std::size_t markers = output.markers != nullptr ? output.markers->labels().size() : 0;
-  return 400 + 16 * output.trajectory->joint_names.size() + 80 * markers;
+  text << "\t\t\t\t</Data>\n\t\t\t</Sensor>";
 }
 
 /// A joint row of a 1.0 frame, which ends in a blank as in real files.
-std::string LegacyRow(std::string_view name, const Eigen::Ref<const Eigen::VectorXd>& values) {
-  Text text;
+void AppendLegacyRow(std::string_view name, const Eigen::Ref<const Eigen::VectorXd>& values,
+                     Text text) {
   text << "\t\t\t\t<" << name << ">";
   text.Radians(values) << (values.size() > 0 ? " </" : "</") << name << ">\n";
-  return text.Take();
 }
 
-void AppendLegacyFrames(const MmmMotionOutput& output, Text* text) {
+void AppendLegacyFrames(const MmmMotionOutput& output, PieceWriter* pieces) {
   const PoseTrajectory& trajectory = *output.trajectory;
   const Eigen::VectorXd zeros =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trajectory.joint_names.size()));
-  const std::string no_velocity = LegacyRow("JointVelocity", zeros);
-  const std::string no_acceleration = LegacyRow("JointAcceleration", zeros);
-  const Eigen::MatrixXd* velocities = output.joint_velocities;
-  const Eigen::MatrixXd* accelerations = output.joint_accelerations;
+  std::string no_velocity;
+  std::string no_acceleration;
+  AppendLegacyRow("JointVelocity", zeros, Text(&no_velocity));
+  AppendLegacyRow("JointAcceleration", zeros, Text(&no_acceleration));
+  Text text(pieces->text());
   RpyWriter rpy;
   for (int k = 0; k < trajectory.num_frames(); ++k) {
     const Posture& q = trajectory.postures[k];
-    *text << "\t\t\t<MotionFrame>\n\t\t\t\t<Timestep>";
-    text->Seconds(trajectory.first_time, trajectory.rate, k)
+    text << "\t\t\t<MotionFrame>\n\t\t\t\t<Timestep>";
+    text.Seconds(trajectory.first_time, trajectory.rate, k)
         << "</Timestep>\n\t\t\t\t<RootPosition>";
-    text->Millimetres(q.position) << "</RootPosition>\n\t\t\t\t<RootRotation>";
-    text->Radians(rpy.Next(q.orientation)) << "</RootRotation>\n";
-    *text << LegacyRow("JointPosition", q.joint_angles)
-          << (velocities != nullptr ? LegacyRow("JointVelocity", velocities->col(k)) : no_velocity)
-          << (accelerations != nullptr ? LegacyRow("JointAcceleration", accelerations->col(k))
-                                       : no_acceleration);
-    *text << "\t\t\t</MotionFrame>\n";
+    text.Millimetres(q.position) << "</RootPosition>\n\t\t\t\t<RootRotation>";
+    text.Radians(rpy.Next(q.orientation)) << "</RootRotation>\n";
+    AppendLegacyRow("JointPosition", q.joint_angles, text);
+    if (output.joint_velocities != nullptr) {
+      AppendLegacyRow("JointVelocity", output.joint_velocities->col(k), text);
+    } else {
+      text << no_velocity;
+    }
+    if (output.joint_accelerations != nullptr) {
+      AppendLegacyRow("JointAcceleration", output.joint_accelerations->col(k), text);
+    } else {
+      text << no_acceleration;
+    }
+    text << "\t\t\t</MotionFrame>\n";
+    pieces->EndPart();
   }
 }
 
-}  // namespace
-
-std::string FormatModelElement(const MmmMotionOutput& output) {
-  Text text;
-  text << "<Model path=\"" << EscapeXml(output.model_path) << "\">\n";
-  AppendProcessor(output, "\t\t\t", '"', &text);
-  text << "\t\t</Model>";
-  return text.Take();
-}
-
-std::string FormatSensorElements(const MmmMotionOutput& output) {
-  assert(output.trajectory != nullptr);
-  CheckFinite(*output.trajectory);
-  Text text;
-  text.Reserve(FrameBytes(output) * output.trajectory->postures.size());
-  AppendModelPose(*output.trajectory, &text);
-  AppendKinematic(*output.trajectory, &text);
-  if (output.markers != nullptr) AppendMarkers(*output.markers, &text);
-  return text.Take();
-}
-
-std::string FormatMmmMotion2(const MmmMotionOutput& output) {
-  std::string text = "<MMM version=\"2.0\"";
-  if (!output.recording_name.empty()) text += " name=\"" + EscapeXml(output.recording_name) + "\"";
-  text += ">\n\t<Motion name=\"" + EscapeXml(output.motion_name) + "\" type=\"mmm\">\n\t\t";
-  text += FormatModelElement(output) + "\n\t\t<Sensors>\n";
-  text += FormatSensorElements(output);
-  text += "\t\t</Sensors>\n\t</Motion>\n</MMM>\n";
-  return text;
-}
-
-std::string FormatMmmMotion1(const MmmMotionOutput& output) {
-  assert(output.trajectory != nullptr);
-  CheckFinite(*output.trajectory);
-  Text text;
-  text.Reserve(3 * FrameBytes(output) * output.trajectory->postures.size());
+void AppendLegacyHead(const MmmMotionOutput& output, Text text) {
   text << "<?xml version='1.0'?>\n<MMM>\n\t<Motion name='" << EscapeXml(output.motion_name)
        << "'>\n\t\t<Model>\n\t\t\t<File>" << EscapeXml(output.model_path)
        << "</File>\n\t\t</Model>\n";
-  AppendProcessor(output, "\t\t", '\'', &text);
+  AppendProcessor(output, "\t\t", '\'', text);
   text << "\t\t<JointOrder>\n";
   for (const std::string& name : output.trajectory->joint_names) {
     text << "\t\t\t<Joint name='" << EscapeXml(name) << "'/>\n";
   }
   text << "\t\t</JointOrder>\n\t\t<MotionFrames>\n";
-  AppendLegacyFrames(output, &text);
-  text << "\t\t</MotionFrames>\n\t</Motion>\n</MMM>\n";
-  return text.Take();
+}
+
+}  // namespace
+
+std::string FormatModelElement(const MmmMotionOutput& output) {
+  std::string model = "<Model path=\"" + EscapeXml(output.model_path) + "\">\n";
+  AppendProcessor(output, "\t\t\t", '"', Text(&model));
+  return model + "\t\t</Model>";
+}
+
+void CheckWritable(const MmmMotionOutput& output) {
+  assert(output.trajectory != nullptr);
+  CheckFinite(*output.trajectory);
+}
+
+void AppendSensorElements(const MmmMotionOutput& output, PieceWriter* pieces) {
+  AppendModelPose(*output.trajectory, pieces);
+  AppendKinematic(*output.trajectory, pieces);
+  if (output.markers != nullptr) AppendMarkers(*output.markers, pieces);
+}
+
+TextPieces FormatMmmMotion2(const MmmMotionOutput& output) {
+  CheckWritable(output);
+  return [output](const TextSink& sink) {
+    PieceWriter pieces(sink);
+    std::string& text = *pieces.text();
+    text += "<MMM version=\"2.0\"";
+    if (!output.recording_name.empty()) {
+      text += " name=\"" + EscapeXml(output.recording_name) + "\"";
+    }
+    text += ">\n\t<Motion name=\"" + EscapeXml(output.motion_name) + "\" type=\"mmm\">\n\t\t";
+    text += FormatModelElement(output) + "\n\t\t<Sensors>\n\t\t\t";
+    AppendSensorElements(output, &pieces);
+    text += "\n\t\t</Sensors>\n\t</Motion>\n</MMM>\n";
+    pieces.Flush();
+  };
+}
+
+TextPieces FormatMmmMotion1(const MmmMotionOutput& output) {
+  CheckWritable(output);
+  return [output](const TextSink& sink) {
+    PieceWriter pieces(sink);
+    AppendLegacyHead(output, Text(pieces.text()));
+    AppendLegacyFrames(output, &pieces);
+    *pieces.text() += "\t\t</MotionFrames>\n\t</Motion>\n</MMM>\n";
+    pieces.Flush();
+  };
 }
 
 }  // namespace mmm_converter

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/io/mmm_motion.h"
+#include "common/support/text_pieces.h"
 
 namespace mmm_converter {
 
@@ -13,7 +14,11 @@ namespace mmm_converter {
 /// <Model> with its ModelProcessorConfig; neither indented at its start nor ended by a new line.
 std::string FormatModelElement(const MmmMotionOutput& output);
 
-/// The <Sensor> elements ModelPose, Kinematic and, if there are markers, MoCapMarker: whole lines.
-std::string FormatSensorElements(const MmmMotionOutput& output);
+/// @throws Error where a posture is not finite.
+void CheckWritable(const MmmMotionOutput& output);
+
+/// The <Sensor> elements ModelPose, Kinematic and, if there are markers, MoCapMarker; the first is
+/// not indented, the last is not ended by a new line.
+void AppendSensorElements(const MmmMotionOutput& output, PieceWriter* pieces);
 
 }  // namespace mmm_converter

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/io/c3d_reader.h"
 #include "common/io/file_content.h"
@@ -19,6 +20,7 @@
 namespace mmm_converter {
 namespace {
 
+constexpr std::size_t kMostBytesBeforeTheRoot = 1 << 20;
 constexpr const char* kAxisNames[] = {"+x", "+y", "+z", "-x", "-y", "-z"};
 
 bool IsText(std::string_view start) {
@@ -117,9 +119,9 @@ void ReadTrc(std::string_view content, const ReadRecordingOptions& options, Reco
   BringToMetresAndZUp(trc.unit, options, recording);
 }
 
-/// The motion asked for, or the one with most markers.
-const MmmMotion& ChooseMotion(const MmmMotionFile& mmm, const std::string& wanted,
-                              const std::string& file) {
+/// Which motion: the one asked for, or the one with most markers.
+std::ptrdiff_t ChooseMotion(const MmmMotionFile& mmm, const std::string& wanted,
+                            const std::string& file) {
   std::vector<std::string> names;
   for (const MmmMotion& motion : mmm.motions) {
     names.push_back(fmt::format("{} ({} markers)", motion.name, motion.markers.num_labels()));
@@ -135,7 +137,7 @@ const MmmMotion& ChooseMotion(const MmmMotionFile& mmm, const std::string& wante
           fmt::format("{}: motion {} carries no markers (MoCapMarker sensor); the file has: {}",
                       file, wanted, list));
     }
-    return *motion;
+    return motion - mmm.motions.data();
   }
   const MmmMotion* most = nullptr;
   bool unclear = false;
@@ -153,19 +155,20 @@ const MmmMotion& ChooseMotion(const MmmMotionFile& mmm, const std::string& wante
     throw Error(fmt::format("{}: there are several motions: {}; choose one of them (--motion NAME)",
                             file, list));
   }
-  return *most;
+  return most - mmm.motions.data();
 }
 
-void ReadMmm(std::string_view content, const ReadRecordingOptions& options, Recording* recording) {
-  MmmMotionFile mmm = ParseMmmMotionFile(content, recording->file);
-  const MmmMotion& motion = ChooseMotion(mmm, options.motion, recording->file);
+void ReadMmm(const ReadRecordingOptions& options, Recording* recording) {
+  MmmMotionFile mmm = ReadMmmMotionFile(recording->file);
+  MmmMotion& motion = mmm.motions[ChooseMotion(mmm, options.motion, recording->file)];
   recording->format = "MMM " + mmm.version;
+  recording->num_motions = static_cast<int>(mmm.motions.size());
   recording->motion = motion.name;
   recording->height = motion.height;
   recording->mass = motion.mass;
   recording->hand_length = motion.hand_length;
   recording->model_path = motion.model_path;
-  recording->markers = motion.markers;
+  recording->markers = std::move(motion.markers);
   recording->unit = "mm";
   Append(mmm.warnings, &recording->warnings);
   if (options.unit) Warn("MMM files are always in mm; the unit given is not used", recording);
@@ -180,11 +183,11 @@ void ReadText(std::string_view start, const ReadRecordingOptions& options, Recor
   const bool markup =
       Trim(start.substr(start.starts_with("\xEF\xBB\xBF") ? 3 : 0)).starts_with('<');
   if (markup) {
-    const std::string content = ReadFileContent(file);
-    if (LooksLikeMmmMotion(content)) return ReadMmm(content, options, recording);
+    const std::string head = ReadFileStart(file, kMostBytesBeforeTheRoot);
+    if (LooksLikeMmmMotion(head)) return ReadMmm(options, recording);
     throw Error(
         fmt::format("{}: is XML or a web page with the root <{}>, not an MMM motion (<MMM>)", file,
-                    RootName(content).substr(0, 40)));
+                    RootName(head).substr(0, 40)));
   }
   if (start.starts_with("version https://git-lfs")) {
     throw Error(fmt::format(

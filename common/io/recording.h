@@ -36,6 +36,7 @@ struct Recording {
   std::vector<std::string> subjects;  ///< label prefixes found
   std::string subject;                ///< the one that was read; empty: no prefix
   std::string motion;                 ///< MMM files: name of the motion that was read
+  int num_motions = 0;                ///< MMM files: motions in the file
   long first_frame = 1;               ///< number of the first stored frame in the capture
   std::optional<double> height;       ///< [m], MMM files
   std::optional<double> mass;         ///< [kg], MMM files

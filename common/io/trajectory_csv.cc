@@ -44,27 +44,36 @@ std::string Header(const PoseTrajectory& trajectory) {
   return header + "\n";
 }
 
-}  // namespace
-
-std::string FormatTrajectoryCsv(const PoseTrajectory& trajectory) {
-  std::string csv = Header(trajectory);
+void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
+  std::string* const csv = pieces->text();
   Eigen::Vector3d rpy = Eigen::Vector3d::Zero();
   for (int k = 0; k < trajectory.num_frames(); ++k) {
     const Posture& q = trajectory.postures[k];
     const Eigen::Vector3d principal = RpyFromRotation(q.orientation.toRotationMatrix());
     rpy = k == 0 ? principal : ContinuousRpy(principal, rpy);
-    AppendDecimal(trajectory.time(k), kTimeDecimals, &csv);
-    AppendCells(q.position, kMillimetres, kLengthDecimals, &csv);
-    AppendCells(rpy, 1, kAngleDecimals, &csv);
-    AppendCells(q.joint_angles, 1, kAngleDecimals, &csv);
+    AppendDecimal(trajectory.time(k), kTimeDecimals, csv);
+    AppendCells(q.position, kMillimetres, kLengthDecimals, csv);
+    AppendCells(rpy, 1, kAngleDecimals, csv);
+    AppendCells(q.joint_angles, 1, kAngleDecimals, csv);
     if (trajectory.standard_deviations.size() > 0) {
       const auto deviations = trajectory.standard_deviations.col(k);
-      AppendCells(deviations.head<3>(), kMillimetres, kLengthDecimals, &csv);
-      AppendCells(deviations.tail(deviations.size() - 3), 1, kAngleDecimals, &csv);
+      AppendCells(deviations.head<3>(), kMillimetres, kLengthDecimals, csv);
+      AppendCells(deviations.tail(deviations.size() - 3), 1, kAngleDecimals, csv);
     }
-    csv += '\n';
+    *csv += '\n';
+    pieces->EndPart();
   }
-  return csv;
+}
+
+}  // namespace
+
+TextPieces FormatTrajectoryCsv(const PoseTrajectory& trajectory) {
+  return [&trajectory](const TextSink& sink) {
+    PieceWriter pieces(sink);
+    *pieces.text() += Header(trajectory);
+    AppendRows(trajectory, &pieces);
+    pieces.Flush();
+  };
 }
 
 }  // namespace mmm_converter

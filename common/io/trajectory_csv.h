@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
 #include "common/motion/pose_trajectory.h"
+#include "common/support/text_pieces.h"
 
 namespace mmm_converter {
 
 /// A trajectory as comma-separated values, a row a frame; the header names every unit: time_s, root
 /// position [mm], root rotation (roll, pitch, yaw) [rad], joint angles [rad], then, where the
 /// trajectory has them, the standard deviations of all these in the same order with the prefix
-/// "sd_" (of the root's rotation: about its own x, y, z). Empty cells: not known.
-std::string FormatTrajectoryCsv(const PoseTrajectory& trajectory);
+/// "sd_" (of the root's rotation: about its own x, y, z). Empty cells: not known. The
+/// trajectory must outlive the text.
+TextPieces FormatTrajectoryCsv(const PoseTrajectory& trajectory);
 
 }  // namespace mmm_converter

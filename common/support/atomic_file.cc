@@ -55,20 +55,43 @@ class ScratchFile {
   std::string name_;  // empty: not removed
 };
 
-bool WriteAll(int descriptor, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno != EINTR) return false;
-    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
+/// Writes pieces to a file as they come.
+class Output {
+ public:
+  Output(const std::string& path, int descriptor) : path_(path), descriptor_(descriptor) {}
 
-void WriteDirectly(const std::string& path, std::string_view content) {
-  ScratchFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC), "");
-  if (file.descriptor() < 0 || !WriteAll(file.descriptor(), content) || !file.Close()) {
-    Fail(path, errno);
+  void Write(std::string_view content) {
+    while (!content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written < 0 && errno != EINTR) Fail(path_, errno);
+      if (written <= 0) continue;
+      content.remove_prefix(static_cast<std::size_t>(written));
+      written_ += written;
+    }
+    StartStoring();
   }
+
+ private:
+  /// Lets the disk work while the next pieces are made; that it could not is no failure.
+  void StartStoring() {
+    constexpr off_t kLeast = 8 << 20;
+    if (written_ - storing_ < kLeast) return;
+    ::sync_file_range(descriptor_, storing_, written_ - storing_, SYNC_FILE_RANGE_WRITE);
+    storing_ = written_;
+  }
+
+  const std::string& path_;
+  int descriptor_;
+  off_t written_ = 0;
+  off_t storing_ = 0;
+};
+
+void WriteDirectly(const std::string& path, const TextPieces& content) {
+  ScratchFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC), "");
+  if (file.descriptor() < 0) Fail(path, errno);
+  Output output(path, file.descriptor());
+  content([&](std::string_view piece) { output.Write(piece); });
+  if (!file.Close()) Fail(path, errno);
 }
 
 struct Created {
@@ -89,6 +112,10 @@ Created CreateIn(const fs::path& folder) {
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
+  WriteFileAtomically(path, [content](const TextSink& sink) { sink(content); });
+}
+
+void WriteFileAtomically(const std::string& path, const TextPieces& content) {
   if (path.empty()) throw Error("the name of the file to write is empty");
   const fs::path target = FinalTarget(path);
   struct stat old {};
@@ -106,9 +133,11 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
   }
   if (created.descriptor < 0) Fail(path, errno);
   ScratchFile scratch(created.descriptor, created.name);
-  if ((exists && ::fchmod(created.descriptor, old.st_mode & 07777) != 0) ||
-      !WriteAll(created.descriptor, content) || ::fdatasync(created.descriptor) != 0 ||
-      !scratch.Close() || ::rename(created.name.c_str(), target.c_str()) != 0) {
+  if (exists && ::fchmod(created.descriptor, old.st_mode & 07777) != 0) Fail(path, errno);
+  Output output(path, created.descriptor);
+  content([&](std::string_view piece) { output.Write(piece); });
+  if (::fdatasync(created.descriptor) != 0 || !scratch.Close() ||
+      ::rename(created.name.c_str(), target.c_str()) != 0) {
     Fail(path, errno);
   }
   scratch.Keep();

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "common/support/text_pieces.h"
+
 namespace mmm_converter {
 
 /// Replaces or creates the file at `path` with `content`, whole or not at all: the bytes go to a
@@ -15,5 +17,9 @@ namespace mmm_converter {
 /// @throws Error naming the path and the system's reason (no such folder, no permission, no space,
 /// a folder).
 void WriteFileAtomically(const std::string& path, std::string_view content);
+
+/// The same for a text that is made while it is written. Where making it throws, nothing is
+/// changed; only what is written to directly then ends early.
+void WriteFileAtomically(const std::string& path, const TextPieces& content);
 
 }  // namespace mmm_converter

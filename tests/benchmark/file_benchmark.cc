@@ -11,6 +11,7 @@
 #include "common/io/mmm_motion.h"
 #include "common/io/recording.h"
 #include "common/io/trajectory_csv.h"
+#include "common/support/atomic_file.h"
 #include "tests/benchmark/long_recording.h"
 
 namespace mmm_converter {
@@ -63,6 +64,12 @@ void CountBytes(benchmark::State& state, std::size_t bytes) {
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes));
 }
 
+std::size_t CountPieces(const TextPieces& text) {
+  std::size_t bytes = 0;
+  text([&](std::string_view piece) { bytes += piece.size(); });
+  return bytes;
+}
+
 void ReadC3d(benchmark::State& state) {
   const Minute& minute = TheMinute();
   std::vector<int> points;
@@ -86,24 +93,31 @@ void WriteC3dRecording(benchmark::State& state) {
   CountBytes(state, std::filesystem::file_size(minute.c3d));
 }
 
-using FormatFunction = std::string(const MmmMotionOutput&);
+using FormatFunction = TextPieces(const MmmMotionOutput&);
 
 void FormatMotion(benchmark::State& state, FormatFunction* format) {
   const MmmMotionOutput output = TheMinute().output();
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = format(output).size();
+  for (auto _ : state) bytes = CountPieces(format(output));
   CountBytes(state, bytes);
+}
+
+void WriteMotion(benchmark::State& state, FormatFunction* format) {
+  const std::string file = TheMinute().folder + "/motion.xml";
+  const MmmMotionOutput output = TheMinute().output();
+  for (auto _ : state) WriteFileAtomically(file, format(output));
+  CountBytes(state, std::filesystem::file_size(file));
 }
 
 void FormatCsv(benchmark::State& state) {
   const Minute& minute = TheMinute();
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = FormatTrajectoryCsv(minute.trajectory).size();
+  for (auto _ : state) bytes = CountPieces(FormatTrajectoryCsv(minute.trajectory));
   CountBytes(state, bytes);
 }
 
 void ReadMotion(benchmark::State& state, FormatFunction* format) {
-  const std::string content = format(TheMinute().output());
+  const std::string content = Join(format(TheMinute().output()));
   for (auto _ : state) benchmark::DoNotOptimize(ParseMmmMotionFile(content, "minute.xml"));
   CountBytes(state, content.size());
 }
@@ -113,6 +127,9 @@ BENCHMARK(ReadC3dRecording)->Unit(benchmark::kMillisecond);
 BENCHMARK(WriteC3dRecording)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(FormatMotion, mmm_2_0, &FormatMmmMotion2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(FormatMotion, mmm_1_0, &FormatMmmMotion1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(WriteMotion, mmm_2_0, &FormatMmmMotion2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(FormatCsv)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ReadMotion, mmm_2_0, &FormatMmmMotion2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ReadMotion, mmm_1_0, &FormatMmmMotion1)->Unit(benchmark::kMillisecond);

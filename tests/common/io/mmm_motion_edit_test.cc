@@ -57,7 +57,7 @@ MmmMotionOutput Output(const PoseTrajectory& trajectory, const std::string& name
 std::string MessageOf(const std::string& content, const std::string& name) {
   const PoseTrajectory trajectory = OneFrame();
   try {
-    WithConvertedMotion(content, "walk.xml", Output(trajectory, name));
+    Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, name)));
   } catch (const Error& error) {
     return error.what();
   }
@@ -67,7 +67,8 @@ std::string MessageOf(const std::string& content, const std::string& name) {
 TEST(MmmMotionEdit, ChangesOnlyWhatIsConverted) {
   const PoseTrajectory trajectory = OneFrame();
   const std::string content = kFile;
-  const std::string text = WithConvertedMotion(content, "walk.xml", Output(trajectory, "human"));
+  const std::string text =
+      Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "human")));
   // Up to the model, and from the marker sensor on, nothing has changed.
   const std::string head = content.substr(0, content.find("<Model path='old.xml'/>"));
   EXPECT_EQ(text.substr(0, head.size()), head);
@@ -88,7 +89,8 @@ TEST(MmmMotionEdit, ChangesOnlyWhatIsConverted) {
   EXPECT_EQ(file.Find("human")->trajectory.postures[0].joint_angles[0], 0.5);
   EXPECT_EQ(file.Find("human")->markers.num_frames(), 1);
   // A second conversion of the result changes nothing more.
-  EXPECT_EQ(WithConvertedMotion(text, "walk.xml", Output(trajectory, "human")), text);
+  EXPECT_EQ(Join(WithConvertedMotion(BytesOf(text), "walk.xml", Output(trajectory, "human"))),
+            text);
 }
 
 TEST(MmmMotionEdit, ReplacesMarkersWhereSomeAreGiven) {
@@ -96,7 +98,7 @@ TEST(MmmMotionEdit, ReplacesMarkersWhereSomeAreGiven) {
   const MarkerSequence markers({"T10"}, 1, 100, 0);
   MmmMotionOutput output = Output(trajectory, "human");
   output.markers = &markers;
-  const std::string text = WithConvertedMotion(kFile, "walk.xml", output);
+  const std::string text = Join(WithConvertedMotion(BytesOf(kFile), "walk.xml", output));
   EXPECT_THAT(text, Not(HasSubstr("name='C7'")));
   EXPECT_THAT(text, HasSubstr("<Sensor type=\"MoCapMarker\""));
 }
@@ -106,7 +108,8 @@ TEST(MmmMotionEdit, FillsWhatIsMissing) {
   for (const char* const sensors : {"<Sensors/>", "<Sensors></Sensors>", "<Sensors>\n</Sensors>"}) {
     const std::string content =
         "<MMM version='2.0'><Motion name='a'>" + std::string(sensors) + "</Motion></MMM>";
-    const std::string text = WithConvertedMotion(content, "walk.xml", Output(trajectory, "a"));
+    const std::string text =
+        Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "a")));
     const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
     EXPECT_EQ(file.motions[0].trajectory.num_frames(), 1) << text;
     EXPECT_EQ(file.motions[0].model_path, "new.xml");
@@ -139,7 +142,7 @@ TEST(MmmMotionEdit, DamagedFilesAreEditedOrRefused) {
       content[random() % content.size()] = kBytes[random() % kBytes.size()];
     try {
       const std::string text =
-          WithConvertedMotion(content, "walk.xml", Output(trajectory, "human"));
+          Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "human")));
       EXPECT_NO_THROW(ParseXml(text, "own.xml")) << content;
       ++edited;
       ParseMmmMotionFile(content, "walk.xml");
@@ -158,7 +161,7 @@ TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
   body.joint_names.resize(44);
   for (Posture& q : body.postures) q.joint_angles = q.joint_angles.head(44).eval();
   MmmMotionOutput output = Output(body, "true_1723");
-  const std::string text = WithConvertedMotion(content, "stir.xml", output);
+  const std::string text = Join(WithConvertedMotion(BytesOf(content), "stir.xml", output));
   const auto motion_at = [](const std::string& t, const std::string& name) {
     return t.find("<Motion name=\"" + name + "\"");
   };
@@ -172,7 +175,7 @@ TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
   EXPECT_EQ(converted.markers.num_frames(), 79);
   EXPECT_EQ(converted.markers.frame(78), file.Find("true_1723")->markers.frame(78));
   EXPECT_EQ(converted.height, 1.7);
-  EXPECT_TRUE(WithConvertedMotion(text, "own.xml", output) == text);
+  EXPECT_TRUE(Join(WithConvertedMotion(BytesOf(text), "own.xml", output)) == text);
 }
 
 TEST(ModelPath, IsRelativeToTheOutputWhereTheyAreNeighbours) {

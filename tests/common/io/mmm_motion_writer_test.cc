@@ -88,7 +88,7 @@ class MmmMotionWriter : public ::testing::TestWithParam<double> {};  // rates
 TEST_P(MmmMotionWriter, ReadsItsOwn20BackAndWritesTheSameBytes) {
   const PoseTrajectory trajectory = Tumbling(GetParam(), 5.79);
   const MarkerSequence markers = SomeMarkers(GetParam(), 5.79);
-  const std::string text = FormatMmmMotion2(Output(trajectory, &markers));
+  const std::string text = Join(FormatMmmMotion2(Output(trajectory, &markers)));
   const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
   EXPECT_EQ(file.version, "2.0");
   EXPECT_EQ(file.name, "tumbling <1>");
@@ -113,19 +113,19 @@ TEST_P(MmmMotionWriter, ReadsItsOwn20BackAndWritesTheSameBytes) {
 
   MmmMotionOutput again = testing::OutputOf(motion);
   again.recording_name = file.name;
-  EXPECT_TRUE(FormatMmmMotion2(again) == text);
+  EXPECT_TRUE(Join(FormatMmmMotion2(again)) == text);
 }
 
 TEST_P(MmmMotionWriter, ReadsItsOwn10BackAndWritesTheSameBytes) {
   const PoseTrajectory trajectory = Tumbling(GetParam(), 0);
-  const std::string text = FormatMmmMotion1(Output(trajectory, nullptr));
+  const std::string text = Join(FormatMmmMotion1(Output(trajectory, nullptr)));
   const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
   EXPECT_EQ(file.version, "1.0");
   EXPECT_THAT(file.warnings, IsEmpty());
   EXPECT_EQ(file.motions[0].height, 1.755);
   EXPECT_EQ(file.motions[0].model_path, "../models/o'mmm.xml");
   ExpectSame(trajectory, file.motions[0].trajectory);
-  EXPECT_TRUE(FormatMmmMotion1(testing::OutputOf(file.motions[0])) == text);
+  EXPECT_TRUE(Join(FormatMmmMotion1(testing::OutputOf(file.motions[0]))) == text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, MmmMotionWriter,
@@ -137,7 +137,7 @@ TEST(MmmMotionWriterText, RollPitchYawHasNoJumps) {
     trajectory.postures[k].orientation =
         Eigen::Quaterniond(RotationFromRpy({0.2, 0.1, k * kPi / 20}));
   }
-  const XmlElement root = ParseXml(FormatMmmMotion2(Output(trajectory, nullptr)), "own.xml");
+  const XmlElement root = ParseXml(Join(FormatMmmMotion2(Output(trajectory, nullptr))), "own.xml");
   const XmlElement& data =
       *root.FindChild("Motion")->FindChild("Sensors")->FindChild("Sensor")->FindChild("Data");
   ASSERT_EQ(data.children.size(), 721u);
@@ -161,7 +161,7 @@ TEST(MmmMotionWriterText, LayoutOf20) {
   markers.frame(1).col(0) = Eigen::Vector3d(1, 2, -0.5);
   MmmMotionOutput output = Output(trajectory, &markers);
   output.hand_length.reset();
-  const std::string text = FormatMmmMotion2(output);
+  const std::string text = Join(FormatMmmMotion2(output));
   EXPECT_THAT(text, HasSubstr("<MMM version=\"2.0\" name=\"tumbling &lt;1&gt;\">\n"
                               "\t<Motion name=\"subject &amp; co\" type=\"mmm\">\n"
                               "\t\t<Model path=\"../models/o&apos;mmm.xml\">\n"
@@ -191,7 +191,7 @@ TEST(MmmMotionWriterText, LayoutOf10) {
   trajectory.postures.resize(2);
   for (Posture& q : trajectory.postures) q.joint_angles = Eigen::Vector2d(-0.25, 0.5);
   MmmMotionOutput output = Output(trajectory, nullptr);
-  const std::string text = FormatMmmMotion1(output);
+  const std::string text = Join(FormatMmmMotion1(output));
   EXPECT_THAT(text, HasSubstr("<?xml version='1.0'?>\n<MMM>\n\t<Motion name='subject &amp; co'>\n"
                               "\t\t<Model>\n\t\t\t<File>../models/o&apos;mmm.xml</File>\n"
                               "\t\t</Model>\n\t\t<ModelProcessorConfig type='Winter'>\n"
@@ -208,27 +208,27 @@ TEST(MmmMotionWriterText, LayoutOf10) {
                               "\t\t\t</MotionFrame>\n"));
   const Eigen::MatrixXd velocities = Eigen::MatrixXd::Constant(2, 2, 1.5);
   output.joint_velocities = &velocities;
-  EXPECT_THAT(FormatMmmMotion1(output), HasSubstr("<JointVelocity>1.5 1.5 </JointVelocity>"));
+  EXPECT_THAT(Join(FormatMmmMotion1(output)), HasSubstr("<JointVelocity>1.5 1.5 </JointVelocity>"));
 }
 
 TEST(MmmMotionWriterText, NotFinitePosturesAreErrors) {
   PoseTrajectory trajectory = Tumbling(100, 0);
   trajectory.postures[3].joint_angles[1] = std::numeric_limits<double>::quiet_NaN();
   try {
-    FormatMmmMotion2(Output(trajectory, nullptr));
+    Join(FormatMmmMotion2(Output(trajectory, nullptr)));
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("frame 3 can't be written: joint b_joint is not finite"));
   }
   trajectory.postures[2].position.x() = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(FormatMmmMotion1(Output(trajectory, nullptr)), Error);
+  EXPECT_THROW(Join(FormatMmmMotion1(Output(trajectory, nullptr))), Error);
 }
 
 // The real 2.0 file has the 1.0 file's root pose in the same digits, so ours must have them too.
 TEST(MmmMotionWriterText, Legacy10To20HasTheDigitsOfTheRealPair) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile legacy = ReadMmmMotionFile(testing::LegacyWalkingFile());
-  const std::string text = FormatMmmMotion2(testing::OutputOf(legacy.motions[0]));
+  const std::string text = Join(FormatMmmMotion2(testing::OutputOf(legacy.motions[0])));
   const auto measurements = [](const XmlElement& root, int sensor) {
     const XmlElement& sensors = *root.FindChild("Motion")->FindChild("Sensors");
     return sensors.children[sensor].FindChild("Data")->FindChildren("Measurement");
@@ -256,10 +256,32 @@ TEST(MmmMotionWriterText, RealFilesComeBackTheSame) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const std::string& path : {testing::LegacyStandingFile(), testing::WavingFile()}) {
     const MmmMotionFile file = ReadMmmMotionFile(path);
-    const std::string text = FormatMmmMotion1(testing::OutputOf(file.motions[0]));
+    const std::string text = Join(FormatMmmMotion1(testing::OutputOf(file.motions[0])));
     const MmmMotionFile own = ParseMmmMotionFile(text, "own.xml");
     ExpectSame(file.motions[0].trajectory, own.motions[0].trajectory);
-    EXPECT_TRUE(FormatMmmMotion1(testing::OutputOf(own.motions[0])) == text);
+    EXPECT_TRUE(Join(FormatMmmMotion1(testing::OutputOf(own.motions[0]))) == text);
+  }
+}
+
+TEST(MmmMotionWriter, PiecesAreCutAnywhereAndSmall) {
+  PoseTrajectory trajectory;
+  trajectory.rate = 100;
+  trajectory.joint_names = {"a", "b"};
+  trajectory.postures.resize(5000);
+  for (int k = 0; k < 5000; ++k) {
+    trajectory.postures[k].joint_angles = Eigen::Vector2d(k * 1e-3, -k * 1e-4);
+  }
+  const auto largest = [](const TextPieces& text) {
+    std::size_t bytes = 0;
+    text([&](std::string_view piece) { bytes = std::max(bytes, piece.size()); });
+    return bytes;
+  };
+  for (const TextPieces& text : {FormatMmmMotion2(Output(trajectory, nullptr)),
+                                 FormatMmmMotion1(Output(trajectory, nullptr))}) {
+    const MmmMotionFile file = ParseMmmMotionFile(Join(text), "own.xml");
+    ASSERT_EQ(file.motions[0].trajectory.num_frames(), 5000);
+    EXPECT_EQ(file.motions[0].trajectory.postures[4999].joint_angles[0], 4.999);
+    EXPECT_GT(Join(text).size(), 2 * largest(text));
   }
 }
 

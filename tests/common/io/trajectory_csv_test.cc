@@ -27,7 +27,7 @@ PoseTrajectory TwoFrames() {
 }
 
 TEST(TrajectoryCsvTest, NamesUnitsAndWritesWhatIsThere) {
-  EXPECT_EQ(FormatTrajectoryCsv(TwoFrames()),
+  EXPECT_EQ(Join(FormatTrajectoryCsv(TwoFrames())),
             "time_s,root_x_mm,root_y_mm,root_z_mm,root_roll_rad,root_pitch_rad,root_yaw_rad,"
             "LKx_joint_rad,RKx_joint_rad\n"
             "0.5,1,-12.5,1000,0.25,0,3.125,-0.5,0\n"
@@ -40,7 +40,7 @@ TEST(TrajectoryCsvTest, StandardDeviationsStandBehindWithEmptyCellsWhereUnknown)
   trajectory.standard_deviations.resize(8, 1);
   trajectory.standard_deviations << 0.001, 0.002, 0.003, 0.01, 0.02, 0.03, 0.125,
       std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(FormatTrajectoryCsv(trajectory),
+  EXPECT_EQ(Join(FormatTrajectoryCsv(trajectory)),
             "time_s,root_x_mm,root_y_mm,root_z_mm,root_roll_rad,root_pitch_rad,root_yaw_rad,"
             "LKx_joint_rad,RKx_joint_rad,sd_root_x_mm,sd_root_y_mm,sd_root_z_mm,"
             "sd_root_about_x_rad,sd_root_about_y_rad,sd_root_about_z_rad,sd_LKx_joint_rad,"

@@ -47,6 +47,35 @@ TEST(XmlText, DecimalsAreThePrintedOnesAndStable) {
   }
 }
 
+/// What AppendDecimal promises, the plain way: rounded half away from zero, no needless digits.
+std::string PlainDecimal(double value, int decimals) {
+  const double scaled = value * std::pow(10.0, decimals);
+  if (std::abs(scaled) > 9e15) return fmt::format("{:.0f}", value);
+  const long long digits = std::llround(scaled);
+  const auto unit = static_cast<long long>(std::pow(10.0, decimals));
+  std::string text = fmt::format("{}.{:0{}}", std::abs(digits) / unit, std::abs(digits) % unit,
+                                 std::max(decimals, 1));
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return digits < 0 ? "-" + text : text;
+}
+
+TEST(XmlText, DecimalsAreThoseOfThePlainWay) {
+  EXPECT_EQ(Decimal(0.5, 0), "1");
+  EXPECT_EQ(Decimal(-2.5, 0), "-3");
+  EXPECT_EQ(Decimal(0.125, 2), "0.13");
+  EXPECT_EQ(Decimal(-0.125, 2), "-0.13");
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  for (int i = 0; i < 200000; ++i) {
+    const int decimals = i % 10;
+    double value = mantissa(random) * std::pow(10.0, i % 23 - 6);
+    if (i % 3 == 0) value = std::round(value * 1000) / 1000;             // few digits
+    if (i % 3 == 1) value = (std::floor(value) + 0.5) / (1 << (i % 8));  // halves
+    ASSERT_EQ(Decimal(value, decimals), PlainDecimal(value, decimals)) << value << " " << decimals;
+  }
+}
+
 TEST(XmlText, EscapedTextComesBack) {
   const std::string name = "a<b>&\"c' \xC3\xA4";
   EXPECT_EQ(*ParseXml("<a n='" + EscapeXml(name) + "'/>", "x").FindAttribute("n"), name);

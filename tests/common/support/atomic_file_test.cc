@@ -62,6 +62,31 @@ TEST_F(AtomicFile, WritesANewFileWithAnyBytes) {
   EXPECT_EQ(EntriesInFolder(), 1);
 }
 
+TEST_F(AtomicFile, WritesWhatComesInPieces) {
+  std::string expected;
+  WriteFileAtomically(Path("pieces"), [&](const TextSink& sink) {
+    for (int i = 0; i < 300; ++i) {
+      const std::string piece(1000 * i, static_cast<char>('a' + i % 26));
+      sink(piece);
+      expected += piece;
+    }
+  });
+  EXPECT_TRUE(Content(Path("pieces")) == expected);
+  EXPECT_EQ(EntriesInFolder(), 1);
+}
+
+TEST_F(AtomicFile, LeavesTheOldFileWhereMakingTheContentFails) {
+  WriteFileAtomically(Path("file"), "old");
+  const auto fail = [](const TextSink& sink) {
+    sink("half of ");
+    throw Error("no more");
+  };
+  EXPECT_THROW(WriteFileAtomically(Path("file"), fail), Error);
+  EXPECT_THROW(WriteFileAtomically(Path("new"), fail), Error);
+  EXPECT_EQ(Content(Path("file")), "old");
+  EXPECT_EQ(EntriesInFolder(), 1);
+}
+
 TEST_F(AtomicFile, KeepsPermissionsAndFollowsUmask) {
   const mode_t old_mask = ::umask(027);
   WriteFileAtomically(Path("new"), "1");
