@@ -15,6 +15,8 @@
 #include "common/io/mmm_model.h"
 #include "common/io/mmm_motion.h"
 #include "common/io/recording.h"
+#include "common/io/xml_document.h"
+#include "common/io/xml_text.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 
@@ -88,8 +90,8 @@ Description DescribeRecording(const std::string& file, const Arguments& argument
   return description;
 }
 
-Description DescribeMotions(const std::string& content, const std::string& file) {
-  const MmmMotionFile motions = ParseMmmMotionFile(content, file);
+Description DescribeMotions(const std::string& file) {
+  const MmmMotionFile motions = ReadMmmMotionFile(file);
   for (const std::string& warning : motions.warnings) LogWarning(warning);
   Description description;
   description.text = fmt::format("{}: MMM {} file, {} motion{}\n", file, motions.version,
@@ -129,8 +131,8 @@ Description DescribeMotions(const std::string& content, const std::string& file)
   return description;
 }
 
-Description DescribeModel(const std::string& content, const std::string& file) {
-  const MmmModel parsed = ParseMmmModel(content, file);
+Description DescribeModel(const std::string& file) {
+  const MmmModel parsed = ReadMmmModel(file);
   for (const std::string& warning : parsed.warnings) LogWarning(warning);
   const KinematicModel& model = parsed.model;
   Description description;
@@ -171,8 +173,8 @@ Description DescribeModel(const std::string& content, const std::string& file) {
   return description;
 }
 
-Description DescribeConfig(const std::string& content, const std::string& file) {
-  const ConverterConfig config = ParseConverterConfig(content, file);
+Description DescribeConfig(const std::string& file) {
+  const ConverterConfig config = ReadConverterConfig(file);
   for (const std::string& warning : config.warnings) LogWarning(warning);
   std::vector<std::string> elements;
   for (const XmlElement& element : config.plugin_elements) elements.push_back(element.name);
@@ -207,23 +209,24 @@ Description DescribePlugin(const std::string& file) {
 
 // The kind is told from the content.
 Description Describe(const std::string& file, const Arguments& arguments) {
-  const std::string content = ReadFileContent(file);
-  if (content.starts_with("\x7f"
-                          "ELF") ||
+  constexpr std::size_t kHeadBytes = 1 << 20;
+  const std::string head = ReadFileStart(file, kHeadBytes);
+  if (head.starts_with("\x7f"
+                       "ELF") ||
       std::filesystem::path(file).extension() == ".so") {
     return DescribePlugin(file);
   }
-  if (!Trim(std::string_view(content).substr(0, 256)).starts_with("<")) {
+  if (!Trim(std::string_view(head).substr(0, 256)).starts_with("<")) {
     return DescribeRecording(file, arguments);
   }
-  const XmlElement root = ParseXml(content, file);
-  if (root.Is("MMM")) return DescribeMotions(content, file);
-  if (root.Is("Robot")) return DescribeModel(content, file);
-  if (root.Is("ConverterConfig")) return DescribeConfig(content, file);
+  const std::string_view root = RootName(head);
+  if (EqualIgnoringCase(root, "MMM")) return DescribeMotions(file);
+  if (EqualIgnoringCase(root, "Robot")) return DescribeModel(file);
+  if (EqualIgnoringCase(root, "ConverterConfig")) return DescribeConfig(file);
   throw Error(
       fmt::format("{}:{}: is an XML file of <{}>; expected <MMM> (motion), <Robot> (model) or "
                   "<ConverterConfig>",
-                  file, root.line, root.name));
+                  file, ReadXmlFile(file).line, root));
 }
 
 }  // namespace

@@ -62,20 +62,19 @@ class Clock {
 
 /// Calls read(measurement, time) for each measurement that has a new time.
 template <typename Read>
-void ForEachMeasurement(const XmlElement& sensor, Diagnostics* diagnostics, const Read& read) {
+void ForEachMeasurement(LongXml& xml, const XmlElement& sensor, Diagnostics* diagnostics,
+                        const Read& read) {
   const XmlElement* data = sensor.FindChild("Data");
   if (data == nullptr) return;
   Clock clock(diagnostics);
-  for (const XmlElement& measurement : data->children) {
-    if (!measurement.Is("Measurement")) continue;
+  xml.ForEachChild(*data, "Measurement", [&](const XmlElement& measurement) {
     const std::string* time_text = measurement.FindAttribute("timestep");
-    if (time_text == nullptr) {
-      if (measurement.children.empty()) continue;  // real files have such placeholders
+    if (time_text != nullptr) {
+      if (const auto time = clock.Next(*time_text, measurement.line)) read(measurement, *time);
+    } else if (!measurement.children.empty()) {  // real files have empty ones as placeholders
       diagnostics->AddError(measurement.line, "<Measurement> has no timestep");
-      continue;
     }
-    if (const auto time = clock.Next(*time_text, measurement.line)) read(measurement, *time);
-  }
+  });
   clock.WarnOfRepeats(sensor.line);
 }
 
@@ -83,17 +82,20 @@ void ForEachMeasurement(const XmlElement& sensor, Diagnostics* diagnostics, cons
 /// are others.
 bool AppendNumbers(const XmlElement& element, std::size_t count, double unit,
                    std::vector<double>* values, Diagnostics* diagnostics) {
-  const std::optional<std::vector<double>> numbers = ParseDoubles(element.text);
-  if (!numbers || numbers->size() != count) {
-    diagnostics->AddError(
-        element.line, numbers ? fmt::format("<{}> has {} numbers, expected {}", element.name,
-                                            numbers->size(), count)
-                              : fmt::format("<{}>: found \"{}\", expected {} numbers", element.name,
-                                            Shown(element.text), count));
-    return false;
+  const std::size_t size = values->size();
+  const bool are_numbers = AppendDoubles(element.text, values);
+  const std::size_t found = values->size() - size;
+  if (are_numbers && found == count) {
+    for (std::size_t i = size; i < values->size(); ++i) (*values)[i] *= unit;
+    return true;
   }
-  for (const double number : *numbers) values->push_back(number * unit);
-  return true;
+  values->resize(size);
+  diagnostics->AddError(
+      element.line,
+      are_numbers ? fmt::format("<{}> has {} numbers, expected {}", element.name, found, count)
+                  : fmt::format("<{}>: found \"{}\", expected {} numbers", element.name,
+                                Shown(element.text), count));
+  return false;
 }
 
 /// The same for the child `name`, which must exist.
@@ -140,22 +142,48 @@ int LabelIndex(const std::string& label, MarkerRows* markers) {
   return entry->second;
 }
 
+void ReadLegacyFrame(const XmlElement& frame, Clock* clock, LegacyFrames* result,
+                     Diagnostics* diagnostics) {
+  const XmlElement* time_element = frame.FindChild("Timestep");
+  if (time_element == nullptr) {
+    diagnostics->AddError(frame.line, "<MotionFrame> has no <Timestep>");
+    return;
+  }
+  const auto time = clock->Next(time_element->text, time_element->line);
+  if (!time) return;
+  if (frame.FindChild("RootPosition") != nullptr || frame.FindChild("RootRotation") != nullptr) {
+    AppendPose(frame, *time, &result->poses, diagnostics);
+  }
+  const std::size_t num_joints = result->joints.names.size();
+  TimedRows& joints = result->joints.rows;
+  if (num_joints > 0 &&
+      AppendChild(frame, "JointPosition", num_joints, 1, &joints.values, diagnostics)) {
+    joints.times.push_back(*time);
+  }
+  const XmlElement* center = frame.FindChild("CoM");
+  TimedRows& centers = result->centers_of_mass;
+  if (center != nullptr &&
+      AppendNumbers(*center, 3, kMetresPerMillimetre, &centers.values, diagnostics)) {
+    centers.times.push_back(*time);
+  }
+}
+
 }  // namespace
 
-TimedRows ReadPoseSensor(const XmlElement& sensor, Diagnostics* diagnostics) {
+TimedRows ReadPoseSensor(LongXml& xml, const XmlElement& sensor, Diagnostics* diagnostics) {
   TimedRows poses;
   poses.width = 6;
-  ForEachMeasurement(sensor, diagnostics, [&](const XmlElement& measurement, double time) {
+  ForEachMeasurement(xml, sensor, diagnostics, [&](const XmlElement& measurement, double time) {
     if (!measurement.children.empty()) AppendPose(measurement, time, &poses, diagnostics);
   });
   return poses;
 }
 
-JointRows ReadKinematicSensor(const XmlElement& sensor, Diagnostics* diagnostics) {
+JointRows ReadKinematicSensor(LongXml& xml, const XmlElement& sensor, Diagnostics* diagnostics) {
   JointRows joints;
   joints.names = ReadJointNames(sensor.FindChild("Configuration"), diagnostics);
   joints.rows.width = static_cast<int>(joints.names.size());
-  ForEachMeasurement(sensor, diagnostics, [&](const XmlElement& measurement, double time) {
+  ForEachMeasurement(xml, sensor, diagnostics, [&](const XmlElement& measurement, double time) {
     if (measurement.children.empty()) return;
     if (AppendChild(measurement, "JointPosition", joints.names.size(), 1, &joints.rows.values,
                     diagnostics)) {
@@ -165,10 +193,12 @@ JointRows ReadKinematicSensor(const XmlElement& sensor, Diagnostics* diagnostics
   return joints;
 }
 
-void ReadMarkerSensor(const XmlElement& sensor, MarkerRows* markers, Diagnostics* diagnostics) {
-  std::vector<const XmlElement*> last_seen_in;  // by label
+void ReadMarkerSensor(LongXml& xml, const XmlElement& sensor, MarkerRows* markers,
+                      Diagnostics* diagnostics) {
+  std::vector<int> last_seen_in;  // measurement, by label
   std::vector<double> position;
-  ForEachMeasurement(sensor, diagnostics, [&](const XmlElement& measurement, double time) {
+  ForEachMeasurement(xml, sensor, diagnostics, [&](const XmlElement& measurement, double time) {
+    const int index = static_cast<int>(markers->times.size());
     markers->times.push_back(time);
     for (const XmlElement& marker : measurement.children) {
       const std::string* name = marker.FindAttribute("name");
@@ -176,18 +206,18 @@ void ReadMarkerSensor(const XmlElement& sensor, MarkerRows* markers, Diagnostics
       position.clear();
       if (!AppendNumbers(marker, 3, kMetresPerMillimetre, &position, diagnostics)) continue;
       const int label = LabelIndex(std::string(Trim(*name)), markers);
-      last_seen_in.resize(markers->labels.size());
-      if (std::exchange(last_seen_in[label], &measurement) == &measurement) {
+      last_seen_in.resize(markers->labels.size(), -1);
+      if (std::exchange(last_seen_in[label], index) == index) {
         diagnostics->AddError(marker.line,
                               fmt::format("marker {} is there twice at {} s", *name, time));
       }
       const Eigen::Vector3d p_WM = Eigen::Vector3d::Map(position.data());
-      if (p_WM.allFinite()) markers->sightings.push_back({time, label, p_WM});
+      if (p_WM.allFinite()) markers->sightings.push_back({index, label, p_WM});
     }
   });
 }
 
-LegacyFrames ReadLegacyFrames(const XmlElement& motion, Diagnostics* diagnostics) {
+LegacyFrames ReadLegacyFrames(LongXml& xml, const XmlElement& motion, Diagnostics* diagnostics) {
   LegacyFrames result;
   result.joints.names = ReadJointNames(motion.FindChild("JointOrder"), diagnostics);
   result.joints.rows.width = static_cast<int>(result.joints.names.size());
@@ -196,30 +226,9 @@ LegacyFrames ReadLegacyFrames(const XmlElement& motion, Diagnostics* diagnostics
   const XmlElement* frames = motion.FindChild("MotionFrames");
   if (frames == nullptr) return result;
   Clock clock(diagnostics);
-  for (const XmlElement& frame : frames->children) {
-    if (!frame.Is("MotionFrame") || frame.children.empty()) continue;
-    const XmlElement* time_element = frame.FindChild("Timestep");
-    if (time_element == nullptr) {
-      diagnostics->AddError(frame.line, "<MotionFrame> has no <Timestep>");
-      continue;
-    }
-    const auto time = clock.Next(time_element->text, time_element->line);
-    if (!time) continue;
-    if (frame.FindChild("RootPosition") != nullptr || frame.FindChild("RootRotation") != nullptr) {
-      AppendPose(frame, *time, &result.poses, diagnostics);
-    }
-    TimedRows& joints = result.joints.rows;
-    if (joints.width > 0 && AppendChild(frame, "JointPosition", result.joints.names.size(), 1,
-                                        &joints.values, diagnostics)) {
-      joints.times.push_back(*time);
-    }
-    const XmlElement* center = frame.FindChild("CoM");
-    TimedRows& centers = result.centers_of_mass;
-    if (center != nullptr &&
-        AppendNumbers(*center, 3, kMetresPerMillimetre, &centers.values, diagnostics)) {
-      centers.times.push_back(*time);
-    }
-  }
+  xml.ForEachChild(*frames, "MotionFrame", [&](const XmlElement& frame) {
+    if (!frame.children.empty()) ReadLegacyFrame(frame, &clock, &result, diagnostics);
+  });
   clock.WarnOfRepeats(frames->line);
   return result;
 }

@@ -7,10 +7,11 @@
 #include <optional>
 #include <unordered_set>
 
+#include "common/io/long_xml.h"
 #include "common/io/mmm_motion.h"
 #include "common/io/mmm_motion_writer.h"
 #include "common/io/xml_document.h"
-#include "common/io/xml_text.h"
+#include "common/io/xml_scanner.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -164,14 +165,14 @@ void CheckSameTree(const XmlElement& element, const XmlRange& range, int depth,
 TextPieces WithConvertedMotion(const ByteSource& content, const std::string& file,
                                const MmmMotionOutput& output) {
   constexpr int kDepth = 3;  // MMM / Motion / Sensors / Sensor
-  std::string text(content.size, '\0');
-  content.read(0, text.size(), text.data());
-  const XmlElement root = ParseXml(text, file);
+  LongXml xml(content, file, {"Measurement"});
+  xml.CheckTheRest();
+  const XmlElement& root = xml.root();
   if (!root.Is("MMM")) {
     throw Error(fmt::format("{}:{}: the root is <{}>; an MMM motion has <MMM>", file, root.line,
                             root.name));
   }
-  const XmlRange range = FindXmlRanges(text, kDepth);
+  const XmlRange range = FindXmlRanges(content, kDepth);
   CheckSameTree(root, range, kDepth, file);
   const std::size_t index = FindMotion(root, file, output.motion_name);
   CheckWritable(output);

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <unordered_set>
 
+#include "common/io/long_xml.h"
 #include "common/io/mmm_measurements.h"
 #include "common/io/mmm_motion.h"
 #include "common/io/motion_timeline.h"
-#include "common/io/xml_document.h"
 #include "common/io/xml_text.h"
 #include "common/math/rotation.h"
 #include "common/support/diagnostics.h"
@@ -187,14 +188,18 @@ void BuildMarkers(const MarkerRows& rows, int line, MmmMotion* motion, Budget* b
   }
   motion->markers = MarkerSequence(std::move(labels), static_cast<int>(grid.num_frames()),
                                    grid.rate, grid.first_time);
+  std::vector<int> frame_of;  // each measurement
+  for (const double time : rows.times) {
+    const auto i = std::lower_bound(times.begin(), times.end(), time) - times.begin();
+    frame_of.push_back(static_cast<int>(grid.frames[i]));
+  }
   for (const MarkerRows::Sighting& sighting : rows.sightings) {
-    const auto i = std::lower_bound(times.begin(), times.end(), sighting.time) - times.begin();
-    auto p_WM = motion->markers.frame(static_cast<int>(grid.frames[i])).col(place[sighting.label]);
+    auto p_WM = motion->markers.frame(frame_of[sighting.measurement]).col(place[sighting.label]);
     if (!IsSeen(p_WM)) p_WM = sighting.p_WM;
   }
 }
 
-void ReadSensors(const XmlElement& sensors, MmmMotion* motion, Budget* budget,
+void ReadSensors(LongXml& xml, const XmlElement& sensors, MmmMotion* motion, Budget* budget,
                  Diagnostics* diagnostics) {
   TimedRows poses;
   std::vector<JointRows> joints;
@@ -204,36 +209,65 @@ void ReadSensors(const XmlElement& sensors, MmmMotion* motion, Budget* budget,
     if (type == nullptr) {
       diagnostics->AddError(sensor->line, "<Sensor> has no type");
     } else if (EqualIgnoringCase(*type, "ModelPose")) {
-      TimedRows found = ReadPoseSensor(*sensor, diagnostics);
+      TimedRows found = ReadPoseSensor(xml, *sensor, diagnostics);
       if (poses.times.empty()) {
         poses = std::move(found);
       } else {
         diagnostics->AddWarning(sensor->line, "a second ModelPose sensor is not used");
       }
     } else if (EqualIgnoringCase(*type, "Kinematic")) {
-      joints.push_back(ReadKinematicSensor(*sensor, diagnostics));
+      joints.push_back(ReadKinematicSensor(xml, *sensor, diagnostics));
     } else if (EqualIgnoringCase(*type, "MoCapMarker")) {
-      ReadMarkerSensor(*sensor, &markers, diagnostics);
+      ReadMarkerSensor(xml, *sensor, &markers, diagnostics);
     }
   }
   BuildTrajectory(poses, joints, {}, sensors.line, motion, budget, diagnostics);
   BuildMarkers(markers, sensors.line, motion, budget, diagnostics);
 }
 
-MmmMotion ReadMotion(const XmlElement& element, Budget* budget, Diagnostics* diagnostics) {
+MmmMotion ReadMotion(LongXml& xml, const XmlElement& element, Budget* budget,
+                     Diagnostics* diagnostics) {
   MmmMotion motion;
   if (const std::string* name = element.FindAttribute("name")) motion.name = *name;
   if (const std::string* type = element.FindAttribute("type")) motion.type = *type;
   ReadModel(element, &motion, diagnostics);
   if (const XmlElement* sensors = element.FindChild("Sensors")) {
-    ReadSensors(*sensors, &motion, budget, diagnostics);
+    ReadSensors(xml, *sensors, &motion, budget, diagnostics);
   }
   if (const XmlElement* frames = element.FindChild("MotionFrames")) {
-    const LegacyFrames legacy = ReadLegacyFrames(element, diagnostics);
+    const LegacyFrames legacy = ReadLegacyFrames(xml, element, diagnostics);
     BuildTrajectory(legacy.poses, {legacy.joints}, legacy.centers_of_mass, frames->line, &motion,
                     budget, diagnostics);
   }
   return motion;
+}
+
+MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file) {
+  LongXml xml(content, file, {std::begin(kManyElements), std::end(kManyElements)});
+  const XmlElement& root = xml.root();
+  Diagnostics diagnostics(file);
+  if (!root.Is("MMM")) {
+    diagnostics.AddError(root.line,
+                         fmt::format("the root is <{}>; an MMM motion has <MMM>{}", root.name,
+                                     root.Is("Robot") ? " (this is a model)" : ""));
+    diagnostics.ThrowIfErrors();
+  }
+  MmmMotionFile result;
+  result.version = "1.0";
+  if (const std::string* name = root.FindAttribute("name")) result.name = *name;
+  if (const std::string* version = root.FindAttribute("version")) {
+    if (version->starts_with('2')) result.version = "2.0";
+  }
+  Budget budget(content.size, &diagnostics);
+  for (const XmlElement* element : root.FindChildren("Motion")) {
+    if (element->FindChild("Sensors") != nullptr) result.version = "2.0";
+    result.motions.push_back(ReadMotion(xml, *element, &budget, &diagnostics));
+  }
+  xml.CheckTheRest();
+  if (result.motions.empty()) diagnostics.AddError(root.line, "there is no <Motion>");
+  diagnostics.ThrowIfErrors();
+  result.warnings = diagnostics.warnings();
+  return result;
 }
 
 }  // namespace
@@ -249,33 +283,11 @@ bool LooksLikeMmmMotion(std::string_view content) {
 }
 
 MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file) {
-  const XmlElement root = ParseXml(content, file);
-  Diagnostics diagnostics(file);
-  if (!root.Is("MMM")) {
-    diagnostics.AddError(root.line,
-                         fmt::format("the root is <{}>; an MMM motion has <MMM>{}", root.name,
-                                     root.Is("Robot") ? " (this is a model)" : ""));
-    diagnostics.ThrowIfErrors();
-  }
-  MmmMotionFile result;
-  result.version = "1.0";
-  if (const std::string* name = root.FindAttribute("name")) result.name = *name;
-  if (const std::string* version = root.FindAttribute("version")) {
-    if (version->starts_with('2')) result.version = "2.0";
-  }
-  Budget budget(content.size(), &diagnostics);
-  for (const XmlElement* element : root.FindChildren("Motion")) {
-    if (element->FindChild("Sensors") != nullptr) result.version = "2.0";
-    result.motions.push_back(ReadMotion(*element, &budget, &diagnostics));
-  }
-  if (result.motions.empty()) diagnostics.AddError(root.line, "there is no <Motion>");
-  diagnostics.ThrowIfErrors();
-  result.warnings = diagnostics.warnings();
-  return result;
+  return ReadMotions(BytesOf(content), file);
 }
 
 MmmMotionFile ReadMmmMotionFile(const std::string& path, std::size_t max_bytes) {
-  return ParseMmmMotionFile(ReadFileContent(path, max_bytes), path);
+  return ReadMotions(BytesOfFile(path, max_bytes), path);
 }
 
 }  // namespace mmm_converter

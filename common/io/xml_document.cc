@@ -25,22 +25,30 @@ std::string Explain(const tinyxml2::XMLDocument& document) {
   }
 }
 
-XmlElement Convert(const tinyxml2::XMLElement& source) {
+XmlElement Convert(const tinyxml2::XMLElement& source, int first_line) {
   XmlElement element;
   element.name = source.Name();
-  element.line = source.GetLineNum();
+  element.line = first_line - 1 + source.GetLineNum();
   for (const auto* a = source.FirstAttribute(); a != nullptr; a = a->Next()) {
     element.attributes.emplace_back(a->Name(), a->Value());
   }
   for (const auto* node = source.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) {
-      element.children.push_back(Convert(*child));
+      element.children.push_back(Convert(*child, first_line));
     } else if (const auto* text = node->ToText()) {
       element.text += text->Value();
     }
   }
   element.text = Trim(element.text);
   return element;
+}
+
+void Parse(std::string_view content, const std::string& file, int first_line,
+           tinyxml2::XMLDocument* document) {
+  document->Parse(content.data(), content.size());
+  if (!document->Error()) return;
+  throw Error(fmt::format("{}:{}: not well-formed XML: {}", file,
+                          first_line - 1 + document->ErrorLineNum(), Explain(*document)));
 }
 
 }  // namespace
@@ -73,11 +81,7 @@ const std::string* XmlElement::FindAttribute(std::string_view attribute_name) co
 
 XmlElement ParseXml(std::string_view content, const std::string& file) {
   tinyxml2::XMLDocument document;
-  document.Parse(content.data(), content.size());
-  if (document.Error()) {
-    throw Error(fmt::format("{}:{}: not well-formed XML: {}", file, document.ErrorLineNum(),
-                            Explain(document)));
-  }
+  Parse(content, file, 1, &document);
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr) {
     throw Error(fmt::format("{}:1: not well-formed XML: there is no element", file));
@@ -86,7 +90,18 @@ XmlElement ParseXml(std::string_view content, const std::string& file) {
     throw Error(fmt::format("{}:{}: not well-formed XML: <{}> is a second root beside <{}>", file,
                             second->GetLineNum(), second->Name(), root->Name()));
   }
-  return Convert(*root);
+  return Convert(*root, 1);
+}
+
+void ParseXmlElements(std::string_view content, const std::string& file, int first_line,
+                      const std::function<void(const XmlElement&)>& visit) {
+  tinyxml2::XMLDocument document;
+  Parse(content, file, first_line, &document);
+  if (!visit) return;
+  for (const auto* element = document.FirstChildElement(); element != nullptr;
+       element = element->NextSiblingElement()) {
+    visit(Convert(*element, first_line));
+  }
 }
 
 XmlElement ReadXmlFile(const std::string& path, std::size_t max_bytes) {

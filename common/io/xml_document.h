@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,12 @@ struct XmlElement {
 /// entities other than the predefined ones are not resolved.
 /// @throws Error `file:line: ...` where it is not well-formed.
 XmlElement ParseXml(std::string_view content, const std::string& file);
+
+/// Parses elements that stand one after the other, without a root around them, from line
+/// first_line on, and calls visit for each; visit may be empty.
+/// @throws Error as ParseXml.
+void ParseXmlElements(std::string_view content, const std::string& file, int first_line,
+                      const std::function<void(const XmlElement&)>& visit);
 
 /// @throws Error as ReadFileContent and ParseXml.
 XmlElement ReadXmlFile(const std::string& path, std::size_t max_bytes = kMaxFileBytes);

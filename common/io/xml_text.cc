@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "common/support/error.h"
-
 namespace mmm_converter {
 namespace {
 
@@ -34,18 +32,6 @@ std::size_t Utf8Length(std::string_view text) {
 std::size_t After(std::string_view content, std::string_view what, std::size_t from) {
   const std::size_t found = content.find(what, from);
   return found == std::string_view::npos ? content.size() : found + what.size();
-}
-
-/// The position after the > that ends a start tag; > in quotes does not.
-std::size_t AfterTag(std::string_view content, std::size_t from) {
-  for (std::size_t i = from; i < content.size(); ++i) {
-    if (content[i] == '>') return i + 1;
-    if (content[i] == '"' || content[i] == '\'') {
-      i = content.find(content[i], i + 1);
-      if (i == std::string_view::npos) break;
-    }
-  }
-  return content.size();
 }
 
 std::string_view NameAt(std::string_view content, std::size_t begin) {
@@ -126,49 +112,6 @@ std::string_view RootName(std::string_view content) {
       return {};
     }
   }
-}
-
-XmlRange FindXmlRanges(std::string_view content, int depth) {
-  std::vector<XmlRange> open(1);  // a document around the root, then the elements that are open
-  std::size_t too_deep = 0;       // open elements below the wanted depth
-  for (std::size_t at = content.find('<'); at < content.size(); at = content.find('<', at)) {
-    const std::string_view rest = content.substr(at);
-    if (rest.starts_with("<!--")) {
-      at = After(content, "-->", at + 4);
-    } else if (rest.starts_with("<![CDATA[")) {
-      at = After(content, "]]>", at);
-    } else if (rest.starts_with("<?")) {
-      at = After(content, "?>", at);
-    } else if (rest.starts_with("<!")) {
-      at = After(content, ">", at);
-    } else if (rest.starts_with("</")) {
-      const std::size_t after = After(content, ">", at);
-      if (too_deep > 0) {
-        --too_deep;
-      } else if (open.size() > 1) {
-        open.back().inner_end = at;
-        open.back().end = after;
-        XmlRange closed = std::move(open.back());
-        open.pop_back();
-        open.back().children.push_back(std::move(closed));
-      }
-      at = after;
-    } else {
-      const std::size_t after = AfterTag(content, at + 1);
-      const bool is_closed = content[after - 2] == '/';
-      if (open.size() > static_cast<std::size_t>(depth) + 1) {
-        too_deep += is_closed ? 0 : 1;
-      } else {
-        XmlRange range{NameAt(content, at + 1), at, after, after, after, {}};
-        (is_closed ? open.back().children : open).push_back(std::move(range));
-      }
-      at = after;
-    }
-  }
-  if (open.size() != 1 || open.front().children.size() != 1) {
-    throw Error("not well-formed XML: an element is never closed");
-  }
-  return std::move(open.front().children.front());
 }
 
 }  // namespace mmm_converter

@@ -44,16 +44,16 @@ std::optional<double> ParseDouble(std::string_view text) { return Parse<double>(
 
 std::optional<long> ParseLong(std::string_view text) { return Parse<long>(text); }
 
-std::optional<std::vector<double>> ParseDoubles(std::string_view text) {
-  std::vector<double> numbers;
+bool AppendDoubles(std::string_view text, std::vector<double>* numbers) {
   for (text = Trim(text); !text.empty();) {
     const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
     const std::optional<double> number = ParseDouble(word);
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-    text = Trim(text.substr(word.size()));
+    if (!number) return false;
+    numbers->push_back(*number);
+    text.remove_prefix(word.size());
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
   }
-  return numbers;
+  return true;
 }
 
 }  // namespace mmm_converter

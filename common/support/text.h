@@ -23,7 +23,8 @@ std::optional<double> ParseDouble(std::string_view text);
 /// As ParseDouble, for whole numbers that fit into a long.
 std::optional<long> ParseLong(std::string_view text);
 
-/// Numbers separated by white space. Nothing where one of them is not a number.
-std::optional<std::vector<double>> ParseDoubles(std::string_view text);
+/// Appends numbers separated by white space. false where one of them is not a number: it and what
+/// follows is not appended.
+bool AppendDoubles(std::string_view text, std::vector<double>* numbers);
 
 }  // namespace mmm_converter

@@ -130,11 +130,15 @@ TEST(RealModels, WintersLengthsOfAStandingPerson) {
   expect("LeftHandSegment_joint", -0.110, 0.288 - 0.188 - 0.145 - 0.108);
 }
 
+std::vector<double> NumbersOf(const XmlElement& frame, const char* name) {
+  std::vector<double> numbers;
+  EXPECT_TRUE(AppendDoubles(frame.FindChild(name)->text, &numbers));
+  return numbers;
+}
+
 Posture ReadPosture(const KinematicModel& model, const XmlElement& motion,
                     const XmlElement& frame) {
-  const auto numbers = [&](const char* name) {
-    return ParseDoubles(frame.FindChild(name)->text).value();
-  };
+  const auto numbers = [&](const char* name) { return NumbersOf(frame, name); };
   Posture posture = ZeroPosture(model);
   posture.position = 1e-3 * Eigen::Vector3d(numbers("RootPosition").data());
   posture.orientation = RotationFromRpy(Eigen::Vector3d(numbers("RootRotation").data()));
@@ -164,7 +168,7 @@ TEST(RealModels, StoredCentersOfMassAreReproduced) {
   ASSERT_EQ(frames.size(), 265u);
   double worst = 0;
   for (const XmlElement* frame : frames) {
-    const Eigen::Vector3d stored(ParseDoubles(frame->FindChild("CoM")->text).value().data());
+    const Eigen::Vector3d stored(NumbersOf(*frame, "CoM").data());
     const Posture posture = ReadPosture(model, motion, *frame);
     worst = std::max(worst, (1e3 * CenterOfMass(model, posture) - stored).norm());
   }

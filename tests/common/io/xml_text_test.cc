@@ -84,27 +84,5 @@ TEST(XmlText, EscapedTextComesBack) {
   EXPECT_EQ(EscapeXml("\xE2\x82"), "\xC3\xA2\xC2\x82");  // a cut sequence
 }
 
-TEST(XmlText, FindsElementsInTheText) {
-  const std::string xml =
-      "<?xml version='1.0'?><!-- <x> --><a b='>/'><c/><d ><e>1</e><!-- </d> --></d >"
-      "<f><![CDATA[</f>]]><g><h/></g></f></a>\n";
-  const XmlRange root = FindXmlRanges(xml, 2);
-  EXPECT_EQ(root.name, "a");
-  ASSERT_EQ(root.children.size(), 3u);
-  const auto text = [&](const XmlRange& range) {
-    return xml.substr(range.begin, range.end - range.begin);
-  };
-  EXPECT_EQ(text(root.children[0]), "<c/>");
-  EXPECT_EQ(root.children[0].inner_begin, root.children[0].end);
-  EXPECT_EQ(text(root.children[1]), "<d ><e>1</e><!-- </d> --></d >");
-  EXPECT_EQ(text(root.children[1].children[0]), "<e>1</e>");
-  EXPECT_EQ(root.children[1].children[0].inner_end - root.children[1].children[0].inner_begin, 1u);
-  EXPECT_EQ(text(root.children[2]), "<f><![CDATA[</f>]]><g><h/></g></f>");
-  EXPECT_TRUE(root.children[2].children[0].children.empty());  // deeper than asked for
-  EXPECT_THROW(FindXmlRanges("<a><b></a>", 2), Error);
-  EXPECT_THROW(FindXmlRanges("", 2), Error);
-  EXPECT_THROW(FindXmlRanges("<a b='", 2), Error);
-}
-
 }  // namespace
 }  // namespace mmm_converter

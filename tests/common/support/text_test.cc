@@ -34,9 +34,11 @@ TEST(Text, ParsesWholeNumbersOnly) {
 }
 
 TEST(Text, ParsesLists) {
-  EXPECT_EQ(ParseDoubles(" 1 2.5\n-3 "), (std::vector<double>{1, 2.5, -3}));
-  EXPECT_EQ(ParseDoubles(""), std::vector<double>{});
-  EXPECT_EQ(ParseDoubles("1 x"), std::nullopt);
+  std::vector<double> numbers = {7};
+  EXPECT_TRUE(AppendDoubles(" 1 2.5\n-3 ", &numbers));
+  EXPECT_TRUE(AppendDoubles("", &numbers));
+  EXPECT_EQ(numbers, (std::vector<double>{7, 1, 2.5, -3}));
+  EXPECT_FALSE(AppendDoubles("1 x 2", &numbers));
 }
 
 }  // namespace
