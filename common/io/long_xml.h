@@ -35,9 +35,9 @@ class LongXml {
  private:
   /// Elements one after the other, with nothing but white space between them.
   struct Run {
-    std::uint64_t begin;
-    std::uint64_t end;
-    int line;
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    int line = 0;
     bool is_checked = false;
   };
 

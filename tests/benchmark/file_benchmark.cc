@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <numeric>
 #include <string>
 
 #include "common/io/c3d_reader.h"
@@ -27,6 +28,7 @@ class Minute {
     markers = Lengthen(ReadRecording(examples + "handstand.c3d", {}).markers, kFrames);
     trajectory = ReadMmmMotionFile(examples + "handstand_true.xml").motions.front().trajectory;
     std::vector<Posture> postures;
+    postures.reserve(kFrames);
     for (int k = 0; k < kFrames; ++k) {
       postures.push_back(trajectory.postures[FrameBackAndForth(k, trajectory.num_frames())]);
     }
@@ -72,8 +74,8 @@ std::size_t CountPieces(const TextPieces& text) {
 
 void ReadC3d(benchmark::State& state) {
   const Minute& minute = TheMinute();
-  std::vector<int> points;
-  for (int i = 0; i < minute.markers.num_labels(); ++i) points.push_back(i);
+  std::vector<int> points(minute.markers.num_labels());
+  std::iota(points.begin(), points.end(), 0);
   for (auto _ : state) {
     C3dReader reader(minute.c3d);
     benchmark::DoNotOptimize(reader.ReadPoints(points, minute.markers.labels(), 100));

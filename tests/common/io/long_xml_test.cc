@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 /// name, line, text without blanks and so on of an element and all below it.
 std::string Outline(const XmlElement& element) {
   std::string text = fmt::format("{}@{}[", element.name, element.line);
-  for (const auto& [name, value] : element.attributes) text += name + "=" + value + ";";
+  for (const auto& [name, value] : element.attributes) text += fmt::format("{}={};", name, value);
   std::string words = element.text;  // the stand-ins leave new lines behind
   std::erase_if(words, [](char c) { return c == ' ' || c == '\n'; });
   text += words + "]";
@@ -45,7 +45,7 @@ XmlElement Whole(LongXml* xml, const XmlElement& element) {
 std::string OutlineOrError(const std::string& text) {
   try {
     LongXml xml(BytesOf(text), "walk.xml", {"M"});
-    const std::string outline = Outline(Whole(&xml, xml.root()));
+    std::string outline = Outline(Whole(&xml, xml.root()));
     xml.CheckTheRest();
     return outline;
   } catch (const Error& error) {
