@@ -23,15 +23,7 @@ PostureFit::PostureFit(const MarkerKinematics& kinematics)
     : kinematics_(kinematics),
       natural_(NaturalAngles(kinematics)),
       start_(natural_),
-      at_(kinematics.MakeJacobian()),
-      llt_(kinematics.num_dofs()) {
-  const int n = kinematics.num_dofs();
-  J_.setZero(3 * kinematics.num_markers(), n);
-  residual_.setZero(3 * kinematics.num_markers());
-  hessian_.setZero(n, n);
-  gradient_.setZero(n);
-  damped_.setZero(n, n);
-  step_.setZero(n);
+      equations_(kinematics) {
   trial_.joint_angles.setZero(kinematics.num_joints());
 }
 
@@ -45,13 +37,12 @@ PostureFit::Result PostureFit::ComputeCost(const Ref<const Matrix3Xd>& z,
                                            const VectorXd& noise_scale,
                                            const PostureFitOptions& options,
                                            const Posture& posture) {
-  kinematics_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
-                             posture.joint_angles, &at_);
+  const Matrix3Xd& markers = equations_.Place(posture);
   Result result;
   int seen = 0;
   const double h = options.robust_distance;
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    const double r = (z.col(m) - at_.p_WM.col(m)).norm();
+    const double r = (z.col(m) - markers.col(m)).norm();
     if (!std::isfinite(r)) continue;
     result.cost += (r <= h ? r * r : 2 * h * r - h * h) / (noise_scale[m] * noise_scale[m]);
     result.mean_distance += r;
@@ -67,52 +58,27 @@ PostureFit::Result PostureFit::ComputeCost(const Ref<const Matrix3Xd>& z,
 
 void PostureFit::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
                            const PostureFitOptions& options, const Posture& posture) {
-  kinematics_.ComputeJacobian(posture.position, posture.orientation.toRotationMatrix(),
-                              posture.joint_angles, &at_);
-  for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    const Vector3d r = z.col(m) - at_.p_WM.col(m);
-    const double distance = r.norm();
-    if (!std::isfinite(distance)) {
-      J_.middleRows<3>(3 * m).setZero();
-      residual_.segment<3>(3 * m).setZero();
-      continue;
-    }
-    const double weight =
-        std::sqrt(std::min(1.0, options.robust_distance / distance)) / noise_scale[m];
-    J_.middleRows<3>(3 * m) = weight * at_.J.middleRows<3>(3 * m);
-    residual_.segment<3>(3 * m) = weight * r;
-  }
+  equations_.Linearize(z, noise_scale, options.robust_distance);
   const int joints = kinematics_.num_joints();
   const double w2 = options.natural_weight * options.natural_weight;
-  hessian_.triangularView<Eigen::Lower>().setZero();
-  hessian_.selfadjointView<Eigen::Lower>().rankUpdate(J_.transpose());
   const double v2 = options.start_weight * options.start_weight;
-  hessian_.diagonal().tail(joints).array() += w2 + v2;
-  gradient_.noalias() = J_.transpose() * residual_;
-  gradient_.tail(joints) +=
+  equations_.H().diagonal().tail(joints).array() += w2 + v2;
+  equations_.g().tail(joints) +=
       w2 * (natural_ - posture.joint_angles) + v2 * (start_ - posture.joint_angles);
 }
 
-void PostureFit::ComputeStep(const Posture& posture, double damping) {
+const VectorXd& PostureFit::Step(const Posture& posture, double damping) {
   // Below this curvature [m^2/rad^2] a direction is not determined by any marker.
   constexpr double kLeastCurvature = 1e-9;
-  damped_.triangularView<Eigen::Lower>() = hessian_;
-  damped_.diagonal() += damping * hessian_.diagonal();
-  damped_.diagonal().array() += kLeastCurvature;
-  step_ = gradient_;
-  for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    const double angle = posture.joint_angles[j];
-    const double slope = gradient_[6 + j];
-    const bool held = (angle <= kinematics_.lower()[j] && slope < 0) ||
-                      (angle >= kinematics_.upper()[j] && slope > 0);
-    if (!held) continue;
-    damped_.row(6 + j).head(6 + j).setZero();
-    damped_.col(6 + j).tail(kinematics_.num_dofs() - 7 - j).setZero();
-    damped_(6 + j, 6 + j) = 1;
-    step_[6 + j] = 0;
+  // Each solve can push another joint over its limit; what is left after these is cut.
+  constexpr int kSolves = 3;
+  equations_.HoldPressingJoints(posture.joint_angles);
+  const VectorXd* step = &equations_.Solve(damping, kLeastCurvature);
+  for (int i = 1; i < kSolves; ++i) {
+    if (!equations_.HoldOversteppingJoints(posture.joint_angles)) break;
+    step = &equations_.Solve(damping, kLeastCurvature);
   }
-  llt_.compute(damped_);
-  llt_.solveInPlace(step_);
+  return *step;
 }
 
 PostureFit::Result PostureFit::Solve(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
@@ -129,10 +95,10 @@ PostureFit::Result PostureFit::Solve(const Ref<const Matrix3Xd>& z, const Vector
     bool accepted = false;
     while (!accepted && iteration < options.max_iterations) {
       ++iteration;
-      ComputeStep(*posture, damping);
-      trial_.position = posture->position + step_.head<3>();
-      trial_.orientation = (posture->orientation * Exp(step_.segment<3>(3))).normalized();
-      trial_.joint_angles = (posture->joint_angles + step_.tail(kinematics_.num_joints()))
+      const VectorXd& step = Step(*posture, damping);
+      trial_.position = posture->position + step.head<3>();
+      trial_.orientation = (posture->orientation * Exp(step.segment<3>(3))).normalized();
+      trial_.joint_angles = (posture->joint_angles + step.tail(kinematics_.num_joints()))
                                 .cwiseMax(kinematics_.lower())
                                 .cwiseMin(kinematics_.upper());
       const Result trial = ComputeCost(z, noise_scale, options, trial_);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "common/fit/normal_equations.h"
 #include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
 
@@ -28,7 +28,7 @@ struct PostureFitOptions {
 /// Levenberg-Marquardt fit of a posture to marker positions, inside the joint limits:
 ///   min over q   sum_m rho(|z_m - p_m(q)|^2) / s_m^2 + w^2 sum_j (theta_j - natural_j)^2
 ///               + v^2 sum_j (theta_j - start_j)^2,  l <= theta <= u,
-/// with projected steps and the joints that press on a limit held there. Postures hold the tracked
+/// with steps that end on a limit rather than beyond it. Postures hold the tracked
 /// joints of `kinematics`. No allocation after construction.
 class PostureFit {
  public:
@@ -59,19 +59,13 @@ class PostureFit {
                      const Posture& posture);
   void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                  const PostureFitOptions& options, const Posture& posture);
-  void ComputeStep(const Posture& posture, double damping);
+  /// The damped step, with joints that it would take over a limit stepping onto it.
+  const Eigen::VectorXd& Step(const Posture& posture, double damping);
 
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;
   Eigen::VectorXd start_;  // joint angles
-  MarkerJacobian at_;
-  Eigen::MatrixXd J_;         // weighted Jacobian
-  Eigen::VectorXd residual_;  // weighted
-  Eigen::MatrixXd hessian_;
-  Eigen::VectorXd gradient_;
-  Eigen::MatrixXd damped_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd step_;
+  NormalEquations equations_;
   Posture trial_;
 };
 

@@ -110,7 +110,7 @@ MarkerBatch MarkerKinematics::MakeBatch(int num_samples) const {
 MarkerJacobian MarkerKinematics::MakeJacobian() const {
   MarkerJacobian result;
   result.p_WM = Eigen::Matrix3Xd::Zero(3, num_markers());
-  result.J = Eigen::MatrixXd::Zero(3 * num_markers(), num_dofs());
+  result.J_transposed = PaddedMatrix(num_dofs(), 3 * num_markers());
   result.R_WL.resize(links_.size());
   result.p_WL.resize(links_.size());
   return result;
@@ -158,20 +158,24 @@ void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& 
   }
 }
 
-void MarkerKinematics::ComputeJacobian(const Vector3d& position, const Matrix3d& R_WS,
-                                       const Eigen::Ref<const Eigen::VectorXd>& angles,
-                                       MarkerJacobian* result) const {
-  ComputeMarkers(position, R_WS, angles, result);
+void MarkerKinematics::ComputeJacobian(MarkerJacobian* result) const {
+  const std::ptrdiff_t stride = result->J_transposed.padded_rows();
+  const Matrix3d& R_WS = result->R_WL[0];
   for (int k = 0; k < num_markers(); ++k) {
     const Vector3d p = result->p_WM.col(k);
-    result->J.block<3, 3>(3 * k, 0).setIdentity();
+    double* rows = result->J_transposed.col(3 * k);  // of x, y and z
+    const auto set = [&](int dof, const Vector3d& slope) {
+      for (int i = 0; i < 3; ++i) rows[i * stride + dof] = slope[i];
+    };
+    const Vector3d arm = p - result->p_WL[0];
     for (int i = 0; i < 3; ++i) {
-      result->J.block<3, 1>(3 * k, 3 + i) = R_WS.col(i).cross(p - position);
+      set(i, Vector3d::Unit(i));
+      set(3 + i, R_WS.col(i).cross(arm));
     }
     for (int link = link_of_marker_[k]; link > 0; link = links_[link].parent) {
       const TrackedLink& l = links_[link];
       const Vector3d axis = l.sign * result->R_WL[link].col(l.axis);
-      result->J.block<3, 1>(3 * k, 6 + l.column) = axis.cross(p - result->p_WL[link]);
+      set(6 + l.column, axis.cross(p - result->p_WL[link]));
     }
   }
 }

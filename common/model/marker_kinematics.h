@@ -25,9 +25,9 @@ struct MarkerBatch {
 /// One posture with its derivative. Sized once by MarkerKinematics::MakeJacobian.
 struct MarkerJacobian {
   Eigen::Matrix3Xd p_WM;  ///< out [m], 3 x markers
-  /// out: d p_WM / d [root position (W) 3; root rotation (body) 3; tracked joints], (3 markers) x
-  /// dofs. Entries of joints that do not move a marker are 0.
-  Eigen::MatrixXd J;
+  /// out: transposed d p_WM / d [root position (W) 3; root rotation (body) 3; tracked joints], dofs
+  /// x (3 markers). Entries of joints that do not move a marker are 0.
+  PaddedMatrix J_transposed;
   std::vector<Eigen::Matrix3d> R_WL;  // scratch, a link each
   std::vector<Eigen::Vector3d> p_WL;
 };
@@ -58,10 +58,8 @@ class MarkerKinematics {
                       const Eigen::Ref<const Eigen::VectorXd>& angles,
                       MarkerJacobian* result) const;
 
-  /// Marker positions and Jacobian.
-  void ComputeJacobian(const Eigen::Vector3d& position, const Eigen::Matrix3d& R_WS,
-                       const Eigen::Ref<const Eigen::VectorXd>& angles,
-                       MarkerJacobian* result) const;
+  /// Jacobian at the posture whose markers ComputeMarkers put into `result` last.
+  void ComputeJacobian(MarkerJacobian* result) const;
 
   /// True where the tracked joint moves the marker.
   bool Moves(int joint, int marker) const { return moves_(joint, marker); }

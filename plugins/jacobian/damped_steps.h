@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "common/fit/normal_equations.h"
 #include "common/fit/posture_fit.h"
 #include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
@@ -33,18 +33,9 @@ class DampedSteps {
               const DampedStepOptions& options, Posture* posture);
 
  private:
-  void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
-                 double robust_distance, const Posture& posture);
-  /// Takes the joints that press on a limit out of the normal equations.
-  void HoldJointsOnLimits(const Posture& posture);
-
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;
-  MarkerJacobian at_;
-  Eigen::MatrixXd J_;         // weighted
-  Eigen::VectorXd residual_;  // weighted
-  Eigen::MatrixXd hessian_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
+  NormalEquations equations_;
   Eigen::VectorXd step_;
 };
 

@@ -49,7 +49,7 @@ MarkerMeasurementModel::MarkerMeasurementModel(const MarkerKinematics& kinematic
       mean_of_even_(num_coordinates(), 1),
       at_(kinematics.MakeJacobian()),
       angles_(kinematics.num_joints()),
-      H_transposed_(num_states(), num_coordinates()),
+      slopes_(kinematics.num_joints()),
       spread_transposed_(num_states(), num_states()) {
   half_samples_.view().leftCols(num_pairs_) = half_samples;
   samples_.view().topRows(num_pairs_) = half_samples.transpose();
@@ -141,18 +141,21 @@ void MarkerMeasurementModel::ComputeLinearized(const Belief& belief, const Vecto
     rate = RightJacobian(o);
   }
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    angles_[j] = transform_.Angle(j, belief.parameters[j] + center[6 + j]);
+    const double parameter = belief.parameters[j] + center[6 + j];
+    angles_[j] = transform_.Angle(j, parameter);
+    slopes_[j] = transform_.Slope(j, parameter);
   }
-  kinematics_.ComputeJacobian(belief.position + center.head<3>(), R, angles_, &at_);
-  auto H = H_transposed_.view().transpose();
-  H.leftCols<3>() = at_.J.leftCols<3>();
-  H.middleCols<3>(3).noalias() = at_.J.middleCols<3>(3) * rate;
-  for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    H.col(6 + j) = transform_.Slope(j, belief.parameters[j] + center[6 + j]) * at_.J.col(6 + j);
+  kinematics_.ComputeMarkers(belief.position + center.head<3>(), R, angles_, &at_);
+  kinematics_.ComputeJacobian(&at_);
+  auto H_transposed = at_.J_transposed.view();
+  for (int m = 0; m < num_coordinates(); ++m) {
+    auto column = H_transposed.col(m);
+    column.segment<3>(3) = rate.transpose() * Vector3d(column.segment<3>(3));
+    column.tail(angles_.size()).array() *= slopes_.array();
   }
   moments->mean = at_.p_WM.reshaped();
   spread_transposed_.view() = spread.view().transpose();
-  Multiply(1, spread_transposed_, H_transposed_, &moments->C_sz);
+  Multiply(1, spread_transposed_, at_.J_transposed, &moments->C_sz);
   moments->residual.setZero();
   if (!with_covariance) return;
   if (parts_.rows() == 0) parts_ = PaddedMatrix(num_coordinates(), num_states());

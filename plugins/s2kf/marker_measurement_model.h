@@ -57,8 +57,8 @@ class MarkerMeasurementModel {
   PaddedMatrix mean_of_even_;  // m x 1
   MarkerJacobian at_;
   Eigen::VectorXd angles_;
-  PaddedMatrix H_transposed_;       // n x m, analytic
-  PaddedMatrix spread_transposed_;  // n x n
+  Eigen::VectorXd slopes_;
+  PaddedMatrix spread_transposed_;
 };
 
 }  // namespace mmm_converter::s2kf

@@ -46,11 +46,13 @@ class DampedStepsTest : public ::testing::Test {
 TEST_F(DampedStepsTest, IsTheDampedLeastSquaresStep) {
   options_.damping = 0.3;
   MarkerJacobian at = kinematics_.MakeJacobian();
-  kinematics_.ComputeJacobian(q_.position, q_.orientation.toRotationMatrix(), q_.joint_angles, &at);
+  kinematics_.ComputeMarkers(q_.position, q_.orientation.toRotationMatrix(), q_.joint_angles, &at);
+  kinematics_.ComputeJacobian(&at);
+  MatrixXd J = at.J_transposed.view().transpose();
   const Matrix3Xd offset = 0.001 * Matrix3Xd::Random(3, kinematics_.num_markers());
-  MatrixXd H = at.J.transpose() * at.J;
+  MatrixXd H = J.transpose() * J;
   H.diagonal().tail(kinematics_.num_dofs() - 3).array() += 0.09;
-  const VectorXd expected = H.fullPivLu().solve(at.J.transpose() * offset.reshaped());
+  const VectorXd expected = H.fullPivLu().solve(J.transpose() * offset.reshaped());
 
   Posture q = q_;
   const double asked = steps_.Step(at.p_WM + offset, scale_, options_, &q);
@@ -85,15 +87,17 @@ TEST_F(DampedStepsTest, AJointThatPressesOnItsLimitIsHeldAndSlowsNobodyDown) {
   beyond.joint_angles[kJoint] += 0.05;
   beyond.joint_angles[0] += 0.01;
   MarkerJacobian at = kinematics_.MakeJacobian();
-  kinematics_.ComputeJacobian(q_.position, q_.orientation.toRotationMatrix(), q_.joint_angles, &at);
+  kinematics_.ComputeMarkers(q_.position, q_.orientation.toRotationMatrix(), q_.joint_angles, &at);
+  kinematics_.ComputeJacobian(&at);
+  MatrixXd J = at.J_transposed.view().transpose();
   const Matrix3Xd z = Markers(beyond);
   const VectorXd residual = (z - at.p_WM).reshaped();
-  ASSERT_GT(at.J.col(6 + kJoint).dot(residual), 0);
+  ASSERT_GT(J.col(6 + kJoint).dot(residual), 0);
   // The problem without the joint.
-  at.J.col(6 + kJoint).setZero();
-  MatrixXd H = at.J.transpose() * at.J;
+  J.col(6 + kJoint).setZero();
+  MatrixXd H = J.transpose() * J;
   H.diagonal().tail(kinematics_.num_dofs() - 3).array() += options_.damping * options_.damping;
-  const VectorXd expected = H.fullPivLu().solve(at.J.transpose() * residual);
+  const VectorXd expected = H.fullPivLu().solve(J.transpose() * residual);
 
   Posture q = q_;
   const double asked = steps_.Step(z, scale_, options_, &q);
