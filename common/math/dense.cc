@@ -11,11 +11,20 @@ const DenseKernels& Active() {
   return kernels;
 }
 
-void MultiplyByTransposed(const PaddedMatrix& A, const PaddedMatrix& B, Shape shape,
-                          PaddedMatrix* C) {
-  assert(A.cols() == B.cols() && C->rows() == A.rows() && C->cols() == B.rows());
-  Active().multiply(1, A.data(), A.padded_rows(), {B.data(), B.padded_rows(), 1}, 0, C->data(),
-                    C->padded_rows(), A.padded_rows(), B.padded_rows(), A.padded_cols(), shape);
+void AddSquare(double alpha, const PaddedMatrix& A, const double* weights, PaddedMatrix* C) {
+  assert(C->rows() == A.rows() && C->cols() == A.rows());
+  Active().multiply({alpha,
+                     A.data(),
+                     A.padded_rows(),
+                     {A.data(), A.padded_rows(), 1},
+                     1,
+                     C->data(),
+                     C->padded_rows(),
+                     A.padded_rows(),
+                     A.padded_rows(),
+                     A.padded_cols(),
+                     Shape::kLowerResult,
+                     weights});
 }
 
 }  // namespace
@@ -25,31 +34,45 @@ const DenseKernels& DenseKernelsFor(InstructionSet set) {
   return kTables.For(set);
 }
 
-void Multiply(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C) {
-  assert(A.cols() == B.rows());
-  MultiplyByTop(alpha, A, B, C);
-}
-
-void MultiplyByTop(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C) {
+void Multiply(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C,
+              Shape shape) {
   assert(A.cols() <= B.rows() && C->rows() == A.rows() && C->cols() == B.cols());
-  Active().multiply(alpha, A.data(), A.padded_rows(), {B.data(), 1, B.padded_rows()}, 0, C->data(),
-                    C->padded_rows(), A.padded_rows(), B.padded_cols(), A.padded_cols(),
-                    Shape::kFull);
+  Active().multiply({alpha,
+                     A.data(),
+                     A.padded_rows(),
+                     {B.data(), 1, B.padded_rows()},
+                     0,
+                     C->data(),
+                     C->padded_rows(),
+                     A.padded_rows(),
+                     B.padded_cols(),
+                     A.padded_cols(),
+                     shape});
 }
 
-void MultiplyByTransposed(const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C) {
-  MultiplyByTransposed(A, B, Shape::kFull, C);
-}
-
-void MultiplyByTransposedLower(const PaddedMatrix& A, const PaddedMatrix& G, PaddedMatrix* C) {
-  MultiplyByTransposed(A, G, Shape::kUpperFactor, C);
+void MultiplyByTransposed(const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C,
+                          Shape shape) {
+  assert(A.cols() == B.cols() && C->rows() == A.rows() && C->cols() == B.rows());
+  Active().multiply({1,
+                     A.data(),
+                     A.padded_rows(),
+                     {B.data(), B.padded_rows(), 1},
+                     0,
+                     C->data(),
+                     C->padded_rows(),
+                     A.padded_rows(),
+                     B.padded_rows(),
+                     A.padded_cols(),
+                     shape});
 }
 
 void AddSquare(double alpha, const PaddedMatrix& A, PaddedMatrix* C) {
-  assert(C->rows() == A.rows() && C->cols() == A.rows());
-  Active().multiply(alpha, A.data(), A.padded_rows(), {A.data(), A.padded_rows(), 1}, 1, C->data(),
-                    C->padded_rows(), A.padded_rows(), A.padded_rows(), A.padded_cols(),
-                    Shape::kLowerResult);
+  AddSquare(alpha, A, nullptr, C);
+}
+
+void AddWeightedSquare(const PaddedMatrix& A, const PaddedMatrix& weights, PaddedMatrix* C) {
+  assert(weights.rows() == A.cols());
+  AddSquare(1, A, weights.data(), C);
 }
 
 void Factorize(PaddedMatrix* A) {

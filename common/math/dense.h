@@ -11,16 +11,16 @@ namespace mmm_converter {
 
 const DenseKernels& DenseKernelsFor(InstructionSet set);
 
-/// C = alpha A B.
-void Multiply(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C);
-/// C = alpha A B where B is the top of a taller matrix.
-void MultiplyByTop(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C);
-/// C = A B^T.
-void MultiplyByTransposed(const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C);
-/// C = A G^T with a lower triangular G (upper part 0), in half the time.
-void MultiplyByTransposedLower(const PaddedMatrix& A, const PaddedMatrix& G, PaddedMatrix* C);
+/// C = alpha A B; of B only as many rows as A has columns. shape: kFull or kUpperLeft.
+void Multiply(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C,
+              Shape shape = Shape::kFull);
+/// C = A B^T. shape: kFull, or kUpperRight where B is lower triangular.
+void MultiplyByTransposed(const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C,
+                          Shape shape = Shape::kFull);
 /// C += alpha A A^T, lower triangle only.
 void AddSquare(double alpha, const PaddedMatrix& A, PaddedMatrix* C);
+/// C += A diag(weights) A^T, lower triangle only. weights: one column.
+void AddWeightedSquare(const PaddedMatrix& A, const PaddedMatrix& weights, PaddedMatrix* C);
 /// The lower triangle of A becomes the G of A = G G^T (Cholesky), the rest 0. A direction without
 /// variance gets a column of zeros.
 void Factorize(PaddedMatrix* A);

@@ -11,46 +11,57 @@ constexpr int kTileRows = 3;
 constexpr int kTileCols = kLanes == 8 ? 8 : 4;
 constexpr int kBlock = 8;  // columns that are factorised at once; all sizes are multiples of it
 
-template <int kRows>
-void MultiplyTile(double alpha, const double* A, std::ptrdiff_t A_col, const StridedFactor& B,
-                  double beta, double* C, std::ptrdiff_t C_col, int depth) {
+/// The part of C at (i, j), from the columns [begin, end) of A.
+template <int kRows, bool kIsWeighted>
+void MultiplyTile(const DenseProduct& p, int i, int j, int begin, int end) {
   Lanes sum[kTileCols][kRows] = {};
-  const double* b = B.data;
-  for (int k = 0; k < depth; ++k) {
+  const double* A = p.A + i + begin * p.A_col;
+  const double* B = p.B.data + j * p.B.col + begin * p.B.row;
+  for (int k = begin; k < end; ++k) {
     Lanes a[kRows];
-    for (int r = 0; r < kRows; ++r) a[r] = LoadLanes(A + r * kLanes);
+    for (int r = 0; r < kRows; ++r) {
+      a[r] = LoadLanes(A + r * kLanes);
+      if constexpr (kIsWeighted) a[r] *= p.W[k];
+    }
     for (int c = 0; c < kTileCols; ++c) {
-      const double factor = b[c * B.col];
+      const double factor = B[c * p.B.col];
       for (int r = 0; r < kRows; ++r) sum[c][r] += a[r] * factor;
     }
-    A += A_col;
-    b += B.row;
+    A += p.A_col;
+    B += p.B.row;
   }
+  double* C = p.C + j * p.C_col + i;
   for (int c = 0; c < kTileCols; ++c) {
-    double* target = C + c * C_col;
     for (int r = 0; r < kRows; ++r) {
-      Lanes result = alpha * sum[c][r];
-      if (beta != 0) result += beta * LoadLanes(target + r * kLanes);
-      StoreLanes(result, target + r * kLanes);
+      Lanes result = p.alpha * sum[c][r];
+      if (p.beta != 0) result += p.beta * LoadLanes(C + r * kLanes);
+      StoreLanes(result, C + r * kLanes);
+    }
+    C += p.C_col;
+  }
+}
+
+template <bool kIsWeighted>
+void MultiplyTiles(const DenseProduct& p) {
+  const bool is_upper_left = p.shape == Shape::kUpperLeft;
+  for (int j = 0; j < p.cols; j += kTileCols) {
+    const int triangle = j + kTileCols;
+    const int end = p.shape == Shape::kUpperRight && triangle < p.depth ? triangle : p.depth;
+    int i = p.shape == Shape::kLowerResult ? j / kLanes * kLanes : 0;
+    for (; i + kTileRows * kLanes <= p.rows; i += kTileRows * kLanes) {
+      MultiplyTile<kTileRows, kIsWeighted>(p, i, j, is_upper_left ? i : 0, end);
+    }
+    for (; i < p.rows; i += kLanes) {
+      MultiplyTile<1, kIsWeighted>(p, i, j, is_upper_left ? i : 0, end);
     }
   }
 }
 
-void Multiply(double alpha, const double* A, std::ptrdiff_t A_col, const StridedFactor& B,
-              double beta, double* C, std::ptrdiff_t C_col, int rows, int cols, int depth,
-              Shape shape) {
-  for (int j = 0; j < cols; j += kTileCols) {
-    const StridedFactor B_j = {B.data + j * B.col, B.row, B.col};
-    const int least = shape == Shape::kUpperFactor ? j + kTileCols : depth;
-    const int depth_j = least < depth ? least : depth;
-    int i = shape == Shape::kLowerResult ? j / kLanes * kLanes : 0;
-    double* C_j = C + j * C_col;
-    for (; i + kTileRows * kLanes <= rows; i += kTileRows * kLanes) {
-      MultiplyTile<kTileRows>(alpha, A + i, A_col, B_j, beta, C_j + i, C_col, depth_j);
-    }
-    for (; i < rows; i += kLanes) {
-      MultiplyTile<1>(alpha, A + i, A_col, B_j, beta, C_j + i, C_col, depth_j);
-    }
+void Multiply(const DenseProduct& product) {
+  if (product.W == nullptr) {
+    MultiplyTiles<false>(product);
+  } else {
+    MultiplyTiles<true>(product);
   }
 }
 
@@ -94,7 +105,7 @@ void Factorize(double* A, int size) {
   for (int j = 0; j < size; j += kBlock) {
     double* diagonal = A + j * stride + j;
     const StridedFactor left = {A + j, stride, 1};
-    Multiply(-1, A + j, stride, left, 1, diagonal, stride, size - j, kBlock, j, Shape::kFull);
+    Multiply({-1, A + j, stride, left, 1, diagonal, stride, size - j, kBlock, j});
     FactorizeBlock(diagonal, stride);
     DivideByBlock(diagonal, stride, diagonal + kBlock, stride, size - j - kBlock);
     for (int k = 0; k < kBlock; ++k) {
@@ -108,7 +119,7 @@ void Divide(const double* G, int size, double* X, std::ptrdiff_t X_col, int rows
   for (int j = 0; j < size; j += kBlock) {
     double* X_j = X + j * X_col;
     const StridedFactor left = {G + j, stride, 1};
-    Multiply(-1, X, X_col, left, 1, X_j, X_col, rows, kBlock, j, Shape::kFull);
+    Multiply({-1, X, X_col, left, 1, X_j, X_col, rows, kBlock, j});
     DivideByBlock(G + j * stride + j, stride, X_j, X_col, rows);
   }
 }

@@ -12,20 +12,34 @@ struct StridedFactor {
   std::ptrdiff_t col;
 };
 
-/// Which part of a product or of a factor is not zero by construction.
+/// Which part of a product is not zero, or not asked for, by construction.
 enum class Shape {
   kFull,
   kLowerResult,  ///< only C's lower triangle is asked for
-  kUpperFactor,  ///< B is upper triangular
+  kUpperLeft,    ///< A is upper triangular
+  kUpperRight,   ///< B is upper triangular
+};
+
+/// C (rows x cols) = beta C + alpha A W B with A (rows x depth), B (depth x cols) and a diagonal W.
+struct DenseProduct {
+  double alpha;
+  const double* A;
+  std::ptrdiff_t A_col;  ///< distance of columns
+  StridedFactor B;
+  double beta;
+  double* C;
+  std::ptrdiff_t C_col;
+  int rows;
+  int cols;
+  int depth;
+  Shape shape = Shape::kFull;
+  const double* W = nullptr;  ///< nullptr: the identity
 };
 
 /// Products and factorisations of small dense matrices, as dense.h uses them. Sizes are padded,
 /// columns contiguous and aligned (PaddedMatrix).
 struct DenseKernels {
-  /// C (rows x cols) = beta C + alpha A (rows x depth) B (depth x cols).
-  void (*multiply)(double alpha, const double* A, std::ptrdiff_t A_col, const StridedFactor& B,
-                   double beta, double* C, std::ptrdiff_t C_col, int rows, int cols, int depth,
-                   Shape shape);
+  void (*multiply)(const DenseProduct& product);
   /// The lower triangle of A = G G^T becomes G, the rest 0.
   void (*factorize)(double* A, int size);
   /// X (rows x size) becomes X G^-T.

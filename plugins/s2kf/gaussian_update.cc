@@ -17,7 +17,7 @@ void MeasurementMoments::ClearCovariance() {
 }
 
 GaussianUpdate::GaussianUpdate(int n, int m)
-    : mean_(n, 1), scaled_(n, m), innovation_(m, 1), factor_(n, n), product_(n, m) {}
+    : mean_(n, 1), weights_(m, 1), innovation_(m, 1), factor_(n, n), scaled_(n, m) {}
 
 void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& z,
                              const VectorXd& noise, UpdateForm form) {
@@ -31,21 +31,23 @@ void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& 
 
 void GaussianUpdate::ComputeRegression(const MeasurementMoments& moments, const VectorXd& z,
                                        const VectorXd& noise) {
-  // Columns scaled by the standard deviation of noise and residual: information = I + A A^T.
-  auto A = scaled_.view();
+  auto weights = weights_.view().col(0);
   auto innovation = innovation_.view().col(0);
+  double squares = 0;
   for (Eigen::Index i = 0; i < z.size(); ++i) {
-    const double weight = std::isinf(noise[i]) ? 0 : 1 / std::sqrt(noise[i] + moments.residual[i]);
-    A.col(i) = weight * moments.C_sz.view().col(i);
-    innovation[i] = weight > 0 ? weight * (z[i] - moments.mean[i]) : 0;
+    const bool is_measured = !std::isinf(noise[i]);
+    weights[i] = is_measured ? 1 / (noise[i] + moments.residual[i]) : 0;
+    const double difference = is_measured ? z[i] - moments.mean[i] : 0;
+    innovation[i] = weights[i] * difference;
+    squares += innovation[i] * difference;
   }
+  // information = I + C_sz W C_zs = G G^T, so the covariance is G^-T G^-1.
   factor_.view().setIdentity();
-  AddSquare(1, scaled_, &factor_);
+  AddWeightedSquare(moments.C_sz, weights_, &factor_);
   Factorize(&factor_);
-  mean_.view().col(0).noalias() = A * innovation;
+  mean_.view().col(0).noalias() = moments.C_sz.view() * innovation;
   SolveLower(factor_, &mean_);
-  nis_ = innovation.squaredNorm() - mean_.view().squaredNorm();
-  // information = G G^T, so the covariance is G^-T G^-1.
+  nis_ = squares - mean_.view().squaredNorm();
   SolveLowerTransposed(factor_, &mean_);
 }
 
@@ -92,11 +94,11 @@ void GaussianUpdate::Spread(const PaddedMatrix& L, PaddedMatrix* X) const {
 void GaussianUpdate::FromPosteriorSpace(PaddedMatrix* C_sz) {
   // C_sz = T^-T C_tz.
   if (form_ == UpdateForm::kRegression) {
-    Multiply(1, factor_, *C_sz, &product_);
+    Multiply(1, factor_, *C_sz, &scaled_);
   } else {
-    product_.view() = factor_.view().transpose().triangularView<Eigen::Upper>().solve(C_sz->view());
+    scaled_.view() = factor_.view().transpose().triangularView<Eigen::Upper>().solve(C_sz->view());
   }
-  std::swap(*C_sz, product_);
+  std::swap(*C_sz, scaled_);
 }
 
 }  // namespace mmm_converter::s2kf

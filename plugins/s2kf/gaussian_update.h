@@ -57,10 +57,10 @@ class GaussianUpdate {
   UpdateForm form_ = UpdateForm::kRegression;
   PaddedMatrix mean_;  // n x 1
   double nis_ = 0;
-  PaddedMatrix scaled_;      // n x m
-  PaddedMatrix innovation_;  // m x 1
+  PaddedMatrix weights_;     // m x 1
+  PaddedMatrix innovation_;  // m x 1, scaled
   PaddedMatrix factor_;      // G with T = G^-T (regression) or T itself (exact), lower triangular
-  PaddedMatrix product_;     // n x m
+  PaddedMatrix scaled_;      // n x m, scratch
   PaddedMatrix S_;           // m x m, exact form
 };
 

@@ -49,6 +49,7 @@ void JointLimitTransform::Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameter
   if (function_ != LimitFunction::kSine) return;
   constexpr double kPi = std::numbers::pi;
   for (Eigen::Index j = 0; j < parameters.size(); ++j) {
+    if (std::abs(parameters[j]) <= kPi / 2) continue;
     const double turned = std::remainder(parameters[j], 2 * kPi);
     parameters[j] = turned;
     if (std::abs(turned) <= kPi / 2) continue;

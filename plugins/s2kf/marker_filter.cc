@@ -179,7 +179,7 @@ void MarkerFilter::Relinearize(const Belief& belief) {
   const auto mu = update_.mean();
   center_.noalias() = L_x_.view() * mu;
   update_.Spread(L_x_, &posterior_x_);
-  measurement_model_.ComputeMoments(belief, center_, posterior_x_, false, &moments_);
+  measurement_model_.ComputeMoments(belief, center_, {posterior_x_}, false, &moments_);
   update_.FromPosteriorSpace(&moments_.C_sz);
   moments_.mean.noalias() -= moments_.C_sz.view().transpose() * mu;
 }
@@ -213,7 +213,7 @@ MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief
   const bool exact = settings_.update == UpdateForm::kExact;
   FactorizeCovariance(*belief);
   center_.setZero();
-  measurement_model_.ComputeMoments(*belief, center_, L_x_, exact, &moments_);
+  measurement_model_.ComputeMoments(*belief, center_, {L_x_, true}, exact, &moments_);
   expected_ = moments_.mean;
   Outcome outcome;
   Weigh(z, &outcome);

@@ -56,7 +56,7 @@ MarkerMeasurementModel::MarkerMeasurementModel(const MarkerKinematics& kinematic
 }
 
 void MarkerMeasurementModel::ComputeMoments(const Belief& belief, const VectorXd& center,
-                                            const PaddedMatrix& spread, bool with_covariance,
+                                            const SpreadRoot& spread, bool with_covariance,
                                             MeasurementMoments* moments) {
   if (num_pairs_ > 0) {
     ComputeSampled(belief, center, spread, with_covariance, moments);
@@ -96,9 +96,10 @@ void MarkerMeasurementModel::PlaceAngles(const Belief& belief, const VectorXd& c
 }
 
 void MarkerMeasurementModel::ComputeSampled(const Belief& belief, const VectorXd& center,
-                                            const PaddedMatrix& spread, bool with_covariance,
+                                            const SpreadRoot& spread, bool with_covariance,
                                             MeasurementMoments* moments) {
-  MultiplyByTransposed(samples_, spread, &offsets_);
+  MultiplyByTransposed(samples_, spread.matrix, &offsets_,
+                       spread.is_lower ? Shape::kUpperRight : Shape::kFull);
   PlaceRoots(belief, center);
   PlaceAngles(belief, center);
   kinematics_.ComputeBatch(&batch_);
@@ -114,7 +115,7 @@ void MarkerMeasurementModel::ComputeSampled(const Belief& belief, const VectorXd
     mean_of_even_.data()[i] = mean;
     moments->residual[i] = weight * sums.squares - mean * mean;
   }
-  MultiplyByTop(weight, half_samples_, batch_.markers, &moments->C_sz);
+  Multiply(weight, half_samples_, batch_.markers, &moments->C_sz);
   for (int i = 0; i < m; ++i) {
     const double explained = moments->C_sz.view().col(i).squaredNorm();
     moments->residual[i] = std::max(0.0, moments->residual[i] - explained);
@@ -128,7 +129,7 @@ void MarkerMeasurementModel::ComputeSampled(const Belief& belief, const VectorXd
 }
 
 void MarkerMeasurementModel::ComputeLinearized(const Belief& belief, const VectorXd& center,
-                                               const PaddedMatrix& spread, bool with_covariance,
+                                               const SpreadRoot& spread, bool with_covariance,
                                                MeasurementMoments* moments) {
   const Vector3d o = center.segment<3>(3);
   Matrix3d R;
@@ -147,15 +148,15 @@ void MarkerMeasurementModel::ComputeLinearized(const Belief& belief, const Vecto
   }
   kinematics_.ComputeMarkers(belief.position + center.head<3>(), R, angles_, &at_);
   kinematics_.ComputeJacobian(&at_);
-  auto H_transposed = at_.J_transposed.view();
-  for (int m = 0; m < num_coordinates(); ++m) {
-    auto column = H_transposed.col(m);
-    column.segment<3>(3) = rate.transpose() * Vector3d(column.segment<3>(3));
-    column.tail(angles_.size()).array() *= slopes_.array();
-  }
   moments->mean = at_.p_WM.reshaped();
-  spread_transposed_.view() = spread.view().transpose();
-  Multiply(1, spread_transposed_, at_.J_transposed, &moments->C_sz);
+  // C_sz = spread^T D J^T: angles and the body's rotation are functions of the state, with slope D.
+  auto weighted = spread_transposed_.view();
+  weighted = spread.matrix.view().transpose();
+  weighted.middleCols<3>(3) =
+      spread.matrix.view().middleRows<3>(3).transpose().lazyProduct(rate.transpose());
+  for (int j = 0; j < kinematics_.num_joints(); ++j) weighted.col(6 + j) *= slopes_[j];
+  Multiply(1, spread_transposed_, at_.J_transposed, &moments->C_sz,
+           spread.is_lower ? Shape::kUpperLeft : Shape::kFull);
   moments->residual.setZero();
   if (!with_covariance) return;
   if (parts_.rows() == 0) parts_ = PaddedMatrix(num_coordinates(), num_states());

@@ -12,6 +12,12 @@
 
 namespace mmm_converter::s2kf {
 
+/// A root S of a covariance S S^T, n x n.
+struct SpreadRoot {
+  const PaddedMatrix& matrix;
+  bool is_lower = false;  ///< triangular: half the work
+};
+
 /// z = h(x): where the model's markers are, by forward kinematics behind the limit transform.
 /// Gives the moments of h for x = belief moved by L (mu + T s), s ~ N(0, I), from point-symmetric
 /// samples or from the analytic Jacobian (EKF). Owns all scratch; one per thread, sized once.
@@ -27,18 +33,16 @@ class MarkerMeasurementModel {
   int num_coordinates() const { return 3 * kinematics_.num_markers(); }
   const JointLimitTransform& transform() const { return transform_; }
 
-  /// Moments of h about belief moved by `center`, spread by `spread` (n x n, a root of the
-  /// covariance). with_covariance: fill C_zz too.
-  void ComputeMoments(const Belief& belief, const Eigen::VectorXd& center,
-                      const PaddedMatrix& spread, bool with_covariance,
-                      MeasurementMoments* moments);
+  /// Moments of h about belief moved by `center`, spread by `spread`. with_covariance: fill C_zz
+  /// too.
+  void ComputeMoments(const Belief& belief, const Eigen::VectorXd& center, const SpreadRoot& spread,
+                      bool with_covariance, MeasurementMoments* moments);
 
  private:
-  void ComputeSampled(const Belief& belief, const Eigen::VectorXd& center,
-                      const PaddedMatrix& spread, bool with_covariance,
-                      MeasurementMoments* moments);
+  void ComputeSampled(const Belief& belief, const Eigen::VectorXd& center, const SpreadRoot& spread,
+                      bool with_covariance, MeasurementMoments* moments);
   void ComputeLinearized(const Belief& belief, const Eigen::VectorXd& center,
-                         const PaddedMatrix& spread, bool with_covariance,
+                         const SpreadRoot& spread, bool with_covariance,
                          MeasurementMoments* moments);
   void PlaceRoots(const Belief& belief, const Eigen::VectorXd& center);
   void PlaceAngles(const Belief& belief, const Eigen::VectorXd& center);

@@ -60,7 +60,7 @@ TEST_P(DenseTest, ProductsEqualTheirDefinition) {
   ExpectCleanPadding(C);
 
   const PaddedMatrix tall = Random(40, 7, 3);
-  MultiplyByTop(2, A, tall, &C);
+  Multiply(2, A, tall, &C);
   EXPECT_LT(Distance(C, 2 * A.view() * tall.view().topRows(19)), kRounding);
 
   const PaddedMatrix D = Random(11, 19, 4);
@@ -72,8 +72,14 @@ TEST_P(DenseTest, ProductsEqualTheirDefinition) {
   PaddedMatrix G = Random(19, 19, 5);
   G.view().triangularView<Eigen::StrictlyUpper>().setZero();
   PaddedMatrix F(n, 19);
-  MultiplyByTransposedLower(A, G, &F);
+  MultiplyByTransposed(A, G, &F, Shape::kUpperRight);
   EXPECT_LT(Distance(F, A.view() * G.view().transpose()), kRounding);
+
+  PaddedMatrix U = Random(n, n, 6);
+  U.view().triangularView<Eigen::StrictlyLower>().setZero();
+  const PaddedMatrix V = Random(n, 7, 7);
+  Multiply(1, U, V, &C, Shape::kUpperLeft);
+  EXPECT_LT(Distance(C, U.view() * V.view()), kRounding);
 }
 
 TEST_P(DenseTest, SquareIsAddedToTheLowerTriangle) {
@@ -86,6 +92,14 @@ TEST_P(DenseTest, SquareIsAddedToTheLowerTriangle) {
   const MatrixXd difference = (C.view() - expected).triangularView<Eigen::Lower>();
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), kRounding);
   ExpectCleanPadding(C);
+
+  const PaddedMatrix weights = Random(30, 1, 3);
+  C.view() = before;
+  AddWeightedSquare(A, weights, &C);
+  const MatrixXd W = weights.view().col(0).asDiagonal();
+  const MatrixXd weighted =
+      (C.view() - before - A.view() * W * A.view().transpose()).triangularView<Eigen::Lower>();
+  EXPECT_LT(weighted.cwiseAbs().maxCoeff(), kRounding);
 }
 
 TEST_P(DenseTest, FactorAndSolvesInvertTheMatrix) {
@@ -139,8 +153,8 @@ TEST(DenseVariantsTest, AllInstructionSetsAgreeToRounding) {
       const DenseKernels& kernels = i == 0 ? baseline : DenseKernelsFor(set);
       double* G = factors[i].data();
       factors[i].view().setIdentity();
-      kernels.multiply(1, A.data(), 48, {A.data(), 48, 1}, 1, G, 48, 48, 48, 152,
-                       Shape::kLowerResult);
+      kernels.multiply(
+          {1, A.data(), 48, {A.data(), 48, 1}, 1, G, 48, 48, 48, 152, Shape::kLowerResult});
       kernels.factorize(G, 48);
       kernels.divide(G, 48, quotients[i].data(), 32, 32);
       kernels.solve(G, 48, solutions[i].data());

@@ -83,7 +83,7 @@ TEST_P(MarkerMeasurementModelTest, SampledMomentsAreThoseOfAllSamples) {
     const VectorXd center = RandomVector(0.1);
     const MatrixXd spread = RandomSpread(0.03);
     MeasurementMoments moments(n, m);
-    measurement.ComputeMoments(belief, center, Padded(spread), true, &moments);
+    measurement.ComputeMoments(belief, center, {Padded(spread)}, true, &moments);
 
     MatrixXd samples(n, 2 * pairs + 1);
     samples << half, -half, VectorXd::Zero(n);
@@ -108,7 +108,7 @@ TEST_P(MarkerMeasurementModelTest, SampledMomentsAreThoseOfAllSamples) {
               kRounding);
 
     MeasurementMoments without(n, m);
-    measurement.ComputeMoments(belief, center, Padded(spread), false, &without);
+    measurement.ComputeMoments(belief, center, {Padded(spread)}, false, &without);
     EXPECT_EQ(without.mean, moments.mean);
     EXPECT_EQ(without.C_sz.view(), moments.C_sz.view());
     EXPECT_EQ(without.residual, moments.residual);
@@ -123,7 +123,7 @@ TEST_P(MarkerMeasurementModelTest, LinearizedMomentsMatchFiniteDifferences) {
   for (const double scale : {0.0, 1e-8, 0.7}) {
     const Belief belief = RandomBelief(scale);
     const VectorXd center = RandomVector(scale);
-    measurement.ComputeMoments(belief, center, Padded(MatrixXd::Identity(n, n)), false, &moments);
+    measurement.ComputeMoments(belief, center, {Padded(MatrixXd::Identity(n, n))}, false, &moments);
     EXPECT_LT((moments.mean - Measure(belief, center)).cwiseAbs().maxCoeff(), 1e-14);
     EXPECT_EQ(moments.residual.norm(), 0);
     for (int i = 0; i < n; ++i) {
@@ -148,18 +148,37 @@ TEST_P(MarkerMeasurementModelTest, SamplesOfATinySpreadAreTheLinearization) {
   const MatrixXd spread = RandomSpread(1e-5);
   MeasurementMoments a(n, m);
   MeasurementMoments b(n, m);
-  sampled.ComputeMoments(belief, VectorXd::Zero(n), Padded(spread), false, &a);
-  linearized.ComputeMoments(belief, VectorXd::Zero(n), Padded(spread), false, &b);
+  sampled.ComputeMoments(belief, VectorXd::Zero(n), {Padded(spread)}, false, &a);
+  linearized.ComputeMoments(belief, VectorXd::Zero(n), {Padded(spread)}, false, &b);
   // Third order in 1e-5 for C_zs, second order for the mean.
   EXPECT_LT((a.C_sz.view() - b.C_sz.view()).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((a.mean - b.mean).cwiseAbs().maxCoeff(), 1e-8);
 
-  linearized.ComputeMoments(belief, VectorXd::Zero(n), Padded(spread), true, &b);
+  linearized.ComputeMoments(belief, VectorXd::Zero(n), {Padded(spread)}, true, &b);
   // Entries of about 1e-10, in another order of summation.
   const MatrixXd C_zs = b.C_sz.view().transpose();
   EXPECT_LT(
       (MatrixXd(b.C_zz.view().selfadjointView<Eigen::Lower>()) - C_zs * C_zs.transpose()).norm(),
       1e-22);
+}
+
+TEST_P(MarkerMeasurementModelTest, ATriangularSpreadIsOnlyFaster) {
+  const int n = kinematics_.num_dofs();
+  const int m = 3 * kinematics_.num_markers();
+  const Belief belief = RandomBelief(0.5);
+  const VectorXd center = RandomVector(0.1);
+  MatrixXd spread = RandomSpread(0.03);
+  spread.triangularView<Eigen::StrictlyUpper>().setZero();
+  for (const MatrixXd& half : {RandomHalfSamples(n, 41, 1), MatrixXd(n, 0)}) {
+    MarkerMeasurementModel measurement(kinematics_, transform_, root(), half);
+    MeasurementMoments full(n, m);
+    MeasurementMoments lower(n, m);
+    measurement.ComputeMoments(belief, center, {Padded(spread)}, false, &full);
+    measurement.ComputeMoments(belief, center, {Padded(spread), true}, false, &lower);
+    EXPECT_EQ(lower.mean, full.mean);
+    EXPECT_EQ(lower.C_sz.view(), full.C_sz.view());
+    EXPECT_EQ(lower.residual, full.residual);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
