@@ -9,6 +9,8 @@
 #include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/version.h"
+#include "common/math/instruction_set.h"
 #include "common/support/suggestion.h"
 
 namespace mmm_converter {
@@ -37,6 +39,7 @@ Examples
 Environment
   MMM_CONVERTER_PLUGIN_PATH  folders with more converter plugins, separated by colons
   MMM_CONVERTER_DATA         folder of models, marker sets and configurations, instead of the shipped
+  MMM_CONVERTER_INSTRUCTION_SET  baseline, avx2 or avx512, instead of the best that there is
 
 Exit codes: 0 done, 1 input or conversion failed, 2 not understood
 )";
@@ -56,9 +59,10 @@ int Run(const std::vector<std::string>& words) {
     return 0;
   }
   if (first == "--version") {
-    std::cout << "MMMConverterS2KF " MMM_CONVERTER_VERSION "\n";
+    std::cout << VersionText();
     return 0;
   }
+  ActiveInstructionSet();  // an impossible wish ends here, not in the middle of the work
   // A script that calls MMMMotionConverter names no command.
   if (std::find(words.begin(), words.end(), "--inputMotion") != words.end() && first[0] == '-') {
     return RunConvert(words);

@@ -9,6 +9,7 @@
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/info_markers.h"
 #include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/version.h"
 #include "common/convert/converter_config.h"
 #include "common/convert/plugin_loader.h"
 #include "common/io/file_content.h"
@@ -238,7 +239,7 @@ int RunInfo(const std::vector<std::string>& words) {
     return 0;
   }
   if (arguments.Has("version")) {
-    std::cout << "MMMConverterS2KF " MMM_CONVERTER_VERSION "\n";
+    std::cout << VersionText();
     return 0;
   }
   if (!arguments.positional()) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "common/math/instruction_set.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/test_plugins.h"
@@ -38,7 +39,22 @@ TEST(Help, EveryCommandHasOneWithExamples) {
 
 TEST(Help, VersionIsPrinted) {
   EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 0."));
-  EXPECT_THAT(RunProgram({"info", "--version"}).out, StartsWith("MMMConverterS2KF 0."));
+  EXPECT_EQ(RunProgram({"info", "--version"}).out, RunProgram({"--version"}).out);
+}
+
+TEST(Help, InstructionSetIsShownAndCanBeChosen) {
+  const std::string fastest = ToString(SupportedInstructionSets().back());
+  EXPECT_THAT(RunProgram({"info", "--version"}).out, HasSubstr("instruction set " + fastest));
+  for (const InstructionSet set : SupportedInstructionSets()) {
+    const auto run =
+        RunProgram({"info", "--version"}, {{"MMM_CONVERTER_INSTRUCTION_SET", ToString(set)}});
+    EXPECT_THAT(run.out, HasSubstr("instruction set " + ToString(set)));
+  }
+  const auto run =
+      RunProgram({"info", testing::Handstand()}, {{"MMM_CONVERTER_INSTRUCTION_SET", "sse9"}});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("MMM_CONVERTER_INSTRUCTION_SET=\"sse9\""));
+  EXPECT_THAT(run.err, HasSubstr("baseline"));
 }
 
 struct Misuse {
