@@ -20,6 +20,13 @@ namespace {
 
 constexpr KernelTables<SampleKernels> kKernelTables = MMM_CONVERTER_KERNELS(GetSampleKernels);
 
+/// Rows for the pairs and the centre; never so many that the columns of both halves lie a multiple
+/// of 4096 bytes apart, which would let them all compete for the same few cache lines.
+int HalfRows(int num_pairs) {
+  const int rows = PaddedSize(num_pairs + 1);
+  return rows % 256 == 0 ? rows + kPadding : rows;
+}
+
 /// Body angular rate of d(rpy)/dt: R^T dR = [E d(rpy)].
 Matrix3d BodyRateOfRpy(const Vector3d& rpy) {
   const double sr = std::sin(rpy.x());
@@ -41,7 +48,7 @@ MarkerMeasurementModel::MarkerMeasurementModel(const MarkerKinematics& kinematic
       root_(root),
       kernels_(kKernelTables.For(ActiveInstructionSet())),
       num_pairs_(static_cast<int>(half_samples.cols())),
-      rows_(num_pairs_ == 0 ? 0 : PaddedSize(num_pairs_ + 1)),
+      rows_(num_pairs_ == 0 ? 0 : HalfRows(num_pairs_)),
       half_samples_(num_states(), rows_),
       samples_(rows_, num_states()),
       offsets_(rows_, num_states()),

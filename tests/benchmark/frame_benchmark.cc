@@ -97,6 +97,16 @@ void S2kfFrame(benchmark::State& state, UpdateForm form) {
             Task(static_cast<int>(state.range(1)) - 6, static_cast<int>(state.range(2))));
 }
 
+/// One update a frame and no search, so that only the sizes differ.
+void S2kfUpdate(benchmark::State& state) {
+  S2kfSettings settings;
+  settings.samples = static_cast<int>(state.range(0));
+  settings.iterations = 1;
+  settings.recovery = false;
+  RunFrames(state, settings,
+            Task(static_cast<int>(state.range(1)) - 6, static_cast<int>(state.range(2))));
+}
+
 void FilterFrame(benchmark::State& state, FilterType filter) {
   S2kfSettings settings;
   settings.filter = filter;
@@ -126,21 +136,26 @@ void Start(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(converter.Assemble(task.markers.frame(0)));
 }
 
-BENCHMARK(ForwardKinematics)
-    ->Args({301, kJoints})
-    ->Args({93, kJoints})
-    ->Args({1001, kJoints})
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(S2kfFrame, regression, UpdateForm::kRegression)
-    ->Args({301, 46, kMarkers})
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(S2kfFrame, exact, UpdateForm::kExact)
-    ->Args({301, 46, kMarkers})
-    ->Unit(benchmark::kMicrosecond);
+void AsInThePaper(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Unit(benchmark::kMicrosecond)->Args({301, 46, kMarkers});
+}
+
+// Cost over samples, markers, and degrees of freedom (with fingers).
+void Curves(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Unit(benchmark::kMicrosecond);
+  for (const int samples : {93, 201, 301, 501, 1001}) benchmark->Args({samples, 46, kMarkers});
+  for (const int markers : {20, 30, 40, 53}) benchmark->Args({301, 46, markers});
+  for (const int dofs : {20, 30, 60, 80, 106}) benchmark->Args({301, dofs, kMarkers});
+}
+
+BENCHMARK(ForwardKinematics)->Args({301, kJoints})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(S2kfFrame, regression, UpdateForm::kRegression)->Apply(AsInThePaper);
+BENCHMARK_CAPTURE(S2kfFrame, exact, UpdateForm::kExact)->Apply(AsInThePaper);
 BENCHMARK_CAPTURE(FilterFrame, ukf, FilterType::kUkf)->Arg(46)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(FilterFrame, ekf, FilterType::kEkf)->Arg(46)->Unit(benchmark::kMicrosecond);
 BENCHMARK(LeastSquaresFrame)->Arg(46)->Unit(benchmark::kMicrosecond);
 BENCHMARK(Start)->Unit(benchmark::kMicrosecond);
+BENCHMARK(S2kfUpdate)->Apply(Curves);
 
 }  // namespace
 }  // namespace mmm_converter::s2kf
