@@ -7,9 +7,9 @@ namespace mmm_converter {
 
 /// B(k, j) = data[k * row + j * col]: a matrix, a transposed one, or a part of one.
 struct StridedFactor {
-  const double* data;
-  std::ptrdiff_t row;
-  std::ptrdiff_t col;
+  const double* data = nullptr;
+  std::ptrdiff_t row = 0;
+  std::ptrdiff_t col = 0;
 };
 
 /// Which part of a product is not zero, or not asked for, by construction.
@@ -22,16 +22,16 @@ enum class Shape {
 
 /// C (rows x cols) = beta C + alpha A W B with A (rows x depth), B (depth x cols) and a diagonal W.
 struct DenseProduct {
-  double alpha;
-  const double* A;
-  std::ptrdiff_t A_col;  ///< distance of columns
+  double alpha = 1;
+  const double* A = nullptr;
+  std::ptrdiff_t A_col = 0;  ///< distance of columns
   StridedFactor B;
-  double beta;
-  double* C;
-  std::ptrdiff_t C_col;
-  int rows;
-  int cols;
-  int depth;
+  double beta = 0;
+  double* C = nullptr;
+  std::ptrdiff_t C_col = 0;
+  int rows = 0;
+  int cols = 0;
+  int depth = 0;
   Shape shape = Shape::kFull;
   const double* W = nullptr;  ///< nullptr: the identity
 };

@@ -43,9 +43,17 @@ std::string ToString(InstructionSet set) {
 std::vector<InstructionSet> SupportedInstructionSets() {
   std::vector<InstructionSet> sets = {InstructionSet::kBaseline};
 #if defined(__x86_64__)
-  if (!__builtin_cpu_supports("x86-64-v3")) return sets;
+  // The rest of x86-64-v3 and v4 has always come with these.
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") ||
+      !__builtin_cpu_supports("bmi2")) {
+    return sets;
+  }
   sets.push_back(InstructionSet::kAvx2);
-  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(InstructionSet::kAvx512);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    sets.push_back(InstructionSet::kAvx512);
+  }
 #endif
   return sets;
 }

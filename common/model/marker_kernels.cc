@@ -15,7 +15,7 @@ struct Frame {
 };
 
 Frame LoadFrame(const double* source) {
-  Frame frame;
+  Frame frame = {};
   for (int i = 0; i < 9; ++i) frame.R[i] = LoadLanes(source + i * kLanes);
   for (int i = 0; i < 3; ++i) frame.p[i] = LoadLanes(source + (9 + i) * kLanes);
   return frame;
@@ -79,7 +79,7 @@ void MoveToChild(const TrackedLink& link, const Lanes& angle, Frame* frame) {
 void PlaceMarkers(const TrackedLink* links, int num_links, const MarkerSite* sites,
                   const MarkerBatchColumns& batch) {
   for (std::ptrdiff_t row = 0; row < batch.rows; row += kLanes) {
-    Frame frame;
+    Frame frame = {};
     for (int i = 0; i < 9; ++i) frame.R[i] = LoadLanes(batch.rotation + i * batch.rows + row);
     for (int i = 0; i < 3; ++i) frame.p[i] = LoadLanes(batch.position + i * batch.rows + row);
     for (int l = 0; l < num_links; ++l) {

@@ -181,7 +181,7 @@ void MarkerFilter::Relinearize(const Belief& belief) {
   update_.Spread(L_x_, &posterior_x_);
   measurement_model_.ComputeMoments(belief, center_, {posterior_x_}, false, &moments_);
   update_.FromPosteriorSpace(&moments_.C_sz);
-  moments_.mean.noalias() -= moments_.C_sz.view().transpose() * mu;
+  moments_.mean -= moments_.C_sz.view().transpose().lazyProduct(mu);
 }
 
 void MarkerFilter::Commit(Belief* belief) {
@@ -226,7 +226,7 @@ MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief
     if (is_far) Relinearize(*belief);
     // A marker that is far from where it was expected is wrong only if it is far from the estimate.
     expected_ = moments_.mean;
-    expected_.noalias() += moments_.C_sz.view().transpose() * update_.mean();
+    expected_ += moments_.C_sz.view().transpose().lazyProduct(update_.mean());
     Weigh(z, &outcome);
     update_.Compute(moments_, z_, noise_, settings_.update);
   }

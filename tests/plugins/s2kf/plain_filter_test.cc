@@ -59,6 +59,7 @@ TEST_P(PlainFilterTest, TheFastFilterIsTheSame) {
       SynthesizeMarkers(model, MakeHandstand(model), MarkerErrors{}, 1).Slice(200, 230);
   const std::vector<MarkerAssignment> assignments = AssignByName(model, markers);
   std::vector<int> indices;
+  indices.reserve(assignments.size());
   for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);
   const MarkerKinematics kinematics(model, MotionJoints(model, 40), indices);
   S2kfSettings settings;

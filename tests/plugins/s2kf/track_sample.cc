@@ -31,6 +31,7 @@ int Run(const std::string& method) {
   if (method == "ekf") settings.filter = FilterType::kEkf;
   S2kfConverter converter(model, assignments, joints, settings);
   std::vector<int> indices;
+  indices.reserve(assignments.size());
   for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);
   const MarkerKinematics kinematics(model, joints, indices);
   MarkerJacobian at = kinematics.MakeJacobian();
