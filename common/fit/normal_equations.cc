@@ -49,10 +49,14 @@ void NormalEquations::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& n
     const bool is_seen = std::isfinite(distance);
     const double weight =
         is_seen ? std::sqrt(std::min(1.0, robust_distance / distance)) / noise_scale[m] : 0;
-    if (weight != 1) J_transposed.middleCols<3>(3 * m) *= weight;
+    if (weight == 0) {
+      J_transposed.middleCols<3>(3 * m).setZero();
+    } else if (weight != 1) {
+      J_transposed.middleCols<3>(3 * m) *= weight;
+    }
     residual_.segment<3>(3 * m) = is_seen ? Vector3d(weight * r) : Vector3d::Zero();
   }
-  H_.view().setZero();
+  H_.SetZero();
   AddSquare(1, at_.J_transposed, &H_);
   g_.noalias() = J_transposed * residual_;
 }
@@ -92,6 +96,7 @@ const VectorXd& NormalEquations::Solve(double relative, double absolute) {
   auto x = solution_.view().col(0);
   A.diagonal() += relative * H_.view().diagonal();
   A.diagonal().array() += absolute;
+  solution_.SetZero();
   x = g_;
   const Eigen::Index n = x.size();
   for (int j = 0; j < kinematics_.num_joints(); ++j) {

@@ -14,13 +14,16 @@ namespace {
 
 using Markup = XmlScanner::Markup;
 
-constexpr int kHighestLevel = 3;  // the root has 0
 constexpr std::uint64_t kMostBytesOfARun = 1 << 18;
 
 }  // namespace
 
-LongXml::LongXml(ByteSource content, std::string file, std::vector<std::string> many)
-    : content_(std::move(content)), file_(std::move(file)), many_(std::move(many)) {
+LongXml::LongXml(ByteSource content, std::string file, std::vector<std::string> many,
+                 int highest_level)
+    : content_(std::move(content)),
+      file_(std::move(file)),
+      many_(std::move(many)),
+      highest_level_(highest_level) {
   root_ = ParseXml(CutRuns(), file_);
 }
 
@@ -33,7 +36,7 @@ std::string LongXml::CutRuns() {
   bool in_run = false;
   while (scanner.Next()) {
     text += scanner.before();
-    if (level >= kHighestLevel && scanner.IsElement() && IsOfMany(scanner.name())) {
+    if (level >= highest_level_ && scanner.IsElement() && IsOfMany(scanner.name())) {
       in_run = in_run && Trim(scanner.before()).empty() &&
                scanner.end() - runs_.back().begin < kMostBytesOfARun;
       if (!in_run) text += fmt::format("<{0}>{1}</{0}>", scanner.name(), runs_.size());

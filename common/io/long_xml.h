@@ -14,13 +14,13 @@
 namespace mmm_converter {
 
 /// XML of which the elements of some names may be too many for memory: they are not in the tree,
-/// but parsed where they stand when they are asked for. Such elements count from the third level
+/// but parsed where they stand when they are asked for. Such elements count from `highest_level`
 /// below the root on.
 class LongXml {
  public:
   /// many: names, in any case. `file` is only named in messages.
   /// @throws Error as ParseXml.
-  LongXml(ByteSource content, std::string file, std::vector<std::string> many);
+  LongXml(ByteSource content, std::string file, std::vector<std::string> many, int highest_level);
 
   const XmlElement& root() const { return root_; }
 
@@ -49,6 +49,7 @@ class LongXml {
   ByteSource content_;
   std::string file_;
   std::vector<std::string> many_;
+  int highest_level_;
   std::vector<Run> runs_;
   XmlElement root_;
 };

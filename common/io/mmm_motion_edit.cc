@@ -165,7 +165,7 @@ void CheckSameTree(const XmlElement& element, const XmlRange& range, int depth,
 TextPieces WithConvertedMotion(const ByteSource& content, const std::string& file,
                                const MmmMotionOutput& output) {
   constexpr int kDepth = 3;  // MMM / Motion / Sensors / Sensor
-  LongXml xml(content, file, {"Measurement"});
+  LongXml xml(content, file, {"Measurement"}, kDepth + 1);
   xml.CheckTheRest();
   const XmlElement& root = xml.root();
   if (!root.Is("MMM")) {

@@ -243,7 +243,8 @@ MmmMotion ReadMotion(LongXml& xml, const XmlElement& element, Budget* budget,
 }
 
 MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file) {
-  LongXml xml(content, file, {std::begin(kManyElements), std::end(kManyElements)});
+  constexpr int kHighestLevel = 3;  // MMM / Motion / MotionFrames / MotionFrame
+  LongXml xml(content, file, {std::begin(kManyElements), std::end(kManyElements)}, kHighestLevel);
   const XmlElement& root = xml.root();
   Diagnostics diagnostics(file);
   if (!root.Is("MMM")) {

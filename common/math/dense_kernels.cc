@@ -58,6 +58,7 @@ void MultiplyTiles(const DenseProduct& p) {
 }
 
 void Multiply(const DenseProduct& product) {
+  if (product.depth == 0 && product.beta == 1) return;
   if (product.W == nullptr) {
     MultiplyTiles<false>(product);
   } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -14,8 +15,8 @@ inline constexpr int kPadding = 8;
 inline int PaddedSize(int n) { return (n + kPadding - 1) / kPadding * kPadding; }
 
 /// A column-major matrix for vector kernels: rows and columns are padded with zeros to multiples of
-/// kPadding, every column starts at a multiple of 64 bytes. Kernels compute the padding too; who
-/// writes through view() leaves it 0.
+/// kPadding, every column starts at a multiple of 64 bytes. Kernels compute the padding too, which
+/// stays 0 unless a number is not finite; who writes through view() leaves it as it is.
 class PaddedMatrix {
  public:
   PaddedMatrix() = default;
@@ -32,6 +33,13 @@ class PaddedMatrix {
   const double* data() const { return storage_.empty() ? nullptr : storage_.front().values; }
   double* col(int i) { return data() + static_cast<std::ptrdiff_t>(i) * padded_rows(); }
   const double* col(int i) const { return data() + static_cast<std::ptrdiff_t>(i) * padded_rows(); }
+
+  /// All entries, the padding too.
+  void SetZero() { std::fill(storage_.begin(), storage_.end(), Group()); }
+  void SetIdentity() {
+    SetZero();
+    view().diagonal().setOnes();
+  }
 
   using View = Eigen::Map<Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStride<>>;
   using ConstView = Eigen::Map<const Eigen::MatrixXd, Eigen::Unaligned, Eigen::OuterStride<>>;

@@ -76,7 +76,9 @@ class Output {
   void StartStoring() {
     constexpr off_t kLeast = 8 << 20;
     if (written_ - storing_ < kLeast) return;
+#ifdef SYNC_FILE_RANGE_WRITE
     ::sync_file_range(descriptor_, storing_, written_ - storing_, SYNC_FILE_RANGE_WRITE);
+#endif
     storing_ = written_;
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/gaussian_update.h"
 
-#include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "common/math/dense.h"
 
@@ -13,7 +14,7 @@ using Eigen::VectorXd;
 void MeasurementMoments::ClearCovariance() {
   const int m = static_cast<int>(mean.size());
   if (C_zz.rows() == 0) C_zz = PaddedMatrix(m, m);
-  C_zz.view().setZero();
+  C_zz.SetZero();
 }
 
 GaussianUpdate::GaussianUpdate(int n, int m)
@@ -42,9 +43,10 @@ void GaussianUpdate::ComputeRegression(const MeasurementMoments& moments, const 
     squares += innovation[i] * difference;
   }
   // information = I + C_sz W C_zs = G G^T, so the covariance is G^-T G^-1.
-  factor_.view().setIdentity();
+  factor_.SetIdentity();
   AddWeightedSquare(moments.C_sz, weights_, &factor_);
   Factorize(&factor_);
+  mean_.SetZero();
   mean_.view().col(0).noalias() = moments.C_sz.view() * innovation;
   SolveLower(factor_, &mean_);
   nis_ = squares - mean_.view().squaredNorm();
@@ -76,8 +78,9 @@ void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const Vecto
   DivideByTransposed(S_, &scaled_);
   SolveLower(S_, &innovation_);
   nis_ = innovation.squaredNorm();
+  mean_.SetZero();
   mean_.view().col(0).noalias() = scaled_.view() * innovation;
-  factor_.view().setIdentity();
+  factor_.SetIdentity();
   AddSquare(-1, scaled_, &factor_);
   Factorize(&factor_);
 }
@@ -93,11 +96,8 @@ void GaussianUpdate::Spread(const PaddedMatrix& L, PaddedMatrix* X) const {
 
 void GaussianUpdate::FromPosteriorSpace(PaddedMatrix* C_sz) {
   // C_sz = T^-T C_tz.
-  if (form_ == UpdateForm::kRegression) {
-    Multiply(1, factor_, *C_sz, &scaled_);
-  } else {
-    scaled_.view() = factor_.view().transpose().triangularView<Eigen::Upper>().solve(C_sz->view());
-  }
+  assert(form_ == UpdateForm::kRegression);
+  Multiply(1, factor_, *C_sz, &scaled_);
   std::swap(*C_sz, scaled_);
 }
 

@@ -44,6 +44,7 @@ class GaussianUpdate {
   /// X = L T. L: as many columns as s is long.
   void Spread(const PaddedMatrix& L, PaddedMatrix* X) const;
   /// Cov(s, z) of the linear model whose C_sz in the space of t, s = mean() + T t, is given.
+  /// kRegression only.
   void FromPosteriorSpace(PaddedMatrix* C_sz);
   /// Normalised innovation squared, (z - E z)^T (C_zz + R)^-1 (z - E z).
   double nis() const { return nis_; }

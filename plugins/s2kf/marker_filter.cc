@@ -192,7 +192,7 @@ void MarkerFilter::Commit(Belief* belief) {
   if (motion_model_.velocity) belief->rate += dx_.tail(n);
   // What the markers said of L_'s part of the state leaves the rest as it was.
   update_.Spread(L_, &posterior_);
-  P_.view().setZero();
+  P_.SetZero();
   AddSquare(1, posterior_, &P_);
   if (all > n) AddSquare(1, L_rates_, &P_);
   belief->P.triangularView<Eigen::Lower>() = P_.view();
@@ -202,6 +202,7 @@ void MarkerFilter::Commit(Belief* belief) {
 
 void MarkerFilter::FactorizeCovariance(const Belief& belief) {
   const Eigen::Index n = L_.cols();
+  P_.SetZero();
   P_.view() = belief.P;
   Factorize(&P_);
   L_.view() = P_.view().leftCols(n);

@@ -162,8 +162,9 @@ void MarkerMeasurementModel::ComputeLinearized(const Belief& belief, const Vecto
   weighted.middleCols<3>(3) =
       spread.matrix.view().middleRows<3>(3).transpose().lazyProduct(rate.transpose());
   for (int j = 0; j < kinematics_.num_joints(); ++j) weighted.col(6 + j) *= slopes_[j];
+  const bool is_upper = spread.is_lower && rate.isIdentity(0);
   Multiply(1, spread_transposed_, at_.J_transposed, &moments->C_sz,
-           spread.is_lower ? Shape::kUpperLeft : Shape::kFull);
+           is_upper ? Shape::kUpperLeft : Shape::kFull);
   moments->residual.setZero();
   if (!with_covariance) return;
   if (parts_.rows() == 0) parts_ = PaddedMatrix(num_coordinates(), num_states());

@@ -50,6 +50,21 @@ TEST_F(PostureFitTest, FindsTheExactPostureAgain) {
   }
 }
 
+TEST_F(PostureFitTest, APostureThatIsNotFiniteIsForgotten) {
+  const Posture truth = RandomPosture(kinematics_, 0.5, &random_);
+  const Posture start = Retract(truth, 0.1 * Eigen::VectorXd::Ones(kinematics_.num_dofs()));
+  Posture broken = start;
+  broken.position.x() = kNaN;
+  PostureFit fit(kinematics_);
+  fit.Solve(Markers(truth), scale_, {}, &broken);
+  Posture after = start;
+  fit.Solve(Markers(truth), scale_, {}, &after);
+  Posture fresh = start;
+  PostureFit(kinematics_).Solve(Markers(truth), scale_, {}, &fresh);
+  EXPECT_EQ(after.position, fresh.position);
+  EXPECT_EQ(after.joint_angles, fresh.joint_angles);
+}
+
 TEST_F(PostureFitTest, MissingMarkersAreLeftOut) {
   PostureFit fit(kinematics_);
   PostureFitOptions options;

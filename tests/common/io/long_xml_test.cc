@@ -44,7 +44,7 @@ XmlElement Whole(LongXml* xml, const XmlElement& element) {
 
 std::string OutlineOrError(const std::string& text) {
   try {
-    LongXml xml(BytesOf(text), "walk.xml", {"M"});
+    LongXml xml(BytesOf(text), "walk.xml", {"M"}, 3);
     std::string outline = Outline(Whole(&xml, xml.root()));
     xml.CheckTheRest();
     return outline;
@@ -67,7 +67,7 @@ const char* const kText =
 
 TEST(LongXml, HasWhatTheWholeTreeHas) {
   EXPECT_EQ(OutlineOrError(kText), Reference(kText));
-  LongXml xml(BytesOf(kText), "walk.xml", {"m"});
+  LongXml xml(BytesOf(kText), "walk.xml", {"m"}, 3);
   EXPECT_EQ(Outline(*xml.root().FindChild("e")), "e@9[6]/");
   std::vector<int> lines;
   const XmlElement& c = *xml.root().FindChild("b")->FindChild("c");
@@ -79,7 +79,7 @@ TEST(LongXml, LeavesOutMillions) {
   std::string text = "<a><b><c>";
   for (int i = 0; i < 100000; ++i) text += fmt::format("\n<m t=\"{}\"><n>{}</n></m>", i, i);
   text += "</c></b></a>";
-  LongXml xml(BytesOf(text), "walk.xml", {"m"});
+  LongXml xml(BytesOf(text), "walk.xml", {"m"}, 3);
   const XmlElement& c = xml.root().children[0].children[0];
   EXPECT_LT(c.children.size(), 20u);
   int next = 0;
@@ -100,7 +100,7 @@ TEST(LongXml, SaysWhereItIsNotWellFormed) {
   EXPECT_THAT(message("<m>\n<n a=1/></m>"), HasSubstr("walk.xml:5: not well-formed XML: an att"));
   EXPECT_THAT(OutlineOrError("<a><b><c>\n<m>"), HasSubstr("walk.xml:2: not well-formed XML: <m>"));
   EXPECT_THAT(message("<m"), HasSubstr("walk.xml:4: not well-formed XML"));
-  LongXml unvisited(BytesOf("<a><b><c><m>\n<n></o></m></c></b></a>"), "walk.xml", {"m"});
+  LongXml unvisited(BytesOf("<a><b><c><m>\n<n></o></m></c></b></a>"), "walk.xml", {"m"}, 3);
   EXPECT_THROW(unvisited.CheckTheRest(), Error);
 }
 

@@ -64,6 +64,15 @@ std::string MessageOf(const std::string& content, const std::string& name) {
   return "no error";
 }
 
+TEST(MmmMotionEdit, ElementsOfAnyNameMayStandWhereMmmHasNone) {
+  std::string content = kFile;
+  const std::string own = "<Notes><Measurement>1</Measurement><Measurement>2</Measurement></Notes>";
+  content.insert(content.find("    <Annotation"), own);
+  const PoseTrajectory trajectory = OneFrame();
+  EXPECT_THAT(Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "human"))),
+              HasSubstr(own));
+}
+
 TEST(MmmMotionEdit, ChangesOnlyWhatIsConverted) {
   const PoseTrajectory trajectory = OneFrame();
   const std::string content = kFile;

@@ -108,6 +108,20 @@ TEST_P(GaussianUpdateTest, NothingMeasuredChangesNothing) {
   EXPECT_EQ(Spread(update, MatrixXd::Identity(3, 3)), MatrixXd::Identity(3, 3));
 }
 
+TEST_P(GaussianUpdateTest, NumbersThatAreNotFiniteAreForgotten) {
+  const LinearProblem problem(5, 8);
+  GaussianUpdate fresh(5, 8);
+  fresh.Compute(problem.Moments(), problem.z, problem.noise, GetParam());
+  GaussianUpdate update(5, 8);
+  MeasurementMoments broken = problem.Moments();
+  broken.C_sz.view().setConstant(std::numeric_limits<double>::quiet_NaN());
+  update.Compute(broken, problem.z, problem.noise, GetParam());
+  EXPECT_TRUE(update.mean().hasNaN());
+  update.Compute(problem.Moments(), problem.z, problem.noise, GetParam());
+  EXPECT_EQ(update.mean(), fresh.mean());
+  EXPECT_EQ(Spread(update, problem.L), Spread(fresh, problem.L));
+}
+
 TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {
   const LinearProblem problem(5, 8);
   MeasurementMoments moments = problem.Moments();

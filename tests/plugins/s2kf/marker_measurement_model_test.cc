@@ -163,21 +163,29 @@ TEST_P(MarkerMeasurementModelTest, SamplesOfATinySpreadAreTheLinearization) {
 }
 
 TEST_P(MarkerMeasurementModelTest, ATriangularSpreadIsOnlyFaster) {
-  const int n = kinematics_.num_dofs();
-  const int m = 3 * kinematics_.num_markers();
-  const Belief belief = RandomBelief(0.5);
-  const VectorXd center = RandomVector(0.1);
-  MatrixXd spread = RandomSpread(0.03);
-  spread.triangularView<Eigen::StrictlyUpper>().setZero();
-  for (const MatrixXd& half : {RandomHalfSamples(n, 41, 1), MatrixXd(n, 0)}) {
-    MarkerMeasurementModel measurement(kinematics_, transform_, root(), half);
-    MeasurementMoments full(n, m);
-    MeasurementMoments lower(n, m);
-    measurement.ComputeMoments(belief, center, {Padded(spread)}, false, &full);
-    measurement.ComputeMoments(belief, center, {Padded(spread), true}, false, &lower);
-    EXPECT_EQ(lower.mean, full.mean);
-    EXPECT_EQ(lower.C_sz.view(), full.C_sz.view());
-    EXPECT_EQ(lower.residual, full.residual);
+  // With two joints the states fill one group of rows, with all of them several.
+  const MarkerKinematics small(model_, {0, 1}, kinematics_.markers());
+  const MarkerKinematics* both[] = {&small, &kinematics_};
+  for (const MarkerKinematics* kinematics : both) {
+    const int n = kinematics->num_dofs();
+    const int m = 3 * kinematics->num_markers();
+    const JointLimitTransform transform(transform_.function(), kinematics->lower(),
+                                        kinematics->upper());
+    Belief belief = RandomBelief(0.5);
+    belief.parameters.conservativeResize(n - 6);
+    const VectorXd center = RandomVector(0.1).head(n);
+    MatrixXd spread = RandomSpread(0.03).topLeftCorner(n, n);
+    spread.triangularView<Eigen::StrictlyUpper>().setZero();
+    for (const MatrixXd& half : {RandomHalfSamples(n, 41, 1), MatrixXd(n, 0)}) {
+      MarkerMeasurementModel measurement(*kinematics, transform, root(), half);
+      MeasurementMoments full(n, m);
+      MeasurementMoments lower(n, m);
+      measurement.ComputeMoments(belief, center, {Padded(spread)}, false, &full);
+      measurement.ComputeMoments(belief, center, {Padded(spread), true}, false, &lower);
+      EXPECT_EQ(lower.mean, full.mean);
+      EXPECT_EQ(lower.C_sz.view(), full.C_sz.view());
+      EXPECT_EQ(lower.residual, full.residual);
+    }
   }
 }
 
