@@ -90,7 +90,7 @@ bool NormalEquations::HoldOversteppingJoints(const VectorXd& angles) {
   return found;
 }
 
-const VectorXd& NormalEquations::Solve(double relative, double absolute) {
+void NormalEquations::Solve(double relative, double absolute) {
   damped_ = H_;
   auto A = damped_.view();
   auto x = solution_.view().col(0);
@@ -116,7 +116,6 @@ const VectorXd& NormalEquations::Solve(double relative, double absolute) {
   SolveLowerTransposed(damped_, &solution_);
   step_ = x;
   step_.tail(kinematics_.num_joints()) += held_step_;
-  return step_;
 }
 
 }  // namespace mmm_converter

@@ -28,16 +28,17 @@ class NormalEquations {
   void Linearize(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                  double robust_distance);
 
-  PaddedMatrix::View H() { return H_.view(); }  ///< lower triangle
-  Eigen::VectorXd& g() { return g_; }
+  PaddedMatrix::View H() { return H_.view(); }  ///< lower triangle; [1], [m/rad], [m^2/rad^2]
+  Eigen::VectorXd& g() { return g_; }           ///< [m], [m^2/rad]
 
   /// Joints on a limit that g presses against it stay there, and no others are held.
   void HoldPressingJoints(const Eigen::VectorXd& angles);
   /// Joints that the last step takes over a limit are to step onto it; false where there are none.
   bool HoldOversteppingJoints(const Eigen::VectorXd& angles);
 
-  /// The step for H + diag(relative H_ii + absolute), the held joints' parts being what they are.
-  const Eigen::VectorXd& Solve(double relative, double absolute);
+  /// Makes the step for H + diag(relative H_ii + absolute); the parts of held joints are given.
+  void Solve(double relative, double absolute);
+  const Eigen::VectorXd& step() const { return step_; }  ///< [m], [rad]
 
  private:
   void Hold(int joint, double step);

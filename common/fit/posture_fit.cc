@@ -73,12 +73,11 @@ const VectorXd& PostureFit::Step(const Posture& posture, double damping) {
   // Each solve can push another joint over its limit; what is left after these is cut.
   constexpr int kSolves = 3;
   equations_.HoldPressingJoints(posture.joint_angles);
-  const VectorXd* step = &equations_.Solve(damping, kLeastCurvature);
-  for (int i = 1; i < kSolves; ++i) {
-    if (!equations_.HoldOversteppingJoints(posture.joint_angles)) break;
-    step = &equations_.Solve(damping, kLeastCurvature);
+  equations_.Solve(damping, kLeastCurvature);
+  for (int i = 1; i < kSolves && equations_.HoldOversteppingJoints(posture.joint_angles); ++i) {
+    equations_.Solve(damping, kLeastCurvature);
   }
-  return *step;
+  return equations_.step();
 }
 
 PostureFit::Result PostureFit::Solve(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,

@@ -11,68 +11,55 @@ const DenseKernels& Active() {
   return kernels;
 }
 
-void AddSquare(double alpha, const PaddedMatrix& A, const double* weights, PaddedMatrix* C) {
-  assert(C->rows() == A.rows() && C->cols() == A.rows());
-  Active().multiply({alpha,
-                     A.data(),
-                     A.padded_rows(),
-                     {A.data(), A.padded_rows(), 1},
-                     1,
-                     C->data(),
-                     C->padded_rows(),
-                     A.padded_rows(),
-                     A.padded_rows(),
-                     A.padded_cols(),
-                     Shape::kLowerResult,
-                     weights});
+StridedFactor AsItIs(const PaddedMatrix& B) { return {B.data(), 1, B.padded_rows()}; }
+StridedFactor Transposed(const PaddedMatrix& B) { return {B.data(), B.padded_rows(), 1}; }
+
+void Compute(double alpha, const PaddedMatrix& A, const double* W, const StridedFactor& B,
+             double beta, Shape shape, PaddedMatrix* C) {
+  assert(C->rows() == A.rows());
+  DenseProduct product;
+  product.alpha = alpha;
+  product.A = A.data();
+  product.A_col = A.padded_rows();
+  product.W = W;
+  product.B = B;
+  product.beta = beta;
+  product.C = C->data();
+  product.C_col = C->padded_rows();
+  product.rows = C->padded_rows();
+  product.cols = C->padded_cols();
+  product.depth = A.padded_cols();
+  product.shape = shape;
+  Active().multiply(product);
 }
 
 }  // namespace
 
 const DenseKernels& DenseKernelsFor(InstructionSet set) {
-  static constexpr KernelTables<DenseKernels> kTables = MMM_CONVERTER_KERNELS(GetDenseKernels);
+  static constexpr KernelTables<DenseKernels> kTables = MMM_CONVERTER_KERNEL_TABLES(DenseKernels);
   return kTables.For(set);
 }
 
 void Multiply(double alpha, const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C,
               Shape shape) {
-  assert(A.cols() <= B.rows() && C->rows() == A.rows() && C->cols() == B.cols());
-  Active().multiply({alpha,
-                     A.data(),
-                     A.padded_rows(),
-                     {B.data(), 1, B.padded_rows()},
-                     0,
-                     C->data(),
-                     C->padded_rows(),
-                     A.padded_rows(),
-                     B.padded_cols(),
-                     A.padded_cols(),
-                     shape});
+  assert(A.cols() <= B.rows() && C->cols() == B.cols());
+  Compute(alpha, A, nullptr, AsItIs(B), 0, shape, C);
 }
 
 void MultiplyByTransposed(const PaddedMatrix& A, const PaddedMatrix& B, PaddedMatrix* C,
                           Shape shape) {
-  assert(A.cols() == B.cols() && C->rows() == A.rows() && C->cols() == B.rows());
-  Active().multiply({1,
-                     A.data(),
-                     A.padded_rows(),
-                     {B.data(), B.padded_rows(), 1},
-                     0,
-                     C->data(),
-                     C->padded_rows(),
-                     A.padded_rows(),
-                     B.padded_rows(),
-                     A.padded_cols(),
-                     shape});
+  assert(A.cols() == B.cols() && C->cols() == B.rows());
+  Compute(1, A, nullptr, Transposed(B), 0, shape, C);
 }
 
 void AddSquare(double alpha, const PaddedMatrix& A, PaddedMatrix* C) {
-  AddSquare(alpha, A, nullptr, C);
+  assert(C->cols() == A.rows());
+  Compute(alpha, A, nullptr, Transposed(A), 1, Shape::kLowerResult, C);
 }
 
 void AddWeightedSquare(const PaddedMatrix& A, const PaddedMatrix& weights, PaddedMatrix* C) {
-  assert(weights.rows() == A.cols());
-  AddSquare(1, A, weights.data(), C);
+  assert(C->cols() == A.rows() && weights.rows() == A.cols());
+  Compute(1, A, weights.data(), Transposed(A), 1, Shape::kLowerResult, C);
 }
 
 void Factorize(PaddedMatrix* A) {

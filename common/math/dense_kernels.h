@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "common/math/kernel_variants.h"
+
 namespace mmm_converter {
 
 /// B(k, j) = data[k * row + j * col]: a matrix, a transposed one, or a part of one.
@@ -50,14 +52,6 @@ struct DenseKernels {
   void (*solve_transposed)(const double* G, int size, double* x);
 };
 
-namespace baseline {
-const DenseKernels& GetDenseKernels();
-}
-namespace avx2 {
-const DenseKernels& GetDenseKernels();
-}
-namespace avx512 {
-const DenseKernels& GetDenseKernels();
-}
+MMM_CONVERTER_DECLARE_KERNELS(DenseKernels)
 
 }  // namespace mmm_converter

@@ -23,8 +23,8 @@ std::vector<InstructionSet> SupportedInstructionSets();
 /// @throws Error where the variable names an unknown or unsupported one.
 InstructionSet ActiveInstructionSet();
 
-/// The same table of kernels for each instruction set, by functions that MMM_CONVERTER_KERNELS
-/// lists.
+/// The same table of kernels for each instruction set: = MMM_CONVERTER_KERNEL_TABLES(Kernels),
+/// where MMM_CONVERTER_DECLARE_KERNELS(Kernels) has declared them.
 template <typename Kernels>
 struct KernelTables {
   const Kernels& (*baseline)();
@@ -41,11 +41,10 @@ struct KernelTables {
 
 }  // namespace mmm_converter
 
-/// KernelTables of the function `get` in the namespaces of the variants that there are.
 #if defined(__x86_64__)
-#define MMM_CONVERTER_KERNELS(get) \
-  { baseline::get, avx2::get, avx512::get }
+#define MMM_CONVERTER_KERNEL_TABLES(Kernels) \
+  { baseline::Get##Kernels, avx2::Get##Kernels, avx512::Get##Kernels }
 #else
-#define MMM_CONVERTER_KERNELS(get) \
-  { baseline::get, nullptr, nullptr }
+#define MMM_CONVERTER_KERNEL_TABLES(Kernels) \
+  { baseline::Get##Kernels, nullptr, nullptr }
 #endif

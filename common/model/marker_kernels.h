@@ -3,12 +3,14 @@
 
 #include <cstddef>
 
+#include "common/math/kernel_variants.h"
+
 namespace mmm_converter {
 
 /// A marker on a link: p_WM = p_WL + R_WL p_LM.
 struct MarkerSite {
-  int marker = 0;  ///< its place in the results
-  double p_LM[3] = {};
+  int marker = 0;       ///< its place in the results
+  double p_LM[3] = {};  ///< [m]
 };
 
 /// A rigid body between tracked joints. R_WL = R_WP R_PF Rot(axis, sign angle), p_WL = p_WP + R_WP
@@ -22,12 +24,12 @@ struct TrackedLink {
   bool translated = false;  ///< p_PF is not zero
   bool kept = false;        ///< a later link than the next one starts from it
   double R_PF[9] = {};      ///< column-major
-  double p_PF[3] = {};
+  double p_PF[3] = {};      ///< [m]
   int first_site = 0;
   int num_sites = 0;
 };
 
-/// Columns of MarkerBatch.
+/// Columns of MarkerBatch, in its units.
 struct MarkerBatchColumns {
   const double* rotation;
   const double* position;
@@ -46,14 +48,6 @@ struct MarkerKernels {
                         const MarkerBatchColumns& batch);
 };
 
-namespace baseline {
-const MarkerKernels& GetMarkerKernels();
-}
-namespace avx2 {
-const MarkerKernels& GetMarkerKernels();
-}
-namespace avx512 {
-const MarkerKernels& GetMarkerKernels();
-}
+MMM_CONVERTER_DECLARE_KERNELS(MarkerKernels)
 
 }  // namespace mmm_converter

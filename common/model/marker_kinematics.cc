@@ -117,7 +117,7 @@ MarkerJacobian MarkerKinematics::MakeJacobian() const {
 }
 
 void MarkerKinematics::ComputeBatch(MarkerBatch* batch, InstructionSet set) const {
-  static constexpr KernelTables<MarkerKernels> kTables = MMM_CONVERTER_KERNELS(GetMarkerKernels);
+  static constexpr KernelTables<MarkerKernels> kTables = MMM_CONVERTER_KERNEL_TABLES(MarkerKernels);
   const MarkerBatchColumns columns = {batch->rotation.data(), batch->position.data(),
                                       batch->angles.data(),   batch->markers.data(),
                                       batch->frames.data(),   batch->rotation.padded_rows()};

@@ -31,7 +31,8 @@ double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_sc
   H.diagonal().tail(joints).array() += natural2;
   equations_.g().tail(joints) += natural2 * (natural_ - posture->joint_angles);
   equations_.HoldPressingJoints(posture->joint_angles);
-  step_ = equations_.Solve(0, 0);
+  equations_.Solve(0, 0);
+  step_ = equations_.step();
 
   const double turn = step_.segment<3>(3).norm();
   const double asked = std::max(turn, joints > 0 ? step_.tail(joints).cwiseAbs().maxCoeff() : 0.0);

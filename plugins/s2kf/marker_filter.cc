@@ -77,8 +77,10 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
   expected_.setZero(3 * kinematics.num_markers());
   noise_.setZero(3 * kinematics.num_markers());
   L_ = PaddedMatrix(all, n);
-  if (all > n) L_rates_ = PaddedMatrix(all, n);
-  L_x_ = PaddedMatrix(n, n);
+  if (all > n) {
+    L_rates_ = PaddedMatrix(all, n);
+    L_states_ = PaddedMatrix(n, n);
+  }
   P_ = PaddedMatrix(all, all);
   posterior_ = PaddedMatrix(all, n);
   posterior_x_ = PaddedMatrix(n, n);
@@ -177,8 +179,8 @@ void MarkerFilter::Relinearize(const Belief& belief) {
   // About N(mu, T T^T) of s: z = C_zt t + mean with t = T^-1 (s - mu), which is then the line
   // z = H s + (mean - H mu) with H = C_zt T^-1 (Garcia-Fernandez et al. 2015).
   const auto mu = update_.mean();
-  center_.noalias() = L_x_.view() * mu;
-  update_.Spread(L_x_, &posterior_x_);
+  center_.noalias() = L_x().view() * mu;
+  update_.Spread(L_x(), &posterior_x_);
   measurement_model_.ComputeMoments(belief, center_, {posterior_x_}, false, &moments_);
   update_.FromPosteriorSpace(&moments_.C_sz);
   moments_.mean -= moments_.C_sz.view().transpose().lazyProduct(mu);
@@ -206,15 +208,17 @@ void MarkerFilter::FactorizeCovariance(const Belief& belief) {
   P_.view() = belief.P;
   Factorize(&P_);
   L_.view() = P_.view().leftCols(n);
-  L_x_.view() = P_.view().topLeftCorner(n, n);
-  if (L_.rows() > n) L_rates_.view() = P_.view().rightCols(n);
+  if (L_.rows() > n) {
+    L_rates_.view() = P_.view().rightCols(n);
+    L_states_.view() = P_.view().topLeftCorner(n, n);
+  }
 }
 
 MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief* belief) {
   const bool exact = settings_.update == UpdateForm::kExact;
   FactorizeCovariance(*belief);
   center_.setZero();
-  measurement_model_.ComputeMoments(*belief, center_, {L_x_, true}, exact, &moments_);
+  measurement_model_.ComputeMoments(*belief, center_, {L_x(), true}, exact, &moments_);
   expected_ = moments_.mean;
   Outcome outcome;
   Weigh(z, &outcome);

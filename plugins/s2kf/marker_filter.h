@@ -47,6 +47,8 @@ class MarkerFilter {
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Outcome* outcome);
   void FactorizeCovariance(const Belief& belief);
+  /// The part of L_ for the states that h depends on, n x n.
+  const PaddedMatrix& L_x() const { return motion_model_.velocity ? L_states_ : L_; }
   bool IsFarFromLinear() const;
   void Relinearize(const Belief& belief);
   void Commit(Belief* belief);
@@ -63,10 +65,10 @@ class MarkerFilter {
   Eigen::VectorXd noise_;     // their variances, m
   PaddedMatrix L_;            // root of P, lower triangular; n columns of n or, with rates, 2n rows
   PaddedMatrix L_rates_;      // its other n columns, with rates
-  PaddedMatrix L_x_;          // the part of L_ for the states that h depends on, n x n
+  PaddedMatrix L_states_;     // its first n rows, with rates
   PaddedMatrix P_;
   PaddedMatrix posterior_;    // L_ T
-  PaddedMatrix posterior_x_;  // L_x_ T
+  PaddedMatrix posterior_x_;  // L_x T
   Eigen::VectorXd center_;
   Eigen::VectorXd dx_;
 };

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr KernelTables<SampleKernels> kKernelTables = MMM_CONVERTER_KERNELS(GetSampleKernels);
+constexpr KernelTables<SampleKernels> kKernelTables = MMM_CONVERTER_KERNEL_TABLES(SampleKernels);
 
 /// Rows for the pairs and the centre; never so many that the columns of both halves lie a multiple
 /// of 4096 bytes apart, which would let them all compete for the same few cache lines.

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "common/math/kernel_variants.h"
+
 namespace mmm_converter::s2kf {
 
 /// Where the roots of all sample pairs go: base +- offset. All columns have `rows` entries, of the
@@ -19,27 +21,19 @@ struct RootPlacement {
 
 /// What a column of measurements z+- = z0 + e +- o says of its coordinate. No sum cancels.
 struct PairSums {
-  double even;     ///< sum of e
-  double squares;  ///< sum of e^2 + o^2
+  double even;     ///< sum of e [m]
+  double squares;  ///< sum of e^2 + o^2 [m^2]
 };
 
 struct SampleKernels {
   void (*place_roots)(const RootPlacement& placement);
-  /// plus, minus = middle + a cos(offset) +- b sin(offset).
+  /// Joint angles [rad]: plus, minus = middle + a cos(offset) +- b sin(offset).
   void (*place_angles)(double middle, double a, double b, const double* offsets, double* plus,
                        double* minus, int rows);
   /// plus becomes o, minus becomes e.
   PairSums (*fold)(double z0, double* plus, double* minus, int rows);
 };
 
-namespace baseline {
-const SampleKernels& GetSampleKernels();
-}
-namespace avx2 {
-const SampleKernels& GetSampleKernels();
-}
-namespace avx512 {
-const SampleKernels& GetSampleKernels();
-}
+MMM_CONVERTER_DECLARE_KERNELS(SampleKernels)
 
 }  // namespace mmm_converter::s2kf

@@ -13,7 +13,7 @@
 #include "common/io/recording.h"
 #include "common/io/trajectory_csv.h"
 #include "common/support/atomic_file.h"
-#include "tests/benchmark/long_recording.h"
+#include "tests/support/long_recording.h"
 
 namespace mmm_converter {
 namespace {

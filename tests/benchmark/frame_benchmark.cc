@@ -16,6 +16,7 @@
 #include "plugins/s2kf/marker_measurement_model.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/long_recording.h"
 
 namespace mmm_converter::s2kf {
 namespace {
@@ -46,11 +47,9 @@ struct Task {
     return joints;
   }
 
-  /// Frames in the order settled, settled + 1, ..., last, last - 1, ...: no jump at the end.
+  /// The frames after the start, back and forth.
   int FrameAt(int step) const {
-    const int length = markers.num_frames() - 1 - kSettled;
-    const int phase = step % (2 * length);
-    return kSettled + (phase < length ? phase : 2 * length - phase);
+    return kSettled + FrameBackAndForth(step, markers.num_frames() - kSettled);
   }
 
   KinematicModel model;

@@ -8,7 +8,7 @@
 
 #include "common/io/c3d_writer.h"
 #include "common/io/recording.h"
-#include "tests/benchmark/long_recording.h"
+#include "tests/support/long_recording.h"
 
 int main(int argc, char** argv) {
   if (argc != 4) {

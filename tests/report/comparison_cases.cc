@@ -5,6 +5,7 @@
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
+#include "tests/support/long_recording.h"
 #include "tests/support/stick_model.h"
 
 namespace mmm_converter::testing {
@@ -103,11 +104,10 @@ Comparison LongComparison() {
   const PoseTrajectory handstand = MakeHandstand(model);
   PoseTrajectory motion = handstand;
   constexpr int kFrames = 6000;
-  const int last = handstand.num_frames() - 1;
-  // Back and forth.
-  for (int k = handstand.num_frames(); k < kFrames; ++k) {
-    const int step = k % (2 * last);
-    motion.postures.push_back(handstand.postures[step <= last ? step : 2 * last - step]);
+  motion.postures.clear();
+  motion.postures.reserve(kFrames);
+  for (int k = 0; k < kFrames; ++k) {
+    motion.postures.push_back(handstand.postures[FrameBackAndForth(k, handstand.num_frames())]);
   }
   const auto num_joints = static_cast<Eigen::Index>(motion.joint_names.size());
   // Numbers that differ from each other, like those of a filter.
