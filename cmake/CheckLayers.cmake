@@ -1,7 +1,7 @@
 # cmake -DROOT=<project> -P CheckLayers.cmake
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
-#   - support < math < model < motion < fit < io < convert < evaluate <
+#   - support < math < model < motion < fit < io < convert < calibrate < evaluate <
 #     plugins/* < MMMConverterS2KF < examples, tests
 #   - common/dynamics uses model and motion (and what lies below model); only the application and the
 #     tests use dynamics
@@ -11,7 +11,7 @@
 #   - every source starts with its licence line and has at most 400 lines; every folder has a README.md
 cmake_minimum_required(VERSION 3.25)
 
-set(layers common/support common/math common/model common/motion common/fit common/io common/convert
+set(layers common/support common/math common/model common/motion common/fit common/io common/convert common/calibrate
            common/evaluate plugins MMMConverterS2KF examples tests)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/convert/marker_mapping.h"
+#include "common/model/kinematic_model.h"
+#include "common/model/subject.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter {
+
+/// A recording of the person, its labels assigned to markers of the model.
+struct CalibrationRecording {
+  std::string name;
+  const MarkerSequence* markers = nullptr;
+  std::vector<MarkerAssignment> assignments;
+};
+
+/// What is assumed of a person before a recording is seen, as standard deviations.
+struct CalibrationOptions {
+  int frames = 120;                ///< at most, chosen over all recordings
+  double marker_deviation = 0.04;  ///< of a marker from the model's place, each coordinate [m]
+  double scale_deviation = 0.06;   ///< of a segment's scale
+  double side_deviation = 0.01;    ///< of left against right scale
+  double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
+};
+
+struct CalibrationResult {
+  Subject subject;  ///< scales, offsets and sources; the caller knows name, height and mass
+  double distance_before = 0;  ///< mean marker distance of the chosen frames' best postures [m]
+  double distance_after = 0;   ///< the same for the subject's model [m]
+  int frames = 0;
+  int iterations = 0;
+  std::vector<std::string> warnings;  ///< what the recordings do not determine, wrong markers
+};
+
+/// Estimates postures, marker offsets and segment scales jointly over frames chosen for how much
+/// they differ. joints: the tracked ones, indices of model, which is scaled by height.
+/// @throws Error where the recordings are too short or too still to tell marker offsets from
+///         posture; the message names what is missing.
+CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
+                                   const std::vector<CalibrationRecording>& recordings,
+                                   const CalibrationOptions& options);
+
+}  // namespace mmm_converter

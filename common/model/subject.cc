@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "common/model/subject.h"
+
+#include <fmt/format.h>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+void ScaleSegment(int index, double scale, ModelDescription* model) {
+  Segment& segment = model->segments[index];
+  segment.X_PF.translation() *= scale;
+  segment.p_SB *= scale;
+  segment.inertia *= scale * scale;
+  if (segment.type == JointType::kPrismatic) {
+    segment.lower *= scale;
+    segment.upper *= scale;
+  }
+  for (ModelMarker& marker : model->markers) {
+    if (marker.segment == index) marker.p_SM *= scale;
+  }
+}
+
+}  // namespace
+
+double Observability(double standard_deviation, double prior_deviation) {
+  const double share = standard_deviation / prior_deviation;
+  return 1 - share * share;
+}
+
+KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject) {
+  ModelDescription fitted{scaled.name(), scaled.segments(), scaled.markers(), scaled.node_sets()};
+  std::vector<std::string> unknown;
+  for (const SegmentScale& scale : subject.scales) {
+    const int index = scaled.FindSegment(scale.segment);
+    if (index < 0) {
+      unknown.push_back(scale.segment);
+    } else {
+      ScaleSegment(index, scale.scale, &fitted);
+    }
+  }
+  for (const MarkerOffset& offset : subject.offsets) {
+    const int index = scaled.FindMarker(offset.marker);
+    if (index < 0) {
+      unknown.push_back(offset.marker);
+    } else {
+      fitted.markers[index].p_SM += offset.offset;
+    }
+  }
+  if (!unknown.empty()) {
+    throw Error(
+        fmt::format("the subject names {}, which the model {} does not have; take the "
+                    "model that the subject was calibrated with ({})",
+                    fmt::join(unknown, ", "), scaled.name(), subject.model));
+  }
+  return KinematicModel(std::move(fitted));
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+/// How much longer a person's segment is than Winter's proportions have it.
+struct SegmentScale {
+  std::string segment;            ///< the node whose translation from its parent is scaled
+  double scale = 1;               ///< 1: as the model scaled by height
+  double standard_deviation = 0;  ///< of scale
+  double prior_deviation = 0;     ///< what was assumed before any recording was seen
+};
+
+/// Where a person wears a marker.
+struct MarkerOffset {
+  std::string marker;
+  /// From the (scaled) model's place, in axes of the marker's segment [m].
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d standard_deviations = Eigen::Vector3d::Zero();  ///< [m]
+  double prior_deviation = 0;                                     ///< of each coordinate [m]
+  int frames = 0;                                                 ///< that showed the marker
+};
+
+/// A recording that a subject was calibrated on.
+struct SubjectSource {
+  std::string recording;
+  int frames = 0;  ///< taken from it
+};
+
+/// A person as a tracker needs to know them: Winter's scaling by height and mass, and what was
+/// estimated beyond it.
+struct Subject {
+  std::string name;
+  std::string model;                  ///< name of the reference model that all names belong to
+  double height = 0;                  ///< [m]
+  double mass = 0;                    ///< [kg]
+  std::optional<double> hand_length;  ///< [m]
+  std::vector<SegmentScale> scales;   ///< segments that are not named keep 1
+  std::vector<MarkerOffset> offsets;  ///< markers that are not named keep 0
+  std::vector<SubjectSource> sources;
+};
+
+/// The share of what was assumed beforehand that the recordings have replaced, 0 to 1:
+/// 1 - (deviation / prior)^2. Near 0: the recordings do not determine the quantity.
+double Observability(double standard_deviation, double prior_deviation);
+
+/// The model of the person: `scaled` (by ScaleWinter) with the translation, centre of mass and
+/// markers of each named segment times its scale, inertia times its square, and each named marker
+/// moved by its offset. Joints, limits and masses stay as they are.
+/// @throws Error naming the segments and markers that the model does not have.
+KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject);
+
+}  // namespace mmm_converter
