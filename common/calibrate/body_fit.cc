@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "common/calibrate/body_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "common/calibrate/frame_equations.h"
+#include "common/calibrate/robust_cost.h"
+#include "common/math/dense.h"
+#include "common/support/parallel.h"
+
+namespace mmm_converter {
+
+using Eigen::VectorXd;
+
+namespace {
+
+// Of a marker's offset, in marker_deviations, where it begins to count less: some are worn far
+// from the model's place.
+constexpr double kOffsetScale = 2;
+constexpr double kLeastScale = 0.5;
+constexpr double kMostScale = 2;
+constexpr int kMostIterations = 100;
+constexpr double kTolerance = 1e-5;  // of the cost
+constexpr double kLeastDamping = 1e-7;
+constexpr double kMostDamping = 1e6;
+// Frames are summed up in so many parts, whatever the number of threads: the same sum each time.
+constexpr int kParts = 8;
+
+class BodyFit {
+ public:
+  BodyFit(BodyKinematics* kinematics, const CalibrationOptions& options,
+          const VectorXd& noise_scale, std::vector<CalibrationFrame>* frames, Body* body)
+      : kinematics_(*kinematics),
+        options_(options),
+        frames_(*frames),
+        body_(*body),
+        trial_body_(*body),
+        trial_(frames->size()),
+        costs_(static_cast<Eigen::Index>(frames->size())),
+        total_(*kinematics),
+        reduced_(*kinematics),
+        parts_(kParts, total_) {
+    equations_.reserve(frames->size());
+    for (const CalibrationFrame& frame : *frames) {
+      equations_.emplace_back(*kinematics, frame.z, options.skin_deviation * noise_scale);
+    }
+  }
+
+  BodyFitResult Solve();
+
+ private:
+  void ForEachPart(const std::function<void(int, std::size_t)>& body) {
+    ParallelFor(kParts, 0, [&](int part) {
+      const std::size_t n = frames_.size();
+      for (std::size_t k = n * part / kParts; k < n * (part + 1) / kParts; ++k) body(part, k);
+    });
+  }
+
+  double Cost(const Body& body, const std::vector<Posture>& postures);
+  double PriorCost(const Body& body) const;
+  void Linearize();
+  void AddPrior();
+  void Reduce(double damping);
+  double TryStep(double damping);
+  Body Deviations();
+
+  BodyKinematics& kinematics_;
+  const CalibrationOptions& options_;
+  std::vector<CalibrationFrame>& frames_;
+  Body& body_;
+  Body trial_body_;
+  std::vector<Posture> trial_;
+  VectorXd costs_;
+  BodyEquations total_;
+  BodyEquations reduced_;
+  std::vector<BodyEquations> parts_;
+  std::vector<FrameEquations> equations_;
+};
+
+double BodyFit::Cost(const Body& body, const std::vector<Posture>& postures) {
+  kinematics_.SetBody(body);
+  ForEachPart([&](int /*part*/, std::size_t k) {
+    costs_[static_cast<Eigen::Index>(k)] = equations_[k].Cost(kinematics_, postures[k]);
+  });
+  return costs_.sum() + PriorCost(body);
+}
+
+double BodyFit::PriorCost(const Body& body) const {
+  double cost = 0;
+  const double sigma = options_.marker_deviation;
+  for (Eigen::Index m = 0; m < body.offsets.cols(); ++m) {
+    cost += CauchyCost(body.offsets.col(m).squaredNorm() / (sigma * sigma), kOffsetScale);
+  }
+  cost += (body.scales.array() - 1).matrix().squaredNorm() /
+          (options_.scale_deviation * options_.scale_deviation);
+  for (const auto& [left, right] : kinematics_.lengths().mirror) {
+    const double difference = (body.scales[left] - body.scales[right]) / options_.side_deviation;
+    cost += difference * difference;
+  }
+  return cost;
+}
+
+void BodyFit::AddPrior() {
+  auto H = total_.H.view();
+  const double offset = 1 / (options_.marker_deviation * options_.marker_deviation);
+  for (Eigen::Index m = 0; m < body_.offsets.cols(); ++m) {
+    const double square = body_.offsets.col(m).squaredNorm() * offset;
+    const double w = offset * CauchyWeight(square, kOffsetScale);
+    H.diagonal().segment<3>(3 * m).array() += w;
+    total_.g.segment<3>(3 * m) -= w * body_.offsets.col(m);
+  }
+  const Eigen::Index first = body_.offsets.size();
+  const double scale = 1 / (options_.scale_deviation * options_.scale_deviation);
+  H.diagonal().tail(body_.scales.size()).array() += scale;
+  total_.g.tail(body_.scales.size()) -= scale * (body_.scales.array() - 1).matrix();
+  const double side = 1 / (options_.side_deviation * options_.side_deviation);
+  for (const auto& [left, right] : kinematics_.lengths().mirror) {
+    const double pull = side * (body_.scales[left] - body_.scales[right]);
+    H(first + left, first + left) += side;
+    H(first + right, first + right) += side;
+    H(first + std::max(left, right), first + std::min(left, right)) -= side;
+    total_.g[first + left] -= pull;
+    total_.g[first + right] += pull;
+  }
+}
+
+void BodyFit::Linearize() {
+  for (BodyEquations& part : parts_) part.SetZero();
+  ForEachPart([&](int part, std::size_t k) {
+    equations_[k].Linearize(kinematics_, frames_[k].posture, &parts_[part]);
+  });
+  total_.SetZero();
+  for (const BodyEquations& part : parts_) total_.Add(part);
+  AddPrior();
+}
+
+void BodyFit::Reduce(double damping) {
+  for (BodyEquations& part : parts_) part.SetZero();
+  ForEachPart([&](int part, std::size_t k) { equations_[k].Eliminate(damping, &parts_[part]); });
+  reduced_ = total_;
+  reduced_.H.view().diagonal() *= 1 + damping;
+  for (const BodyEquations& part : parts_) reduced_.Add(part);
+}
+
+double BodyFit::TryStep(double damping) {
+  Reduce(damping);
+  Factorize(&reduced_.H);
+  PaddedMatrix solution(reduced_.size(), 1);
+  solution.view().col(0) = reduced_.g;
+  SolveLower(reduced_.H, &solution);
+  SolveLowerTransposed(reduced_.H, &solution);
+  const VectorXd step = solution.view().col(0);
+  trial_body_.offsets =
+      body_.offsets + step.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize);
+  trial_body_.scales =
+      (body_.scales + step.tail(body_.scales.size())).cwiseMax(kLeastScale).cwiseMin(kMostScale);
+  const MarkerKinematics& markers = kinematics_.kinematics();
+  ForEachPart([&](int /*part*/, std::size_t k) {
+    trial_[k] = Retract(frames_[k].posture, equations_[k].Step(step));
+    trial_[k].joint_angles =
+        trial_[k].joint_angles.cwiseMax(markers.lower()).cwiseMin(markers.upper());
+  });
+  return Cost(trial_body_, trial_);
+}
+
+Body BodyFit::Deviations() {
+  Linearize();
+  Reduce(0);
+  const Eigen::MatrixXd H = reduced_.H.view().selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd P = H.ldlt().solve(Eigen::MatrixXd::Identity(H.rows(), H.cols()));
+  const VectorXd deviations = P.diagonal().cwiseMax(0).cwiseSqrt();
+  return {deviations.tail(body_.scales.size()),
+          deviations.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize)};
+}
+
+BodyFitResult BodyFit::Solve() {
+  BodyFitResult result;
+  for (std::size_t k = 0; k < frames_.size(); ++k) trial_[k] = frames_[k].posture;
+  result.cost = Cost(body_, trial_);
+  double damping = 1e-3;
+  while (!result.converged && result.iterations < kMostIterations) {
+    Linearize();
+    for (bool accepted = false; !accepted && !result.converged;) {
+      ++result.iterations;
+      const double cost = TryStep(damping);
+      accepted = cost < result.cost;
+      if (!accepted) {
+        damping *= 10;
+        result.converged = damping > kMostDamping;
+        continue;
+      }
+      result.converged = result.cost - cost < kTolerance * result.cost;
+      result.cost = cost;
+      std::swap(body_, trial_body_);
+      for (std::size_t k = 0; k < frames_.size(); ++k) frames_[k].posture = trial_[k];
+      damping = std::max(damping * 0.1, kLeastDamping);
+    }
+  }
+  kinematics_.SetBody(body_);
+  for (std::size_t k = 0; k < frames_.size(); ++k) trial_[k] = frames_[k].posture;
+  Cost(body_, trial_);
+  result.deviations = Deviations();
+  return result;
+}
+
+}  // namespace
+
+BodyFitResult FitBody(BodyKinematics* kinematics, const CalibrationOptions& options,
+                      const VectorXd& noise_scale, std::vector<CalibrationFrame>* frames,
+                      Body* body) {
+  return BodyFit(kinematics, options, noise_scale, frames, body).Solve();
+}
+
+}  // namespace mmm_converter

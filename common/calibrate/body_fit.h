@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/calibrate/body_kinematics.h"
+#include "common/calibrate/calibration.h"
+#include "common/calibrate/calibration_frames.h"
+
+namespace mmm_converter {
+
+struct BodyFitResult {
+  double cost = 0;  ///< -2 log of the posterior density, but for a constant
+  int iterations = 0;
+  bool converged = false;
+  Body deviations;  ///< standard deviations of the body, postures being unknown too
+};
+
+/// The body and all postures together, as their most likely values where a marker is where its
+/// segment has it but for its skin's movement (Cauchy, heavier tails than normal), with the priors
+/// of the options and joint angles inside their limits. Levenberg-Marquardt; each step eliminates
+/// the postures first (Schur complement), so that its cost grows with the number of frames only.
+/// noise_scale: factor on skin_deviation, by used marker. frames and body: start and result.
+BodyFitResult FitBody(BodyKinematics* kinematics, const CalibrationOptions& options,
+                      const Eigen::VectorXd& noise_scale, std::vector<CalibrationFrame>* frames,
+                      Body* body);
+
+}  // namespace mmm_converter

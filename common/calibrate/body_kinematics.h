@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "common/calibrate/segment_lengths.h"
+#include "common/model/kinematic_model.h"
+#include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
+
+namespace mmm_converter {
+
+/// What is the same in all frames: the body and where it wears its markers.
+struct Body {
+  Eigen::VectorXd scales;    ///< of SegmentLengths::segments
+  Eigen::Matrix3Xd offsets;  ///< of the used markers [m], segment axes
+};
+
+/// Where the used markers of a posture are, and how that depends on posture and body.
+struct BodyJacobian {
+  MarkerJacobian posture;             ///< p_WM and its slopes by posture
+  std::vector<Eigen::Matrix3d> R_WS;  ///< by marker: slope by its offset
+  Eigen::MatrixXd J_scales;           ///< d p_WM / d scales, (3 markers) x scales [m]
+};
+
+/// Marker kinematics of a body that changes. Compute may be called by several threads.
+class BodyKinematics {
+ public:
+  /// joints, markers: indices of the model, which must outlive it.
+  BodyKinematics(const KinematicModel& model, std::vector<int> joints, std::vector<int> markers);
+
+  const KinematicModel& model() const { return model_; }
+  const std::vector<int>& joints() const { return joints_; }
+  const std::vector<int>& markers() const { return markers_; }
+  const SegmentLengths& lengths() const { return lengths_; }
+  /// Of the body set last; the model's at first.
+  const MarkerKinematics& kinematics() const { return *kinematics_; }
+
+  /// The body of the model itself: scales 1, offsets 0.
+  Body ModelBody() const;
+  void SetBody(const Body& body);
+
+  BodyJacobian MakeJacobian() const;
+  /// posture: tracked joints.
+  void Compute(const Posture& posture, BodyJacobian* result) const;
+
+ private:
+  const KinematicModel& model_;
+  std::vector<int> joints_;
+  std::vector<int> markers_;
+  SegmentLengths lengths_;
+  /// lengths_ x markers_: true where the marker is below the segment, or on it.
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> below_;
+  std::unique_ptr<const KinematicModel> fitted_;
+  std::unique_ptr<const MarkerKinematics> kinematics_;
+};
+
+}  // namespace mmm_converter

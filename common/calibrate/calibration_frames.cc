@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "common/calibrate/calibration_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/fit/posture_search.h"
+#include "common/math/statistics.h"
+#include "common/model/forward_kinematics.h"
+#include "common/support/parallel.h"
+
+namespace mmm_converter {
+
+using Eigen::Matrix3Xd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kInterval = 0.1;  // of candidate frames [s]
+constexpr int kRounds = 5;
+constexpr int kSearchAttempts = 4;
+// A marker that is farther off counts with its distance only, before and after offsets are known.
+constexpr double kRobustBefore = 0.1;  // [m]
+constexpr double kRobustAfter = 0.02;  // [m]
+// A frame that fits this many times worse than the median one is not taken.
+constexpr double kBadFactor = 2.5;
+
+KinematicModel WithOffsets(const KinematicModel& model, const std::vector<int>& markers,
+                           const Matrix3Xd& offsets) {
+  ModelDescription moved{model.name(), model.segments(), model.markers(), model.node_sets()};
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    moved.markers[markers[m]].p_SM += offsets.col(static_cast<Eigen::Index>(m));
+  }
+  return KinematicModel(std::move(moved));
+}
+
+int CountSeen(const Matrix3Xd& z) {
+  int seen = 0;
+  for (Eigen::Index m = 0; m < z.cols(); ++m) seen += IsSeen(z.col(m));
+  return seen;
+}
+
+/// The frames' postures by least squares; those that have none yet start from their predecessor's.
+VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
+                     const std::vector<int>& markers, double robust_distance,
+                     std::vector<CalibrationFrame>* frames) {
+  const MarkerKinematics kinematics(model, joints, markers);
+  const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
+  PostureFitOptions options;
+  options.robust_distance = robust_distance;
+  PostureSearch search(kinematics);
+  VectorXd distance(frames->size());
+  int assembled = -1;  // recording
+  for (std::size_t k = 0; k < frames->size(); ++k) {
+    CalibrationFrame& frame = (*frames)[k];
+    PostureFit::Result fit;
+    if (frame.posture.joint_angles.size() > 0) {
+      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
+    } else if (assembled != frame.recording) {
+      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
+      assembled = frame.recording;
+    } else {
+      frame.posture = (*frames)[k - 1].posture;
+      search.fit().Solve(frame.z, scale, options, &frame.posture);
+      search.Improve(frame.z, scale, options, &frame.posture);
+      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
+    }
+    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
+  }
+  return distance;
+}
+
+/// Adds to each marker's offset the median, per axis, of what is left of it in its segment.
+void AddMedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
+                        const std::vector<int>& markers,
+                        const std::vector<CalibrationFrame>& frames, Matrix3Xd* offsets) {
+  const auto num_markers = static_cast<Eigen::Index>(markers.size());
+  std::vector<std::vector<double>> residuals(3 * markers.size());
+  Posture full = ZeroPosture(model);
+  for (const CalibrationFrame& frame : frames) {
+    full.position = frame.posture.position;
+    full.orientation = frame.posture.orientation;
+    full.joint_angles(joints) = frame.posture.joint_angles;
+    const auto X_WS = SegmentPoses(model, full);
+    for (Eigen::Index m = 0; m < num_markers; ++m) {
+      if (!IsSeen(frame.z.col(m))) continue;
+      const ModelMarker& marker = model.markers()[markers[m]];
+      const Eigen::Vector3d r =
+          X_WS[marker.segment].inverse() * frame.z.col(m) - marker.p_SM - offsets->col(m);
+      for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
+    }
+  }
+  for (Eigen::Index i = 0; i < 3 * num_markers; ++i) {
+    if (!residuals[i].empty()) offsets->reshaped()[i] += Median(residuals[i]);
+  }
+}
+
+}  // namespace
+
+std::vector<int> UsedMarkers(const std::vector<CalibrationRecording>& recordings) {
+  std::vector<int> markers;
+  for (const CalibrationRecording& recording : recordings) {
+    for (const MarkerAssignment& assignment : recording.assignments) {
+      markers.push_back(assignment.marker);
+    }
+  }
+  std::sort(markers.begin(), markers.end());
+  markers.erase(std::unique(markers.begin(), markers.end()), markers.end());
+  return markers;
+}
+
+std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecording>& recordings,
+                                              const std::vector<int>& markers, int least_seen) {
+  std::vector<CalibrationFrame> frames;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const MarkerSequence& sequence = *recordings[r].markers;
+    const int stride = std::max(1, static_cast<int>(std::lround(kInterval * sequence.rate())));
+    for (int k = 0; k < sequence.num_frames(); k += stride) {
+      CalibrationFrame frame;
+      frame.recording = static_cast<int>(r);
+      frame.frame = k;
+      frame.z.setConstant(3, static_cast<Eigen::Index>(markers.size()),
+                          std::numeric_limits<double>::quiet_NaN());
+      for (const MarkerAssignment& assignment : recordings[r].assignments) {
+        const auto found = std::lower_bound(markers.begin(), markers.end(), assignment.marker);
+        frame.z.col(found - markers.begin()) = sequence.frame(k).col(assignment.label);
+      }
+      if (CountSeen(frame.z) >= least_seen) frames.push_back(std::move(frame));
+    }
+  }
+  return frames;
+}
+
+Matrix3Xd FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
+                            const std::vector<int>& markers, std::vector<CalibrationFrame>* frames,
+                            VectorXd* distance_before, VectorXd* distance) {
+  Matrix3Xd offsets = Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
+  *distance_before = FitPostures(model, joints, markers, kRobustBefore, frames);
+  for (int round = 0; round < kRounds; ++round) {
+    AddMedianResiduals(model, joints, markers, *frames, &offsets);
+    const double robust = round + 1 < kRounds ? kRobustBefore : kRobustAfter;
+    *distance = FitPostures(WithOffsets(model, markers, offsets), joints, markers, robust, frames);
+  }
+  return offsets;
+}
+
+std::vector<CalibrationFrame> ChooseFrames(std::vector<CalibrationFrame> frames,
+                                           const VectorXd& distance, int count) {
+  const double bound = kBadFactor * Median({distance.data(), frames.size()});
+  std::vector<CalibrationFrame> good;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (distance[static_cast<Eigen::Index>(k)] <= bound) good.push_back(std::move(frames[k]));
+  }
+  if (static_cast<int>(good.size()) <= count) return good;
+  std::vector<double> gap(good.size(), std::numeric_limits<double>::infinity());
+  std::vector<CalibrationFrame> chosen;
+  chosen.reserve(count);
+  for (std::size_t next = 0; static_cast<int>(chosen.size()) < count;) {
+    chosen.push_back(good[next]);
+    for (std::size_t k = 0; k < good.size(); ++k) {
+      const double to_next =
+          (good[k].posture.joint_angles - chosen.back().posture.joint_angles).squaredNorm();
+      gap[k] = std::min(gap[k], to_next);
+    }
+    next = static_cast<std::size_t>(std::max_element(gap.begin(), gap.end()) - gap.begin());
+  }
+  return chosen;
+}
+
+}  // namespace mmm_converter

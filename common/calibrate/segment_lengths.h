@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+/// The nodes of a model whose translation is a length of the body: those that set a tracked joint
+/// apart from the one above it, with a used marker below. What lies behind the last joint only
+/// moves markers, and is left to their offsets.
+struct SegmentLengths {
+  std::vector<int> segments;                ///< indices of the model
+  std::vector<std::pair<int, int>> mirror;  ///< indices into segments: left and right of one length
+};
+
+/// joints, markers: the tracked and used ones, indices of the model. Left and right are told by
+/// their names: "L..." and "R..." or "Left..." and "Right...".
+SegmentLengths FindSegmentLengths(const KinematicModel& model, const std::vector<int>& joints,
+                                  const std::vector<int>& markers);
+
+/// The name with its side exchanged; empty where it has none.
+std::string MirroredName(const std::string& name);
+
+}  // namespace mmm_converter
