@@ -27,15 +27,17 @@ void NumberRepeatedNames(std::vector<Named>* items) {
   }
 }
 
-KinematicModel ScaleModel(const InputRequest& request, const Input& input,
-                          const ConverterConfig& config, std::vector<std::string>* warnings) {
+void TakeModel(const InputRequest& request, const Input& input, const ConverterConfig& config,
+               Trial* trial, std::vector<std::string>* warnings) {
   const MarkerSequence& markers = input.recording.markers;
   std::string set;
   const std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, markers, *input.reference, &set);
   const MarkerMapping mapping = ResolveMarkerMapping(pairs, markers, *input.reference);
   Person person;
-  return ScaleToPerson(request.person, *input.reference, input.recording, config,
-                       mapping.assignments, &person, warnings);
+  trial->model = std::make_shared<KinematicModel>(
+      ScaleToPerson(request.person, *input.reference, input.recording, config, mapping.assignments,
+                    &person, warnings));
+  trial->subject = person.subject;
 }
 
 }  // namespace
@@ -64,10 +66,12 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
     if (!truth_file.empty()) {
       const MmmMotion truth = ReadPostures(truth_file, input.recording.motion);
       trial.truth = AlignFrames(truth.trajectory, input.recording.markers, truth_file);
-      if (!request.person.height && truth.height) request.person.height = truth.height;
-      if (!request.person.mass && truth.mass) request.person.mass = truth.mass;
+      if (request.person.subject_file.empty()) {
+        if (!request.person.height) request.person.height = truth.height;
+        if (!request.person.mass) request.person.mass = truth.mass;
+      }
     }
-    trial.model = std::make_shared<KinematicModel>(ScaleModel(request, input, config, warnings));
+    TakeModel(request, input, config, &trial, warnings);
     trial.markers = std::move(input.recording.markers);
   } catch (const Error& error) {
     trial.failure = error.what();

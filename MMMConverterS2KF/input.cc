@@ -77,6 +77,8 @@ const std::vector<OptionGroup>& InputOptions() {
         {"hand-length", "METRES", "default: from the files, else by the height", ""},
         {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length",
          "outputModelProcessorConfigFile"},
+        {"subject-file", "FILE",
+         "who the person is, from calibrate: height, mass, segment lengths and marker places", ""},
         {"model", "FILE", "reference model; default: the shipped MMM model", "outputModelFile"}}}};
   return options;
 }
@@ -93,6 +95,7 @@ InputRequest MakeInputRequest(const Arguments& arguments, const std::string& fil
   if (const auto frames = arguments.Get("frames")) ParseFrames(*frames, &request);
   request.model_file = arguments.Get("model").value_or("");
   request.person.processor_file = arguments.Get("person").value_or("");
+  request.person.subject_file = arguments.Get("subject-file").value_or("");
   request.person.height = arguments.GetNumber("height", "metres, e.g. 1.75");
   request.person.mass = arguments.GetNumber("mass", "kilograms, e.g. 70");
   request.person.hand_length = arguments.GetNumber("hand-length", "metres, e.g. 0.18");

@@ -47,6 +47,19 @@ TextPieces Format(const MmmMotionOutput& output, const ConversionRequest& reques
   return report->output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
+// The format has no place for a subject: players see the reference, scaled by height and mass.
+std::string DescribeSubject(const ConversionReport& report) {
+  if (!report.person.subject) return "";
+  const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
+  const std::string& file =
+      report.subject_output.empty() ? report.person.subject_file : report.subject_output;
+  return fmt::format(
+      "Root poses and joint angles are those of the subject {}{}, whose segment lengths and marker "
+      "places differ from this model scaled by height and mass{}",
+      report.person.subject->name, file.empty() ? "" : " (" + name(file) + ")",
+      report.model_output.empty() ? "" : "; the subject's model: " + name(report.model_output));
+}
+
 }  // namespace
 
 std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report) {
@@ -77,6 +90,7 @@ void WriteMotion(const ConversionRequest& request, ConversionReport* report) {
   output.height = report->person.height.value;
   output.mass = report->person.mass.value;
   output.hand_length = report->person.hand_length;
+  output.comment = DescribeSubject(*report);
   output.trajectory = &report->result.trajectory;
   output.markers = &report->input.recording.markers;
   WriteFileAtomically(report->output, Format(output, request, report));

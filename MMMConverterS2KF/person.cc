@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/convert/converter_config.h"
 #include "common/fit/height_estimate.h"
 #include "common/io/processor_config.h"
-#include "common/model/model_scaling.h"
+#include "common/io/subject_file.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -38,32 +41,102 @@ PersonValue Estimate(const KinematicModel& reference, const Recording& recording
   return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
 }
 
+// Files have at least 6 digits of a metre or a kilogram.
+bool AreEqual(double a, double b) { return std::abs(a - b) < 1e-6; }
+
+// A number that the user gives must be the subject's.
+void CheckLength(const char* what, const std::optional<double>& given, std::optional<double> own,
+                 const std::string& file) {
+  if (!given || (own && AreEqual(*given, *own))) return;
+  throw Error(
+      fmt::format("{}: is calibrated for {} {}, not for {:g} m: its segment scales are relative to "
+                  "it; leave the {} out, or calibrate anew with it",
+                  file, what, own ? fmt::format("{:g} m", *own) : "by the height", *given, what));
+}
+
+// Another mass changes no length.
+void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
+                 const Recording& recording, Person* person, std::vector<std::string>* warnings) {
+  const Subject& subject = *person->subject;
+  const std::string& file = person->subject_file;
+  const auto height = request.height ? request.height : processor.height;
+  const auto hand_length = request.hand_length ? request.hand_length : processor.hand_length;
+  CheckLength("height", height, subject.height, file);
+  CheckLength("hand length", hand_length, subject.hand_length, file);
+  person->height = {subject.height, file};
+  person->mass = {subject.mass, file};
+  person->hand_length = subject.hand_length;
+  const auto mass = Choose(request.mass, processor.mass, request.processor_file, std::nullopt);
+  if (mass && !AreEqual(mass->value, subject.mass)) {
+    warnings->push_back(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
+                                    subject.mass, mass->value, mass->source));
+    person->mass = *mass;
+  }
+  if (recording.height && !AreEqual(*recording.height, subject.height)) {
+    warnings->push_back(
+        fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
+                    "same person?",
+                    file, *recording.height, subject.height));
+  }
+}
+
+// Height, mass and hand length from where they are known, else estimated and assumed.
+void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
+                 const Recording& recording, Person* person) {
+  const std::string& file = request.processor_file;
+  const auto height = Choose(request.height, processor.height, file, recording.height);
+  const auto mass = Choose(request.mass, processor.mass, file, recording.mass);
+  const auto hand_length =
+      Choose(request.hand_length, processor.hand_length, file, recording.hand_length);
+  person->height = height.value_or(PersonValue());
+  person->mass = mass ? *mass : PersonValue{kAssumedMass, "assumed"};
+  if (hand_length) person->hand_length = hand_length->value;
+}
+
+KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel& reference,
+                             const ConverterConfig& config, Person* person,
+                             std::vector<std::string>* warnings) {
+  if (!request.subject_file.empty()) {
+    throw Error(
+        fmt::format("{}: <Model name=\"None\">: the model is not scaled, but the subject {} "
+                    "is relative to the scaled one; use another configuration",
+                    config.file, request.subject_file));
+  }
+  if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
+    warnings->push_back(config.file +
+                        ": <Model name=\"None\">: the model is not scaled; height, mass and "
+                        "hand length are left out");
+  }
+  person->height = {0, "model is not scaled"};
+  person->mass = person->height;
+  return reference;
+}
+
 }  // namespace
+
+WinterScaling ToWinterScaling(const Person& person) {
+  return {person.height.value, person.mass.value, person.hand_length};
+}
 
 KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
                              const Recording& recording, const ConverterConfig& config,
                              const std::vector<MarkerAssignment>& assignments, Person* person,
                              std::vector<std::string>* warnings) {
   if (config.model_processor == "None") {
-    if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
-      warnings->push_back(config.file +
-                          ": <Model name=\"None\">: the model is not scaled; height, mass and "
-                          "hand length are left out");
-    }
-    person->height = {0, "model is not scaled"};
-    person->mass = person->height;
-    return reference;
+    return LeaveUnscaled(request, reference, config, person, warnings);
   }
-  ProcessorConfig file;
-  if (!request.processor_file.empty()) file = ReadProcessorConfig(request.processor_file);
-  const auto height = Choose(request.height, file.height, request.processor_file, recording.height);
-  const auto mass = Choose(request.mass, file.mass, request.processor_file, recording.mass);
-  const auto hand_length =
-      Choose(request.hand_length, file.hand_length, request.processor_file, recording.hand_length);
-  person->height = height ? *height : Estimate(reference, recording, config, assignments);
-  person->mass = mass ? *mass : PersonValue{kAssumedMass, "assumed"};
-  if (hand_length) person->hand_length = hand_length->value;
-  return ScaleWinter(reference, {person->height.value, person->mass.value, person->hand_length});
+  ProcessorConfig processor;
+  if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
+  person->subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
+  if (!person->subject_file.empty()) {
+    person->subject = std::make_shared<Subject>(ReadSubject(person->subject_file, reference));
+    TakeSubject(request, processor, recording, person, warnings);
+    return FitToSubject(ScaleWinter(reference, ToWinterScaling(*person)), *person->subject);
+  }
+  TakeNumbers(request, processor, recording, person);
+  if (person->height.source.empty())
+    person->height = Estimate(reference, recording, config, assignments);
+  return ScaleWinter(reference, ToWinterScaling(*person));
 }
 
 }  // namespace mmm_converter

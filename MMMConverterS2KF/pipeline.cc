@@ -1,15 +1,65 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/pipeline.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "MMMConverterS2KF/motion_output.h"
+#include "common/io/mmm_model_subject.h"
+#include "common/io/subject_file.h"
 #include "common/io/trajectory_csv.h"
 #include "common/support/atomic_file.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
 
 void AddWarnings(const std::vector<std::string>& more, ConversionReport* report) {
   report->warnings.insert(report->warnings.end(), more.begin(), more.end());
+}
+
+// The person as the recording itself shows them.
+void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
+  if (config.model_processor == "None") {
+    throw Error(config.file +
+                ": <Model name=\"None\">: the model is not scaled, but a subject is "
+                "relative to the scaled one; use another configuration");
+  }
+  const Recording& recording = report->input.recording;
+  const std::string file = std::filesystem::path(recording.file).filename().string();
+  const KinematicModel& scaled = *report->model;
+  report->calibration = CalibratePerson(scaled, ResolveJoints(config, scaled),
+                                        {{file, &recording.markers, report->mapping.assignments}},
+                                        report->person, SubjectName(report->input));
+  AddWarnings(report->calibration->warnings, report);
+  report->person.subject = std::make_shared<Subject>(report->calibration->subject);
+  report->model =
+      std::make_shared<KinematicModel>(FitToSubject(scaled, report->calibration->subject));
+}
+
+void CheckPersonOutputs(const ConversionRequest& request, const ConversionReport& report) {
+  if (!request.model_output.empty() && !report.person.subject) {
+    throw Error(
+        fmt::format("--model-out {}: no subject is known whose model that would be; use "
+                    "--self-calibrate or --subject-file",
+                    request.model_output));
+  }
+  const std::vector<std::string> inputs = {request.input.file, report.input.model_file,
+                                           report.person.subject_file};
+  CheckIsNoInput(request.subject_output, inputs);
+  CheckIsNoInput(request.model_output, inputs);
+}
+
+void WritePerson(const ConversionReport& report) {
+  if (!report.subject_output.empty()) {
+    WriteFileAtomically(report.subject_output,
+                        FormatSubject(*report.person.subject, SubjectProgram()));
+  }
+  if (!report.model_output.empty()) {
+    WriteFileAtomically(report.model_output,
+                        ReadModelForSubject(report.input.model_file, *report.person.subject));
+  }
 }
 
 }  // namespace
@@ -20,8 +70,9 @@ ConversionReport RunConversion(const ConversionRequest& request,
   report.input = ReadInput(request.input);
   AddWarnings(report.input.warnings, &report);
   report.converter = ChooseConverter(request.converter);
-  const ConverterConfig& config = report.converter.config;
-  AddWarnings(config.warnings, &report);
+  AddWarnings(report.converter.config.warnings, &report);
+  ConverterConfig& config = report.converter.config;
+  if (request.self_calibrate) config.subject_file.clear();
   report.output_format =
       request.output_format.empty() ? config.output_format : request.output_format;
   report.output = ChooseOutput(request, report);
@@ -37,6 +88,11 @@ ConversionReport RunConversion(const ConversionRequest& request,
       ScaleToPerson(request.input.person, reference, report.input.recording, config, assignments,
                     &report.person, &report.warnings));
 
+  if (request.self_calibrate) SelfCalibrate(config, &report);
+  CheckPersonOutputs(request, report);
+  report.subject_output = request.subject_output;
+  report.model_output = request.model_output;
+
   const auto converter =
       report.converter.plugin->factory().Create(*report.model, assignments, config);
   report.result = converter->Convert(markers, *report.model, assignments, [&](int done) {
@@ -44,6 +100,7 @@ ConversionReport RunConversion(const ConversionRequest& request,
     return true;
   });
   WriteMotion(request, &report);
+  WritePerson(report);
   if (!request.csv_file.empty()) {
     WriteFileAtomically(request.csv_file, FormatTrajectoryCsv(report.result.trajectory));
   }

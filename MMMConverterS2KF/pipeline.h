@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/calibration.h"
 #include "MMMConverterS2KF/converter_choice.h"
 #include "MMMConverterS2KF/input.h"
 #include "MMMConverterS2KF/person.h"
@@ -18,11 +20,14 @@ namespace mmm_converter {
 struct ConversionRequest {
   InputRequest input;
   ConverterRequest converter;
-  std::string output;         ///< input stem + "_mmm.xml", beside the input
-  std::string output_format;  ///< "2.0" or "1.0"; empty: what the configuration says
-  std::string csv_file;       ///< also write the trajectory with its standard deviations
-  std::string motion_name;    ///< to write
-  std::string model_path;     ///< to write, as it is
+  std::string output;           ///< input stem + "_mmm.xml", beside the input
+  std::string output_format;    ///< "2.0" or "1.0"; empty: what the configuration says
+  std::string csv_file;         ///< also write the trajectory with its standard deviations
+  std::string motion_name;      ///< to write
+  std::string model_path;       ///< to write, as it is
+  bool self_calibrate = false;  ///< estimate the person from the recording itself
+  std::string subject_output;   ///< also write the estimated subject
+  std::string model_output;     ///< also write the subject's model
 };
 
 /// Everything that a summary tells.
@@ -30,16 +35,18 @@ struct ConversionReport {
   Input input;
   ConverterChoice converter;
   Person person;
-  std::shared_ptr<const KinematicModel> model;  ///< scaled to the person
-  std::string marker_set;                       ///< empty: the configuration has its own list
+  std::shared_ptr<const KinematicModel> model;   ///< of the person
+  std::optional<CalibrationResult> calibration;  ///< of this recording
+  std::string marker_set;                        ///< empty: the configuration has its own list
   MarkerMapping mapping;
   ConversionResult result;
   std::string output, output_format, motion_name;
+  std::string subject_output, model_output;  ///< empty: not written
   std::vector<std::string> warnings;
 };
 
-/// Reads the recording, loads and scales the model, matches the markers, converts, and writes the
-/// motion. progress(done, all): frames.
+/// Reads the recording, loads and scales the model, matches the markers, calibrates where asked to,
+/// converts, and writes the motion and what else is asked for. progress(done, all): frames.
 /// @throws Error; the output is then as it was before.
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<void(int, int)>& progress);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "MMMConverterS2KF/calibration_summary.h"
+#include "MMMConverterS2KF/report/subject_json.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/suggestion.h"
@@ -127,6 +129,44 @@ std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
   return text;
 }
 
+std::string DescribeSubject(const ConversionReport& report) {
+  if (!report.person.subject) return "";
+  const Subject& subject = *report.person.subject;
+  std::string text = fmt::format("subject    \"{}\": {} segments, {} markers", subject.name,
+                                 subject.scales.size(), subject.offsets.size());
+  if (!report.calibration) return text + ", from " + report.person.subject_file + "\n";
+  return text +
+         fmt::format(
+             ", from this recording: best postures of {} frames {:.1f} mm from the markers, "
+             "{:.1f} without\n",
+             report.calibration->frames, kMillimetres * report.calibration->distance_after,
+             kMillimetres * report.calibration->distance_before) +
+         FormatSubjectSummary(subject);
+}
+
+// What an MMM program does with the motion.
+std::string DescribeSubjectOutput(const ConversionReport& report) {
+  if (!report.person.subject) return "";
+  std::string text =
+      "played     the angles are the subject's; on the model scaled by height and mass, which the "
+      "motion\n           names, segments and markers differ";
+  if (report.model_output.empty()) return text + "; --model-out writes the subject's model\n";
+  return text + ". The subject's model: " + report.model_output + "\n";
+}
+
+Json SubjectJson(const ConversionReport& report) {
+  if (!report.person.subject) return nullptr;
+  Json json = {{"file", report.person.subject_file},
+               {"subject_output", report.subject_output},
+               {"model_output", report.model_output},
+               {"calibration", nullptr}};
+  if (report.calibration) {
+    json["calibration"] = Json::parse(FormatCalibrationFigures(*report.calibration));
+  }
+  json.update(Json::parse(FormatSubjectJson(*report.person.subject)));
+  return json;
+}
+
 }  // namespace
 
 std::string FormatSummary(const ConversionReport& report) {
@@ -139,6 +179,7 @@ std::string FormatSummary(const ConversionReport& report) {
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
                       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
   text += fmt::format("person     {}\n", DescribePersonShortly(report));
+  text += DescribeSubject(report);
   text += fmt::format("model      {}, {} joints tracked\n", report.input.model_file,
                       report.result.trajectory.joint_names.size());
   text += fmt::format("converter  {}, {}\n", report.converter.config.type,
@@ -155,6 +196,7 @@ std::string FormatSummary(const ConversionReport& report) {
                       Percentile(times, 99));
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
                       report.motion_name);
+  text += DescribeSubjectOutput(report);
   return text;
 }
 
@@ -170,6 +212,7 @@ std::string FormatSummaryJson(const ConversionReport& report) {
       {"motion", report.motion_name},
       {"model", report.input.model_file},
       {"person", DescribePerson(report)},
+      {"subject", SubjectJson(report)},
       {"converter", report.converter.config.type},
       {"plugin", report.converter.plugin->path()},
       {"configuration", report.converter.config.file},

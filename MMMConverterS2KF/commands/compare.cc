@@ -47,7 +47,7 @@ Distances are between measured and model markers, hidden ones included, over the
 that all configurations use. The optimum is the least-squares posture of each frame on its own. A
 frame is good up to 1.2 optimum + 2 mm, lost beyond 2 optimum + 20 mm.
 
-{}The options truth, subject, motion, height, mass, person and up may be there once for all recordings,
+{}The options truth, subject, motion, height, mass, person, subject-file and up may be there once for all recordings,
 or once for each in their order. Exit code 1 where a pair failed; the
 others are compared all the same.
 
@@ -59,8 +59,8 @@ Examples
 )";
 
 // Given once for all recordings, or once for each in their order.
-const std::vector<std::string> kPerRecording = {"truth", "subject", "motion", "height",
-                                                "mass",  "person",  "up"};
+const std::vector<std::string> kPerRecording = {"truth", "subject", "motion",       "height",
+                                                "mass",  "person",  "subject-file", "up"};
 
 std::vector<OptionGroup> Options() {
   std::vector<OptionGroup> options = {kContest, ComparisonOutputOptions()};

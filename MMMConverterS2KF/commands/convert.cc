@@ -31,6 +31,13 @@ const std::vector<OptionGroup> kOwnOptions = {
        "converterConfigFile"},
       {"converter", "NAME", "default: what the configuration says, else S2KFConverter", ""},
       {"plugin", "FILE", "take the converter from this plugin file", ""}}},
+    {"Calibration",
+     {{"self-calibrate", "",
+       "estimate segment lengths and marker places from this recording first, as calibrate does",
+       ""},
+      {"subject-out", "FILE", "with --self-calibrate: also write the person", ""},
+      {"model-out", "FILE", "of a calibrated person: also write the model, for other MMM programs",
+       ""}}},
     {"General",
      {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
       {"help,h", "", "print this help", ""}}}};
@@ -46,6 +53,8 @@ and -o.
 Examples
   MMMConverterS2KF convert walk.c3d --height 1.75
   MMMConverterS2KF convert walk.c3d --height 1.75 --mass 70 -o walk.xml --summary walk.json
+  MMMConverterS2KF convert walk.c3d --height 1.75 --self-calibrate --subject-out anna.xml
+  MMMConverterS2KF convert run.c3d --subject-file anna.xml
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert walk.c3d --frames 100:400 -c my.xml --format 1.0
 )";
@@ -79,6 +88,16 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.csv_file = arguments.Get("csv").value_or("");
   request.motion_name = request.input.reading.motion;
   request.model_path = arguments.Get("model-path").value_or("");
+  request.self_calibrate = arguments.Has("self-calibrate");
+  request.subject_output = arguments.Get("subject-out").value_or("");
+  request.model_output = arguments.Get("model-out").value_or("");
+  if (request.self_calibrate && !request.input.person.subject_file.empty()) {
+    throw UsageError(
+        "convert: --self-calibrate estimates the person, --subject-file says who it is; use one");
+  }
+  if (!request.self_calibrate && !request.subject_output.empty()) {
+    throw UsageError("convert: --subject-out needs --self-calibrate, which estimates the subject");
+  }
   request.converter = {arguments.Get("config").value_or(""),
                        arguments.Get("converter").value_or(""),
                        arguments.Get("plugin").value_or("")};
@@ -90,6 +109,7 @@ std::string FormatConversionReport(const ConversionReport& report) {
   trial.name = std::filesystem::path(report.input.recording.file).filename().string();
   trial.markers = report.input.recording.markers;
   trial.model = report.model;
+  trial.subject = report.person.subject;
   Contender contender;
   contender.name = std::filesystem::path(report.converter.config.file).stem().string();
   contender.configuration = report.converter.text;

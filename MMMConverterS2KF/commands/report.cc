@@ -68,6 +68,7 @@ Comparison CompareSolutions(const Arguments& arguments) {
   std::vector<MmmMotion> motions;
   for (std::size_t i = 1; i < files.size(); ++i) {
     motions.push_back(ReadPostures(files[i], request.reading.motion));
+    if (!request.person.subject_file.empty()) continue;
     if (!request.person.height) request.person.height = motions.back().height;
     if (!request.person.mass) request.person.mass = motions.back().mass;
   }

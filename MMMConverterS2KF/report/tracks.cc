@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/packed_array.h"
+#include "MMMConverterS2KF/report/subject_json.h"
 
 namespace mmm_converter {
 namespace {
@@ -97,6 +98,7 @@ json TrialJson(const Trial& trial, const CommonGround& ground) {
               {"optimum", Floats(ground.optimum)},
               {"mean_hidden", Floats(ground.mean_hidden)},
               {"most_hidden", Floats(ground.most_hidden)}});
+  if (trial.subject) out["subject"] = json::parse(FormatSubjectJson(*trial.subject));
   if (trial.truth && trial.truth->num_frames() == frames) {
     out["truth"] = MotionJson(*trial.model, *trial.truth);
   }

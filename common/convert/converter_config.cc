@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -79,10 +80,14 @@ class ConfigReader {
       }
       config_.model_processor = *name;
     }
+    const XmlElement* subject = nullptr;
     const XmlElement* mapping = nullptr;
     const XmlElement* joints = nullptr;
     for (const XmlElement& child : model.children) {
-      if (child.name == "MarkerMapping") {
+      if (child.name == "Subject") {
+        CheckOnlyOne(child, &subject);
+        ReadSubject(child);
+      } else if (child.name == "MarkerMapping") {
         CheckOnlyOne(child, &mapping);
         ReadMarkerMapping(child);
       } else if (child.name == "Joints") {
@@ -90,9 +95,23 @@ class ConfigReader {
         ReadJoints(child);
       } else {
         ReportUnknown(child.line,
-                      fmt::format("unknown element <{}> in <Model>; use MarkerMapping or Joints",
+                      fmt::format("unknown element <{}> in <Model>; use Subject, MarkerMapping or "
+                                  "Joints",
                                   child.name));
       }
+    }
+  }
+
+  // Relative to the configuration.
+  void ReadSubject(const XmlElement& subject) {
+    AllowAttributes(subject, {"file"});
+    const std::filesystem::path folder = std::filesystem::path(config_.file).parent_path();
+    const std::string file = NeededAttribute(subject, "file");
+    if (!file.empty()) config_.subject_file = (folder / file).string();
+    if (config_.model_processor != "Winter") {
+      diagnostics_.AddError(subject.line,
+                            "<Subject> needs <Model name=\"Winter\">: its lengths are relative to "
+                            "the model scaled by height");
     }
   }
 

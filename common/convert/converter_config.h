@@ -21,6 +21,7 @@ struct ConverterConfig {
   std::string file;                        ///< for messages
   std::string type;                        ///< converter name, e.g. "S2KFConverter"
   std::string model_processor = "Winter";  ///< Model@name: "Winter" or "None" (not scaled)
+  std::string subject_file;                ///< Model/Subject@file; empty: none
   std::vector<MarkerPair> marker_pairs;    ///< empty: see marker_set
   std::string marker_set = "auto";         ///< MarkerMapping@set, see ResolveMarkerPairs
   int marker_set_line = 0;

@@ -15,6 +15,7 @@
 #include "common/evaluate/hiding.h"
 #include "common/evaluate/tracking_quality.h"
 #include "common/model/kinematic_model.h"
+#include "common/model/subject.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 
@@ -25,6 +26,7 @@ struct Trial {
   std::string name;                             ///< for tables
   MarkerSequence markers;                       ///< as measured
   std::shared_ptr<const KinematicModel> model;  ///< scaled to the person
+  std::shared_ptr<const Subject> subject;       ///< of the model; null: height and mass only
   std::optional<PoseTrajectory> truth;          ///< of that model
   std::string failure;                          ///< why it can't be used; empty: it can
 };

@@ -17,8 +17,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kMaxModelBytes = std::size_t{8} << 20;  // a real model has 0.1 MB
-constexpr double kLengthTolerance = 1e-5;                     // [m]; model files have 6 digits
+constexpr double kLengthTolerance = 1e-5;  // [m]; model files have 6 digits
 constexpr const char* kFloatingRoot = "root_joint";
 
 class ModelBuilder {

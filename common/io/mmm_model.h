@@ -9,6 +9,8 @@
 
 namespace mmm_converter {
 
+inline constexpr std::size_t kMaxModelBytes = std::size_t{8} << 20;  ///< a real model has 0.1 MB
+
 struct MmmModel {
   KinematicModel model;
   std::vector<std::string> warnings;  ///< each as `file:line: message`

@@ -62,6 +62,9 @@ const char* UnitsOf(Quantity quantity) {
   return "";
 }
 
+constexpr const char* kUnitAttributes[] = {"unit", "units", "unitsLength", "unitsAngle",
+                                           "unitsWeight"};
+
 class NodeReader {
  public:
   explicit NodeReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -124,7 +127,7 @@ Eigen::Vector3d NodeReader::Vector(const XmlElement& element) {
 
 double NodeReader::Unit(const XmlElement& element, std::string_view default_unit) {
   const UnitName& standard = *FindUnit(default_unit);
-  for (const char* attribute : {"unit", "units", "unitsLength", "unitsAngle", "unitsWeight"}) {
+  for (const char* attribute : kUnitAttributes) {
     const std::string* text = element.FindAttribute(attribute);
     if (text == nullptr) continue;
     const UnitName* unit = FindUnit(*text);
@@ -336,6 +339,15 @@ ModelNode NodeReader::Read(const XmlElement& element) {
 }
 
 }  // namespace
+
+double LengthUnit(const XmlElement& element) {
+  for (const char* attribute : kUnitAttributes) {
+    const std::string* text = element.FindAttribute(attribute);
+    const UnitName* unit = text == nullptr ? nullptr : FindUnit(*text);
+    if (unit != nullptr && unit->quantity == Quantity::kLength) return unit->factor;
+  }
+  return FindUnit("mm")->factor;
+}
 
 ModelNode ReadModelNode(const XmlElement& element, Diagnostics& diagnostics) {
   return NodeReader(diagnostics).Read(element);

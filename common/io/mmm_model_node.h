@@ -23,6 +23,10 @@ struct ModelNode {
   std::vector<ModelMarker> markers;
 };
 
+/// Metres in the unit that an element of a model names for its lengths; mm where it names none that
+/// is known.
+double LengthUnit(const XmlElement& element);
+
 /// Problems go to `diagnostics`; what could not be read keeps its default.
 ModelNode ReadModelNode(const XmlElement& element, Diagnostics& diagnostics);
 

@@ -63,6 +63,7 @@ struct MmmMotionOutput {
   double height = 0;                           ///< [m]
   double mass = 0;                             ///< [kg]
   std::optional<double> hand_length;           ///< [m]
+  std::string comment;                         ///< stands in the model's element; empty: none
   const PoseTrajectory* trajectory = nullptr;  ///< required
   const MarkerSequence* markers =
       nullptr;  ///< 2.0: MoCapMarker; unseen markers are left out of their frame

@@ -118,6 +118,11 @@ void AppendProcessor(const MmmMotionOutput& output, std::string_view indent, cha
   text << indent << "</ModelProcessorConfig>\n";
 }
 
+/// What the format has no element for.
+void AppendComment(const MmmMotionOutput& output, Text text) {
+  if (!output.comment.empty()) text << "\t\t\t" << FormatXmlComment(output.comment) << "\n";
+}
+
 void AppendModelPose(const PoseTrajectory& trajectory, PieceWriter* pieces) {
   Text text(pieces->text());
   text << "<Sensor type=\"ModelPose\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
@@ -221,8 +226,9 @@ void AppendLegacyFrames(const MmmMotionOutput& output, PieceWriter* pieces) {
 
 void AppendLegacyHead(const MmmMotionOutput& output, Text text) {
   text << "<?xml version='1.0'?>\n<MMM>\n\t<Motion name='" << EscapeXml(output.motion_name)
-       << "'>\n\t\t<Model>\n\t\t\t<File>" << EscapeXml(output.model_path)
-       << "</File>\n\t\t</Model>\n";
+       << "'>\n\t\t<Model>\n\t\t\t<File>" << EscapeXml(output.model_path) << "</File>\n";
+  AppendComment(output, text);
+  text << "\t\t</Model>\n";
   AppendProcessor(output, "\t\t", '\'', text);
   text << "\t\t<JointOrder>\n";
   for (const std::string& name : output.trajectory->joint_names) {
@@ -235,6 +241,7 @@ void AppendLegacyHead(const MmmMotionOutput& output, Text text) {
 
 std::string FormatModelElement(const MmmMotionOutput& output) {
   std::string model = "<Model path=\"" + EscapeXml(output.model_path) + "\">\n";
+  AppendComment(output, Text(&model));
   AppendProcessor(output, "\t\t\t", '"', Text(&model));
   return model + "\t\t</Model>";
 }

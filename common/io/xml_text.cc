@@ -70,6 +70,15 @@ std::string EscapeXml(std::string_view text) {
   return out;
 }
 
+std::string FormatXmlComment(std::string_view text) {
+  std::string comment = "<!-- ";
+  for (const char c : EscapeXml(text)) {
+    if (c == '-' && comment.back() == '-') comment += ' ';
+    comment += c;
+  }
+  return comment + " -->";
+}
+
 void AppendDecimal(double value, int decimals, std::string* out) {
   constexpr std::array<double, 13> kScales = {1e0, 1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
                                               1e7, 1e8, 1e9, 1e10, 1e11, 1e12};

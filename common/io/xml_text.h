@@ -10,6 +10,9 @@ namespace mmm_converter {
 /// Latin-1, control characters (which XML can't hold) as blanks.
 std::string EscapeXml(std::string_view text);
 
+/// `<!-- text -->`, with what XML can hold there of the text.
+std::string FormatXmlComment(std::string_view text);
+
 /// Appends a number rounded to so many decimals (at most 12), without trailing zeros and never as
 /// "-0". value must be finite.
 void AppendDecimal(double value, int decimals, std::string* out);

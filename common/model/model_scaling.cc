@@ -19,10 +19,11 @@ void CheckRange(const char* what, double value, const char* unit, double low, do
 }
 
 void CheckPerson(const WinterScaling& person) {
-  CheckRange("height", person.height, "m", 0.5, 2.5, "give metres, e.g. --height 1.75");
-  CheckRange("mass", person.mass, "kg", 1, 400, "give kilograms, e.g. --mass 70");
+  CheckRange("height", person.height, "m", kLeastHeight, kLargestHeight,
+             "give metres, e.g. --height 1.75");
+  CheckRange("mass", person.mass, "kg", kLeastMass, kLargestMass, "give kilograms, e.g. --mass 70");
   if (person.hand_length) {
-    CheckRange("hand length", *person.hand_length, "m", 0.05, 0.4,
+    CheckRange("hand length", *person.hand_length, "m", kLeastHandLength, kLargestHandLength,
                "give metres, e.g. 0.18 (<HandLength> in an MMM file is in cm)");
   }
 }
@@ -57,7 +58,7 @@ void ScaleSegment(Segment& segment, double length, double mass) {
 
 }  // namespace
 
-KinematicModel ScaleWinter(const KinematicModel& reference, const WinterScaling& person) {
+std::vector<double> WinterLengths(const KinematicModel& reference, const WinterScaling& person) {
   CheckPerson(person);
   std::vector<double> lengths(reference.segments().size(), person.height);
   if (person.hand_length) {
@@ -66,6 +67,11 @@ KinematicModel ScaleWinter(const KinematicModel& reference, const WinterScaling&
       if (in_hand[i]) lengths[i] = *person.hand_length / kWinterHandLength;
     }
   }
+  return lengths;
+}
+
+KinematicModel ScaleWinter(const KinematicModel& reference, const WinterScaling& person) {
+  const std::vector<double> lengths = WinterLengths(reference, person);
   ModelDescription scaled{reference.name(), reference.segments(), reference.markers(),
                           reference.node_sets()};
   for (std::size_t i = 0; i < lengths.size(); ++i) {

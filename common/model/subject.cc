@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -27,6 +29,10 @@ void ScaleSegment(int index, double scale, ModelDescription* model) {
 double Observability(double standard_deviation, double prior_deviation) {
   const double share = standard_deviation / prior_deviation;
   return 1 - share * share;
+}
+
+double Deviation(const MarkerOffset& offset) {
+  return std::sqrt(offset.standard_deviations.squaredNorm() / 3);
 }
 
 KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject) {

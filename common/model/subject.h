@@ -51,6 +51,9 @@ struct Subject {
 /// 1 - (deviation / prior)^2. Near 0: the recordings do not determine the quantity.
 double Observability(double standard_deviation, double prior_deviation);
 
+/// Of a coordinate: root mean square of the three [m].
+double Deviation(const MarkerOffset& offset);
+
 /// The model of the person: `scaled` (by ScaleWinter) with the translation, centre of mass and
 /// markers of each named segment times its scale, inertia times its square, and each named marker
 /// moved by its offset. Joints, limits and masses stay as they are.

@@ -28,7 +28,8 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 }
 
 TEST(Help, EveryCommandHasOneWithExamples) {
-  for (const char* command : {"compare", "convert", "evaluate", "info", "print-config", "report"}) {
+  for (const char* command :
+       {"calibrate", "compare", "convert", "evaluate", "info", "print-config", "report"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -66,11 +67,16 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
   const std::vector<Misuse> misuses = {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
-       "unknown command \"fly\"; use convert, compare, evaluate, info, print-config or report"},
+       "unknown command \"fly\"; use convert, calibrate, compare, evaluate, info, print-config or "
+       "report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
       {{"convert"}, "convert: which recording?"},
+      {{"calibrate"}, "calibrate: which recordings?"},
+      {{"calibrate", "a.c3d", "--subject-file", "s.xml"}, "unknown option --subject-file"},
+      {{"convert", "a.c3d", "--self-calibrate", "--subject-file", "s.xml"}, "use one"},
+      {{"convert", "a.c3d", "--subject-out", "s.xml"}, "--subject-out needs --self-calibrate"},
       {{"compare"}, "compare: which recordings?"},
       {{"report", "walk.c3d"}, "report: which recording and which motion?"},
       {{"compare", "a.c3d", "--hide", "2"}, "--hide: 2 is not allowed; give a number from 0 to 1"},

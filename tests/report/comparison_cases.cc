@@ -61,6 +61,27 @@ Trial MakeTrial(const KinematicModel& model, const PoseTrajectory& motion) {
   return trial;
 }
 
+// Of the hostile model; the second segment is hardly determined.
+Subject HostileSubject(const KinematicModel& model) {
+  Subject subject;
+  subject.name = kHostileText;
+  subject.model = model.name();
+  subject.height = 1.8;
+  subject.mass = 75;
+  subject.scales = {{model.segments()[1].name, 0.98, 0.005, 0.06},
+                    {model.segments()[2].name, 1.05, 0.05, 0.06}};
+  for (const ModelMarker& marker : model.markers()) {
+    MarkerOffset offset;
+    offset.marker = marker.name;
+    offset.offset = {0.01 * (1 + marker.segment), 0, 0};
+    offset.standard_deviations = {0.001, 0.001, 0.001};
+    offset.prior_deviation = 0.04;
+    subject.offsets.push_back(offset);
+  }
+  subject.sources = {{kHostileText, 50}};
+  return subject;
+}
+
 Contender HostileContender() {
   Contender contender;
   contender.name = kHostileText;
@@ -75,6 +96,7 @@ Comparison HostileComparison() {
   const PoseTrajectory motion = SwayingMotion(model, 50);
   Trial trial = MakeTrial(model, motion);
   trial.name = kHostileText;
+  trial.subject = std::make_shared<Subject>(HostileSubject(model));
   Finished finished = AsFinished(model, motion);
   finished.mapping.warnings = {kHostileText};
   finished.mapping.ignored_labels = {kHostileText};

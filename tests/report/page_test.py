@@ -137,6 +137,23 @@ class ReportPage(unittest.TestCase):
         self.assertLessEqual({"trial", "player", "play", "scrub", "speed", "show-body", "heat-order", "joint"},
                              reached)
 
+    def test_calibrated_person_is_shown(self):
+        self.open("convert.html")
+        self.assertFalse(self.find("#person-part").is_displayed())  # height and mass only
+        self.open("hostile.html")
+        self.assertTrue(self.find("#person-part").is_displayed())
+        self.assertIn("1.800 m, 75.0 kg", self.text("#person-caption"))
+        rows = self.run_script("""
+            return Array.from(document.querySelectorAll("#person-segments tbody tr"), (row) =>
+              Array.from(row.querySelectorAll("td"), (cell) => cell.textContent))""")
+        # Largest change first; 1 - (5/6)^2 and 1 - (0.5/6)^2 of what was assumed is replaced.
+        self.assertEqual(rows, [["+5.0", "", "5.0", "31 %"], ["-2.0", "", "0.5", "99 %"]])
+        moved = self.run_script("""
+            return Array.from(document.querySelectorAll("#person-markers tbody tr"), (row) =>
+              parseFloat(row.querySelector("td").textContent))""")
+        self.assertEqual(moved, [30, 20, 10, 10])
+        self.assertGreater(self.pixels("#person-markers .bar"), 1)
+
     def test_scrubbing(self):
         self.open("compare.html")
         scrub = self.find("#scrub")

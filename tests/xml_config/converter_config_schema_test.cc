@@ -185,6 +185,8 @@ TEST(ConverterConfigSchema, TakesWhatTheReaderTakesAndRefusesWhatItRefuses) {
       IsValidText(config("<Model name='Winter'><MarkerMapping><Mapping source='C7' "
                          "target='MARKER_C7'/></MarkerMapping></Model>")));
   EXPECT_TRUE(IsValidText(config("<Filter samples='93'/><Model><Joints set='mmm40'/></Model>")));
+  EXPECT_TRUE(IsValidText(config("<Model><Subject file='1723.xml'/></Model>")));
+  EXPECT_FALSE(IsValidText(config("<Model><Subject/></Model>")));
   EXPECT_FALSE(IsValidText(config("<Filtre/>")));
   EXPECT_FALSE(IsValidText(config("<Filter samples='many'/>")));
   EXPECT_FALSE(IsValidText(config("<Filter sample='93'/>")));

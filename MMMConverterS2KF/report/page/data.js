@@ -93,6 +93,7 @@ class Trial {
     this.firstTime = json.first_time;
     this.markers = json.markers;  // of the model, one for each label
     this.model = json.model;
+    this.subject = json.subject || null;  // of the model, where the person is calibrated
     this.truth = json.truth ? new Motion(json.truth) : null;
     for (const name of ["positions", "hidden", "optimum", "mean_hidden", "most_hidden"]) {
       lazily(this, name, json[name]);

@@ -8,7 +8,8 @@ class View {
     this.shown = new Set();  // converters, by index
     this.trial = null;
     this.player = new Player(this);
-    this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player)];
+    this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player),
+      new PersonPart()];
     byId("trial").addEventListener("change", (event) => this.showTrial(Number(event.target.value)));
   }
 

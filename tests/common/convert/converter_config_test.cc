@@ -87,6 +87,19 @@ TEST(ConverterConfig, EverythingButTheTypeCanBeLeftOut) {
             "kit53");
 }
 
+TEST(ConverterConfig, SubjectIsRelativeToTheFile) {
+  const std::string xml =
+      "<ConverterConfig type='S2KFConverter'><Model name='Winter'><Subject file='people/a.xml'/>"
+      "</Model></ConverterConfig>";
+  EXPECT_EQ(ParseConverterConfig(xml, "c.xml").subject_file, "people/a.xml");
+  EXPECT_EQ(ParseConverterConfig(xml, "/x/c.xml").subject_file, "/x/people/a.xml");
+  EXPECT_EQ(Parse("<Model><Subject file='/a.xml'/></Model>").subject_file, "/a.xml");
+  EXPECT_EQ(Parse("").subject_file, "");
+  EXPECT_THAT(ErrorOf("<Model><Subject/></Model>"), HasSubstr("<Subject> needs file=\"...\""));
+  EXPECT_THAT(ErrorOf("<Model name='None'><Subject file='a'/></Model>"),
+              HasSubstr("<Subject> needs <Model name=\"Winter\">"));
+}
+
 TEST(ConverterConfig, ErrorsNameFileLineAndWhatIsAllowed) {
   EXPECT_EQ(ErrorOf("<Model name='Summer'/>"),
             "c.xml:2: <Model>: name=\"Summer\" is not allowed; use Winter (scales the model by "
@@ -94,7 +107,7 @@ TEST(ConverterConfig, ErrorsNameFileLineAndWhatIsAllowed) {
   EXPECT_EQ(ErrorOf("<Model nome='Winter'/>"),
             "c.xml:2: <Model>: unknown attribute nome; use name");
   EXPECT_EQ(ErrorOf("<Model>\n<Marker/></Model>"),
-            "c.xml:3: unknown element <Marker> in <Model>; use MarkerMapping or Joints");
+            "c.xml:3: unknown element <Marker> in <Model>; use Subject, MarkerMapping or Joints");
   EXPECT_THAT(ErrorOf("<Model/>\n<Model/>"), HasSubstr("c.xml:3: <Model> is already in line 2"));
   EXPECT_THAT(ErrorOf("<Model><MarkerMapping/></Model>"), HasSubstr("<MarkerMapping> is empty"));
   EXPECT_THAT(ErrorOf("<Model><Joints set='all'><Joint name='a'/></Joints></Model>"),

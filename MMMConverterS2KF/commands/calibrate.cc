@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "MMMConverterS2KF/calibration.h"
+#include "MMMConverterS2KF/calibration_summary.h"
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/comparison_setup.h"
+#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/progress.h"
+#include "MMMConverterS2KF/report/report.h"
+#include "common/io/mmm_model_subject.h"
+#include "common/io/subject_file.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kOwnOptions = {
+    {"Files",
+     {{"output,o", "FILE", "the subject; default: RECORDING without its ending + _subject.xml", ""},
+      {"model-out", "FILE", "also write the person's model, for other MMM programs", ""},
+      {"report", "FILE", "write a page (HTML): the recordings converted with the subject", ""},
+      {"summary", "FILE", "write a summary as JSON", ""},
+      {"name", "NAME", "of the person; default: what the first recording calls it", ""}}},
+    {"Converter",
+     {{"config,c", "FILE",
+       "configuration that names markers and joints, or a shipped one; default: s2kf_default",
+       ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF calibrate RECORDING... [options]
+Estimates who the person is beyond height and mass: the lengths of the segments and where the markers
+sit. Any motions of the person do; the more the joints move, the better. What the recordings do not
+determine stays where the model has it. convert --subject-file takes the result.
+
+{}The options frames, subject, motion, unit, rate and up may be there once for all recordings, or once
+for each in their order.
+
+Examples
+  MMMConverterS2KF calibrate range_of_motion.c3d --height 1.75 -o anna.xml
+  MMMConverterS2KF calibrate walk.c3d jump.c3d --height 1.75 -o anna.xml --report anna.html
+  MMMConverterS2KF convert run.c3d --subject-file anna.xml -o run_mmm.xml
+)";
+
+// Given once for all recordings, or once for each in their order.
+const std::vector<std::string> kPerRecording = {"frames", "subject", "motion",
+                                                "unit",   "rate",    "up"};
+
+std::vector<OptionGroup> Options() {
+  std::vector<OptionGroup> options = {kOwnOptions.front()};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  options.insert(options.end(), kOwnOptions.begin() + 1, kOwnOptions.end());
+  for (OptionGroup& group : options) {
+    std::erase_if(group.options, [](const OptionSpec& o) { return o.name == "subject-file"; });
+    for (OptionSpec& option : group.options) {
+      option.repeatable |= std::count(kPerRecording.begin(), kPerRecording.end(), option.name) > 0;
+    }
+  }
+  return options;
+}
+
+CalibrationRequest MakeRequest(const Arguments& arguments) {
+  CalibrationRequest request;
+  const std::vector<std::string>& files = arguments.positionals();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
+    request.inputs.push_back(MakeInputRequest(own, files[i]));
+  }
+  request.converter.config = arguments.Get("config").value_or("");
+  request.name = arguments.Get("name").value_or("");
+  return request;
+}
+
+std::string OutputFile(const Arguments& arguments) {
+  if (const auto file = arguments.Get("output")) return *file;
+  const std::filesystem::path input = arguments.positionals().front();
+  return (input.parent_path() / (input.stem().string() + "_subject.xml")).string();
+}
+
+// Each recording converted with the subject.
+std::string FormatCalibrationReport(const Arguments& arguments, const CalibrationReport& report) {
+  std::vector<Trial> trials;
+  trials.reserve(report.recordings.size());
+  for (const CalibrationInput& one : report.recordings) {
+    Trial trial;
+    trial.name = std::filesystem::path(one.input.recording.file).filename().string();
+    trial.markers = one.input.recording.markers;
+    trial.model = report.model;
+    trial.subject = report.person.subject;
+    trials.push_back(std::move(trial));
+  }
+  std::vector<Contender> contenders = {MakeContender(arguments.Get("config").value_or(""))};
+  MakeNamesUnique(&trials, &contenders);
+  ProgressBar bar("runs");
+  const Comparison comparison = Compare(std::move(trials), std::move(contenders), {},
+                                        [&](int done, int all) { bar.Show(done, all); });
+  const std::string text = fmt::format(
+      "The person \"{}\", calibrated on {} frames: the best postures leave {:.1f} mm to the "
+      "markers "
+      "where the model scaled by height leaves {:.1f}. Below, the recordings are converted with "
+      "it.",
+      report.result.subject.name, report.result.frames, 1e3 * report.result.distance_after,
+      1e3 * report.result.distance_before);
+  const std::string title = "Calibration of " + report.result.subject.name;
+  return FormatReport(title, {{title, text, &comparison}});
+}
+
+}  // namespace
+
+int RunCalibrate(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("calibrate", Options(), words, true);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
+  }
+  if (arguments.positionals().empty()) {
+    throw UsageError(
+        "calibrate: which recordings? For instance: MMMConverterS2KF calibrate walk.c3d --height "
+        "1.75 -o anna.xml");
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const CalibrationRequest request = MakeRequest(arguments);
+  const std::string output = OutputFile(arguments);
+  CheckIsNoInput(output, arguments.positionals());
+  ProgressBar bar("recordings read");
+  const CalibrationReport report =
+      RunCalibration(request, [&](int done, int all) { bar.Show(done, all); });
+  bar.Clear();
+  for (const std::string& warning : report.warnings) LogWarning(warning);
+  const std::string& model_file = report.recordings.front().input.model_file;
+  const Subject& subject = report.result.subject;
+  if (const auto file = arguments.Get("model-out")) {
+    CheckIsNoInput(*file, {model_file});
+    WriteFileAtomically(*file, ReadModelForSubject(model_file, subject));
+  }
+  WriteFileAtomically(output, FormatSubject(subject, SubjectProgram()));
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatCalibrationJson(report, output));
+  }
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatCalibrationReport(arguments, report));
+  }
+  std::cout << FormatCalibrationSummary(report, output);
+  return 0;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Who the person of a recording is, where they are calibrated: lengths of segments, places of markers.
+
+// A bar from 0 to `value` with a whisker of one standard deviation on each side; `most` is the end
+// of the scale. isSigned: the scale starts at -most.
+function makeBar(value, deviation, most, isSigned) {
+  const place = (x) => `${100 * Math.min(Math.max(isSigned ? (x + most) / (2 * most) : x / most, 0), 1)}%`;
+  const span = (kind, from, to) => element("span", {class: kind,
+    style: `left: ${place(from)}; right: calc(100% - ${place(to)})`});
+  return element("div", {class: "bar", "aria-hidden": "true"},
+    span("bar-value", Math.min(value, 0), Math.max(value, 0)),
+    span("bar-whisker", value - deviation, value + deviation),
+    isSigned ? element("span", {class: "bar-zero"}) : null);
+}
+
+function signed(value, digits) {
+  return (value > 0 ? "+" : "") + formatNumber(value, digits);
+}
+
+// The share of what was assumed that the recordings replaced.
+function determinedCell(observability) {
+  if (observability === null) return element("td", {class: "muted"}, "–");
+  const isPoor = observability < 0.5;
+  return element("td", {class: isPoor ? "poor" : null,
+    title: isPoor ? "More assumed than measured" : null}, formatNumber(100 * observability, 0) + " %");
+}
+
+function makePersonTable(label, heads, rows) {
+  const table = element("table", {class: "figures person-table"},
+    element("caption", {class: "unseen"}, label),
+    element("thead", {}, element("tr", {}, ...heads.map((head) => element("th", {scope: "col"}, head)))),
+    element("tbody", {}, ...rows));
+  return element("div", {class: "wide", tabindex: "0", role: "region", "aria-label": label}, table);
+}
+
+function makeSegmentTable(segments) {
+  const change = (segment) => 100 * (segment.scale - 1);
+  const sorted = segments.slice().sort((a, b) => Math.abs(change(b)) - Math.abs(change(a)));
+  const most = Math.max(1, ...sorted.map((one) => Math.abs(change(one)) + 100 * one.standard_deviation));
+  return makePersonTable("Segment lengths", ["Segment", "length, %", "", "± %", "determined"],
+    sorted.map((one) => element("tr", {},
+      element("th", {scope: "row"}, ...breakable(one.name)),
+      element("td", {}, signed(change(one), 1)),
+      element("td", {class: "bar-cell"}, makeBar(change(one), 100 * one.standard_deviation, most, true)),
+      element("td", {}, formatNumber(100 * one.standard_deviation, 1)),
+      determinedCell(one.observability))));
+}
+
+function makeMarkerTable(markers) {
+  const deviation = (one) => Math.hypot(...one.standard_deviation_mm) / Math.sqrt(3);
+  const sorted = markers.slice().sort((a, b) => b.distance_mm - a.distance_mm);
+  const most = Math.max(1, ...sorted.map((one) => one.distance_mm + deviation(one)));
+  return makePersonTable("Marker places",
+    ["Marker", "moved, mm", "", "x", "y", "z", "± mm", "frames", "determined"],
+    sorted.map((one) => element("tr", {},
+      element("th", {scope: "row"}, ...breakable(one.name)),
+      element("td", {}, formatNumber(one.distance_mm, 1)),
+      element("td", {class: "bar-cell"}, makeBar(one.distance_mm, deviation(one), most, false)),
+      ...one.offset_mm.map((value) => element("td", {}, signed(value, 1))),
+      element("td", {}, one.standard_deviation_mm.map((value) => formatNumber(value, 1)).join(" / ")),
+      element("td", {}, String(one.frames)),
+      determinedCell(one.observability))));
+}
+
+class PersonPart {
+  show(trial) {
+    const subject = trial.subject;
+    byId("person-part").hidden = !subject;
+    if (!subject) return;
+    const sources = subject.sources.map((one) => `${one.recording} (${plural(one.frames, "frame")})`);
+    byId("person-caption").textContent =
+      `${subject.name || "The person"}, ${formatNumber(subject.height_m, 3)} m, ` +
+      `${formatNumber(subject.mass_kg, 1)} kg` +
+      (sources.length ? `, calibrated on ${sources.join(", ")}.` : ".");
+    replaceContent(byId("person-segments"), makeSegmentTable(subject.segments));
+    replaceContent(byId("person-markers"), makeMarkerTable(subject.markers));
+  }
+
+  setFrame() {}
+}
