@@ -13,8 +13,8 @@ constexpr const char* kShared = R"(<?xml version="1.0" encoding="UTF-8"?>
   <!-- name: Winter (the reference model is scaled by the person's height and mass) or
        None (it is used as it is) -->
   <Model name="Winter">
-    <!-- Who the person is: a file that calibrate wrote, relative to this one; the command line's
-         --subject-file comes first:
+    <!-- Who the person is: a file that calibrate wrote, relative to this one; the option
+         subject-file of the command line comes first:
          <Subject file="1723.xml"/> -->
     <!-- Which label of the recording stands for which marker of the model.
          set: the name of a shipped marker set, a file of that kind, or auto (the shipped set that
