@@ -31,6 +31,9 @@ class PostureSearch {
 
   PostureFit& fit() { return fit_; }
 
+  /// The only thing that a call leaves behind for the next one.
+  std::mt19937& random() { return random_; }
+
  private:
   /// Root pose that brings the model's markers at `posture->joint_angles` nearest to z (Kabsch
   /// 1976). Markers count less the more joints lie between them and the root.

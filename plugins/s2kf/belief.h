@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "plugins/s2kf/joint_limit_transform.h"
+
 namespace mmm_converter::s2kf {
 
 /// How the root orientation o is a part of the state.
@@ -27,5 +29,18 @@ struct Belief {
 
 /// x moved by dx = [r; o; Theta].
 void Move(const Eigen::Ref<const Eigen::VectorXd>& dx, RootParameters root, Belief* belief);
+
+/// The root moved by `dr`, and turned by `turn` as Move does.
+void MoveRoot(const Eigen::Vector3d& dr, const Eigen::Vector3d& turn, RootParameters root,
+              Belief* belief);
+
+/// dx with Move(dx, a) = b: of the states, then, where there are rates, of these.
+void Difference(const Belief& a, const Belief& b, RootParameters root, Eigen::VectorXd* dx);
+
+/// The same belief with its sign of joint parameter j turned in rate and covariance.
+void Mirror(int j, Belief* belief);
+
+/// The same belief with every joint parameter in [-pi/2, pi/2] (JointLimitTransform::Fold).
+void Fold(const JointLimitTransform& transform, Belief* belief);
 
 }  // namespace mmm_converter::s2kf

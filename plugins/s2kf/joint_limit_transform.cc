@@ -11,6 +11,7 @@ namespace {
 // sin: slope cos(Theta) = 0.05; tanh: slope 1 - f^2 = 0.05.
 constexpr double kLargestSine = 0.99875;
 constexpr double kLargestTanh = 0.974679;
+constexpr double kPi = std::numbers::pi;
 }  // namespace
 
 JointLimitTransform::JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
@@ -44,19 +45,12 @@ double JointLimitTransform::AngleDeviation(int joint, double mean, double deviat
   return half_range_[joint] * std::sqrt(std::max(variance, 0.0));
 }
 
-void JointLimitTransform::Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameters,
-                               Eigen::MatrixXd* P) const {
-  if (function_ != LimitFunction::kSine) return;
-  constexpr double kPi = std::numbers::pi;
-  for (Eigen::Index j = 0; j < parameters.size(); ++j) {
-    if (std::abs(parameters[j]) <= kPi / 2) continue;
-    const double turned = std::remainder(parameters[j], 2 * kPi);
-    parameters[j] = turned;
-    if (std::abs(turned) <= kPi / 2) continue;
-    parameters[j] = (turned > 0 ? kPi : -kPi) - turned;
-    P->row(offset + j) *= -1;
-    P->col(offset + j) *= -1;
-  }
+bool JointLimitTransform::Fold(double* parameter) const {
+  if (function_ != LimitFunction::kSine || std::abs(*parameter) <= kPi / 2) return false;
+  *parameter = std::remainder(*parameter, 2 * kPi);
+  if (std::abs(*parameter) <= kPi / 2) return false;
+  *parameter = (*parameter > 0 ? kPi : -kPi) - *parameter;
+  return true;
 }
 
 }  // namespace mmm_converter::s2kf

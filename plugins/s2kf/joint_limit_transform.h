@@ -30,10 +30,9 @@ class JointLimitTransform {
   /// order for tanh.
   double AngleDeviation(int joint, double mean, double deviation) const;
 
-  /// The sine maps Theta, pi - Theta and Theta + 2 pi to the same angle. Brings every mean into
-  /// [-pi/2, pi/2] and turns the signs in the covariance (rows and columns offset + joint) to
-  /// match.
-  void Fold(int offset, Eigen::Ref<Eigen::VectorXd> parameters, Eigen::MatrixXd* P) const;
+  /// The sine maps Theta, pi - Theta and Theta + 2 pi to the same angle. Brings Theta into
+  /// [-pi/2, pi/2]; true where its sign has turned, as with pi - Theta.
+  bool Fold(double* parameter) const;
 
  private:
   LimitFunction function_;

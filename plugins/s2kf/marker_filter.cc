@@ -40,11 +40,11 @@ MatrixXd HalfSamples(const S2kfSettings& settings, int n) {
 MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransform& transform,
                             const VectorXd& natural_angles) {
   MotionModel model;
-  model.noise = settings.noise;
-  model.natural_spread = settings.noise.parameters > 0 ? settings.natural_spread : 0;
   model.velocity = settings.motion_model == MotionModelType::kVelocity;
+  model.noise =
+      (model.velocity ? settings.velocity_noise : settings.noise).Scaled(settings.noise_scale);
+  model.natural_spread = settings.natural_spread;
   model.velocity_decay = settings.velocity_decay;
-  model.velocity_noise = settings.velocity_noise;
   model.natural.resize(natural_angles.size());
   for (Eigen::Index j = 0; j < natural_angles.size(); ++j) {
     model.natural[j] = transform.Parameter(static_cast<int>(j), natural_angles[j]);
@@ -140,6 +140,7 @@ void MarkerFilter::StartAsPaper(const Ref<const Matrix3Xd>& z, Belief* belief) c
 }
 
 void MarkerFilter::Predict(double dt, Belief* belief) const {
+  Fold(measurement_model_.transform(), belief);
   motion_model_.Predict(dt, settings_.root, belief);
 }
 
@@ -199,7 +200,6 @@ void MarkerFilter::Commit(Belief* belief) {
   if (all > n) AddSquare(1, L_rates_, &P_);
   belief->P.triangularView<Eigen::Lower>() = P_.view();
   belief->P.triangularView<Eigen::StrictlyUpper>() = belief->P.transpose();
-  measurement_model_.transform().Fold(6, belief->parameters, &belief->P);
 }
 
 void MarkerFilter::FactorizeCovariance(const Belief& belief) {

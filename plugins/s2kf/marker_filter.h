@@ -29,6 +29,7 @@ class MarkerFilter {
   /// orientation 0 with 1e-6 rad^2, joint parameters 0 with 1e-10.
   void StartAsPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief) const;
 
+  /// Folds the joint parameters (JointLimitTransform::Fold), then moves on by dt.
   void Predict(double dt, Belief* belief) const;
 
   struct Outcome {
@@ -42,6 +43,9 @@ class MarkerFilter {
   void ToPosture(const Belief& belief, Posture* posture) const;
   /// Standard deviations of [root position; root rotation; joint angles], num_dofs.
   void Deviations(const Belief& belief, Eigen::VectorXd* deviations) const;
+
+  const MotionModel& motion_model() const { return motion_model_; }
+  const JointLimitTransform& transform() const { return measurement_model_.transform(); }
 
  private:
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.

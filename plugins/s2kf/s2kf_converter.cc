@@ -61,8 +61,8 @@ S2kfConverter::S2kfConverter(const KinematicModel& model,
       filter_(kinematics_, settings, noise_scale_),
       search_(kinematics_),
       at_(kinematics_.MakeJacobian()),
-      z_(3, kinematics_.num_markers()),
-      hidden_for_(assignments.size(), 0.0) {
+      z_(3, kinematics_.num_markers()) {
+  track_.hidden_for.assign(assignments.size(), 0.0);
   fit_options_.max_iterations = kFitIterations;
   if (settings.robust_distance > 0) fit_options_.robust_distance = settings.robust_distance;
   posture_.joint_angles.setZero(kinematics_.num_joints());
@@ -87,7 +87,7 @@ int S2kfConverter::Gather(const Ref<const Matrix3Xd>& frame) {
 }
 
 double S2kfConverter::ClippedDistance() {
-  filter_.ToPosture(belief_, &posture_);
+  filter_.ToPosture(track_.belief, &posture_);
   kinematics_.ComputeMarkers(posture_.position, posture_.orientation.toRotationMatrix(),
                              posture_.joint_angles, &at_);
   double sum = 0;
@@ -108,36 +108,37 @@ const FrameEstimate& S2kfConverter::Assemble(const Ref<const Matrix3Xd>& frame) 
     throw Error("only " + std::to_string(seen) +
                 " of the mapped markers are seen in the first frame; at least 3 are needed");
   }
-  std::fill(hidden_for_.begin(), hidden_for_.end(), 0.0);
+  std::fill(track_.hidden_for.begin(), track_.hidden_for.end(), 0.0);
   if (settings_.start == StartMethod::kPaper) {
-    filter_.StartAsPaper(z_, &belief_);
+    filter_.StartAsPaper(z_, &track_.belief);
   } else {
     search_.Assemble(z_, noise_scale_, fit_options_, settings_.start_attempts, &posture_);
-    filter_.StartAt(posture_, &belief_);
+    filter_.StartAt(posture_, &track_.belief);
   }
-  const MarkerFilter::Outcome outcome = filter_.Update(z_, &belief_);
-  usual_distance_ = ClippedDistance();
-  doubt_ = kDoubtFrames;
-  far_ = false;
+  const MarkerFilter::Outcome outcome = filter_.Update(z_, &track_.belief);
+  track_.usual_distance = ClippedDistance();
+  track_.doubt = kDoubtFrames;
+  track_.far = false;
   FillEstimate(outcome, false);
   return estimate_;
 }
 
 bool S2kfConverter::IsInDoubt(double distance, double dt) {
   int returned = 0;
-  for (std::size_t i = 0; i < hidden_for_.size(); ++i) {
+  for (std::size_t i = 0; i < track_.hidden_for.size(); ++i) {
     if (z_.col(i).allFinite()) {
-      returned += hidden_for_[i] > kLongGap;
-      hidden_for_[i] = 0;
+      returned += track_.hidden_for[i] > kLongGap;
+      track_.hidden_for[i] = 0;
     } else {
-      hidden_for_[i] += dt;
+      track_.hidden_for[i] += dt;
     }
   }
-  far_ = distance > kDoubtFactor * usual_distance_ + kDoubtDistance;
-  doubt_ = far_ || returned >= kManyReturned ? kDoubtFrames : std::max(doubt_ - 1, 0);
+  track_.far = distance > kDoubtFactor * track_.usual_distance + kDoubtDistance;
+  track_.doubt =
+      track_.far || returned >= kManyReturned ? kDoubtFrames : std::max(track_.doubt - 1, 0);
   const double step = 1 - std::exp(-dt / kLevelTime);
-  usual_distance_ += step * (distance - usual_distance_);
-  return doubt_ > 0;
+  track_.usual_distance += step * (distance - track_.usual_distance);
+  return track_.doubt > 0;
 }
 
 bool S2kfConverter::Recover() {
@@ -148,22 +149,22 @@ bool S2kfConverter::Recover() {
   search_.Improve(z_, noise_scale_, fit_options_, &candidate_);
   const double after = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_).cost;
   if (after > (1 - kClearlyBetter) * before) return false;
-  filter_.StartAt(candidate_, &belief_);
+  filter_.StartAt(candidate_, &track_.belief);
   return true;
 }
 
 const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, double dt) {
   const int seen = Gather(frame);
-  filter_.Predict(dt, &belief_);
-  MarkerFilter::Outcome outcome = filter_.Update(z_, &belief_);
+  filter_.Predict(dt, &track_.belief);
+  MarkerFilter::Outcome outcome = filter_.Update(z_, &track_.belief);
   const double distance = ClippedDistance();
   bool reassembled = false;
   if (settings_.recovery && seen >= 3 && IsInDoubt(distance, dt)) {
     reassembled = Recover();
     if (reassembled) {
-      outcome = filter_.Update(z_, &belief_);
-      far_ = false;
-      usual_distance_ = std::min(usual_distance_, ClippedDistance());
+      outcome = filter_.Update(z_, &track_.belief);
+      track_.far = false;
+      track_.usual_distance = std::min(track_.usual_distance, ClippedDistance());
     }
   }
   FillEstimate(outcome, reassembled);
@@ -171,7 +172,7 @@ const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, dou
 }
 
 void S2kfConverter::FillEstimate(const MarkerFilter::Outcome& outcome, bool reassembled) {
-  filter_.Deviations(belief_, &deviations_);
+  filter_.Deviations(track_.belief, &deviations_);
   estimate_.posture.position = posture_.position;
   estimate_.posture.orientation = posture_.orientation;
   estimate_.standard_deviations.head<6>() = deviations_.head<6>();
@@ -184,7 +185,7 @@ void S2kfConverter::FillEstimate(const MarkerFilter::Outcome& outcome, bool reas
   estimate_.markers_downweighted = outcome.downweighted;
   estimate_.nis = outcome.nis;
   estimate_.reassembled = reassembled;
-  estimate_.converged = outcome.seen > 0 && !far_;
+  estimate_.converged = outcome.seen > 0 && !track_.far;
 }
 
 }  // namespace mmm_converter::s2kf

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <random>
 #include <vector>
 
 #include "common/convert/motion_converter.h"
@@ -25,7 +27,29 @@ class S2kfConverter : public MotionConverter {
   const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override;
   const std::vector<int>& joints() const override { return kinematics_.joints(); }
 
+  /// With smoothing, postures, deviations and residuals are the smoothed ones; what a frame's
+  /// diagnostic tells is of the filter.
+  ConversionResult Convert(const MarkerSequence& recording, const KinematicModel& model,
+                           const std::vector<MarkerAssignment>& assignments,
+                           const std::function<bool(int)>& progress) override;
+
  private:
+  /// All that a track carries from one frame to the next.
+  struct TrackState {
+    Belief belief;
+    std::vector<double> hidden_for;  // by assignment [s]
+    double usual_distance = 0;       // running level of ClippedDistance [m]
+    bool far = false;                // distances are well above their usual level
+    int doubt = 0;                   // frames for which the track stays in doubt
+    std::mt19937 random;             // of the search
+  };
+
+  /// Goes backwards over the track. checkpoints: its state at frames that are evenly apart, from
+  /// the `first` tracked one on.
+  void Smooth(const MarkerSequence& recording, int first,
+              const std::vector<TrackState>& checkpoints, ConversionResult* result);
+  void WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
+                     ConversionResult* result);
   /// Takes the assigned markers out of a frame into z_; returns how many are seen.
   int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
   /// Mean distance between z_ and the belief's markers, each counted up to the robust distance [m].
@@ -44,15 +68,11 @@ class S2kfConverter : public MotionConverter {
   PostureFitOptions fit_options_;
   MarkerJacobian at_;
 
-  Belief belief_;
+  TrackState track_;
   Eigen::Matrix3Xd z_;
   Posture posture_;    // tracked joints
   Posture candidate_;  // tracked joints
   Eigen::VectorXd deviations_;
-  std::vector<double> hidden_for_;  // by assignment [s]
-  double usual_distance_ = 0;       // running level of ClippedDistance [m]
-  bool far_ = false;                // distances are well above their usual level
-  int doubt_ = 0;                   // frames for which the track stays in doubt
   FrameEstimate estimate_;
 };
 

@@ -43,24 +43,26 @@ void BindMotionModel(S2kfSettings* v, SettingTable* table) {
   table->AddChoice(
       "MotionModel", "type", &v->motion_model,
       {{"randomWalk", MotionModelType::kRandomWalk}, {"velocity", MotionModelType::kVelocity}},
-      "randomWalk: the state stays and spreads; velocity: it carries its damped rate");
+      "randomWalk: the state stays and spreads; velocity: it carries its rate, which spreads");
   table->Add("MotionModel", "rootPosition_mm_per_sqrt_s", &v->noise.position, kMillimetre, 0, 1e6,
-             "drift of the root position within one second");
+             "randomWalk: drift of the root position within one second");
   table->Add("MotionModel", "rootOrientation_rad_per_sqrt_s", &v->noise.orientation, 1, 0, 100,
-             "drift of the root orientation within one second");
+             "randomWalk: drift of the root orientation within one second");
   table->Add("MotionModel", "jointParameter_rad_per_sqrt_s", &v->noise.parameters, 1, 0, 100,
-             "drift of the joint parameters within one second");
+             "randomWalk: drift of the joint parameters within one second");
   table->Add("MotionModel", "naturalSpread_rad", &v->natural_spread, 1, 0, 100,
              "spread of the joint parameters about the natural posture when nothing is seen for "
              "long; 0: unbounded");
   table->Add("MotionModel", "velocityDecay_s", &v->velocity_decay, 1, 1e-3, 1e3,
-             "velocity: time constant with which rates die out");
+             "velocity: time constant with which the root's rates die out");
   table->Add("MotionModel", "rootVelocity_mm_per_s_per_sqrt_s", &v->velocity_noise.position,
              kMillimetre, 0, 1e6, "velocity: drift of the root velocity within one second");
   table->Add("MotionModel", "rootRate_rad_per_s_per_sqrt_s", &v->velocity_noise.orientation, 1, 0,
              1000, "velocity: drift of the root's angular velocity within one second");
   table->Add("MotionModel", "jointRate_rad_per_s_per_sqrt_s", &v->velocity_noise.parameters, 1, 0,
              1000, "velocity: drift of the joint parameter rates within one second");
+  table->Add("MotionModel", "noiseScale", &v->noise_scale, 1, 1e-6, 1e6,
+             "factor on the variances of all of these drifts");
 }
 
 }  // namespace
@@ -84,6 +86,10 @@ SettingTable BindSettings(S2kfSettings* v) {
             "fit: random restarts in the first frame");
   table.Add("Start", "recovery", &v->recovery,
             "look for a better posture by least squares in frames where the track is in doubt");
+  table.AddElement("Smoothing", "Of whole recordings.");
+  table.Add("Smoothing", "active", &v->smoothing,
+            "after the filter, go backwards over its track (Rauch-Tung-Striebel): every frame then "
+            "knows the whole recording, and nothing lags");
   return table;
 }
 

@@ -37,6 +37,7 @@ struct S2kfSettings {
   double natural_spread = 0.15;
   double velocity_decay = 0.2;
   ProcessNoise velocity_noise = {1.0, 3.0, 3.0};
+  double noise_scale = 1;  ///< on the variances of noise and velocity_noise
 
   double marker_deviation = 0.005;
   double robust_distance = 0.1;
@@ -44,6 +45,8 @@ struct S2kfSettings {
   StartMethod start = StartMethod::kFit;
   int start_attempts = 4;
   bool recovery = true;
+
+  bool smoothing = false;
 };
 
 /// The settings of `values` as attributes of a configuration. `values` must outlive the table.

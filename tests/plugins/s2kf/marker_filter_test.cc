@@ -169,6 +169,8 @@ TEST_P(MarkerFilterTest, FoldingKeepsThePosture) {
   far.parameters.array() += 2 * EIGEN_PI;
   filter.Update(Markers(truth), &near);
   filter.Update(Markers(truth), &far);
+  filter.Predict(0.01, &near);
+  filter.Predict(0.01, &far);
   EXPECT_LE(far.parameters.cwiseAbs().maxCoeff(), EIGEN_PI / 2);
   // The sine of an argument that is rounded at 2 pi, through one update.
   EXPECT_LT((far.parameters - near.parameters).norm(), 1e-11);

@@ -35,7 +35,6 @@ MotionModel SomeModel() {
   MotionModel model;
   model.noise = {0.3, 0.2, 0.1};
   model.natural = VectorXd::LinSpaced(kJoints, 0.1, 0.2);
-  model.velocity_noise = {1, 2, 3};
   return model;
 }
 
@@ -90,10 +89,15 @@ TEST(MotionModelTest, ReversionEndsAtTheNaturalPostureWithItsSpread) {
   EXPECT_EQ(belief.P, belief.P.transpose());
 }
 
-TEST(MotionModelTest, VelocityIsTheLinearModelWithDamping) {
+MotionModel VelocityModel() {
   MotionModel model = SomeModel();
   model.velocity = true;
-  model.velocity_decay = 0.2;
+  model.noise = {1, 2, 3};
+  return model;
+}
+
+TEST(MotionModelTest, VelocityIsTheLinearModelWithDamping) {
+  const MotionModel model = VelocityModel();
   Belief belief = SomeBelief(true);
   const Belief before = belief;
   const double dt = 0.05;
@@ -104,11 +108,14 @@ TEST(MotionModelTest, VelocityIsTheLinearModelWithDamping) {
   MatrixXd F = MatrixXd::Identity(2 * kStates, 2 * kStates);
   F.topRightCorner(kStates, kStates).diagonal().setConstant(T);
   F.bottomRightCorner(kStates, kStates).diagonal().setConstant(a);
-  VectorXd q(2 * kStates);
-  q << NoiseOf(model.noise), NoiseOf(model.velocity_noise);
-  const MatrixXd P = F * before.P * F.transpose() + dt * q.asDiagonal().toDenseMatrix();
+  // What an acceleration of variance noise^2 / dt, constant for dt, does to state and rate.
+  MatrixXd G(2 * kStates, kStates);
+  G << MatrixXd::Identity(kStates, kStates) * 0.2 * (dt - T),
+      MatrixXd::Identity(kStates, kStates) * T;
+  const MatrixXd Q = G * (NoiseOf(model.noise) / dt).asDiagonal() * G.transpose();
+  const MatrixXd P = F * before.P * F.transpose() + Q;
   EXPECT_LT((belief.P - P).norm(), kRounding);
-  // Rows are scaled before columns: a term may be rounded otherwise than its mirror image.
+  // Columns are moved before rows: a term may be rounded otherwise than its mirror image.
   EXPECT_LT((belief.P - belief.P.transpose()).norm(), kRounding);
   EXPECT_LT((belief.rate - a * before.rate).norm(), kRounding);
   EXPECT_LT((belief.position - before.position - T * before.rate.head<3>()).norm(), kRounding);
@@ -116,6 +123,71 @@ TEST(MotionModelTest, VelocityIsTheLinearModelWithDamping) {
             kRounding);
   const Eigen::Vector3d turned = Log(before.orientation.conjugate() * belief.orientation);
   EXPECT_LT((turned - T * before.rate.segment<3>(3)).norm(), kRounding);
+}
+
+TEST(MotionModelTest, TheSpringEndsAtTheNaturalPostureWithItsSpread) {
+  MotionModel model = VelocityModel();
+  model.natural_spread = 0.5;
+  Belief belief = SomeBelief(true);
+  const double omega = std::cbrt(9 / (4 * 0.25));
+  // 40 s are 83 time constants. The noise is constant within a step: its spectrum falls where
+  // (omega dt / 2)^2 counts.
+  for (int i = 0; i < 4000; ++i) model.Predict(0.01, RootParameters::kSo3, &belief);
+  EXPECT_LT((belief.parameters - model.natural).norm(), 1e-12);
+  EXPECT_LT(belief.rate.tail(kJoints).norm(), 1e-12);
+  for (int j = 0; j < kJoints; ++j) {
+    EXPECT_NEAR(std::sqrt(belief.P(6 + j, 6 + j)), 0.5, 0.5 * std::pow(0.005 * omega, 2));
+  }
+}
+
+TEST(MotionModelTest, TheSpringSwingsAsItsClosedForm) {
+  MotionModel model = VelocityModel();
+  model.natural_spread = 0.5;
+  Belief whole = SomeBelief(true);
+  Belief halves = whole;
+  model.Predict(0.2, RootParameters::kSo3, &whole);
+  for (int i = 0; i < 2; ++i) model.Predict(0.1, RootParameters::kSo3, &halves);
+  EXPECT_LT((whole.parameters - halves.parameters).norm(), kRounding);
+  EXPECT_LT((whole.rate.tail(kJoints) - halves.rate.tail(kJoints)).norm(), kRounding);
+  // x'' = -2 omega x' - omega^2 x, by a step so short that h^2 counts.
+  const double omega = std::cbrt(9 / (4 * 0.25));
+  const Belief start = SomeBelief(true);
+  Belief moved = start;
+  const double h = 1e-6;
+  model.Predict(h, RootParameters::kSo3, &moved);
+  const VectorXd x = start.parameters - model.natural;
+  const VectorXd v = start.rate.tail(kJoints);
+  EXPECT_LT(((moved.parameters - start.parameters) / h - v).norm(), 1e-4);
+  EXPECT_LT(((moved.rate.tail(kJoints) - v) / h + 2 * omega * v + omega * omega * x).norm(), 1e-4);
+}
+
+TEST(BeliefTest, DifferenceUndoesMove) {
+  const Belief a = SomeBelief(true);
+  Belief b = a;
+  VectorXd dx = VectorXd::LinSpaced(2 * kStates, -0.5, 1.0);
+  Move(dx.head(kStates), RootParameters::kSo3, &b);
+  b.rate += dx.tail(kStates);
+  VectorXd difference;
+  Difference(a, b, RootParameters::kSo3, &difference);
+  EXPECT_LT((difference - dx).norm(), kRounding);
+}
+
+TEST(BeliefTest, FoldingTurnsTheSignsOfRateAndCovariance) {
+  const JointLimitTransform limits(LimitFunction::kSine, VectorXd::Constant(kJoints, -1),
+                                   VectorXd::Constant(kJoints, 2));
+  Belief belief = SomeBelief(true);
+  belief.parameters[1] = 1.9;
+  const Belief before = belief;
+  Fold(limits, &belief);
+  EXPECT_LE(belief.parameters.cwiseAbs().maxCoeff(), 1.5708);
+  // Cov(theta_1, r) and d theta_1 / dt are the same before and after.
+  const double slope = limits.Slope(1, before.parameters[1]);
+  const double folded = limits.Slope(1, belief.parameters[1]);
+  EXPECT_NEAR(folded * belief.P(7, 0), slope * before.P(7, 0), kRounding);
+  EXPECT_NEAR(folded * belief.P(kStates + 7, 0), slope * before.P(kStates + 7, 0), kRounding);
+  EXPECT_NEAR(folded * belief.rate[7], slope * before.rate[7], kRounding);
+  EXPECT_EQ(belief.P(7, kStates + 7), before.P(7, kStates + 7));
+  EXPECT_EQ(belief.P, belief.P.transpose());
 }
 
 TEST(BeliefTest, MoveTurnsInTheBodyOrAddsToRollPitchYaw) {

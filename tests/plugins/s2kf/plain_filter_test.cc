@@ -48,7 +48,6 @@ void PlainUpdate(const MarkerKinematics& kinematics, const S2kfSettings& setting
   Move(K * (z - mean), settings.root, belief);
   const MatrixXd P = belief->P - K * C_xz.transpose();
   belief->P = 0.5 * (P + P.transpose());
-  transform.Fold(6, belief->parameters, &belief->P);
 }
 
 class PlainFilterTest : public ::testing::TestWithParam<UpdateForm> {};
