@@ -39,6 +39,15 @@ int FramesNotConverged(const ConversionReport& report) {
   return CountFrames(report, [](const FrameDiagnostic& f) { return !f.converged; });
 }
 
+/// The mean over the frames in which the converter states one; NaN where it never does.
+double MeanNis(const ConversionReport& report) {
+  std::vector<double> values;
+  for (const FrameDiagnostic& frame : report.result.frames) {
+    if (frame.nis > 0) values.push_back(frame.nis);
+  }
+  return Mean(values);
+}
+
 int FramesReassembled(const ConversionReport& report) {
   return CountFrames(report, [](const FrameDiagnostic& f) { return f.reassembled; });
 }
@@ -192,6 +201,10 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("frames     {} with missing markers, {} not converged, {} taken up anew\n",
                       FramesWithMissingMarkers(report.result.residuals), FramesNotConverged(report),
                       FramesReassembled(report));
+  if (const auto scale = report.result.noise_scale) {
+    text +=
+        fmt::format("noise      process noise times {:.3g}, chosen from the recording\n", *scale);
+  }
   text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", Median(times),
                       Percentile(times, 99));
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
@@ -222,6 +235,9 @@ std::string FormatSummaryJson(const ConversionReport& report) {
       {"frames_with_missing_markers", FramesWithMissingMarkers(report.result.residuals)},
       {"frames_not_converged", FramesNotConverged(report)},
       {"frames_reassembled", FramesReassembled(report)},
+      {"noise_scale",
+       report.result.noise_scale ? Number(*report.result.noise_scale) : Json(nullptr)},
+      {"nis_over_degrees_of_freedom", Number(MeanNis(report))},
       {"ms_per_frame", {{"median", Number(Median(times))}, {"p99", Number(Percentile(times, 99))}}},
       {"warnings", report.warnings}};
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

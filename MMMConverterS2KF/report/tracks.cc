@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/tracks.h"
 
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
+#include "common/math/statistics.h"
 
 namespace mmm_converter {
 namespace {
@@ -105,6 +109,28 @@ json TrialJson(const Trial& trial, const CommonGround& ground) {
   return out;
 }
 
+/// NIS over its degrees of freedom, and what 95 of 100 frames of a consistent filter stay within;
+/// NaN where no marker was seen or the converter states none.
+void AddNis(const ConversionResult& result, json* out) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  MatrixXd nis = MatrixXd::Constant(3, static_cast<Eigen::Index>(result.frames.size()), kNaN);
+  std::map<int, std::pair<double, double>> bands;
+  for (Eigen::Index k = 0; k < nis.cols(); ++k) {
+    const FrameDiagnostic& frame = result.frames[k];
+    const int degrees = 3 * frame.markers_seen;
+    if (degrees == 0 || frame.nis <= 0) continue;
+    auto& [low, high] = bands[degrees];
+    if (high == 0) {
+      low = ChiSquareQuantile(0.025, degrees) / degrees;
+      high = ChiSquareQuantile(0.975, degrees) / degrees;
+    }
+    nis.col(k) << frame.nis, low, high;
+  }
+  (*out)["nis"] = Floats(nis.row(0));
+  (*out)["nis_low"] = Floats(nis.row(1));
+  (*out)["nis_high"] = Floats(nis.row(2));
+}
+
 json RowJson(const Trial& trial, const ComparisonRow& row) {
   json out = {{"trial", row.trial},
               {"contender", row.contender},
@@ -122,6 +148,7 @@ json RowJson(const Trial& trial, const ComparisonRow& row) {
               {"p95", Floats(row.p95_distance)},
               {"max", Floats(row.max_distance)},
               {"seconds", Floats(seconds)}});
+  AddNis(row.result, &out);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@
 namespace mmm_converter {
 
 /// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
-inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-1";
+inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-2";
 
 /// What a converter knows of one frame. All vectors keep their size from frame to frame.
 struct FrameEstimate {
@@ -43,6 +44,9 @@ struct ConversionResult {
   PoseTrajectory trajectory;  ///< joint_names: the tracked joints, in configuration order
   Eigen::MatrixXd residuals;  ///< assignments x frames [m]; NaN: not seen
   std::vector<FrameDiagnostic> frames;
+  /// Factor on the variances of the process noise that the recording asked for, where the converter
+  /// chose one.
+  std::optional<double> noise_scale;
 };
 
 /// Tracks one person through one recording. Not thread-safe; use one for each recording.

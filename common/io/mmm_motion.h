@@ -59,17 +59,16 @@ MmmMotionFile ReadMmmMotionFile(const std::string& path, std::size_t max_bytes =
 struct MmmMotionOutput {
   std::string recording_name;  ///< 2.0: MMM's name attribute; empty: none
   std::string motion_name;
-  std::string model_path;                      ///< see ModelPathFor
-  double height = 0;                           ///< [m]
-  double mass = 0;                             ///< [kg]
-  std::optional<double> hand_length;           ///< [m]
-  std::string comment;                         ///< stands in the model's element; empty: none
-  const PoseTrajectory* trajectory = nullptr;  ///< required
+  std::string model_path;             ///< see ModelPathFor
+  double height = 0;                  ///< [m]
+  double mass = 0;                    ///< [kg]
+  std::optional<double> hand_length;  ///< [m]
+  std::string comment;                ///< stands in the model's element; empty: none
+  /// Required. 1.0 has fields for velocities and accelerations of joints, 0 where the trajectory
+  /// has none, as in real files; 2.0 has none.
+  const PoseTrajectory* trajectory = nullptr;
   const MarkerSequence* markers =
       nullptr;  ///< 2.0: MoCapMarker; unseen markers are left out of their frame
-  /// 1.0 only: [rad/s], [rad/s^2], joints x frames; nullptr: zeros, as real files have.
-  const Eigen::MatrixXd* joint_velocities = nullptr;
-  const Eigen::MatrixXd* joint_accelerations = nullptr;
 };
 
 /// The text of a whole file with one motion. Trajectory and markers must outlive it.

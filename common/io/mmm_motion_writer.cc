@@ -103,6 +103,9 @@ void CheckFinite(const PoseTrajectory& trajectory) {
                               trajectory.joint_names[i]));
     }
   }
+  if (!trajectory.velocities.allFinite() || !trajectory.accelerations.allFinite()) {
+    throw Error("the motion can't be written: a velocity or an acceleration is not finite");
+  }
 }
 
 void AppendProcessor(const MmmMotionOutput& output, std::string_view indent, char quote,
@@ -209,13 +212,14 @@ void AppendLegacyFrames(const MmmMotionOutput& output, PieceWriter* pieces) {
     text.Millimetres(q.position) << "</RootPosition>\n\t\t\t\t<RootRotation>";
     text.Radians(rpy.Next(q.orientation)) << "</RootRotation>\n";
     AppendLegacyRow("JointPosition", q.joint_angles, text);
-    if (output.joint_velocities != nullptr) {
-      AppendLegacyRow("JointVelocity", output.joint_velocities->col(k), text);
+    if (trajectory.velocities.size() > 0) {
+      AppendLegacyRow("JointVelocity", trajectory.velocities.col(k).tail(zeros.size()), text);
     } else {
       text << no_velocity;
     }
-    if (output.joint_accelerations != nullptr) {
-      AppendLegacyRow("JointAcceleration", output.joint_accelerations->col(k), text);
+    if (trajectory.accelerations.size() > 0) {
+      AppendLegacyRow("JointAcceleration", trajectory.accelerations.col(k).tail(zeros.size()),
+                      text);
     } else {
       text << no_acceleration;
     }

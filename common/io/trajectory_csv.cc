@@ -29,18 +29,23 @@ void AppendCells(const Vector& values, double factor, int decimals, std::string*
 // joint names hold no comma: they are XML node names that readers split at blanks.
 std::string Header(const PoseTrajectory& trajectory) {
   std::string header = "time_s";
-  const auto append = [&](const std::string& prefix, const std::vector<std::string>& root) {
-    for (const std::string& name : root) header.append(",").append(prefix).append(name);
+  const auto append = [&](const std::string& prefix, const std::vector<std::string>& turns,
+                          const std::string& per) {
+    for (const char* axis : {"x", "y", "z"}) {
+      header.append(",").append(prefix).append("root_").append(axis).append("_mm").append(per);
+    }
+    for (const std::string& turn : turns) {
+      header.append(",").append(prefix).append("root_").append(turn).append("_rad").append(per);
+    }
     for (const std::string& name : trajectory.joint_names) {
-      header.append(",").append(prefix).append(name).append("_rad");
+      header.append(",").append(prefix).append(name).append("_rad").append(per);
     }
   };
-  append("", {"root_x_mm", "root_y_mm", "root_z_mm", "root_roll_rad", "root_pitch_rad",
-              "root_yaw_rad"});
-  if (trajectory.standard_deviations.size() > 0) {
-    append("sd_", {"root_x_mm", "root_y_mm", "root_z_mm", "root_about_x_rad", "root_about_y_rad",
-                   "root_about_z_rad"});
-  }
+  const std::vector<std::string> axes = {"about_x", "about_y", "about_z"};
+  append("", {"roll", "pitch", "yaw"}, "");
+  if (trajectory.standard_deviations.size() > 0) append("sd_", axes, "");
+  if (trajectory.velocities.size() > 0) append("d_", axes, "_per_s");
+  if (trajectory.accelerations.size() > 0) append("dd_", axes, "_per_s2");
   return header + "\n";
 }
 
@@ -55,10 +60,11 @@ void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
     AppendCells(q.position, kMillimetres, kLengthDecimals, csv);
     AppendCells(rpy, 1, kAngleDecimals, csv);
     AppendCells(q.joint_angles, 1, kAngleDecimals, csv);
-    if (trajectory.standard_deviations.size() > 0) {
-      const auto deviations = trajectory.standard_deviations.col(k);
-      AppendCells(deviations.head<3>(), kMillimetres, kLengthDecimals, csv);
-      AppendCells(deviations.tail(deviations.size() - 3), 1, kAngleDecimals, csv);
+    for (const Eigen::MatrixXd* values :
+         {&trajectory.standard_deviations, &trajectory.velocities, &trajectory.accelerations}) {
+      if (values->size() == 0) continue;
+      AppendCells(values->col(k).head<3>(), kMillimetres, kLengthDecimals, csv);
+      AppendCells(values->col(k).tail(values->rows() - 3), 1, kAngleDecimals, csv);
     }
     *csv += '\n';
     pieces->EndPart();

@@ -2,6 +2,7 @@
 #include "common/math/statistics.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -45,6 +46,10 @@ double Percentile(std::span<const double> values, double percent) {
   if (share == 0) return *at;
   const double above = *std::min_element(at + 1, numbers.end());
   return *at + share * (above - *at);
+}
+
+double ChiSquareQuantile(double probability, int degrees) {
+  return boost::math::quantile(boost::math::chi_squared(degrees), probability);
 }
 
 }  // namespace mmm_converter

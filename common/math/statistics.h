@@ -17,4 +17,8 @@ double Percentile(std::span<const double> values, double percent);
 
 inline double Median(std::span<const double> values) { return Percentile(values, 50); }
 
+/// The value that a chi-square distributed number with so many degrees of freedom (> 0) exceeds
+/// with probability 1 - `probability`; 0 < probability < 1.
+double ChiSquareQuantile(double probability, int degrees);
+
 }  // namespace mmm_converter

@@ -18,6 +18,11 @@ struct PoseTrajectory {
   /// Empty, or one column a frame: standard deviations of [root position (W) 3 [m]; root rotation
   /// (body) 3 [rad]; joint angles [rad]].
   Eigen::MatrixXd standard_deviations;
+  /// Empty, or one column a frame: first and second derivatives of [root position (W) 3 [m/s,
+  /// m/s^2]; root rotation: angular velocity and its derivative (W) 3 [rad/s, rad/s^2]; joint
+  /// angles [rad/s, rad/s^2]].
+  Eigen::MatrixXd velocities;
+  Eigen::MatrixXd accelerations;
 
   int num_frames() const { return static_cast<int>(postures.size()); }
   double time(int k) const { return first_time + k / rate; }

@@ -35,17 +35,21 @@ void GaussianUpdate::ComputeRegression(const MeasurementMoments& moments, const 
   auto weights = weights_.view().col(0);
   auto innovation = innovation_.view().col(0);
   double squares = 0;
+  log_determinant_ = 0;
   for (Eigen::Index i = 0; i < z.size(); ++i) {
     const bool is_measured = !std::isinf(noise[i]);
     weights[i] = is_measured ? 1 / (noise[i] + moments.residual[i]) : 0;
     const double difference = is_measured ? z[i] - moments.mean[i] : 0;
     innovation[i] = weights[i] * difference;
     squares += innovation[i] * difference;
+    if (is_measured) log_determinant_ -= std::log(weights[i]);
   }
   // information = I + C_sz W C_zs = G G^T, so the covariance is G^-T G^-1.
   factor_.SetIdentity();
   AddWeightedSquare(moments.C_sz, weights_, &factor_);
   Factorize(&factor_);
+  // det(C_zz + R) = det(information) / det W (matrix determinant lemma).
+  log_determinant_ += 2 * factor_.view().diagonal().array().log().sum();
   mean_.SetZero();
   mean_.view().col(0).noalias() = moments.C_sz.view() * innovation;
   SolveLower(factor_, &mean_);
@@ -75,6 +79,7 @@ void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const Vecto
   }
   // S = F F^T; with V = F^-1 C_zs the gain is V^T F^-1, and Cov(s | z) = I - V^T V.
   Factorize(&S_);
+  log_determinant_ = 2 * S_.view().diagonal().array().log().sum();
   DivideByTransposed(S_, &scaled_);
   SolveLower(S_, &innovation_);
   nis_ = innovation.squaredNorm();

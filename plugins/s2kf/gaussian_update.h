@@ -48,6 +48,8 @@ class GaussianUpdate {
   void FromPosteriorSpace(PaddedMatrix* C_sz);
   /// Normalised innovation squared, (z - E z)^T (C_zz + R)^-1 (z - E z).
   double nis() const { return nis_; }
+  /// Log of the probability density of z, without its constant term.
+  double log_likelihood() const { return -0.5 * (nis_ + log_determinant_); }
 
  private:
   void ComputeRegression(const MeasurementMoments& moments, const Eigen::VectorXd& z,
@@ -58,11 +60,12 @@ class GaussianUpdate {
   UpdateForm form_ = UpdateForm::kRegression;
   PaddedMatrix mean_;  // n x 1
   double nis_ = 0;
-  PaddedMatrix weights_;     // m x 1
-  PaddedMatrix innovation_;  // m x 1, scaled
-  PaddedMatrix factor_;      // G with T = G^-T (regression) or T itself (exact), lower triangular
-  PaddedMatrix scaled_;      // n x m, scratch
-  PaddedMatrix S_;           // m x m, exact form
+  double log_determinant_ = 0;  // of C_zz + R
+  PaddedMatrix weights_;        // m x 1
+  PaddedMatrix innovation_;     // m x 1, scaled
+  PaddedMatrix factor_;  // G with T = G^-T (regression) or T itself (exact), lower triangular
+  PaddedMatrix scaled_;  // n x m, scratch
+  PaddedMatrix S_;       // m x m, exact form
 };
 
 }  // namespace mmm_converter::s2kf

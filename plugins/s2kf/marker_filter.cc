@@ -225,6 +225,7 @@ MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief
   if (outcome.seen == 0) return outcome;
   update_.Compute(moments_, z_, noise_, settings_.update);
   outcome.nis = update_.nis() / (3 * outcome.seen);
+  outcome.log_likelihood = update_.log_likelihood();
   for (int i = 1; i < settings_.iterations; ++i) {
     const bool is_far = IsFarFromLinear();
     if (!is_far && outcome.downweighted == 0) break;

@@ -35,7 +35,8 @@ class MarkerFilter {
   struct Outcome {
     int seen = 0;
     int downweighted = 0;
-    double nis = 0;  ///< over its degrees of freedom
+    double nis = 0;             ///< over its degrees of freedom
+    double log_likelihood = 0;  ///< of z, GaussianUpdate::log_likelihood
   };
   /// z: 3 x markers [m], NaN = not seen; such a marker is left out.
   Outcome Update(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief);

@@ -63,6 +63,10 @@ void BindMotionModel(S2kfSettings* v, SettingTable* table) {
              1000, "velocity: drift of the joint parameter rates within one second");
   table->Add("MotionModel", "noiseScale", &v->noise_scale, 1, 1e-6, 1e6,
              "factor on the variances of all of these drifts");
+  table->Add(
+      "MotionModel", "chooseNoiseScale", &v->choose_noise_scale,
+      "of whole recordings: multiply noiseScale by the factor under which the filter expects "
+      "the recording most (maximum likelihood of its innovations)");
 }
 
 }  // namespace

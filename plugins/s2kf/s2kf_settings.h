@@ -38,6 +38,7 @@ struct S2kfSettings {
   double velocity_decay = 0.2;
   ProcessNoise velocity_noise = {1.0, 3.0, 3.0};
   double noise_scale = 1;  ///< on the variances of noise and velocity_noise
+  bool choose_noise_scale = false;
 
   double marker_deviation = 0.005;
   double robust_distance = 0.1;

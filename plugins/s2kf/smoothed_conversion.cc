@@ -4,6 +4,8 @@
 #include <chrono>
 #include <vector>
 
+#include "common/motion/trajectory_derivatives.h"
+#include "plugins/s2kf/noise_scale.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "plugins/s2kf/trajectory_smoother.h"
 
@@ -21,6 +23,16 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
                                         const KinematicModel& model,
                                         const std::vector<MarkerAssignment>& assignments,
                                         const std::function<bool(int)>& progress) {
+  if (settings_.choose_noise_scale) {
+    S2kfSettings settings = settings_;
+    const double scale = ChooseNoiseScale(recording, model, assignments, joints(), settings);
+    settings.noise_scale *= scale;
+    settings.choose_noise_scale = false;
+    S2kfConverter converter(model, assignments, joints(), settings);
+    ConversionResult result = converter.Convert(recording, model, assignments, progress);
+    result.noise_scale = scale;
+    return result;
+  }
   if (!settings_.smoothing) {
     return MotionConverter::Convert(recording, model, assignments, progress);
   }
@@ -70,6 +82,7 @@ void S2kfConverter::Smooth(const MarkerSequence& recording, int first,
     }
   }
   for (int k = 0; k < first; ++k) WriteSmoothed(recording, k, smoother.belief(), result);
+  Differentiate(&result->trajectory);
 }
 
 void S2kfConverter::WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,

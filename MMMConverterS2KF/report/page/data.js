@@ -56,7 +56,7 @@ class Track {
     this.absent = json.absent;
     if (this.failure) return;
     this.motion = new Motion(json.motion);
-    for (const name of ["distances", "mean", "p05", "p95", "max", "seconds"]) {
+    for (const name of ["distances", "mean", "p05", "p95", "max", "seconds", "nis", "nis_low", "nis_high"]) {
       lazily(this, name, json[name]);
     }
   }

@@ -17,6 +17,7 @@ class Plots {
       " Click to jump, drag to zoom, double-click to zoom out.";
     byId("hidden-part").hidden = !trial.hidesMarkers;
     byId("time-part").hidden = !trial.tracks.some((track) => track.seconds.some((seconds) => seconds > 0));
+    byId("nis-part").hidden = !trial.tracks.some((track) => track.nis.some((nis) => nis > 0));
     this.listJoints(trial);
   }
 
@@ -43,6 +44,7 @@ class Plots {
     const tracks = this.view.shownTracks;
     this.charts = [this.distanceChart(tracks)];
     if (!byId("time-part").hidden) this.charts.push(this.timeChart(tracks));
+    if (!byId("nis-part").hidden) this.charts.push(this.nisChart(tracks));
     if (this.view.trial.hidesMarkers) this.charts.push(this.hiddenChart());
     if (!byId("joint-part").hidden) this.charts.push(this.jointChart(tracks));
   }
@@ -102,6 +104,19 @@ class Plots {
       this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN), {dash: null, width: 1}));
     return new Chart(byId("time-plot"), this.view,
       {lines, unit: "ms", digits: 2, logarithmic: tracks.length > 0, label: "Time per frame, milliseconds, logarithmic"});
+  }
+
+  nisChart(tracks) {
+    const stating = tracks.filter((track) => track.nis.some((nis) => nis > 0));
+    const lines = stating.map((track) => this.lineOf(track, (k) => track.nis[k]));
+    const grey = themeColour("muted");
+    for (const track of stating.slice(0, 1)) {
+      for (const bound of [track.nis_low, track.nis_high]) {
+        lines.push({name: null, colour: grey, dash: [8, 4], width: 1, values: (k) => bound[k]});
+      }
+    }
+    return new Chart(byId("nis-plot"), this.view, {lines, unit: "", digits: 2, logarithmic: stating.length > 0,
+      label: "Normalised innovation squared over its degrees of freedom, logarithmic"});
   }
 
   jointChart(tracks) {

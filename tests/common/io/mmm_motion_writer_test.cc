@@ -206,9 +206,17 @@ TEST(MmmMotionWriterText, LayoutOf10) {
                               "\t\t\t\t<JointVelocity>0 0 </JointVelocity>\n"
                               "\t\t\t\t<JointAcceleration>0 0 </JointAcceleration>\n"
                               "\t\t\t</MotionFrame>\n"));
-  const Eigen::MatrixXd velocities = Eigen::MatrixXd::Constant(2, 2, 1.5);
-  output.joint_velocities = &velocities;
-  EXPECT_THAT(Join(FormatMmmMotion1(output)), HasSubstr("<JointVelocity>1.5 1.5 </JointVelocity>"));
+  // Of the root, then of the joints, which have fields.
+  trajectory.velocities.setConstant(8, 2, 9);
+  trajectory.velocities.bottomRows(2) << 1.5, 2.5, -0.25, 3;
+  trajectory.accelerations = 10 * trajectory.velocities;
+  const XmlElement own = ParseXml(Join(FormatMmmMotion1(output)), "own.xml");
+  const XmlElement& second =
+      *own.FindChild("Motion")->FindChild("MotionFrames")->FindChildren("MotionFrame")[1];
+  EXPECT_EQ(second.FindChild("JointVelocity")->text, "2.5 3");
+  EXPECT_EQ(second.FindChild("JointAcceleration")->text, "25 30");
+  trajectory.accelerations(7, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Join(FormatMmmMotion1(output)), Error);
 }
 
 TEST(MmmMotionWriterText, NotFinitePosturesAreErrors) {

@@ -48,5 +48,24 @@ TEST(TrajectoryCsvTest, StandardDeviationsStandBehindWithEmptyCellsWhereUnknown)
             "0.5,1,-12.5,1000,0.25,0,3.125,-0.5,0,1,2,3,0.01,0.02,0.03,0.125,\n");
 }
 
+TEST(TrajectoryCsvTest, DerivativesStandLast) {
+  PoseTrajectory trajectory = TwoFrames();
+  trajectory.postures.resize(1);
+  trajectory.joint_names = {"LKx_joint"};
+  trajectory.postures[0].joint_angles = Eigen::VectorXd::Constant(1, -0.5);
+  trajectory.velocities.resize(7, 1);
+  trajectory.velocities << 0.001, 0.002, 0.003, 0.01, 0.02, 0.03, 0.125;
+  trajectory.accelerations = 10 * trajectory.velocities;
+  EXPECT_EQ(Join(FormatTrajectoryCsv(trajectory)),
+            "time_s,root_x_mm,root_y_mm,root_z_mm,root_roll_rad,root_pitch_rad,root_yaw_rad,"
+            "LKx_joint_rad,d_root_x_mm_per_s,d_root_y_mm_per_s,d_root_z_mm_per_s,"
+            "d_root_about_x_rad_per_s,d_root_about_y_rad_per_s,d_root_about_z_rad_per_s,"
+            "d_LKx_joint_rad_per_s,dd_root_x_mm_per_s2,dd_root_y_mm_per_s2,dd_root_z_mm_per_s2,"
+            "dd_root_about_x_rad_per_s2,dd_root_about_y_rad_per_s2,dd_root_about_z_rad_per_s2,"
+            "dd_LKx_joint_rad_per_s2\n"
+            "0.5,1,-12.5,1000,0.25,0,3.125,-0.5,1,2,3,0.01,0.02,0.03,0.125,10,20,30,0.1,0.2,0.3,"
+            "1.25\n");
+}
+
 }  // namespace
 }  // namespace mmm_converter

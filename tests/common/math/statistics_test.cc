@@ -37,5 +37,14 @@ TEST(Statistics, NothingIsNaN) {
   }
 }
 
+TEST(StatisticsTest, ChiSquareQuantilesAreThoseOfTables) {
+  // Abramowitz, Stegun, table 26.8, to its digits.
+  EXPECT_NEAR(ChiSquareQuantile(0.95, 1), 3.84146, 1e-5);
+  EXPECT_NEAR(ChiSquareQuantile(0.025, 10), 3.24697, 1e-5);
+  EXPECT_NEAR(ChiSquareQuantile(0.975, 100), 129.561, 1e-3);
+  // Of two degrees it is -2 ln(1 - p).
+  EXPECT_NEAR(ChiSquareQuantile(0.3, 2), -2 * std::log(0.7), 1e-14);
+}
+
 }  // namespace
 }  // namespace mmm_converter

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/noise_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "common/fit/posture_search.h"
+#include "common/model/marker_kinematics.h"
+#include "plugins/s2kf/marker_filter.h"
+
+namespace mmm_converter::s2kf {
+
+using Eigen::Matrix3Xd;
+using Eigen::VectorXd;
+
+namespace {
+
+// Parts of the recording that are judged, each this long; the first frames of each, in which the
+// start settles, do not count.
+constexpr int kParts = 4;
+constexpr int kPartFrames = 250;
+constexpr int kSettling = 25;
+constexpr int kFewestFrames = 10;
+constexpr int kFewestMarkers = 3;
+constexpr double kLargestLog = 4;  // of the scale, to the base 10
+
+/// The likelihood of a recording, part by part.
+class Likelihood {
+ public:
+  Likelihood(const MarkerSequence& recording, const KinematicModel& model,
+             const std::vector<MarkerAssignment>& assignments, const std::vector<int>& joints,
+             const S2kfSettings& settings)
+      : settings_(settings), dt_(1 / recording.rate()) {
+    settings_.filter = FilterType::kEkf;
+    std::vector<int> markers;
+    markers.reserve(assignments.size());
+    for (const MarkerAssignment& a : assignments) markers.push_back(a.marker);
+    kinematics_ = std::make_unique<MarkerKinematics>(model, joints, markers);
+    noise_scale_.resize(static_cast<Eigen::Index>(assignments.size()));
+    std::vector<int> labels;
+    labels.reserve(assignments.size());
+    for (std::size_t i = 0; i < assignments.size(); ++i) {
+      noise_scale_[static_cast<Eigen::Index>(i)] = assignments[i].noise_scale;
+      labels.push_back(assignments[i].label);
+    }
+    const int frames = recording.num_frames();
+    const int parts = frames > kParts * kPartFrames ? kParts : 1;
+    const int length = parts > 1 ? kPartFrames : frames;
+    for (int p = 0; p < parts; ++p) {
+      const int begin = parts > 1 ? static_cast<int>(1L * p * (frames - length) / (parts - 1)) : 0;
+      AddPart(recording, labels, begin, begin + length);
+    }
+  }
+
+  int num_frames() const {
+    int frames = 0;
+    for (const Part& part : parts_) {
+      frames += std::max(0, static_cast<int>(part.frames.size()) - kSettling);
+    }
+    return frames;
+  }
+
+  /// Of the process noise times 10^log_scale.
+  double At(double log_scale) {
+    const auto known = values_.find(log_scale);
+    if (known != values_.end()) return known->second;
+    S2kfSettings settings = settings_;
+    settings.noise_scale *= std::pow(10.0, log_scale);
+    MarkerFilter filter(*kinematics_, settings, noise_scale_);
+    double sum = 0;
+    for (const Part& part : parts_) {
+      Belief belief;
+      filter.StartAt(part.start, &belief);
+      for (std::size_t k = 0; k < part.frames.size(); ++k) {
+        if (k > 0) filter.Predict(dt_, &belief);
+        const MarkerFilter::Outcome outcome = filter.Update(part.frames[k], &belief);
+        if (k >= kSettling) sum += outcome.log_likelihood;
+      }
+    }
+    values_[log_scale] = sum;
+    return sum;
+  }
+
+ private:
+  struct Part {
+    Posture start;
+    std::vector<Matrix3Xd> frames;
+  };
+
+  void AddPart(const MarkerSequence& recording, const std::vector<int>& labels, int begin,
+               int end) {
+    Part part;
+    for (int k = begin; k < end; ++k) {
+      Matrix3Xd z = recording.frame(k)(Eigen::all, labels);
+      int seen = 0;
+      for (Eigen::Index m = 0; m < z.cols(); ++m) seen += IsSeen(z.col(m));
+      if (part.frames.empty() && seen < kFewestMarkers) continue;
+      part.frames.push_back(std::move(z));
+    }
+    if (part.frames.empty()) return;
+    PostureSearch search(*kinematics_);
+    PostureFitOptions options;
+    if (settings_.robust_distance > 0) options.robust_distance = settings_.robust_distance;
+    search.Assemble(part.frames.front(), noise_scale_, options, settings_.start_attempts,
+                    &part.start);
+    parts_.push_back(std::move(part));
+  }
+
+  S2kfSettings settings_;
+  double dt_;
+  std::unique_ptr<MarkerKinematics> kinematics_;
+  VectorXd noise_scale_;
+  std::vector<Part> parts_;
+  std::map<double, double> values_;
+};
+
+}  // namespace
+
+double ChooseNoiseScale(const MarkerSequence& recording, const KinematicModel& model,
+                        const std::vector<MarkerAssignment>& assignments,
+                        const std::vector<int>& joints, const S2kfSettings& settings) {
+  Likelihood likelihood(recording, model, assignments, joints, settings);
+  if (likelihood.num_frames() < kFewestFrames) return 1;
+  double best = 0;
+  // Uphill by steps that are halved where both neighbours are lower.
+  for (double step = 1; step > 0.1;) {
+    const double up = std::min(best + step, kLargestLog);
+    const double down = std::max(best - step, -kLargestLog);
+    const double next = likelihood.At(up) > likelihood.At(down) ? up : down;
+    if (next != best && likelihood.At(next) > likelihood.At(best)) {
+      best = next;
+    } else {
+      step /= 2;
+    }
+  }
+  return std::pow(10.0, best);
+}
+
+}  // namespace mmm_converter::s2kf
