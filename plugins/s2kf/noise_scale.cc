@@ -25,7 +25,7 @@ constexpr int kPartFrames = 250;
 constexpr int kSettling = 25;
 constexpr int kFewestFrames = 10;
 constexpr int kFewestMarkers = 3;
-constexpr double kLargestLog = 4;  // of the scale, to the base 10
+constexpr double kLargestLog = 3;  // of the scale, to the base 10
 
 /// The likelihood of a recording, part by part.
 class Likelihood {
@@ -124,17 +124,14 @@ double ChooseNoiseScale(const MarkerSequence& recording, const KinematicModel& m
                         const std::vector<int>& joints, const S2kfSettings& settings) {
   Likelihood likelihood(recording, model, assignments, joints, settings);
   if (likelihood.num_frames() < kFewestFrames) return 1;
-  double best = 0;
-  // Uphill by steps that are halved where both neighbours are lower.
-  for (double step = 1; step > 0.1;) {
-    const double up = std::min(best + step, kLargestLog);
-    const double down = std::max(best - step, -kLargestLog);
-    const double next = likelihood.At(up) > likelihood.At(down) ? up : down;
-    if (next != best && likelihood.At(next) > likelihood.At(best)) {
-      best = next;
-    } else {
-      step /= 2;
-    }
+  // Uphill from the calmest motion to the first top: under much noise joints also take up that
+  // markers sit elsewhere than the model has them, which has a top of its own.
+  constexpr double kStep = 0.5;
+  double best = -kLargestLog;
+  while (best < kLargestLog && likelihood.At(best + kStep) > likelihood.At(best)) best += kStep;
+  for (const double step : {kStep / 2, kStep / 4}) {
+    const double next = likelihood.At(best + step) > likelihood.At(best - step) ? step : -step;
+    if (likelihood.At(best + next) > likelihood.At(best)) best += next;
   }
   return std::pow(10.0, best);
 }

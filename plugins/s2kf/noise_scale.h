@@ -11,10 +11,10 @@
 namespace mmm_converter::s2kf {
 
 /// The factor on the process noise, beside settings.noise_scale, under which a filter expects the
-/// recording most: it maximises the likelihood of the innovations, the sum of -(NIS + log det S) /
-/// 2 over up to 1000 frames from all parts of the recording (Mehra 1970), of the filter with a
-/// Jacobian. Within 1e-4 and 1e4; 1 where fewer than ten frames can be judged. joints: indices of
-/// the model.
+/// recording most: the least one that locally maximises the likelihood of the innovations, the sum
+/// of -(NIS + log det S) / 2 over up to 1000 frames from all parts of the recording (Mehra 1970),
+/// of the filter with a Jacobian. Within 1e-3 and 1e3; 1 where fewer than ten frames can be judged.
+/// joints: indices of the model.
 double ChooseNoiseScale(const MarkerSequence& recording, const KinematicModel& model,
                         const std::vector<MarkerAssignment>& assignments,
                         const std::vector<int>& joints, const S2kfSettings& settings);

@@ -29,8 +29,9 @@ constexpr double kDoubtFactor = 1.15;
 constexpr double kDoubtDistance = 0.001;
 // The usual level follows with this time constant [s].
 constexpr double kLevelTime = 1.0;
-// A found posture must lower the cost by this share to replace the filter's: the filter smooths, so
-// its posture never has the least cost.
+// A found posture must lower the cost by this share to replace the filter's, and the mean distance
+// by more than the noise of a marker: the filter smooths, so its posture never has the least cost,
+// least of all where a few hidden markers leave a fit free.
 constexpr double kClearlyBetter = 0.1;
 
 // Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
@@ -144,11 +145,12 @@ bool S2kfConverter::IsInDoubt(double distance, double dt) {
 bool S2kfConverter::Recover() {
   PostureFit& fit = search_.fit();
   candidate_ = posture_;
-  const double before = fit.Evaluate(z_, noise_scale_, fit_options_, posture_).cost;
+  const PostureFit::Result before = fit.Evaluate(z_, noise_scale_, fit_options_, posture_);
   fit.Solve(z_, noise_scale_, fit_options_, &candidate_);
   search_.Improve(z_, noise_scale_, fit_options_, &candidate_);
-  const double after = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_).cost;
-  if (after > (1 - kClearlyBetter) * before) return false;
+  const PostureFit::Result after = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_);
+  if (after.cost > (1 - kClearlyBetter) * before.cost) return false;
+  if (after.mean_distance > before.mean_distance - settings_.marker_deviation) return false;
   filter_.StartAt(candidate_, &track_.belief);
   return true;
 }

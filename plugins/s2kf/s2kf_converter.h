@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -44,10 +45,26 @@ class S2kfConverter : public MotionConverter {
     std::mt19937 random;             // of the search
   };
 
-  /// Goes backwards over the track. checkpoints: its state at frames that are evenly apart, from
-  /// the `first` tracked one on.
-  void Smooth(const MarkerSequence& recording, int first,
-              const std::vector<TrackState>& checkpoints, ConversionResult* result);
+  /// What smoothing needs of a track: its state at evenly spaced frames, from which the filter can
+  /// do the same again.
+  struct Checkpoints {
+    int first = -1;  // the first tracked frame
+    std::vector<TrackState> states;
+    // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
+    std::map<int, Posture> retakes;
+  };
+
+  void KeepCheckpoint(int k, Checkpoints* checkpoints);
+  /// Where the track was taken up anew, goes backwards from there as long as that is nearer to the
+  /// markers than the track was: the frame in which it ends is where to take it up.
+  void FindRetakes(const MarkerSequence& recording, const ConversionResult& result,
+                   Checkpoints* checkpoints);
+  void TrackFromRetakes(const MarkerSequence& recording, Checkpoints* checkpoints);
+  void Restore(const Checkpoints& checkpoints, int chunk);
+  void Retake(const MarkerSequence& recording, int k, const Checkpoints& checkpoints);
+  void TrackAgain(const MarkerSequence& recording, int k, const Checkpoints& checkpoints);
+  void Smooth(const MarkerSequence& recording, const Checkpoints& checkpoints,
+              ConversionResult* result);
   void WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
                      ConversionResult* result);
   /// Takes the assigned markers out of a frame into z_; returns how many are seen.

@@ -48,6 +48,9 @@ struct S2kfSettings {
   bool recovery = true;
 
   bool smoothing = false;
+  /// Beliefs are kept for so many frames at a time (with rates 68 kB each), and of the frames
+  /// before every so manieth. Not in the configuration: the result does not depend on it.
+  int smoothing_chunk = 256;
 };
 
 /// The settings of `values` as attributes of a configuration. `values` must outlive the table.

@@ -2,6 +2,9 @@
 // The offline part of S2kfConverter: whole recordings, smoothed.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "common/motion/trajectory_derivatives.h"
@@ -11,11 +14,20 @@
 
 namespace mmm_converter::s2kf {
 
+using Eigen::VectorXd;
+
 namespace {
 
-// So many frames keep their beliefs at a time (with rates 68 kB each); of the frames before, every
-// so manieth is kept, and the filter runs once more from there.
-constexpr int kChunk = 256;
+using Clock = std::chrono::steady_clock;
+
+// Going backwards from a posture that was found later goes on while it is no farther from the
+// markers than this share beyond the track, and ends where no joint angle differs by more [rad].
+constexpr double kNoFarther = 1.02;
+constexpr double kSameAngle = 0.02;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -36,53 +48,125 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
   if (!settings_.smoothing) {
     return MotionConverter::Convert(recording, model, assignments, progress);
   }
-  int first = -1;
-  std::vector<TrackState> checkpoints;
+  Checkpoints checkpoints;
   ConversionResult result = MotionConverter::Convert(recording, model, assignments, [&](int done) {
-    if (first < 0) first = done - 1;
-    if ((done - 1 - first) % kChunk == 0) {
-      checkpoints.push_back(track_);
-      checkpoints.back().random = search_.random();
-    }
+    if (checkpoints.first < 0) checkpoints.first = done - 1;
+    KeepCheckpoint(done - 1, &checkpoints);
     return !progress || progress(done);
   });
-  Smooth(recording, first, checkpoints, &result);
+  FindRetakes(recording, result, &checkpoints);
+  if (!checkpoints.retakes.empty()) TrackFromRetakes(recording, &checkpoints);
+  Smooth(recording, checkpoints, &result);
+  Differentiate(&result.trajectory);
   return result;
 }
 
-void S2kfConverter::Smooth(const MarkerSequence& recording, int first,
-                           const std::vector<TrackState>& checkpoints, ConversionResult* result) {
-  using Clock = std::chrono::steady_clock;
+void S2kfConverter::KeepCheckpoint(int k, Checkpoints* checkpoints) {
+  const int since = k - checkpoints->first;
+  if (since % settings_.smoothing_chunk != 0) return;
+  const std::size_t i = since / settings_.smoothing_chunk;
+  checkpoints->states.resize(std::max(checkpoints->states.size(), i + 1));
+  track_.random = search_.random();
+  checkpoints->states[i] = track_;
+}
+
+void S2kfConverter::FindRetakes(const MarkerSequence& recording, const ConversionResult& result,
+                                Checkpoints* checkpoints) {
+  const auto distance = [&](int k) {
+    double sum = 0;
+    int seen = 0;
+    for (const double residual : result.residuals.col(k)) {
+      if (!std::isfinite(residual)) continue;
+      sum += std::min(residual, fit_options_.robust_distance);
+      ++seen;
+    }
+    return seen > 0 ? sum / seen : 0;
+  };
   const double dt = 1 / recording.rate();
+  for (int k = recording.num_frames() - 1; k > checkpoints->first; --k) {
+    if (!result.frames[k].reassembled) continue;
+    filter_.StartAt(result.trajectory.postures[k], &track_.belief);
+    Gather(recording.frame(k));
+    filter_.Update(z_, &track_.belief);
+    while (k > checkpoints->first) {
+      if (Gather(recording.frame(k - 1)) == 0) break;
+      // The motion model is the same backwards.
+      filter_.Predict(dt, &track_.belief);
+      filter_.Update(z_, &track_.belief);
+      if (ClippedDistance() > kNoFarther * distance(k - 1)) break;
+      --k;
+      checkpoints->retakes[k] = posture_;
+      checkpoints->retakes.erase(k + 1);
+      const VectorXd apart = posture_.joint_angles - result.trajectory.postures[k].joint_angles;
+      if (apart.cwiseAbs().maxCoeff() < kSameAngle) break;
+    }
+  }
+}
+
+void S2kfConverter::TrackFromRetakes(const MarkerSequence& recording, Checkpoints* checkpoints) {
+  const int begin = checkpoints->retakes.begin()->first - checkpoints->first;
+  const int chunk = begin / settings_.smoothing_chunk;
+  Restore(*checkpoints, chunk);
+  int k = checkpoints->first + chunk * settings_.smoothing_chunk;
+  Retake(recording, k, *checkpoints);
+  KeepCheckpoint(k, checkpoints);
+  for (++k; k < recording.num_frames(); ++k) {
+    TrackAgain(recording, k, *checkpoints);
+    KeepCheckpoint(k, checkpoints);
+  }
+}
+
+void S2kfConverter::Restore(const Checkpoints& checkpoints, int chunk) {
+  track_ = checkpoints.states[chunk];
+  search_.random() = track_.random;
+}
+
+void S2kfConverter::Retake(const MarkerSequence& recording, int k, const Checkpoints& checkpoints) {
+  const auto found = checkpoints.retakes.find(k);
+  if (found == checkpoints.retakes.end()) return;
+  Gather(recording.frame(k));
+  filter_.StartAt(found->second, &track_.belief);
+  filter_.Update(z_, &track_.belief);
+}
+
+void S2kfConverter::TrackAgain(const MarkerSequence& recording, int k,
+                               const Checkpoints& checkpoints) {
+  Track(recording.frame(k), 1 / recording.rate());
+  Retake(recording, k, checkpoints);
+}
+
+void S2kfConverter::Smooth(const MarkerSequence& recording, const Checkpoints& checkpoints,
+                           ConversionResult* result) {
   TrajectorySmoother smoother(filter_.motion_model(), filter_.transform(), settings_.root,
                               kinematics_.num_dofs());
-  std::vector<Belief> filtered(kChunk);
+  const int chunk = settings_.smoothing_chunk;
+  std::vector<Belief> filtered(std::min(chunk, recording.num_frames()));
   const int frames = recording.num_frames();
-  for (int c = static_cast<int>(checkpoints.size()) - 1; c >= 0; --c) {
-    const int begin = first + c * kChunk;
-    const int end = std::min(begin + kChunk, frames);
-    track_ = checkpoints[c];
-    search_.random() = track_.random;
+  for (int c = static_cast<int>(checkpoints.states.size()) - 1; c >= 0; --c) {
+    const int begin = checkpoints.first + c * chunk;
+    const int end = std::min(begin + chunk, frames);
+    Restore(checkpoints, c);
     filtered[0] = track_.belief;
     for (int k = begin + 1; k < end; ++k) {
       const Clock::time_point start = Clock::now();
-      Track(recording.frame(k), dt);
+      TrackAgain(recording, k, checkpoints);
       filtered[k - begin] = track_.belief;
-      result->frames[k].seconds += std::chrono::duration<double>(Clock::now() - start).count();
+      result->frames[k].seconds += SecondsSince(start);
     }
     for (int k = end - 1; k >= begin; --k) {
       const Clock::time_point start = Clock::now();
       if (k == frames - 1) {
         smoother.Start(filtered[k - begin]);
       } else {
-        smoother.StepBack(filtered[k - begin], dt);
+        smoother.StepBack(filtered[k - begin], 1 / recording.rate());
       }
       WriteSmoothed(recording, k, smoother.belief(), result);
-      result->frames[k].seconds += std::chrono::duration<double>(Clock::now() - start).count();
+      result->frames[k].seconds += SecondsSince(start);
     }
   }
-  for (int k = 0; k < first; ++k) WriteSmoothed(recording, k, smoother.belief(), result);
-  Differentiate(&result->trajectory);
+  for (int k = 0; k < checkpoints.first; ++k) {
+    WriteSmoothed(recording, k, smoother.belief(), result);
+  }
 }
 
 void S2kfConverter::WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,

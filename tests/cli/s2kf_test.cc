@@ -15,6 +15,7 @@ namespace {
 
 using testing::Handstand;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::ReadText;
 using testing::RunProgram;
 using testing::TestFolder;
@@ -42,6 +43,25 @@ TEST(S2kf, ConvertsTheSample) {
   const auto again = RunProgram({"convert", Handstand(), "--height", "1.8", "-o", motion + "2"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(ReadText(motion), ReadText(motion + "2"));
+}
+
+TEST(S2kf, TheOfflinePresetSmoothsAndWritesDerivatives) {
+  const std::string motion = TestFolder() + "/smooth.xml";
+  const std::string summary = TestFolder() + "/smooth.json";
+  const std::string csv = TestFolder() + "/smooth.csv";
+  const std::string page = TestFolder() + "/smooth.html";
+  const auto run = RunProgram({"convert", Handstand(), "--height", "1.8", "--frames", ":200", "-c",
+                               "s2kf_offline", "--format", "1.0", "-o", motion, "--summary",
+                               summary, "--csv", csv, "--report", page});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("chosen from the recording"));
+  const auto json = nlohmann::json::parse(ReadText(summary));
+  EXPECT_GT(json["noise_scale"], 0);
+  EXPECT_LT(json["noise_scale"], 1);  // a calm motion
+  EXPECT_GT(json["nis_over_degrees_of_freedom"], 0);
+  EXPECT_THAT(ReadText(motion), Not(HasSubstr("<JointVelocity>0 0 0")));
+  EXPECT_THAT(ReadText(csv), HasSubstr(",dd_LKx_joint_rad_per_s2"));
+  EXPECT_THAT(ReadText(page), HasSubstr("nis-plot"));
 }
 
 TEST(S2kf, EstimatesTheHeightWhereNobodyGivesIt) {
