@@ -20,9 +20,7 @@ namespace {
 constexpr double kInterval = 0.1;  // of candidate frames [s]
 constexpr int kRounds = 5;
 constexpr int kSearchAttempts = 4;
-// A marker that is farther off counts with its distance only, before and after offsets are known.
-constexpr double kRobustBefore = 0.1;  // [m]
-constexpr double kRobustAfter = 0.02;  // [m]
+constexpr double kRobustDistance = 0.1;  // [m]
 // A frame that fits this many times worse than the median one is not taken.
 constexpr double kBadFactor = 2.5;
 
@@ -39,36 +37,6 @@ int CountSeen(const Matrix3Xd& z) {
   int seen = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) seen += IsSeen(z.col(m));
   return seen;
-}
-
-/// The frames' postures by least squares; those that have none yet start from their predecessor's.
-VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
-                     const std::vector<int>& markers, double robust_distance,
-                     std::vector<CalibrationFrame>* frames) {
-  const MarkerKinematics kinematics(model, joints, markers);
-  const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
-  PostureFitOptions options;
-  options.robust_distance = robust_distance;
-  PostureSearch search(kinematics);
-  VectorXd distance(frames->size());
-  int assembled = -1;  // recording
-  for (std::size_t k = 0; k < frames->size(); ++k) {
-    CalibrationFrame& frame = (*frames)[k];
-    PostureFit::Result fit;
-    if (frame.posture.joint_angles.size() > 0) {
-      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
-    } else if (assembled != frame.recording) {
-      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
-      assembled = frame.recording;
-    } else {
-      frame.posture = (*frames)[k - 1].posture;
-      search.fit().Solve(frame.z, scale, options, &frame.posture);
-      search.Improve(frame.z, scale, options, &frame.posture);
-      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
-    }
-    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
-  }
-  return distance;
 }
 
 /// Adds to each marker's offset the median, per axis, of what is left of it in its segment.
@@ -132,17 +100,46 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
   return frames;
 }
 
-Matrix3Xd FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
-                            const std::vector<int>& markers, std::vector<CalibrationFrame>* frames,
-                            VectorXd* distance_before, VectorXd* distance) {
-  Matrix3Xd offsets = Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
-  *distance_before = FitPostures(model, joints, markers, kRobustBefore, frames);
-  for (int round = 0; round < kRounds; ++round) {
-    AddMedianResiduals(model, joints, markers, *frames, &offsets);
-    const double robust = round + 1 < kRounds ? kRobustBefore : kRobustAfter;
-    *distance = FitPostures(WithOffsets(model, markers, offsets), joints, markers, robust, frames);
+VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
+                     const std::vector<int>& markers, std::vector<CalibrationFrame>* frames) {
+  const MarkerKinematics kinematics(model, joints, markers);
+  const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
+  PostureFitOptions options;
+  options.robust_distance = kRobustDistance;
+  PostureSearch search(kinematics);
+  VectorXd distance(frames->size());
+  int assembled = -1;  // recording
+  for (std::size_t k = 0; k < frames->size(); ++k) {
+    CalibrationFrame& frame = (*frames)[k];
+    PostureFit::Result fit;
+    if (frame.posture.joint_angles.size() > 0) {
+      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
+    } else if (assembled != frame.recording) {
+      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
+      assembled = frame.recording;
+    } else {
+      frame.posture = (*frames)[k - 1].posture;
+      search.fit().Solve(frame.z, scale, options, &frame.posture);
+      search.Improve(frame.z, scale, options, &frame.posture);
+      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
+    }
+    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
   }
-  return offsets;
+  return distance;
+}
+
+OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
+                                 const std::vector<int>& markers,
+                                 std::vector<CalibrationFrame>* frames) {
+  OffsetsInTurns result;
+  result.offsets.setZero(3, static_cast<Eigen::Index>(markers.size()));
+  result.distance_before = FitPostures(model, joints, markers, frames);
+  for (int round = 0; round < kRounds; ++round) {
+    AddMedianResiduals(model, joints, markers, *frames, &result.offsets);
+    const KinematicModel moved = WithOffsets(model, markers, result.offsets);
+    result.distance = FitPostures(moved, joints, markers, frames);
+  }
+  return result;
 }
 
 std::vector<CalibrationFrame> ChooseFrames(std::vector<CalibrationFrame> frames,
