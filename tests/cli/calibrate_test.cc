@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/io/c3d_writer.h"
 #include "common/io/mmm_model.h"
 #include "common/io/mmm_motion.h"
+#include "common/io/recording.h"
 #include "common/io/subject_file.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
@@ -65,6 +67,8 @@ TEST(Calibrate, WritesThePersonTheModelThePageAndTheSummary) {
   EXPECT_EQ(subject.height, 1.8);
   EXPECT_EQ(subject.mass, 75);
   EXPECT_THAT(subject.offsets, SizeIs(53));
+  ASSERT_THAT(subject.sources, SizeIs(1));
+  EXPECT_EQ(subject.sources[0].recording, "handstand.c3d");  // no folder: the same bytes anywhere
   const Json json = Json::parse(ReadText(folder + "/s.json"));
   EXPECT_EQ(json["output"], folder + "/s.xml");
   EXPECT_THAT(json["subject"]["markers"], SizeIs(53));
@@ -142,6 +146,7 @@ TEST(Calibrate, SeveralRecordingsMakeOneSubject) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(ReadText(json_file));
   EXPECT_THAT(json["recordings"], SizeIs(2));
+  EXPECT_THAT(json["subject"]["sources"], SizeIs(2));
   EXPECT_LT(json["calibration"]["distance_after_mm"].get<double>(),
             0.35 * json["calibration"]["distance_before_mm"].get<double>());
 }
@@ -180,6 +185,20 @@ void ExpectRefused(std::vector<std::string> call, const std::string& message) {
 
 TEST(Calibrate, TooShortARecordingSaysSoAndWritesNothing) {
   ExpectRefused({"calibrate", Handstand(), "--height", "1.8", "--frames", ":3"}, "short");
+}
+
+TEST(Calibrate, TooStillARecordingSaysSoAndWritesNothing) {
+  const MarkerSequence moving = ReadRecording(Handstand(), {}).markers;
+  MarkerSequence still(moving.labels(), 300, 100, 0);
+  for (int k = 0; k < still.num_frames(); ++k) still.frame(k) = moving.frame(0);
+  const std::string file = TestFolder() + "/still.c3d";
+  WriteC3d(file, still);
+  ExpectRefused({"calibrate", file, "--height", "1.8"}, "still");
+  const auto run = RunProgram({"convert", file, "--height", "1.8", "--self-calibrate", "-o",
+                               TestFolder() + "/o.xml", "--subject-out", TestFolder() + "/p.xml"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_FALSE(Exists("o.xml"));
+  EXPECT_FALSE(Exists("p.xml"));
 }
 
 TEST(Calibrate, RecordingsThatCanNotBeReadAreRefused) {
