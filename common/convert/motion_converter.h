@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/convert/converter_config.h"
+#include "common/convert/marker_incidents.h"
 #include "common/convert/marker_mapping.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
@@ -16,15 +17,18 @@
 namespace mmm_converter {
 
 /// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
-inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-1";
+inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-2";
 
 /// What a converter knows of one frame. All vectors keep their size from frame to frame.
 struct FrameEstimate {
   Posture posture;                      ///< joint_angles: all joints of the model, untracked ones 0
   Eigen::VectorXd standard_deviations;  ///< as PoseTrajectory, all joints; NaN where not tracked
   Eigen::VectorXd residuals;  ///< per assignment |p_measured - p_model| [m]; NaN: not seen
+  /// Per assignment, kAsLabelled or what is wrong with it; empty: the converter does not judge.
+  Eigen::VectorXi verdicts;
   int markers_seen = 0;
   int markers_downweighted = 0;  ///< seen, but far from where the model has them
+  int markers_wrong = 0;         ///< seen, but left out or taken for another
   double nis = 0;                ///< normalised innovation squared, over its degrees of freedom
   bool reassembled = false;      ///< the track was lost here and taken up anew
   bool converged = false;
@@ -33,6 +37,7 @@ struct FrameEstimate {
 struct FrameDiagnostic {
   int markers_seen = 0;
   int markers_downweighted = 0;
+  int markers_wrong = 0;
   double nis = 0;
   bool reassembled = false;
   bool converged = false;
@@ -43,6 +48,7 @@ struct ConversionResult {
   PoseTrajectory trajectory;  ///< joint_names: the tracked joints, in configuration order
   Eigen::MatrixXd residuals;  ///< assignments x frames [m]; NaN: not seen
   std::vector<FrameDiagnostic> frames;
+  std::vector<MarkerIncident> incidents;  ///< by first frame
 };
 
 /// Tracks one person through one recording. Not thread-safe; use one for each recording.

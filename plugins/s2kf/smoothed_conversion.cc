@@ -31,6 +31,7 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
     if ((done - 1 - first) % kChunk == 0) {
       checkpoints.push_back(track_);
       checkpoints.back().random = search_.random();
+      checkpoints.back().gate = gate_.state();
     }
     return !progress || progress(done);
   });
@@ -51,6 +52,7 @@ void S2kfConverter::Smooth(const MarkerSequence& recording, int first,
     const int end = std::min(begin + kChunk, frames);
     track_ = checkpoints[c];
     search_.random() = track_.random;
+    gate_.set_state(track_.gate);
     filtered[0] = track_.belief;
     for (int k = begin + 1; k < end; ++k) {
       const Clock::time_point start = Clock::now();
@@ -81,7 +83,7 @@ void S2kfConverter::WriteSmoothed(const MarkerSequence& recording, int k, const 
   result->trajectory.standard_deviations.col(k) = deviations_;
   kinematics_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                              posture.joint_angles, &at_);
-  result->residuals.col(k) = (z_ - at_.p_WM).colwise().norm().transpose();
+  result->residuals.col(k) = (measured_ - at_.p_WM).colwise().norm().transpose();
 }
 
 }  // namespace mmm_converter::s2kf
