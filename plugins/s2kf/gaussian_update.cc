@@ -107,6 +107,7 @@ void GaussianUpdate::Expect(const MeasurementMoments& moments, const VectorXd& o
   for (Eigen::Index i = 0; i < other.size(); ++i) {
     innovation[i] = weights_.view()(i, 0) == 0 ? 0 : other[i] - moments.mean[i];
   }
+  s_.SetZero();
   auto s = s_.view().col(0);
   if (form_ == UpdateForm::kRegression) {
     innovation.array() *= weights_.view().col(0).array();
