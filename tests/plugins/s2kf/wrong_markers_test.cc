@@ -38,7 +38,7 @@ PoseTrajectory Motion(MotionName name) {
 }
 
 /// Mean distance of joint centres in each frame [m], and what was found wrong.
-struct Run {
+struct Outcome {
   Eigen::VectorXd error;
   std::vector<MarkerIncident> incidents;
 
@@ -62,12 +62,12 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
     EXPECT_TRUE(clean_.incidents.empty());
   }
 
-  Run Track(const MarkerSequence& seen, double gate_probability = 1e-6) const {
+  Outcome Track(const MarkerSequence& seen, double gate_probability = 1e-6) const {
     S2kfSettings settings;
     settings.gate_probability = gate_probability;
     S2kfConverter converter(model_, assignments_, joints_, settings);
     const ConversionResult result = converter.Convert(seen, model_, assignments_, {});
-    Run run;
+    Outcome run;
     run.incidents = result.incidents;
     run.error.setZero(seen.num_frames());
     for (int k = 0; k < seen.num_frames(); ++k) {
@@ -99,7 +99,7 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
   }
 
   void ExpectSwap(const std::string& a, const std::string& b, int begin, int end) {
-    const Run run = Track(SwapMarkers(markers_, a, b, begin, end));
+    const Outcome run = Track(SwapMarkers(markers_, a, b, begin, end));
     EXPECT_LE(run.Mean(begin, end), clean_.Mean(begin, end) + kRise) << a << " " << b;
     ASSERT_EQ(run.incidents.size(), 1u) << a << " " << b;
     const MarkerIncident& found = run.incidents[0];
@@ -113,7 +113,7 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
   /// `label` is wrong in [begin, end); found `late` frames after that at the latest.
   void ExpectMisplaced(const MarkerSequence& seen, const std::string& label, int begin, int end,
                        int late) {
-    const Run run = Track(seen);
+    const Outcome run = Track(seen);
     EXPECT_LE(run.Mean(begin, end), clean_.Mean(begin, end) + kRise) << label;
     ASSERT_EQ(run.incidents.size(), 1u) << label;
     EXPECT_EQ(run.incidents[0].kind, Kind::kMisplaced) << label;
@@ -128,11 +128,11 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
   std::vector<int> joints_;
   MarkerSequence markers_;
   std::vector<MarkerAssignment> assignments_;
-  Run clean_;
+  Outcome clean_;
 };
 
 TEST_P(WrongMarkersTest, CleanDataLoseNothing) {
-  const Run without = Track(markers_, 0);
+  const Outcome without = Track(markers_, 0);
   EXPECT_EQ(clean_.error, without.error);
 }
 
@@ -163,7 +163,7 @@ TEST_P(WrongMarkersTest, AWholeLimbWithTheOtherSidesLabels) {
     for (const std::string& name : limb) {
       seen = SwapMarkers(seen, "L" + name, "R" + name, kBegin, kEnd);
     }
-    const Run run = Track(seen);
+    const Outcome run = Track(seen);
     EXPECT_LE(run.Mean(kBegin, kEnd), clean_.Mean(kBegin, kEnd) + kRise);
     EXPECT_EQ(run.incidents.size(), limb.size());
     for (const MarkerIncident& incident : run.incidents) {
@@ -196,16 +196,17 @@ TEST_P(WrongMarkersTest, TwoLabelsOnOnePoint) {
   ExpectMisplaced(seen, "LKNE", kBegin, kEnd, 0);
 }
 
+std::string CaseName(const ::testing::TestParamInfo<WrongMarkersTest::ParamType>& test) {
+  const bool is_handstand = std::get<0>(test.param) == MotionName::kHandstand;
+  return std::string(is_handstand ? "Handstand" : "Walking") +
+         (std::get<1>(test.param) ? "Calibrated" : "AsWorn");
+}
+
 INSTANTIATE_TEST_SUITE_P(Motions, WrongMarkersTest,
                          ::testing::Combine(::testing::Values(MotionName::kHandstand,
                                                               MotionName::kWalking),
                                             ::testing::Bool()),
-                         [](const auto& test) {
-                           const auto [name, is_calibrated] = test.param;
-                           return std::string(name == MotionName::kHandstand ? "Handstand"
-                                                                             : "Walking") +
-                                  (is_calibrated ? "Calibrated" : "AsWorn");
-                         });
+                         CaseName);
 
 }  // namespace
 }  // namespace mmm_converter::s2kf
