@@ -36,9 +36,9 @@ constexpr double kClearlyBetter = 0.1;
 // Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
 constexpr int kFitIterations = 12;
 
-// So many markers left out may all be right, and do so where a posture exists at which their mean
+// So many markers left out may be right together, and do so where a posture exists at which their mean
 // squared distance is no more than this many times the others'.
-constexpr int kManyLeftOut = 3;
+constexpr int kManyLeftOut = 2;
 constexpr double kAsWell = 4;
 
 // Of a frame, until no more markers are left out.
