@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/calibrate/body_fit.h"
 #include "common/calibrate/body_kinematics.h"
@@ -29,6 +30,10 @@ constexpr double kStillRange = 0.35;
 constexpr double kLeastObservability = 0.5;
 // Wands included, nobody wears a marker farther than this from where the model has it [m].
 constexpr double kFarOffset = 0.2;
+
+// So many markers of a recording that are this far from their place in all were put on anew [m].
+constexpr double kMovedMarker = 0.005;
+constexpr double kMovedShare = 0.25;
 
 constexpr double kDegrees = 57.29577951308232;
 
@@ -146,6 +151,28 @@ void WarnOfSubject(const Subject& subject, std::vector<std::string>* warnings) {
   }
 }
 
+/// Warns where a recording has many markers elsewhere than the others do.
+void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints,
+                    const std::vector<int>& markers,
+                    const std::vector<CalibrationRecording>& recordings,
+                    const std::vector<CalibrationFrame>& frames,
+                    std::vector<std::string>* warnings) {
+  if (recordings.size() < 2) return;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    std::vector<CalibrationFrame> own;
+    std::copy_if(frames.begin(), frames.end(), std::back_inserter(own),
+                 [&](const auto& frame) { return frame.recording == static_cast<int>(r); });
+    if (own.empty()) continue;
+    const Eigen::Matrix3Xd shifts = MedianResiduals(fitted, joints, markers, own);
+    const auto moved = (shifts.colwise().norm().array() > kMovedMarker).count();
+    if (static_cast<double>(moved) < kMovedShare * static_cast<double>(shifts.cols())) continue;
+    warnings->push_back(fmt::format(
+        "{}: {} of {} markers sit more than {:.0f} mm from where the recordings together have "
+        "them; were markers put on anew in between? Calibrate each session by itself",
+        recordings[r].name, moved, shifts.cols(), 1000 * kMovedMarker));
+  }
+}
+
 }  // namespace
 
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
@@ -177,9 +204,10 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
         "it",
         fit.iterations));
   }
+  const KinematicModel fitted = FitToSubject(model, result.subject);
   result.distance_before = first.distance_before.mean();
-  result.distance_after =
-      FitPostures(FitToSubject(model, result.subject), joints, markers, &frames).mean();
+  result.distance_after = FitPostures(fitted, joints, markers, &frames).mean();
+  WarnOfSessions(fitted, joints, markers, recordings, frames, &result.warnings);
   result.frames = static_cast<int>(chosen.size());
   result.iterations = fit.iterations;
   return result;

@@ -39,31 +39,6 @@ int CountSeen(const Matrix3Xd& z) {
   return seen;
 }
 
-/// Adds to each marker's offset the median, per axis, of what is left of it in its segment.
-void AddMedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
-                        const std::vector<int>& markers,
-                        const std::vector<CalibrationFrame>& frames, Matrix3Xd* offsets) {
-  const auto num_markers = static_cast<Eigen::Index>(markers.size());
-  std::vector<std::vector<double>> residuals(3 * markers.size());
-  Posture full = ZeroPosture(model);
-  for (const CalibrationFrame& frame : frames) {
-    full.position = frame.posture.position;
-    full.orientation = frame.posture.orientation;
-    full.joint_angles(joints) = frame.posture.joint_angles;
-    const auto X_WS = SegmentPoses(model, full);
-    for (Eigen::Index m = 0; m < num_markers; ++m) {
-      if (!IsSeen(frame.z.col(m))) continue;
-      const ModelMarker& marker = model.markers()[markers[m]];
-      const Eigen::Vector3d r =
-          X_WS[marker.segment].inverse() * frame.z.col(m) - marker.p_SM - offsets->col(m);
-      for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
-    }
-  }
-  for (Eigen::Index i = 0; i < 3 * num_markers; ++i) {
-    if (!residuals[i].empty()) offsets->reshaped()[i] += Median(residuals[i]);
-  }
-}
-
 }  // namespace
 
 std::vector<int> UsedMarkers(const std::vector<CalibrationRecording>& recordings) {
@@ -128,6 +103,31 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
   return distance;
 }
 
+Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
+                          const std::vector<int>& markers,
+                          const std::vector<CalibrationFrame>& frames) {
+  const auto num_markers = static_cast<Eigen::Index>(markers.size());
+  std::vector<std::vector<double>> residuals(3 * markers.size());
+  Posture full = ZeroPosture(model);
+  for (const CalibrationFrame& frame : frames) {
+    full.position = frame.posture.position;
+    full.orientation = frame.posture.orientation;
+    full.joint_angles(joints) = frame.posture.joint_angles;
+    const auto X_WS = SegmentPoses(model, full);
+    for (Eigen::Index m = 0; m < num_markers; ++m) {
+      if (!IsSeen(frame.z.col(m))) continue;
+      const ModelMarker& marker = model.markers()[markers[m]];
+      const Eigen::Vector3d r = X_WS[marker.segment].inverse() * frame.z.col(m) - marker.p_SM;
+      for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
+    }
+  }
+  Matrix3Xd medians = Matrix3Xd::Zero(3, num_markers);
+  for (Eigen::Index i = 0; i < medians.size(); ++i) {
+    if (!residuals[i].empty()) medians.reshaped()[i] = Median(residuals[i]);
+  }
+  return medians;
+}
+
 OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
                                  const std::vector<int>& markers,
                                  std::vector<CalibrationFrame>* frames) {
@@ -135,9 +135,10 @@ OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<
   result.offsets.setZero(3, static_cast<Eigen::Index>(markers.size()));
   result.distance_before = FitPostures(model, joints, markers, frames);
   for (int round = 0; round < kRounds; ++round) {
-    AddMedianResiduals(model, joints, markers, *frames, &result.offsets);
-    const KinematicModel moved = WithOffsets(model, markers, result.offsets);
-    result.distance = FitPostures(moved, joints, markers, frames);
+    result.offsets +=
+        MedianResiduals(WithOffsets(model, markers, result.offsets), joints, markers, *frames);
+    result.distance =
+        FitPostures(WithOffsets(model, markers, result.offsets), joints, markers, frames);
   }
   return result;
 }

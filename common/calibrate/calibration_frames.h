@@ -30,6 +30,12 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
 Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
                             const std::vector<int>& markers, std::vector<CalibrationFrame>* frames);
 
+/// How far each marker is from where the model's segment has it, the median of the frames by axis,
+/// 3 x markers [m], segment axes; 0 where it was not seen.
+Eigen::Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
+                                 const std::vector<int>& markers,
+                                 const std::vector<CalibrationFrame>& frames);
+
 struct OffsetsInTurns {
   Eigen::Matrix3Xd offsets;         ///< of the markers, segment axes [m]
   Eigen::VectorXd distance_before;  ///< each frame's mean distance without them [m]

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -150,6 +151,23 @@ TEST(Calibration, SeveralRecordingsOfOnePersonAddUp) {
   const Trial held_out(model, MakeHandstand(model), 8);
   EXPECT_LT(held_out.CentreError(FitToSubject(model, both.subject)),
             held_out.CentreError(FitToSubject(model, arms.Calibrate().subject)));
+}
+
+TEST(Calibration, SaysThatMarkersWerePutOnAnew) {
+  const KinematicModel model = testing::ScaledReferenceModel(kHeight);
+  const Trial one(model, testing::RangeOfMotion(model, 10, 0.7, 8), 8);
+  const Trial same(model, testing::RangeOfMotion(model, 10, 0.7, 9), 8);
+  const Trial anew(model, testing::RangeOfMotion(model, 10, 0.7, 9), 9);
+  const auto mentions_session = [&](const Trial& other) {
+    const auto warnings = CalibrateSubject(model, testing::TrackedJoints(model),
+                                           {one.ForCalibration(), other.ForCalibration()}, {})
+                              .warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("put on anew") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(mentions_session(same));
+  EXPECT_TRUE(mentions_session(anew));
 }
 
 TEST(Calibration, SwappedLabelsAndGapsDoNotBendIt) {
