@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -18,8 +19,11 @@ constexpr double kSameHeight = 1e-6;  // [m]; files have at least 6 digits
 
 std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
 
+// What is said of several recordings is said once.
 void Append(const std::vector<std::string>& more, std::vector<std::string>* all) {
-  all->insert(all->end(), more.begin(), more.end());
+  for (const std::string& text : more) {
+    if (std::find(all->begin(), all->end(), text) == all->end()) all->push_back(text);
+  }
 }
 
 CalibrationInput ReadOne(const InputRequest& request, const ConverterConfig& config,

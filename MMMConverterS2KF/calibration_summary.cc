@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/subject_json.h"
@@ -90,6 +91,14 @@ double MeanOffset(const Subject& subject) {
   return subject.offsets.empty() ? 0 : sum / static_cast<double>(subject.offsets.size());
 }
 
+int FramesTaken(const Subject& subject, const std::string& file) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  for (const SubjectSource& source : subject.sources) {
+    if (source.recording == name) return source.frames;
+  }
+  return 0;
+}
+
 std::string Line(const std::string& name, const std::string& text) {
   return fmt::format("{:<{}}{}\n", name, kLineStart, text);
 }
@@ -107,10 +116,9 @@ std::string FormatSubjectSummary(const Subject& subject) {
 std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file) {
   const CalibrationResult& result = report.result;
   std::string text;
-  for (std::size_t i = 0; i < report.recordings.size(); ++i) {
-    const CalibrationInput& one = report.recordings[i];
+  for (const CalibrationInput& one : report.recordings) {
     const MarkerSequence& markers = one.input.recording.markers;
-    const int used = i < result.subject.sources.size() ? result.subject.sources[i].frames : 0;
+    const int used = FramesTaken(result.subject, one.input.recording.file);
     text += Line("recording",
                  fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file,
                              used, markers.num_frames(), one.mapping.assignments.size(),

@@ -119,6 +119,55 @@ std::string WorstMarkers(const ConversionReport& report) {
   return JoinNames(texts, ", ");
 }
 
+// Label of an assignment.
+const std::string& LabelOf(const ConversionReport& report, int assignment) {
+  const int label = report.mapping.assignments[assignment].label;
+  return report.input.recording.markers.labels()[label];
+}
+
+Json WrongMarkersJson(const ConversionReport& report) {
+  Json incidents = Json::array();
+  const MarkerSequence& markers = report.input.recording.markers;
+  for (const MarkerIncident& incident : report.result.incidents) {
+    Json labels = {LabelOf(report, incident.assignment)};
+    if (incident.other >= 0) labels.push_back(LabelOf(report, incident.other));
+    incidents.push_back({{"kind", Name(incident.kind)},
+                         {"labels", labels},
+                         {"first_frame", report.input.first_frame + incident.first_frame},
+                         {"last_frame", report.input.first_frame + incident.last_frame},
+                         {"first_s", Number(markers.time(incident.first_frame))},
+                         {"last_s", Number(markers.time(incident.last_frame))}});
+  }
+  return incidents;
+}
+
+// A line for each incident, the longest first.
+std::string DescribeWrongMarkers(const ConversionReport& report) {
+  constexpr std::size_t kMostLines = 8;
+  std::vector<MarkerIncident> incidents = report.result.incidents;
+  const auto length = [](const MarkerIncident& i) { return i.last_frame - i.first_frame; };
+  std::stable_sort(
+      incidents.begin(), incidents.end(),
+      [&](const MarkerIncident& a, const MarkerIncident& b) { return length(a) > length(b); });
+  std::string text;
+  const MarkerSequence& markers = report.input.recording.markers;
+  for (std::size_t i = 0; i < std::min(incidents.size(), kMostLines); ++i) {
+    const MarkerIncident& incident = incidents[i];
+    std::string names = LabelOf(report, incident.assignment);
+    if (incident.other >= 0) names += " and " + LabelOf(report, incident.other);
+    text += fmt::format("{}  {} {}, frames {} to {} ({:.2f} to {:.2f} s)\n",
+                        i == 0 ? "wrong    " : "         ", names, Name(incident.kind),
+                        report.input.first_frame + incident.first_frame,
+                        report.input.first_frame + incident.last_frame,
+                        markers.time(incident.first_frame), markers.time(incident.last_frame));
+  }
+  if (incidents.size() > kMostLines) {
+    text += fmt::format("           and {} shorter ones (all in --summary)\n",
+                        incidents.size() - kMostLines);
+  }
+  return text;
+}
+
 std::string DescribePersonShortly(const ConversionReport& report) {
   if (report.person.height.value <= 0) return report.person.height.source;
   return fmt::format("{:.3g} m ({}), {:.4g} kg ({})", report.person.height.value,
@@ -205,6 +254,7 @@ std::string FormatSummary(const ConversionReport& report) {
     text +=
         fmt::format("noise      process noise times {:.3g}, chosen from the recording\n", *scale);
   }
+  text += DescribeWrongMarkers(report);
   text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", Median(times),
                       Percentile(times, 99));
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
@@ -238,6 +288,7 @@ std::string FormatSummaryJson(const ConversionReport& report) {
       {"noise_scale",
        report.result.noise_scale ? Number(*report.result.noise_scale) : Json(nullptr)},
       {"nis_over_degrees_of_freedom", Number(MeanNis(report))},
+      {"wrong_markers", WrongMarkersJson(report)},
       {"ms_per_frame", {{"median", Number(Median(times))}, {"p99", Number(Percentile(times, 99))}}},
       {"warnings", report.warnings}};
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -104,6 +104,16 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   return request;
 }
 
+// What a page says of the calibration; empty: there was none.
+std::string DescribeCalibration(const ConversionReport& report) {
+  if (!report.calibration) return "";
+  return fmt::format(
+      "The person \"{}\" was calibrated on {} frames of this recording: the best postures leave "
+      "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
+      report.person.subject->name, report.calibration->frames,
+      1e3 * report.calibration->distance_after, 1e3 * report.calibration->distance_before);
+}
+
 std::string FormatConversionReport(const ConversionReport& report) {
   Trial trial;
   trial.name = std::filesystem::path(report.input.recording.file).filename().string();
@@ -116,7 +126,8 @@ std::string FormatConversionReport(const ConversionReport& report) {
   contender.config = report.converter.config;
   const Comparison comparison =
       CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
-  return FormatReport(report.motion_name, {{report.motion_name, "", &comparison}});
+  return FormatReport(report.motion_name,
+                      {{report.motion_name, DescribeCalibration(report), &comparison}});
 }
 
 }  // namespace

@@ -131,6 +131,22 @@ void AddNis(const ConversionResult& result, json* out) {
   (*out)["nis_high"] = Floats(nis.row(2));
 }
 
+json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
+  json incidents = json::array();
+  const auto label = [&](int assignment) {
+    return trial.markers.labels()[row.mapping.assignments[assignment].label];
+  };
+  for (const MarkerIncident& incident : row.result.incidents) {
+    json labels = {label(incident.assignment)};
+    if (incident.other >= 0) labels.push_back(label(incident.other));
+    incidents.push_back({{"kind", Name(incident.kind)},
+                         {"labels", labels},
+                         {"first", incident.first_frame},
+                         {"last", incident.last_frame}});
+  }
+  return incidents;
+}
+
 json RowJson(const Trial& trial, const ComparisonRow& row) {
   json out = {{"trial", row.trial},
               {"contender", row.contender},
@@ -141,7 +157,8 @@ json RowJson(const Trial& trial, const ComparisonRow& row) {
   if (!row.failure.empty()) return out;
   Eigen::VectorXd seconds(row.result.frames.size());
   for (Eigen::Index k = 0; k < seconds.size(); ++k) seconds[k] = row.result.frames[k].seconds;
-  out.update({{"motion", MotionJson(*trial.model, row.result.trajectory)},
+  out.update({{"incidents", IncidentsJson(trial, row)},
+              {"motion", MotionJson(*trial.model, row.result.trajectory)},
               {"distances", Quantised(row.distances.transpose())},
               {"mean", Floats(row.mean_distance)},
               {"p05", Floats(row.p05_distance)},

@@ -13,6 +13,7 @@
 
 namespace mmm_converter {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
@@ -22,12 +23,26 @@ namespace {
 constexpr double kOffsetScale = 2;
 constexpr double kLeastScale = 0.5;
 constexpr double kMostScale = 2;
-constexpr int kMostIterations = 100;
-constexpr double kTolerance = 1e-5;  // of the cost
+constexpr int kMostIterations = 150;
+// A step that gains less has arrived: one unit is a standard deviation's worth of evidence.
+constexpr double kLeastGain = 0.05;
 constexpr double kLeastDamping = 1e-7;
 constexpr double kMostDamping = 1e6;
 // Frames are summed up in so many parts, whatever the number of threads: the same sum each time.
 constexpr int kParts = 8;
+
+/// Information about the scales before any recording: the mean of left and right is 1 by
+/// scale_deviation, their difference 0 by side_deviation.
+MatrixXd ScalePrior(const SegmentLengths& lengths, const CalibrationOptions& options) {
+  const auto n = static_cast<Eigen::Index>(lengths.segments.size());
+  MatrixXd A = MatrixXd::Identity(n, n) / options.scale_deviation;
+  for (const auto& [left, right] : lengths.mirror) {
+    A(left, left) = A(left, right) = 0.5 / options.scale_deviation;
+    A(right, left) = 1 / options.side_deviation;
+    A(right, right) = -1 / options.side_deviation;
+  }
+  return A.transpose() * A;
+}
 
 class BodyFit {
  public:
@@ -38,11 +53,14 @@ class BodyFit {
         frames_(*frames),
         body_(*body),
         trial_body_(*body),
+        scale_prior_(ScalePrior(kinematics->lengths(), options)),
         trial_(frames->size()),
         costs_(static_cast<Eigen::Index>(frames->size())),
         total_(*kinematics),
         reduced_(*kinematics),
-        parts_(kParts, total_) {
+        parts_(kParts, total_),
+        model_kinematics_(kinematics->model(), kinematics->joints(), kinematics->markers()),
+        solvers_(kParts, NormalEquations(model_kinematics_)) {
     equations_.reserve(frames->size());
     for (const CalibrationFrame& frame : *frames) {
       equations_.emplace_back(*kinematics, frame.z, options.skin_deviation * noise_scale);
@@ -72,11 +90,14 @@ class BodyFit {
   std::vector<CalibrationFrame>& frames_;
   Body& body_;
   Body trial_body_;
+  MatrixXd scale_prior_;
   std::vector<Posture> trial_;
   VectorXd costs_;
   BodyEquations total_;
   BodyEquations reduced_;
   std::vector<BodyEquations> parts_;
+  MarkerKinematics model_kinematics_;
+  std::vector<NormalEquations> solvers_;
   std::vector<FrameEquations> equations_;
 };
 
@@ -94,13 +115,8 @@ double BodyFit::PriorCost(const Body& body) const {
   for (Eigen::Index m = 0; m < body.offsets.cols(); ++m) {
     cost += CauchyCost(body.offsets.col(m).squaredNorm() / (sigma * sigma), kOffsetScale);
   }
-  cost += (body.scales.array() - 1).matrix().squaredNorm() /
-          (options_.scale_deviation * options_.scale_deviation);
-  for (const auto& [left, right] : kinematics_.lengths().mirror) {
-    const double difference = (body.scales[left] - body.scales[right]) / options_.side_deviation;
-    cost += difference * difference;
-  }
-  return cost;
+  const VectorXd d = body.scales.array() - 1;
+  return cost + d.dot(scale_prior_ * d);
 }
 
 void BodyFit::AddPrior() {
@@ -112,19 +128,9 @@ void BodyFit::AddPrior() {
     H.diagonal().segment<3>(3 * m).array() += w;
     total_.g.segment<3>(3 * m) -= w * body_.offsets.col(m);
   }
-  const Eigen::Index first = body_.offsets.size();
-  const double scale = 1 / (options_.scale_deviation * options_.scale_deviation);
-  H.diagonal().tail(body_.scales.size()).array() += scale;
-  total_.g.tail(body_.scales.size()) -= scale * (body_.scales.array() - 1).matrix();
-  const double side = 1 / (options_.side_deviation * options_.side_deviation);
-  for (const auto& [left, right] : kinematics_.lengths().mirror) {
-    const double pull = side * (body_.scales[left] - body_.scales[right]);
-    H(first + left, first + left) += side;
-    H(first + right, first + right) += side;
-    H(first + std::max(left, right), first + std::min(left, right)) -= side;
-    total_.g[first + left] -= pull;
-    total_.g[first + right] += pull;
-  }
+  const Eigen::Index scales = body_.scales.size();
+  H.bottomRightCorner(scales, scales) += scale_prior_;
+  total_.g.tail(scales) -= scale_prior_ * (body_.scales.array() - 1).matrix();
 }
 
 void BodyFit::Linearize() {
@@ -157,9 +163,10 @@ double BodyFit::TryStep(double damping) {
       body_.offsets + step.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize);
   trial_body_.scales =
       (body_.scales + step.tail(body_.scales.size())).cwiseMax(kLeastScale).cwiseMin(kMostScale);
-  const MarkerKinematics& markers = kinematics_.kinematics();
-  ForEachPart([&](int /*part*/, std::size_t k) {
-    trial_[k] = Retract(frames_[k].posture, equations_[k].Step(step));
+  const MarkerKinematics& markers = model_kinematics_;
+  ForEachPart([&](int part, std::size_t k) {
+    const Posture& posture = frames_[k].posture;
+    trial_[k] = Retract(posture, equations_[k].Step(step, posture, damping, &solvers_[part]));
     trial_[k].joint_angles =
         trial_[k].joint_angles.cwiseMax(markers.lower()).cwiseMin(markers.upper());
   });
@@ -169,8 +176,8 @@ double BodyFit::TryStep(double damping) {
 Body BodyFit::Deviations() {
   Linearize();
   Reduce(0);
-  const Eigen::MatrixXd H = reduced_.H.view().selfadjointView<Eigen::Lower>();
-  const Eigen::MatrixXd P = H.ldlt().solve(Eigen::MatrixXd::Identity(H.rows(), H.cols()));
+  const MatrixXd H = reduced_.H.view().selfadjointView<Eigen::Lower>();
+  const MatrixXd P = H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols()));
   const VectorXd deviations = P.diagonal().cwiseMax(0).cwiseSqrt();
   return {deviations.tail(body_.scales.size()),
           deviations.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize)};
@@ -188,21 +195,26 @@ BodyFitResult BodyFit::Solve() {
       const double cost = TryStep(damping);
       accepted = cost < result.cost;
       if (!accepted) {
-        damping *= 10;
+        damping *= 5;
         result.converged = damping > kMostDamping;
         continue;
       }
-      result.converged = result.cost - cost < kTolerance * result.cost;
+      result.converged = result.cost - cost < kLeastGain;
       result.cost = cost;
       std::swap(body_, trial_body_);
       for (std::size_t k = 0; k < frames_.size(); ++k) frames_[k].posture = trial_[k];
-      damping = std::max(damping * 0.1, kLeastDamping);
+      damping = std::max(damping * 0.4, kLeastDamping);
     }
   }
   kinematics_.SetBody(body_);
   for (std::size_t k = 0; k < frames_.size(); ++k) trial_[k] = frames_[k].posture;
   Cost(body_, trial_);
   result.deviations = Deviations();
+  result.prior_scale_deviations =
+      scale_prior_.ldlt()
+          .solve(MatrixXd::Identity(scale_prior_.rows(), scale_prior_.cols()))
+          .diagonal()
+          .cwiseSqrt();
   return result;
 }
 

@@ -15,6 +15,7 @@ struct BodyFitResult {
   int iterations = 0;
   bool converged = false;
   Body deviations;  ///< standard deviations of the body, postures being unknown too
+  Eigen::VectorXd prior_scale_deviations;  ///< of the scales before any recording
 };
 
 /// The body and all postures together, as their most likely values where a marker is where its

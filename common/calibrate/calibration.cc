@@ -2,57 +2,214 @@
 #include "common/calibrate/calibration.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
 
 #include "common/calibrate/body_fit.h"
 #include "common/calibrate/body_kinematics.h"
 #include "common/calibrate/calibration_frames.h"
+#include "common/math/statistics.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
+
+using Eigen::VectorXd;
+
 namespace {
+
+constexpr int kLeastMarkers = 10;
+constexpr double kLeastSeenShare = 0.5;
+// Candidate frames are 0.1 s apart.
 constexpr int kLeastFrames = 20;
+// A joint that moves less than this tells nothing of where its axis is [rad].
+constexpr double kLeastRange = 0.2;
+// A recording in which no joint moves more than this is one of standing still [rad].
+constexpr double kStillRange = 0.35;
+constexpr double kLeastObservability = 0.5;
+// Wands included, nobody wears a marker farther than this from where the model has it [m].
+constexpr double kFarOffset = 0.2;
+
+// So many markers of a recording that are this far from their place in all were put on anew [m].
+constexpr double kMovedMarker = 0.005;
+constexpr double kMovedShare = 0.25;
+
+constexpr double kDegrees = 57.29577951308232;
+
+std::string Advice() {
+  return "record some ten seconds in which shoulders, elbows, spine, hips and knees bend, most "
+         "markers seen";
+}
+
+std::vector<CalibrationFrame> FramesOf(const std::vector<CalibrationRecording>& recordings,
+                                       const std::vector<int>& markers) {
+  const auto count = static_cast<int>(markers.size());
+  if (count < kLeastMarkers) {
+    throw Error(fmt::format("{} markers are assigned; a calibration needs at least {}", count,
+                            kLeastMarkers));
+  }
+  const int least_seen = std::max(kLeastMarkers, static_cast<int>(kLeastSeenShare * count));
+  std::vector<CalibrationFrame> frames = CandidateFrames(recordings, markers, least_seen);
+  if (static_cast<int>(frames.size()) < kLeastFrames) {
+    throw Error(fmt::format(
+        "too short to calibrate on: {} frames at least 0.1 s apart show {} of the {} assigned "
+        "markers, {} are needed; {}",
+        frames.size(), least_seen, count, kLeastFrames, Advice()));
+  }
+  return frames;
+}
+
+/// How far each joint moves in the middle 90 % of the frames [rad].
+VectorXd JointRanges(const std::vector<CalibrationFrame>& frames) {
+  VectorXd ranges(frames.front().posture.joint_angles.size());
+  std::vector<double> angles(frames.size());
+  for (Eigen::Index j = 0; j < ranges.size(); ++j) {
+    for (std::size_t k = 0; k < frames.size(); ++k) angles[k] = frames[k].posture.joint_angles[j];
+    ranges[j] = Percentile(angles, 95) - Percentile(angles, 5);
+  }
+  return ranges;
+}
+
+void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
+                   const std::vector<CalibrationFrame>& frames,
+                   std::vector<std::string>* warnings) {
+  const VectorXd ranges = JointRanges(frames);
+  Eigen::Index widest = 0;
+  if (ranges.maxCoeff(&widest) < kStillRange) {
+    throw Error(fmt::format(
+        "too still to calibrate on: the joint that moves most, {}, does so by {:.0f} degrees, at "
+        "least {:.0f} are needed to tell where markers sit from how the person stands; {}",
+        model.joint(joints[widest]).name, kDegrees * ranges[widest], kDegrees * kStillRange,
+        Advice()));
+  }
+  const auto still = (ranges.array() < kLeastRange).count();
+  if (still > 0) {
+    warnings->push_back(fmt::format(
+        "{} of {} joints move by less than {:.0f} degrees: what sits around them stays near the "
+        "model's",
+        still, ranges.size(), kDegrees * kLeastRange));
+  }
+}
+
+VectorXd NoiseScales(const std::vector<CalibrationRecording>& recordings,
+                     const std::vector<int>& markers) {
+  VectorXd scales = VectorXd::Ones(static_cast<Eigen::Index>(markers.size()));
+  for (const CalibrationRecording& recording : recordings) {
+    for (const MarkerAssignment& assignment : recording.assignments) {
+      const auto found = std::lower_bound(markers.begin(), markers.end(), assignment.marker);
+      scales[found - markers.begin()] = assignment.noise_scale;
+    }
+  }
+  return scales;
+}
+
+Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const BodyFitResult& fit,
+                    const std::vector<CalibrationFrame>& frames,
+                    const CalibrationOptions& options) {
+  Subject subject;
+  const KinematicModel& model = kinematics.model();
+  subject.model = model.name();
+  for (Eigen::Index i = 0; i < body.scales.size(); ++i) {
+    subject.scales.push_back({model.segments()[kinematics.lengths().segments[i]].name,
+                              body.scales[i], fit.deviations.scales[i],
+                              fit.prior_scale_deviations[i]});
+  }
+  for (Eigen::Index m = 0; m < body.offsets.cols(); ++m) {
+    const auto seen = std::count_if(frames.begin(), frames.end(),
+                                    [&](const auto& frame) { return IsSeen(frame.z.col(m)); });
+    if (seen == 0) continue;
+    MarkerOffset offset;
+    offset.marker = model.markers()[kinematics.markers()[m]].name;
+    offset.offset = body.offsets.col(m);
+    offset.standard_deviations = fit.deviations.offsets.col(m);
+    offset.prior_deviation = options.marker_deviation;
+    offset.frames = static_cast<int>(seen);
+    subject.offsets.push_back(offset);
+  }
+  return subject;
+}
+
+void WarnOfSubject(const Subject& subject, std::vector<std::string>* warnings) {
+  std::vector<std::string> open;
+  for (const SegmentScale& scale : subject.scales) {
+    if (Observability(scale.standard_deviation, scale.prior_deviation) < kLeastObservability) {
+      open.push_back(scale.segment);
+    }
+  }
+  if (!open.empty()) {
+    warnings->push_back(
+        fmt::format("not determined by the recordings, left near the model's: length of {}",
+                    fmt::join(open, ", ")));
+  }
+  for (const MarkerOffset& offset : subject.offsets) {
+    if (offset.offset.norm() > kFarOffset) {
+      warnings->push_back(fmt::format(
+          "{} sits {:.0f} mm from where the model has it; is it the marker of that name?",
+          offset.marker, 1000 * offset.offset.norm()));
+    }
+  }
+}
+
+/// Warns where a recording has many markers elsewhere than the others do.
+void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints,
+                    const std::vector<int>& markers,
+                    const std::vector<CalibrationRecording>& recordings,
+                    const std::vector<CalibrationFrame>& frames,
+                    std::vector<std::string>* warnings) {
+  if (recordings.size() < 2) return;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    std::vector<CalibrationFrame> own;
+    std::copy_if(frames.begin(), frames.end(), std::back_inserter(own),
+                 [&](const auto& frame) { return frame.recording == static_cast<int>(r); });
+    if (own.empty()) continue;
+    const Eigen::Matrix3Xd shifts = MedianResiduals(fitted, joints, markers, own);
+    const auto moved = (shifts.colwise().norm().array() > kMovedMarker).count();
+    if (static_cast<double>(moved) < kMovedShare * static_cast<double>(shifts.cols())) continue;
+    warnings->push_back(fmt::format(
+        "{}: {} of {} markers sit more than {:.0f} mm from where the recordings together have "
+        "them; were markers put on anew in between? Calibrate each session by itself",
+        recordings[r].name, moved, shifts.cols(), 1000 * kMovedMarker));
+  }
+}
+
 }  // namespace
 
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options) {
   const std::vector<int> markers = UsedMarkers(recordings);
-  std::vector<CalibrationFrame> frames =
-      CandidateFrames(recordings, markers, static_cast<int>(markers.size()) * 3 / 5);
-  if (static_cast<int>(frames.size()) < kLeastFrames) throw Error("too short");
+  std::vector<CalibrationFrame> frames = FramesOf(recordings, markers);
   BodyKinematics kinematics(model, joints, markers);
   Body body = kinematics.ModelBody();
-  Eigen::VectorXd before;
-  Eigen::VectorXd after;
-  body.offsets = FitOffsetsInTurns(model, joints, markers, &frames, &before, &after);
   CalibrationResult result;
-  result.distance_before = before.mean();
-  result.distance_after = after.mean();
-  std::vector<CalibrationFrame> chosen = ChooseFrames(std::move(frames), after, options.frames);
+  const OffsetsInTurns first = FitOffsetsInTurns(model, joints, markers, &frames);
+  CheckMovement(model, joints, frames, &result.warnings);
+  body.offsets = first.offsets;
+  std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const BodyFitResult fit =
-      FitBody(&kinematics, options,
-              Eigen::VectorXd::Ones(static_cast<Eigen::Index>(markers.size())), &chosen, &body);
+      FitBody(&kinematics, options, NoiseScales(recordings, markers), &chosen, &body);
+
+  result.subject = MakeSubject(kinematics, body, fit, chosen, options);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const auto taken = std::count_if(chosen.begin(), chosen.end(), [&](const auto& frame) {
+      return frame.recording == static_cast<int>(r);
+    });
+    result.subject.sources.push_back({recordings[r].name, static_cast<int>(taken)});
+  }
+  WarnOfSubject(result.subject, &result.warnings);
+  if (!fit.converged) {
+    result.warnings.push_back(fmt::format(
+        "the estimate was still changing after {} steps; a recording with more movement settles "
+        "it",
+        fit.iterations));
+  }
+  const KinematicModel fitted = FitToSubject(model, result.subject);
+  result.distance_before = first.distance_before.mean();
+  result.distance_after = FitPostures(fitted, joints, markers, &frames).mean();
+  WarnOfSessions(fitted, joints, markers, recordings, frames, &result.warnings);
   result.frames = static_cast<int>(chosen.size());
   result.iterations = fit.iterations;
-  const SegmentLengths& lengths = kinematics.lengths();
-  for (std::size_t i = 0; i < lengths.segments.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    result.subject.scales.push_back({model.segments()[lengths.segments[i]].name, body.scales[k],
-                                     fit.deviations.scales[k], options.scale_deviation});
-  }
-  for (std::size_t m = 0; m < markers.size(); ++m) {
-    const auto k = static_cast<Eigen::Index>(m);
-    MarkerOffset offset;
-    offset.marker = model.markers()[markers[m]].name;
-    offset.offset = body.offsets.col(k);
-    offset.standard_deviations = fit.deviations.offsets.col(k);
-    offset.prior_deviation = options.marker_deviation;
-    result.subject.offsets.push_back(offset);
-  }
-  fmt::print(
-      "{} candidates, {} frames, {} it, cost {}, converged {}, before {:.2f} turns {:.2f} mm\n",
-      after.size(), result.frames, fit.iterations, fit.cost, fit.converged,
-      1000 * result.distance_before, 1000 * result.distance_after);
   return result;
 }
 

@@ -22,10 +22,10 @@ struct CalibrationRecording {
 /// What is assumed of a person before a recording is seen, as standard deviations.
 struct CalibrationOptions {
   int frames = 120;                ///< at most, chosen over all recordings
-  double marker_deviation = 0.04;  ///< of a marker from the model's place, each coordinate [m]
+  double marker_deviation = 0.03;  ///< of a marker from the model's place, each coordinate [m]
   double scale_deviation = 0.06;   ///< of a segment's scale
   double side_deviation = 0.01;    ///< of left against right scale
-  double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
+  double skin_deviation = 0.006;   ///< of a marker in its segment from frame to frame [m]
 };
 
 struct CalibrationResult {

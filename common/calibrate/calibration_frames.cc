@@ -20,9 +20,7 @@ namespace {
 constexpr double kInterval = 0.1;  // of candidate frames [s]
 constexpr int kRounds = 5;
 constexpr int kSearchAttempts = 4;
-// A marker that is farther off counts with its distance only, before and after offsets are known.
-constexpr double kRobustBefore = 0.1;  // [m]
-constexpr double kRobustAfter = 0.02;  // [m]
+constexpr double kRobustDistance = 0.1;  // [m]
 // A frame that fits this many times worse than the median one is not taken.
 constexpr double kBadFactor = 2.5;
 
@@ -39,61 +37,6 @@ int CountSeen(const Matrix3Xd& z) {
   int seen = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) seen += IsSeen(z.col(m));
   return seen;
-}
-
-/// The frames' postures by least squares; those that have none yet start from their predecessor's.
-VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
-                     const std::vector<int>& markers, double robust_distance,
-                     std::vector<CalibrationFrame>* frames) {
-  const MarkerKinematics kinematics(model, joints, markers);
-  const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
-  PostureFitOptions options;
-  options.robust_distance = robust_distance;
-  PostureSearch search(kinematics);
-  VectorXd distance(frames->size());
-  int assembled = -1;  // recording
-  for (std::size_t k = 0; k < frames->size(); ++k) {
-    CalibrationFrame& frame = (*frames)[k];
-    PostureFit::Result fit;
-    if (frame.posture.joint_angles.size() > 0) {
-      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
-    } else if (assembled != frame.recording) {
-      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
-      assembled = frame.recording;
-    } else {
-      frame.posture = (*frames)[k - 1].posture;
-      search.fit().Solve(frame.z, scale, options, &frame.posture);
-      search.Improve(frame.z, scale, options, &frame.posture);
-      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
-    }
-    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
-  }
-  return distance;
-}
-
-/// Adds to each marker's offset the median, per axis, of what is left of it in its segment.
-void AddMedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
-                        const std::vector<int>& markers,
-                        const std::vector<CalibrationFrame>& frames, Matrix3Xd* offsets) {
-  const auto num_markers = static_cast<Eigen::Index>(markers.size());
-  std::vector<std::vector<double>> residuals(3 * markers.size());
-  Posture full = ZeroPosture(model);
-  for (const CalibrationFrame& frame : frames) {
-    full.position = frame.posture.position;
-    full.orientation = frame.posture.orientation;
-    full.joint_angles(joints) = frame.posture.joint_angles;
-    const auto X_WS = SegmentPoses(model, full);
-    for (Eigen::Index m = 0; m < num_markers; ++m) {
-      if (!IsSeen(frame.z.col(m))) continue;
-      const ModelMarker& marker = model.markers()[markers[m]];
-      const Eigen::Vector3d r =
-          X_WS[marker.segment].inverse() * frame.z.col(m) - marker.p_SM - offsets->col(m);
-      for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
-    }
-  }
-  for (Eigen::Index i = 0; i < 3 * num_markers; ++i) {
-    if (!residuals[i].empty()) offsets->reshaped()[i] += Median(residuals[i]);
-  }
 }
 
 }  // namespace
@@ -132,17 +75,72 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
   return frames;
 }
 
-Matrix3Xd FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
-                            const std::vector<int>& markers, std::vector<CalibrationFrame>* frames,
-                            VectorXd* distance_before, VectorXd* distance) {
-  Matrix3Xd offsets = Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
-  *distance_before = FitPostures(model, joints, markers, kRobustBefore, frames);
-  for (int round = 0; round < kRounds; ++round) {
-    AddMedianResiduals(model, joints, markers, *frames, &offsets);
-    const double robust = round + 1 < kRounds ? kRobustBefore : kRobustAfter;
-    *distance = FitPostures(WithOffsets(model, markers, offsets), joints, markers, robust, frames);
+VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
+                     const std::vector<int>& markers, std::vector<CalibrationFrame>* frames) {
+  const MarkerKinematics kinematics(model, joints, markers);
+  const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
+  PostureFitOptions options;
+  options.robust_distance = kRobustDistance;
+  PostureSearch search(kinematics);
+  VectorXd distance(frames->size());
+  int assembled = -1;  // recording
+  for (std::size_t k = 0; k < frames->size(); ++k) {
+    CalibrationFrame& frame = (*frames)[k];
+    PostureFit::Result fit;
+    if (frame.posture.joint_angles.size() > 0) {
+      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
+    } else if (assembled != frame.recording) {
+      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
+      assembled = frame.recording;
+    } else {
+      frame.posture = (*frames)[k - 1].posture;
+      search.fit().Solve(frame.z, scale, options, &frame.posture);
+      search.Improve(frame.z, scale, options, &frame.posture);
+      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
+    }
+    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
   }
-  return offsets;
+  return distance;
+}
+
+Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
+                          const std::vector<int>& markers,
+                          const std::vector<CalibrationFrame>& frames) {
+  const auto num_markers = static_cast<Eigen::Index>(markers.size());
+  std::vector<std::vector<double>> residuals(3 * markers.size());
+  Posture full = ZeroPosture(model);
+  for (const CalibrationFrame& frame : frames) {
+    full.position = frame.posture.position;
+    full.orientation = frame.posture.orientation;
+    full.joint_angles(joints) = frame.posture.joint_angles;
+    const auto X_WS = SegmentPoses(model, full);
+    for (Eigen::Index m = 0; m < num_markers; ++m) {
+      if (!IsSeen(frame.z.col(m))) continue;
+      const ModelMarker& marker = model.markers()[markers[m]];
+      const Eigen::Vector3d r = X_WS[marker.segment].inverse() * frame.z.col(m) - marker.p_SM;
+      for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
+    }
+  }
+  Matrix3Xd medians = Matrix3Xd::Zero(3, num_markers);
+  for (Eigen::Index i = 0; i < medians.size(); ++i) {
+    if (!residuals[i].empty()) medians.reshaped()[i] = Median(residuals[i]);
+  }
+  return medians;
+}
+
+OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
+                                 const std::vector<int>& markers,
+                                 std::vector<CalibrationFrame>* frames) {
+  OffsetsInTurns result;
+  result.offsets.setZero(3, static_cast<Eigen::Index>(markers.size()));
+  result.distance_before = FitPostures(model, joints, markers, frames);
+  for (int round = 0; round < kRounds; ++round) {
+    result.offsets +=
+        MedianResiduals(WithOffsets(model, markers, result.offsets), joints, markers, *frames);
+    result.distance =
+        FitPostures(WithOffsets(model, markers, result.offsets), joints, markers, frames);
+  }
+  return result;
 }
 
 std::vector<CalibrationFrame> ChooseFrames(std::vector<CalibrationFrame> frames,

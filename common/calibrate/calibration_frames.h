@@ -25,13 +25,28 @@ std::vector<int> UsedMarkers(const std::vector<CalibrationRecording>& recordings
 std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecording>& recordings,
                                               const std::vector<int>& markers, int least_seen);
 
-/// Fits the frames' postures and, in turns with them, one offset per marker: where the marker is in
-/// its segment in the middle (median) frame. Returns the offsets, 3 x markers [m], segment axes.
-/// distance: mean over seen markers per frame at the end [m].
-Eigen::Matrix3Xd FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
-                                   const std::vector<int>& markers,
-                                   std::vector<CalibrationFrame>* frames,
-                                   Eigen::VectorXd* distance_before, Eigen::VectorXd* distance);
+/// The frames' postures by least squares; returns each frame's mean distance over the markers seen
+/// [m]. Those that have no posture yet start from the frame before.
+Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
+                            const std::vector<int>& markers, std::vector<CalibrationFrame>* frames);
+
+/// How far each marker is from where the model's segment has it, the median of the frames by axis,
+/// 3 x markers [m], segment axes; 0 where it was not seen.
+Eigen::Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
+                                 const std::vector<int>& markers,
+                                 const std::vector<CalibrationFrame>& frames);
+
+struct OffsetsInTurns {
+  Eigen::Matrix3Xd offsets;         ///< of the markers, segment axes [m]
+  Eigen::VectorXd distance_before;  ///< each frame's mean distance without them [m]
+  Eigen::VectorXd distance;         ///< with them [m]
+};
+
+/// Postures and, in turns with them, one offset per marker: where the marker is in its segment in
+/// the middle (median) frame. A start for FitBody that wrong markers do not disturb.
+OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
+                                 const std::vector<int>& markers,
+                                 std::vector<CalibrationFrame>* frames);
 
 /// At most `count` of the frames, each as far in joint angles from those chosen before as can be
 /// (Gonzalez 1985), leaving out those that fit much worse than the others.

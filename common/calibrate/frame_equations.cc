@@ -21,8 +21,9 @@ namespace {
 // Of the distance of a marker from its place in the segment, in deviations, where it begins to
 // count less.
 constexpr double kSkinScale = 3;
-// What a joint that no marker determines is drawn to the natural posture with [rad].
-constexpr double kNaturalDeviation = 1;
+// What a joint that no marker determines is drawn to the natural posture with [rad]. Weak: what all
+// frames repeat would bend the whole body.
+constexpr double kNaturalDeviation = 3;
 constexpr double kOnLimit = 1e-12;  // but for rounding [rad]
 
 }  // namespace
@@ -51,6 +52,8 @@ FrameEquations::FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3X
       deviation_(std::move(deviation)),
       weights_(VectorXd::Zero(z_.cols())),
       natural_(NaturalAngles(kinematics.kinematics())),
+      lower_(kinematics.kinematics().lower()),
+      upper_(kinematics.kinematics().upper()),
       held_(kinematics.joints().size(), 0) {
   const int n = kinematics.kinematics().num_dofs();
   const int size = BodyEquations(kinematics).size();
@@ -117,11 +120,10 @@ void FrameEquations::Linearize(const BodyKinematics& kinematics, const Posture& 
   constexpr double kNatural = 1 / (kNaturalDeviation * kNaturalDeviation);
   H_.view().diagonal().tail(joints).array() += kNatural;
   g_.tail(joints) += kNatural * (natural_ - posture.joint_angles);
-  const MarkerKinematics& markers = kinematics.kinematics();
   for (Eigen::Index j = 0; j < joints; ++j) {
     const double angle = posture.joint_angles[j];
-    held_[j] = (angle <= markers.lower()[j] + kOnLimit && g_[6 + j] < 0) ||
-               (angle >= markers.upper()[j] - kOnLimit && g_[6 + j] > 0);
+    held_[j] = (angle <= lower_[j] + kOnLimit && g_[6 + j] < 0) ||
+               (angle >= upper_[j] - kOnLimit && g_[6 + j] > 0);
   }
 }
 
@@ -150,12 +152,25 @@ void FrameEquations::Eliminate(double damping, BodyEquations* body) {
   body->g -= eliminated_.view().lazyProduct(solved);
 }
 
-const VectorXd& FrameEquations::Step(const VectorXd& body_step) {
+const VectorXd& FrameEquations::Step(const VectorXd& body_step, const Posture& posture,
+                                     double damping, NormalEquations* solver) {
+  // Each solve can push another joint over its limit.
+  constexpr int kSolves = 4;
   auto solved = solved_.view().col(0);
-  step_ = solved;
   solved -= eliminated_.view().transpose().lazyProduct(body_step);
   SolveLowerTransposed(factor_, &solved_);
-  step_.swap(solved);
+  step_ = solved;
+  const auto end = (posture.joint_angles + step_.tail(lower_.size())).array();
+  if ((end >= lower_.array()).all() && (end <= upper_.array()).all()) return step_;
+  solver->H() = H_.view();
+  solver->g() = g_;
+  solver->g() -= W_.view().transpose().lazyProduct(body_step);
+  solver->HoldPressingJoints(posture.joint_angles);
+  solver->Solve(damping, 0);
+  for (int i = 1; i < kSolves && solver->HoldOversteppingJoints(posture.joint_angles); ++i) {
+    solver->Solve(damping, 0);
+  }
+  step_ = solver->step();
   return step_;
 }
 

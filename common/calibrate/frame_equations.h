@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/calibrate/body_kinematics.h"
+#include "common/fit/normal_equations.h"
 #include "common/math/padded_matrix.h"
 #include "common/model/posture.h"
 
@@ -40,16 +41,19 @@ class FrameEquations {
   /// equations times 1 + damping. Joints that press on a limit stay.
   void Eliminate(double damping, BodyEquations* body);
 
-  /// The posture's step after Eliminate, for a step of the body; returns by how much the linear
-  /// model expects the cost to fall for it.
-  const Eigen::VectorXd& Step(const Eigen::VectorXd& body_step);
+  /// The posture's step after Eliminate, for a step of the body. Where that would take joints over
+  /// their limits, the best step that ends on these. solver: scratch for that.
+  const Eigen::VectorXd& Step(const Eigen::VectorXd& body_step, const Posture& posture,
+                              double damping, NormalEquations* solver);
 
  private:
   BodyJacobian at_;
   Eigen::Matrix3Xd z_;
   Eigen::VectorXd deviation_;
   Eigen::VectorXd weights_;  // of each marker in the squares, 0 where not seen
-  Eigen::VectorXd natural_;
+  Eigen::VectorXd natural_;  // of the tracked joints [rad]
+  Eigen::VectorXd lower_;
+  Eigen::VectorXd upper_;
   PaddedMatrix H_;
   PaddedMatrix W_;  // body x posture
   Eigen::VectorXd g_;

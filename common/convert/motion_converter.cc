@@ -16,6 +16,9 @@ namespace {
 
 constexpr int kFewestMarkers = 3;
 
+// An incident goes on where it stops for no longer than this [s].
+constexpr double kBridgedTime = 0.1;
+
 int CountSeen(const MarkerSequence& recording, const std::vector<MarkerAssignment>& assignments,
               int frame) {
   const auto points = recording.frame(frame);
@@ -59,6 +62,7 @@ class ResultWriter {
     result_.residuals.setConstant(static_cast<int>(assignments.size()), frames,
                                   std::numeric_limits<double>::quiet_NaN());
     result_.frames.resize(frames);
+    verdicts_.setConstant(static_cast<int>(assignments.size()), frames, kAsLabelled);
   }
 
   void WritePosture(int k, const FrameEstimate& estimate) {
@@ -78,9 +82,14 @@ class ResultWriter {
   void Write(int k, const FrameEstimate& estimate, double seconds) {
     WritePosture(k, estimate);
     result_.residuals.col(k) = estimate.residuals;
-    result_.frames[k] = {estimate.markers_seen, estimate.markers_downweighted,
-                         estimate.nis,          estimate.reassembled,
-                         estimate.converged,    seconds};
+    result_.frames[k] = {estimate.markers_seen,
+                         estimate.markers_downweighted,
+                         estimate.markers_wrong,
+                         estimate.nis,
+                         estimate.reassembled,
+                         estimate.converged,
+                         seconds};
+    if (estimate.verdicts.size() > 0) verdicts_.col(k) = estimate.verdicts;
   }
 
   // Frames with too few markers to assemble take the first assembled posture.
@@ -98,13 +107,18 @@ class ResultWriter {
     }
   }
 
-  ConversionResult& result() { return result_; }
+  ConversionResult Finish() {
+    const int bridged = static_cast<int>(std::lround(kBridgedTime * recording_.rate()));
+    result_.incidents = FindIncidents(verdicts_, bridged);
+    return std::move(result_);
+  }
 
  private:
   const MarkerSequence& recording_;
   const KinematicModel& model_;
   const std::vector<MarkerAssignment>& assignments_;
   const std::vector<int>& joints_;
+  Eigen::MatrixXi verdicts_;  // assignments x frames
   ConversionResult result_;
 };
 
@@ -133,7 +147,7 @@ ConversionResult MotionConverter::Convert(const MarkerSequence& recording,
       throw Error(fmt::format("cancelled after {} of {} frames", k + 1, frames));
     }
   }
-  return std::move(writer.result());
+  return writer.Finish();
 }
 
 }  // namespace mmm_converter

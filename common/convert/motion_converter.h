@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/convert/converter_config.h"
+#include "common/convert/marker_incidents.h"
 #include "common/convert/marker_mapping.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
@@ -24,8 +25,11 @@ struct FrameEstimate {
   Posture posture;                      ///< joint_angles: all joints of the model, untracked ones 0
   Eigen::VectorXd standard_deviations;  ///< as PoseTrajectory, all joints; NaN where not tracked
   Eigen::VectorXd residuals;  ///< per assignment |p_measured - p_model| [m]; NaN: not seen
+  /// Per assignment, kAsLabelled or what is wrong with it; empty: the converter does not judge.
+  Eigen::VectorXi verdicts;
   int markers_seen = 0;
   int markers_downweighted = 0;  ///< seen, but far from where the model has them
+  int markers_wrong = 0;         ///< seen, but left out or taken for another
   double nis = 0;                ///< normalised innovation squared, over its degrees of freedom
   bool reassembled = false;      ///< the track was lost here and taken up anew
   bool converged = false;
@@ -34,6 +38,7 @@ struct FrameEstimate {
 struct FrameDiagnostic {
   int markers_seen = 0;
   int markers_downweighted = 0;
+  int markers_wrong = 0;
   double nis = 0;
   bool reassembled = false;
   bool converged = false;
@@ -47,6 +52,7 @@ struct ConversionResult {
   /// Factor on the variances of the process noise that the recording asked for, where the converter
   /// chose one.
   std::optional<double> noise_scale;
+  std::vector<MarkerIncident> incidents;  ///< by first frame
 };
 
 /// Tracks one person through one recording. Not thread-safe; use one for each recording.

@@ -28,8 +28,8 @@ struct MarkerJacobian {
   /// out: transposed d p_WM / d [root position (W) 3; root rotation (body) 3; tracked joints], dofs
   /// x (3 markers). Entries of joints that do not move a marker are 0.
   PaddedMatrix J_transposed;
-  std::vector<Eigen::Matrix3d> R_WL;  // scratch, a link each
-  std::vector<Eigen::Vector3d> p_WL;
+  std::vector<Eigen::Matrix3d> R_WL;  ///< out: orientation of each link
+  std::vector<Eigen::Vector3d> p_WL;  // scratch
 };
 
 /// What a tracker needs of a model: tracked joints, used markers, and the rigid links between them.
@@ -63,6 +63,8 @@ class MarkerKinematics {
 
   /// True where the tracked joint moves the marker.
   bool Moves(int joint, int marker) const { return moves_(joint, marker); }
+  /// The rigid link that carries the marker: the index of MarkerJacobian::R_WL.
+  int link_of_marker(int marker) const { return link_of_marker_[marker]; }
 
  private:
   std::vector<int> joints_;

@@ -18,7 +18,13 @@ void MeasurementMoments::ClearCovariance() {
 }
 
 GaussianUpdate::GaussianUpdate(int n, int m)
-    : mean_(n, 1), weights_(m, 1), innovation_(m, 1), factor_(n, n), scaled_(n, m) {}
+    : mean_(n, 1),
+      weights_(m, 1),
+      innovation_(m, 1),
+      factor_(n, n),
+      scaled_(n, m),
+      s_(n, 1),
+      three_(n, 3) {}
 
 void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& z,
                              const VectorXd& noise, UpdateForm form) {
@@ -65,6 +71,7 @@ void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const Vecto
   auto S = S_.view();
   auto innovation = innovation_.view().col(0);
   for (Eigen::Index i = 0; i < m; ++i) {
+    weights_.view()(i, 0) = std::isinf(noise[i]) ? 0 : 1;
     if (std::isinf(noise[i])) {
       // An unmeasured coordinate: independent of everything, with innovation 0.
       S.row(i).head(i).setZero();
@@ -97,6 +104,39 @@ void GaussianUpdate::Spread(const PaddedMatrix& L, PaddedMatrix* X) const {
   } else {
     Multiply(1, L, factor_, X);
   }
+}
+
+void GaussianUpdate::Expect(const MeasurementMoments& moments, const VectorXd& other,
+                            VectorXd* expected) {
+  auto innovation = innovation_.view().col(0);
+  for (Eigen::Index i = 0; i < other.size(); ++i) {
+    innovation[i] = weights_.view()(i, 0) == 0 ? 0 : other[i] - moments.mean[i];
+  }
+  s_.SetZero();
+  auto s = s_.view().col(0);
+  if (form_ == UpdateForm::kRegression) {
+    innovation.array() *= weights_.view().col(0).array();
+    s.noalias() = moments.C_sz.view() * innovation;
+    SolveLower(factor_, &s_);
+    SolveLowerTransposed(factor_, &s_);
+  } else {
+    SolveLower(S_, &innovation_);
+    s.noalias() = scaled_.view() * innovation;
+  }
+  *expected = moments.mean;
+  *expected += moments.C_sz.view().transpose().lazyProduct(s);
+}
+
+Eigen::Matrix3d GaussianUpdate::PosteriorCovariance(const PaddedMatrix& C_sz, int i) {
+  const auto C = C_sz.view().middleCols<3>(i);
+  auto V = three_.view();
+  if (form_ == UpdateForm::kRegression) {
+    V = C;
+    factor_.view().triangularView<Eigen::Lower>().solveInPlace(V);
+  } else {
+    V = factor_.view().transpose().lazyProduct(C);
+  }
+  return V.transpose().lazyProduct(V);
 }
 
 void GaussianUpdate::FromPosteriorSpace(PaddedMatrix* C_sz) {

@@ -46,6 +46,11 @@ class GaussianUpdate {
   /// Cov(s, z) of the linear model whose C_sz in the space of t, s = mean() + T t, is given.
   /// kRegression only.
   void FromPosteriorSpace(PaddedMatrix* C_sz);
+  /// E[h(x)] had `other` been measured instead of z, with the same noise; moments as in Compute.
+  void Expect(const MeasurementMoments& moments, const Eigen::VectorXd& other,
+              Eigen::VectorXd* expected);
+  /// Posterior covariance of h's coordinates i, i + 1, i + 2 in the linear model with this C_sz.
+  Eigen::Matrix3d PosteriorCovariance(const PaddedMatrix& C_sz, int i);
   /// Normalised innovation squared, (z - E z)^T (C_zz + R)^-1 (z - E z).
   double nis() const { return nis_; }
   /// Log of the probability density of z, without its constant term.
@@ -61,10 +66,12 @@ class GaussianUpdate {
   PaddedMatrix mean_;  // n x 1
   double nis_ = 0;
   double log_determinant_ = 0;  // of C_zz + R
-  PaddedMatrix weights_;        // m x 1
+  PaddedMatrix weights_;        // m x 1; 0: not measured
   PaddedMatrix innovation_;     // m x 1, scaled
   PaddedMatrix factor_;  // G with T = G^-T (regression) or T itself (exact), lower triangular
   PaddedMatrix scaled_;  // n x m, scratch
+  PaddedMatrix s_;       // n x 1, scratch
+  PaddedMatrix three_;   // n x 3, scratch
   PaddedMatrix S_;       // m x m, exact form
 };
 

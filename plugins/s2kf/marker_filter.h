@@ -41,6 +41,16 @@ class MarkerFilter {
   /// z: 3 x markers [m], NaN = not seen; such a marker is left out.
   Outcome Update(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief);
 
+  /// Where the last Update would have expected the markers, had these been measured, 3 x markers.
+  void Expect(const Eigen::VectorXd& measured, Eigen::VectorXd* expected) {
+    update_.Expect(moments_, measured, expected);
+  }
+  /// Covariance of the expected place of a marker [m^2], by what the last Update of a seen marker
+  /// left open.
+  Eigen::Matrix3d ExpectedCovariance(int marker) {
+    return update_.PosteriorCovariance(moments_.C_sz, 3 * marker);
+  }
+
   void ToPosture(const Belief& belief, Posture* posture) const;
   /// Standard deviations of [root position; root rotation; joint angles], num_dofs.
   void Deviations(const Belief& belief, Eigen::VectorXd* deviations) const;

@@ -37,6 +37,14 @@ constexpr double kClearlyBetter = 0.1;
 // Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
 constexpr int kFitIterations = 12;
 
+// So many markers left out may be right together, and do so where a posture exists at which their
+// mean squared distance is no more than this many times the others'.
+constexpr int kManyLeftOut = 2;
+constexpr double kAsWell = 4;
+
+// Of a frame, until no more markers are left out.
+constexpr int kGatePasses = 4;
+
 std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
   std::vector<int> markers;
   markers.reserve(assignments.size());
@@ -60,8 +68,10 @@ S2kfConverter::S2kfConverter(const KinematicModel& model,
       assignments_(assignments),
       noise_scale_(NoiseScales(assignments)),
       filter_(kinematics_, settings, noise_scale_),
+      gate_(kinematics_, settings.gate_probability),
       search_(kinematics_),
       at_(kinematics_.MakeJacobian()),
+      measured_(3, kinematics_.num_markers()),
       z_(3, kinematics_.num_markers()) {
   track_.hidden_for.assign(assignments.size(), 0.0);
   fit_options_.max_iterations = kFitIterations;
@@ -72,30 +82,70 @@ S2kfConverter::S2kfConverter(const KinematicModel& model,
   estimate_.posture.joint_angles.setZero(model.num_joints());
   estimate_.standard_deviations.setConstant(6 + model.num_joints(), kNaN);
   estimate_.residuals.setConstant(kinematics_.num_markers(), kNaN);
+  estimate_.verdicts.setConstant(kinematics_.num_markers(), kAsLabelled);
 }
 
 int S2kfConverter::Gather(const Ref<const Matrix3Xd>& frame) {
   int seen = 0;
   for (std::size_t i = 0; i < assignments_.size(); ++i) {
-    z_.col(i) = frame.col(assignments_[i].label);
-    if (z_.col(i).allFinite()) {
+    measured_.col(i) = frame.col(assignments_[i].label);
+    if (measured_.col(i).allFinite()) {
       ++seen;
     } else {
-      z_.col(i).setConstant(kNaN);
+      measured_.col(i).setConstant(kNaN);
     }
   }
   return seen;
 }
 
-double S2kfConverter::ClippedDistance() {
-  filter_.ToPosture(track_.belief, &posture_);
+void S2kfConverter::Place(const Belief& belief) {
+  filter_.ToPosture(belief, &posture_);
   kinematics_.ComputeMarkers(posture_.position, posture_.orientation.toRotationMatrix(),
                              posture_.joint_angles, &at_);
+}
+
+MarkerFilter::Outcome S2kfConverter::UpdateBySelected() {
+  gate_.Select(measured_, &z_);
+  track_.belief = prior_;
+  const MarkerFilter::Outcome outcome = filter_.Update(z_, &track_.belief);
+  Place(track_.belief);
+  return outcome;
+}
+
+MarkerFilter::Outcome S2kfConverter::Update() {
+  prior_ = track_.belief;
+  MarkerFilter::Outcome outcome = UpdateBySelected();
+  if (settings_.gate_probability <= 0 || outcome.seen == 0) return outcome;
+  if (gate_.is_any_wrong() || gate_.IsSuspicious(z_, at_)) Judge(&outcome);
+  gate_.Learn(z_, at_);
+  return outcome;
+}
+
+void S2kfConverter::Judge(MarkerFilter::Outcome* outcome) {
+  Place(prior_);
+  if (gate_.ExchangeByPrior(measured_, at_)) {
+    *outcome = UpdateBySelected();
+  } else {
+    Place(track_.belief);
+  }
+  gate_.Expect(z_, at_, &filter_);
+  for (int i = 0; i < kGatePasses && gate_.LeaveOutWorst(z_); ++i) {
+    *outcome = UpdateBySelected();
+    gate_.Expect(z_, at_, &filter_);
+  }
+  if (gate_.is_any_wrong() && gate_.Settle(measured_, &filter_)) {
+    *outcome = UpdateBySelected();
+    gate_.Expect(z_, at_, &filter_);
+  }
+  gate_.MoveOffsets(at_);
+}
+
+double S2kfConverter::ClippedDistance() {
   double sum = 0;
   int seen = 0;
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    estimate_.residuals[m] = (measured_.col(m) - at_.p_WM.col(m)).norm();
     const double distance = (z_.col(m) - at_.p_WM.col(m)).norm();
-    estimate_.residuals[m] = distance;
     if (!std::isfinite(distance)) continue;
     sum += std::min(distance, fit_options_.robust_distance);
     ++seen;
@@ -110,13 +160,14 @@ const FrameEstimate& S2kfConverter::Assemble(const Ref<const Matrix3Xd>& frame) 
                 " of the mapped markers are seen in the first frame; at least 3 are needed");
   }
   std::fill(track_.hidden_for.begin(), track_.hidden_for.end(), 0.0);
+  gate_.Reset();
   if (settings_.start == StartMethod::kPaper) {
-    filter_.StartAsPaper(z_, &track_.belief);
+    filter_.StartAsPaper(measured_, &track_.belief);
   } else {
-    search_.Assemble(z_, noise_scale_, fit_options_, settings_.start_attempts, &posture_);
+    search_.Assemble(measured_, noise_scale_, fit_options_, settings_.start_attempts, &posture_);
     filter_.StartAt(posture_, &track_.belief);
   }
-  const MarkerFilter::Outcome outcome = filter_.Update(z_, &track_.belief);
+  const MarkerFilter::Outcome outcome = Update();
   track_.usual_distance = ClippedDistance();
   track_.doubt = kDoubtFrames;
   track_.far = false;
@@ -155,16 +206,35 @@ bool S2kfConverter::Recover() {
   return true;
 }
 
+bool S2kfConverter::Reopen() {
+  const int left_out = gate_.CountLeftOut(measured_);
+  if (!settings_.recovery || left_out < kManyLeftOut) return false;
+  PostureFit& fit = search_.fit();
+  candidate_ = posture_;
+  fit.Solve(measured_, noise_scale_, fit_options_, &candidate_);
+  const double all = fit.Evaluate(measured_, noise_scale_, fit_options_, candidate_).cost;
+  const double used = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_).cost;
+  int num_used = 0;
+  for (int m = 0; m < kinematics_.num_markers(); ++m) num_used += z_.col(m).allFinite();
+  if ((all - used) * num_used > kAsWell * used * left_out) return false;
+  filter_.StartAt(candidate_, &track_.belief);
+  gate_.Open();
+  return true;
+}
+
 const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, double dt) {
   const int seen = Gather(frame);
   filter_.Predict(dt, &track_.belief);
-  MarkerFilter::Outcome outcome = filter_.Update(z_, &track_.belief);
+  gate_.Advance(dt);
+  MarkerFilter::Outcome outcome = Update();
+  bool reassembled = Reopen();
+  if (reassembled) outcome = Update();
   const double distance = ClippedDistance();
-  bool reassembled = false;
-  if (settings_.recovery && seen >= 3 && IsInDoubt(distance, dt)) {
+  if (settings_.recovery && seen >= 3 && IsInDoubt(distance, dt) && !reassembled) {
     reassembled = Recover();
     if (reassembled) {
-      outcome = filter_.Update(z_, &track_.belief);
+      gate_.Loosen();
+      outcome = Update();
       track_.far = false;
       track_.usual_distance = std::min(track_.usual_distance, ClippedDistance());
     }
@@ -185,6 +255,15 @@ void S2kfConverter::FillEstimate(const MarkerFilter::Outcome& outcome, bool reas
   }
   estimate_.markers_seen = outcome.seen;
   estimate_.markers_downweighted = outcome.downweighted;
+  estimate_.verdicts = gate_.verdicts();
+  estimate_.markers_wrong = 0;
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (measured_.col(m).allFinite()) {
+      estimate_.markers_wrong += estimate_.verdicts[m] != kAsLabelled;
+    } else {
+      estimate_.verdicts[m] = kAsLabelled;
+    }
+  }
   estimate_.nis = outcome.nis;
   estimate_.reassembled = reassembled;
   estimate_.converged = outcome.seen > 0 && !track_.far;

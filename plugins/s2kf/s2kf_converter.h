@@ -11,6 +11,7 @@
 #include "common/fit/posture_search.h"
 #include "common/model/marker_kinematics.h"
 #include "plugins/s2kf/marker_filter.h"
+#include "plugins/s2kf/marker_gate.h"
 #include "plugins/s2kf/s2kf_settings.h"
 
 namespace mmm_converter::s2kf {
@@ -43,6 +44,7 @@ class S2kfConverter : public MotionConverter {
     bool far = false;                // distances are well above their usual level
     int doubt = 0;                   // frames for which the track stays in doubt
     std::mt19937 random;             // of the search
+    MarkerGate::State gate;
   };
 
   /// What smoothing needs of a track: its state at evenly spaced frames, from which the filter can
@@ -67,13 +69,23 @@ class S2kfConverter : public MotionConverter {
               ConversionResult* result);
   void WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
                      ConversionResult* result);
-  /// Takes the assigned markers out of a frame into z_; returns how many are seen.
+  /// Takes the assigned markers out of a frame into measured_; returns how many are seen.
   int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
+  /// Updates the belief by the markers that pass the gate, which are then z_.
+  MarkerFilter::Outcome Update();
+  MarkerFilter::Outcome UpdateBySelected();
+  /// Finds what is wrong in a suspicious frame, and updates without it.
+  void Judge(MarkerFilter::Outcome* outcome);
+  /// Puts a belief's posture into posture_ and at_.
+  void Place(const Belief& belief);
   /// Mean distance between z_ and the belief's markers, each counted up to the robust distance [m].
   double ClippedDistance();
   bool IsInDoubt(double distance, double dt);
   /// Looks for a better posture; true where the filter was set onto one.
   bool Recover();
+  /// Where many markers are left out: true where a posture explains them as well as the others, and
+  /// the filter was set onto it.
+  bool Reopen();
   void FillEstimate(const MarkerFilter::Outcome& outcome, bool reassembled);
 
   S2kfSettings settings_;
@@ -81,14 +93,17 @@ class S2kfConverter : public MotionConverter {
   std::vector<MarkerAssignment> assignments_;
   Eigen::VectorXd noise_scale_;
   MarkerFilter filter_;
+  MarkerGate gate_;
   PostureSearch search_;
   PostureFitOptions fit_options_;
   MarkerJacobian at_;
 
   TrackState track_;
-  Eigen::Matrix3Xd z_;
-  Posture posture_;    // tracked joints
-  Posture candidate_;  // tracked joints
+  Belief prior_;               // of this frame
+  Eigen::Matrix3Xd measured_;  // by label
+  Eigen::Matrix3Xd z_;         // what is tracked
+  Posture posture_;            // tracked joints
+  Posture candidate_;          // tracked joints
   Eigen::VectorXd deviations_;
   FrameEstimate estimate_;
 };

@@ -81,6 +81,9 @@ SettingTable BindSettings(S2kfSettings* v) {
   table.Add("Noise", "robustDistance_mm", &v->robust_distance, kMillimetre, 0, 1e6,
             "a marker that is farther from where it is expected counts less, in proportion "
             "(Huber); 0: all count in full");
+  table.Add("Noise", "gateProbability", &v->gate_probability, 1, 0, 0.1,
+            "a marker is left out, or exchanged with another, where a right one would be as far "
+            "from its place with less than this probability in a frame (chi-square); 0: none is");
   table.AddElement("Start", "The first posture, and the way back when the track is lost.");
   table.AddChoice("Start", "method", &v->start,
                   {{"fit", StartMethod::kFit}, {"paper", StartMethod::kPaper}},

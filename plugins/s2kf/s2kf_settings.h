@@ -42,6 +42,7 @@ struct S2kfSettings {
 
   double marker_deviation = 0.005;
   double robust_distance = 0.1;
+  double gate_probability = 1e-6;
 
   StartMethod start = StartMethod::kFit;
   int start_attempts = 4;

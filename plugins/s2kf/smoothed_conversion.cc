@@ -67,6 +67,7 @@ void S2kfConverter::KeepCheckpoint(int k, Checkpoints* checkpoints) {
   const std::size_t i = since / settings_.smoothing_chunk;
   checkpoints->states.resize(std::max(checkpoints->states.size(), i + 1));
   track_.random = search_.random();
+  track_.gate = gate_.state();
   checkpoints->states[i] = track_;
 }
 
@@ -87,9 +88,11 @@ void S2kfConverter::FindRetakes(const MarkerSequence& recording, const Conversio
     if (!result.frames[k].reassembled) continue;
     filter_.StartAt(result.trajectory.postures[k], &track_.belief);
     Gather(recording.frame(k));
+    z_ = measured_;
     filter_.Update(z_, &track_.belief);
     while (k > checkpoints->first) {
       if (Gather(recording.frame(k - 1)) == 0) break;
+      z_ = measured_;
       // The motion model is the same backwards.
       filter_.Predict(dt, &track_.belief);
       filter_.Update(z_, &track_.belief);
@@ -119,12 +122,14 @@ void S2kfConverter::TrackFromRetakes(const MarkerSequence& recording, Checkpoint
 void S2kfConverter::Restore(const Checkpoints& checkpoints, int chunk) {
   track_ = checkpoints.states[chunk];
   search_.random() = track_.random;
+  gate_.set_state(track_.gate);
 }
 
 void S2kfConverter::Retake(const MarkerSequence& recording, int k, const Checkpoints& checkpoints) {
   const auto found = checkpoints.retakes.find(k);
   if (found == checkpoints.retakes.end()) return;
   Gather(recording.frame(k));
+  z_ = measured_;
   filter_.StartAt(found->second, &track_.belief);
   filter_.Update(z_, &track_.belief);
 }
@@ -178,7 +183,7 @@ void S2kfConverter::WriteSmoothed(const MarkerSequence& recording, int k, const 
   result->trajectory.standard_deviations.col(k) = deviations_;
   kinematics_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                              posture.joint_angles, &at_);
-  result->residuals.col(k) = (z_ - at_.p_WM).colwise().norm().transpose();
+  result->residuals.col(k) = (measured_ - at_.p_WM).colwise().norm().transpose();
 }
 
 }  // namespace mmm_converter::s2kf

@@ -7,7 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "common/io/c3d_writer.h"
 #include "common/io/mmm_motion.h"
+#include "common/io/recording.h"
+#include "common/motion/occlusion.h"
 #include "tests/cli/program.h"
 
 namespace mmm_converter {
@@ -86,6 +89,24 @@ TEST(S2kf, TheConfigurationSaysTheFormatAndTheCommandLineComesFirst) {
   RunProgram({"convert", Handstand(), "--height", "1.8", "--frames", ":5", "-c", config, "-o",
               motion, "--format", "2.0"});
   EXPECT_EQ(ReadMmmMotionFile(motion).version, "2.0");
+}
+
+TEST(S2kf, NamesSwappedMarkersAndWhen) {
+  MarkerSequence markers = ReadRecording(Handstand(), {}).markers.Slice(0, 250);
+  const std::string file = TestFolder() + "/swapped.c3d";
+  WriteC3d(file, SwapMarkers(markers, "RWTS", "LWTS", 100, 200));
+  const std::string summary = TestFolder() + "/swapped.json";
+  const auto run = RunProgram({"convert", file, "--height", "1.8", "--frames", "50:", "-o",
+                               TestFolder() + "/o.xml", "--summary", summary});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("LWTS and RWTS swapped, frames 100 to 199 (1.00 to 1.99 s)"));
+  const auto json = nlohmann::json::parse(ReadText(summary));
+  ASSERT_EQ(json["wrong_markers"].size(), 1u);
+  const auto& incident = json["wrong_markers"][0];
+  EXPECT_EQ(incident["kind"], "swapped");
+  EXPECT_EQ(incident["labels"], (std::vector<std::string>{"LWTS", "RWTS"}));
+  EXPECT_EQ(incident["first_frame"], 100);
+  EXPECT_EQ(incident["last_frame"], 199);
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ class Track {
     this.warnings = json.warnings;
     this.ignored = json.ignored;
     this.absent = json.absent;
+    this.incidents = json.incidents || [];
     if (this.failure) return;
     this.motion = new Motion(json.motion);
     for (const name of ["distances", "mean", "p05", "p95", "max", "seconds", "nis", "nis_low", "nis_high"]) {

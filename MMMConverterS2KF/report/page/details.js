@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Configurations, warnings and failures of the part that is shown.
 
+// Labels that were wrong for a while.
+function describeIncident(incident, trial) {
+  const time = (frame) => formatNumber(trial.time(frame), 2);
+  return `${incident.labels.join(" and ")} ${incident.kind} in frames ${incident.first} to ${incident.last} ` +
+    `(${time(incident.first)} to ${time(incident.last)} s)`;
+}
+
 function makeNotes(section) {
   const items = [];
   const add = (about, text) => items.push(element("li", {}, element("strong", {}, about + ": "), text));
@@ -18,6 +25,7 @@ function makeNotes(section) {
       const texts = track.warnings.slice();
       if (track.ignored.length) texts.push(`labels that stand for no marker: ${track.ignored.join(", ")}`);
       if (track.absent.length) texts.push(`markers that the recording does not have: ${track.absent.join(", ")}`);
+      for (const one of track.incidents) texts.push(describeIncident(one, trial));
       for (const text of texts) {
         if (!seen.has(text)) add(about, text);
         seen.add(text);

@@ -219,6 +219,24 @@ TEST(MmmMotionWriterText, LayoutOf10) {
   EXPECT_THROW(Join(FormatMmmMotion1(output)), Error);
 }
 
+TEST(MmmMotionWriterText, CommentStandsInTheModel) {
+  const PoseTrajectory trajectory = Tumbling(100, 0);
+  MmmMotionOutput output = Output(trajectory, nullptr);
+  const auto text = [&](bool is_legacy) {
+    return Join(is_legacy ? FormatMmmMotion1(output) : FormatMmmMotion2(output));
+  };
+  const std::string plain[] = {text(false), text(true)};
+  output.comment = "said -- of </Model>";
+  for (const bool is_legacy : {false, true}) {
+    std::string commented = text(is_legacy);
+    const std::string comment = "\t\t\t<!-- said - - of &lt;/Model&gt; -->\n";
+    const std::size_t place = commented.find(comment);
+    ASSERT_NE(place, std::string::npos);
+    EXPECT_LT(place, commented.find("</Model>"));
+    EXPECT_EQ(commented.erase(place, comment.size()), plain[is_legacy ? 1 : 0]);
+  }
+}
+
 TEST(MmmMotionWriterText, NotFinitePosturesAreErrors) {
   PoseTrajectory trajectory = Tumbling(100, 0);
   trajectory.postures[3].joint_angles[1] = std::numeric_limits<double>::quiet_NaN();

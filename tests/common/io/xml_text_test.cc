@@ -76,6 +76,16 @@ TEST(XmlText, DecimalsAreThoseOfThePlainWay) {
   }
 }
 
+TEST(XmlText, CommentsEndWhereTheyShould) {
+  EXPECT_EQ(FormatXmlComment("a-b"), "<!-- a-b -->");
+  for (const std::string text : {"--", "a--b", "-->", "--->", "-", "", "\x01 \xFF <x/>"}) {
+    const XmlElement root = ParseXml("<r>" + FormatXmlComment(text) + "<c/></r>", text);
+    EXPECT_EQ(root.children.size(), 1u) << text;
+    EXPECT_EQ(FormatXmlComment(text).substr(4).find("--"), FormatXmlComment(text).size() - 7)
+        << text;  // none but the end's
+  }
+}
+
 TEST(XmlText, EscapedTextComesBack) {
   const std::string name = "a<b>&\"c' \xC3\xA4";
   EXPECT_EQ(*ParseXml("<a n='" + EscapeXml(name) + "'/>", "x").FindAttribute("n"), name);

@@ -11,6 +11,7 @@
 namespace mmm_converter {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -67,6 +68,13 @@ TEST(WinterScaling, HandLengthScalesWhatIsBelowTheWrist) {
   }
   EXPECT_NEAR(scaled.markers()[0].p_SM.y(), 0.032, kRounding);
   EXPECT_NEAR(scaled.markers()[1].p_SM.y(), 0.03 * hand, kRounding);
+}
+
+TEST(WinterScaling, LengthsAreSaidForEachSegment) {
+  EXPECT_THAT(WinterLengths(Arm(), {1.6, 50, std::nullopt}),
+              ElementsAre(1.6, 1.6, 1.6, 1.6, 1.6, 1.6));
+  const double hand = 0.2 / kWinterHandLength;
+  EXPECT_THAT(WinterLengths(Arm(), {1.6, 50, 0.2}), ElementsAre(1.6, 1.6, 1.6, hand, hand, 1.6));
 }
 
 TEST(WinterScaling, WintersOwnHandLengthChangesNothing) {

@@ -53,10 +53,12 @@ class AllocationTest : public ::testing::TestWithParam<FilterType> {};
 TEST_P(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
   const KinematicModel model = PersonModel(1.8);
   const PoseTrajectory motion = MakeHandstand(model);
-  // With gaps and a lost track, so that recovery is counted too.
+  // With gaps, a lost track and wrong markers, so that recovery and the gate are counted too.
   MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 250);
   markers = OccludeShare(markers, 0.33, 30, 1);
   markers = HideAllMarkers(markers, 100, 150);
+  markers = SwapMarkers(markers, "RWTS", "LWTS", 60, 90);
+  for (int k = 180; k < 210; ++k) markers.frame(k).leftCols(5).array() += 0.3;
   for (const UpdateForm update : {UpdateForm::kRegression, UpdateForm::kExact}) {
     S2kfSettings settings;
     settings.filter = GetParam();

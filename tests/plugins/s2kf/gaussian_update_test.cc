@@ -122,6 +122,23 @@ TEST_P(GaussianUpdateTest, NumbersThatAreNotFiniteAreForgotten) {
   EXPECT_EQ(Spread(update, problem.L), Spread(fresh, problem.L));
 }
 
+TEST_P(GaussianUpdateTest, ExpectsWhatAnotherMeasurementWouldHaveGiven) {
+  LinearProblem problem(5, 8);
+  GaussianUpdate update(5, 8);
+  MeasurementMoments moments = problem.Moments();
+  update.Compute(moments, problem.z, problem.noise, GetParam());
+  problem.z = VectorXd::LinSpaced(8, -2, 2);
+  VectorXd x;
+  MatrixXd P;
+  double nis = 0;
+  problem.Textbook(&x, &P, &nis);
+  VectorXd expected;
+  update.Expect(moments, problem.z, &expected);
+  EXPECT_LT((expected - problem.H * x).norm(), kRounding);
+  const MatrixXd covariance = (problem.H * P * problem.H.transpose()).block(3, 3, 3, 3);
+  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3) - covariance).norm(), kRounding);
+}
+
 TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {
   const LinearProblem problem(5, 8);
   MeasurementMoments moments = problem.Moments();

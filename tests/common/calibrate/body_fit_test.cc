@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "common/calibrate/body_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "common/calibrate/frame_equations.h"
+#include "tests/support/synthetic_person.h"
+#include "tests/support/test_models.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<int> AllMarkers(const KinematicModel& model) {
+  std::vector<int> markers(model.markers().size());
+  for (std::size_t m = 0; m < markers.size(); ++m) markers[m] = static_cast<int>(m);
+  return markers;
+}
+
+TEST(FrameEquations, GradientIsThatOfTheCost) {
+  const KinematicModel model = testing::ScaledReferenceModel(1.7);
+  BodyKinematics kinematics(model, testing::TrackedJoints(model), AllMarkers(model));
+  std::mt19937 random(2);
+  const Posture posture = testing::RandomPosture(kinematics.kinematics(), 0.8, &random);
+  BodyJacobian at = kinematics.MakeJacobian();
+  kinematics.Compute(posture, &at);
+  Eigen::Matrix3Xd z = at.posture.p_WM;
+  for (double& coordinate : z.reshaped()) coordinate += 0.01 * (random() % 100) / 50 - 0.01;
+  z.col(3).setConstant(kNaN);
+  FrameEquations equations(kinematics, z, Eigen::VectorXd::Constant(z.cols(), 0.005));
+
+  BodyEquations body(kinematics);
+  equations.Cost(kinematics, posture);
+  equations.Linearize(kinematics, posture, &body);
+  // By a scale and an offset; of the cost, the gradient is -2 g. Differences over 1e-6 of costs of
+  // some 1e2 are good to 1e-4 of slopes of some 1e4.
+  constexpr double kStep = 1e-6;
+  const auto cost_at = [&](const Body& moved) {
+    kinematics.SetBody(moved);
+    return equations.Cost(kinematics, posture);
+  };
+  const Eigen::Index first_scale = 3 * z.cols();
+  for (Eigen::Index i = 0; i < kinematics.ModelBody().scales.size(); ++i) {
+    Body more = kinematics.ModelBody();
+    Body less = more;
+    more.scales[i] += kStep;
+    less.scales[i] -= kStep;
+    const double slope = (cost_at(more) - cost_at(less)) / (2 * kStep);
+    EXPECT_NEAR(slope, -2 * body.g[first_scale + i], 1e-4 * (1 + std::abs(slope))) << i;
+  }
+  for (Eigen::Index m = 0; m < z.cols(); ++m) {
+    Body more = kinematics.ModelBody();
+    Body less = more;
+    more.offsets(1, m) += kStep;
+    less.offsets(1, m) -= kStep;
+    const double slope = (cost_at(more) - cost_at(less)) / (2 * kStep);
+    EXPECT_NEAR(slope, -2 * body.g[3 * m + 1], 1e-4 * (1 + std::abs(slope))) << m;
+  }
+  EXPECT_EQ(body.g.segment<3>(9).norm(), 0) << "a marker that is not seen says nothing";
+}
+
+/// Frames of a range-of-motion trial, with the postures that the model finds in them.
+std::vector<CalibrationFrame> Frames(const KinematicModel& model, const KinematicModel& person,
+                                     int count) {
+  const PoseTrajectory motion = testing::RangeOfMotion(model, 0.1 * count, 0.7, 3);
+  const MarkerSequence recording = testing::RecordPerson(person, motion, 3);
+  const std::vector<CalibrationRecording> recordings = {
+      {"trial", &recording, testing::AssignAll(model, recording)}};
+  std::vector<CalibrationFrame> frames = CandidateFrames(recordings, AllMarkers(model), 10);
+  FitPostures(model, testing::TrackedJoints(model), AllMarkers(model), &frames);
+  return frames;
+}
+
+TEST(FitBody, IsAMinimumWithJointsInsideTheirLimits) {
+  const KinematicModel model = testing::ScaledReferenceModel(1.7);
+  const KinematicModel person = FitToSubject(model, testing::DrawPerson(model, 5));
+  std::vector<CalibrationFrame> frames = Frames(model, person, 30);
+  BodyKinematics kinematics(model, testing::TrackedJoints(model), AllMarkers(model));
+  Body body = kinematics.ModelBody();
+  const Eigen::VectorXd ones =
+      Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model.markers().size()));
+  const BodyFitResult fit = FitBody(&kinematics, {}, ones, &frames, &body);
+  EXPECT_TRUE(fit.converged);
+  const MarkerKinematics& limits = kinematics.kinematics();
+  for (const CalibrationFrame& frame : frames) {
+    EXPECT_TRUE((frame.posture.joint_angles.array() >= limits.lower().array()).all());
+    EXPECT_TRUE((frame.posture.joint_angles.array() <= limits.upper().array()).all());
+  }
+  // Started where it ended it gains no more than what it stops at.
+  const BodyFitResult again = FitBody(&kinematics, {}, ones, &frames, &body);
+  EXPECT_LE(again.cost, fit.cost);
+  EXPECT_LT(fit.cost - again.cost, 0.5) << "half a unit of -2 log p: the data can't tell";
+}
+
+TEST(FitBody, DeviationsFallWithFramesAndNeverExceedThePrior) {
+  const KinematicModel model = testing::ScaledReferenceModel(1.7);
+  const KinematicModel person = FitToSubject(model, testing::DrawPerson(model, 5));
+  const Eigen::VectorXd ones =
+      Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model.markers().size()));
+  const auto fit_of = [&](int count) {
+    std::vector<CalibrationFrame> frames = Frames(model, person, count);
+    BodyKinematics kinematics(model, testing::TrackedJoints(model), AllMarkers(model));
+    Body body = kinematics.ModelBody();
+    return FitBody(&kinematics, {}, ones, &frames, &body);
+  };
+  const BodyFitResult few = fit_of(20);
+  const BodyFitResult many = fit_of(80);
+  EXPECT_LT(many.deviations.scales.mean(), few.deviations.scales.mean());
+  EXPECT_LT(many.deviations.offsets.mean(), few.deviations.offsets.mean());
+  EXPECT_TRUE((few.deviations.scales.array() <= few.prior_scale_deviations.array()).all());
+}
+
+}  // namespace
+}  // namespace mmm_converter
