@@ -67,6 +67,10 @@ class S2kfConverter : public MotionConverter {
   void TrackAgain(const MarkerSequence& recording, int k, const Checkpoints& checkpoints);
   void Smooth(const MarkerSequence& recording, const Checkpoints& checkpoints,
               ConversionResult* result);
+  /// Whether a smoothed posture is about as near to the gathered markers as the filter's.
+  bool IsAsNear(const Belief& smoothed, const Belief& filtered);
+  /// Mean distance of the gathered markers, each counted up to the robust distance [m].
+  double MeasuredDistance(const Belief& belief);
   void WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
                      ConversionResult* result);
   /// Takes the assigned markers out of a frame into measured_; returns how many are seen.

@@ -25,6 +25,12 @@ using Clock = std::chrono::steady_clock;
 constexpr double kNoFarther = 1.02;
 constexpr double kSameAngle = 0.02;
 
+// The pass backwards is linear about the filter's track. Where that does not hold, its postures
+// leave the markers, and it starts anew from the filter's: farther than so many times its distance
+// and this [m].
+constexpr double kMuchFarther = 1.5;
+constexpr double kMuchFartherDistance = 0.01;
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -164,6 +170,8 @@ void S2kfConverter::Smooth(const MarkerSequence& recording, const Checkpoints& c
         smoother.Start(filtered[k - begin]);
       } else {
         smoother.StepBack(filtered[k - begin], 1 / recording.rate());
+        Gather(recording.frame(k));
+        if (!IsAsNear(smoother.belief(), filtered[k - begin])) smoother.Start(filtered[k - begin]);
       }
       WriteSmoothed(recording, k, smoother.belief(), result);
       result->frames[k].seconds += SecondsSince(start);
@@ -172,6 +180,26 @@ void S2kfConverter::Smooth(const MarkerSequence& recording, const Checkpoints& c
   for (int k = 0; k < checkpoints.first; ++k) {
     WriteSmoothed(recording, k, smoother.belief(), result);
   }
+}
+
+bool S2kfConverter::IsAsNear(const Belief& smoothed, const Belief& filtered) {
+  const double limit = kMuchFarther * MeasuredDistance(filtered) + kMuchFartherDistance;
+  return MeasuredDistance(smoothed) <= limit;  // false for NaN
+}
+
+double S2kfConverter::MeasuredDistance(const Belief& belief) {
+  filter_.ToPosture(belief, &posture_);
+  kinematics_.ComputeMarkers(posture_.position, posture_.orientation.toRotationMatrix(),
+                             posture_.joint_angles, &at_);
+  double sum = 0;
+  int seen = 0;
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (!IsSeen(measured_.col(m))) continue;
+    const double distance = (measured_.col(m) - at_.p_WM.col(m)).norm();
+    sum += distance <= fit_options_.robust_distance ? distance : fit_options_.robust_distance;
+    ++seen;
+  }
+  return sum / std::max(seen, 1);
 }
 
 void S2kfConverter::WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
