@@ -27,9 +27,9 @@ constexpr int kSettled = 60;  // frames; the first ones look for better postures
 /// The handstand of the examples, with as many joints and markers as asked for.
 struct Task {
   Task(int num_joints, int num_markers)
-      : model(PersonModel(1.8)), joints(Joints(model, num_joints)) {
+      : model(ScaledReferenceModel(1.8)), joints(Joints(model, num_joints)) {
     markers = SynthesizeMarkers(model, MakeHandstand(model), MarkerErrors{}, 1);
-    assignments = AssignByName(model, markers);
+    assignments = AssignAll(model, markers);
     assignments.resize(std::min<std::size_t>(num_markers, assignments.size()));
     std::vector<int> indices;
     for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);

@@ -49,7 +49,7 @@ namespace mmm_converter::jacobian {
 namespace {
 
 TEST(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
-  const KinematicModel model = s2kf::PersonModel(1.8);
+  const KinematicModel model = s2kf::ScaledReferenceModel(1.8);
   const PoseTrajectory motion = MakeHandstand(model);
   MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 150);
   markers = OccludeShare(markers, 0.33, 30, 1);
@@ -61,7 +61,7 @@ TEST(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
   int which = 0;
   for (const JacobianSettings& settings : {JacobianSettings(), pull, gradient}) {
     SCOPED_TRACE(which++);
-    JacobianConverter converter(model, s2kf::AssignByName(model, markers),
+    JacobianConverter converter(model, s2kf::AssignAll(model, markers),
                                 s2kf::MotionJoints(model, 44), settings);
     converter.Assemble(markers.frame(0));
     converter.Track(markers.frame(1), 0.01);

@@ -34,7 +34,7 @@ class JacobianConverterTest : public ::testing::Test {
   }
 
   ConversionResult Convert(const MarkerSequence& markers, const JacobianSettings& settings) const {
-    const auto assignments = s2kf::AssignByName(model_, markers);
+    const auto assignments = s2kf::AssignAll(model_, markers);
     JacobianConverter converter(model_, assignments, joints_, settings);
     return converter.Convert(markers, model_, assignments, nullptr);
   }
@@ -89,7 +89,7 @@ class JacobianConverterTest : public ::testing::Test {
     return slow;
   }
 
-  const KinematicModel model_ = s2kf::PersonModel(1.8);
+  const KinematicModel model_ = s2kf::ScaledReferenceModel(1.8);
   const std::vector<int> joints_ = s2kf::MotionJoints(model_, 44);
   PoseTrajectory motion_;
 };
@@ -106,7 +106,7 @@ TEST_F(JacobianConverterTest, MarkersWithoutErrorAreMetExactly) {
 TEST_F(JacobianConverterTest, LeastSquaresIsTheOptimumAndTheFilterIsNotBelow) {
   const MarkerSequence markers = MakeMarkers({});
   const ConversionResult fit = Convert(markers, {});
-  const auto assignments = s2kf::AssignByName(model_, markers);
+  const auto assignments = s2kf::AssignAll(model_, markers);
   s2kf::S2kfConverter converter(model_, assignments, joints_, {});
   const ConversionResult filter = converter.Convert(markers, model_, assignments, nullptr);
   std::vector<int> indices(markers.num_labels());
@@ -249,7 +249,7 @@ TEST_F(JacobianConverterTest, KnowsNoUncertainty) {
 TEST_F(JacobianConverterTest, TwoMarkersAreTooFewToStart) {
   MarkerSequence markers = MakeMarkers({}).Slice(0, 1);
   markers.frame(0).rightCols(markers.num_labels() - 2).setConstant(std::nan(""));
-  JacobianConverter converter(model_, s2kf::AssignByName(model_, markers), joints_, {});
+  JacobianConverter converter(model_, s2kf::AssignAll(model_, markers), joints_, {});
   EXPECT_THROW(converter.Assemble(markers.frame(0)), Error);
 }
 

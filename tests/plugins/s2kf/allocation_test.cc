@@ -51,7 +51,7 @@ namespace {
 class AllocationTest : public ::testing::TestWithParam<FilterType> {};
 
 TEST_P(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
-  const KinematicModel model = PersonModel(1.8);
+  const KinematicModel model = ScaledReferenceModel(1.8);
   const PoseTrajectory motion = MakeHandstand(model);
   // With gaps, a lost track and wrong markers, so that recovery and the gate are counted too.
   MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 250);
@@ -64,7 +64,7 @@ TEST_P(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
     settings.filter = GetParam();
     settings.update = update;
     settings.iterations = update == UpdateForm::kExact ? 1 : 3;
-    S2kfConverter converter(model, AssignByName(model, markers), MotionJoints(model, 44), settings);
+    S2kfConverter converter(model, AssignAll(model, markers), MotionJoints(model, 44), settings);
     converter.Assemble(markers.frame(0));
     converter.Track(markers.frame(1), 0.01);
     const long before = allocations;

@@ -53,10 +53,10 @@ void PlainUpdate(const MarkerKinematics& kinematics, const S2kfSettings& setting
 class PlainFilterTest : public ::testing::TestWithParam<UpdateForm> {};
 
 TEST_P(PlainFilterTest, TheFastFilterIsTheSame) {
-  const KinematicModel model = PersonModel(1.8);
+  const KinematicModel model = ScaledReferenceModel(1.8);
   const MarkerSequence markers =
       SynthesizeMarkers(model, MakeHandstand(model), MarkerErrors{}, 1).Slice(200, 230);
-  const std::vector<MarkerAssignment> assignments = AssignByName(model, markers);
+  const std::vector<MarkerAssignment> assignments = AssignAll(model, markers);
   std::vector<int> indices;
   indices.reserve(assignments.size());
   for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);

@@ -30,8 +30,8 @@ TEST_P(KitBimanualTest, IsNearerToTheMarkersThanKitsOwnSolution) {
       testing::SharedData(std::string("mmm/kit_bimanual_10hz/") + GetParam().file));
   const MmmMotion* recorded = file.Find(GetParam().motion);
   ASSERT_NE(recorded, nullptr);
-  const KinematicModel model = PersonModel(recorded->height.value());
-  const std::vector<MarkerAssignment> assignments = AssignByName(model, recorded->markers);
+  const KinematicModel model = ScaledReferenceModel(recorded->height.value());
+  const std::vector<MarkerAssignment> assignments = AssignAll(model, recorded->markers);
   ASSERT_EQ(assignments.size(), 53u);
 
   double stored = 0;
@@ -82,7 +82,7 @@ TEST_P(PluginGaitTest, FollowsTheOptimum) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Recording recording = ReadRecording(
       testing::SharedData(std::string("recordings/whole_body/") + GetParam().file + ".c3d"), {});
-  const KinematicModel model = PersonModel(1.7);
+  const KinematicModel model = ScaledReferenceModel(1.7);
   const std::vector<MarkerSet> sets = ReadMarkerSets(testing::SourcePath("xml_config/marker_sets"));
   const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
   const MarkerMapping mapping =

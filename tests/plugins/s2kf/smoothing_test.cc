@@ -43,7 +43,7 @@ struct Scene {
         errors(marker_errors),
         joints(MotionJoints(model, num_joints)),
         markers(SynthesizeMarkers(model, motion, errors, seed)),
-        assignments(AssignByName(model, markers)) {}
+        assignments(AssignAll(model, markers)) {}
 
   ConversionResult Convert(const S2kfSettings& settings, const MarkerSequence& seen) const {
     S2kfConverter converter(model, assignments, joints, settings);
@@ -59,7 +59,7 @@ struct Scene {
     return angles;
   }
 
-  KinematicModel model = PersonModel(1.8);
+  KinematicModel model = ScaledReferenceModel(1.8);
   PoseTrajectory motion;
   MarkerErrors errors;
   std::vector<int> joints;
@@ -74,7 +74,7 @@ PoseTrajectory Recorded(const std::string& file) {
 
 Scene Walking() { return {Recorded("walking_medium01_motion395.xml"), 44, 1}; }
 Scene QuickMotion() { return {Recorded("test_mmm_subject314_40joints_100Hz.xml"), 40, 2}; }
-Scene Handstand() { return {MakeHandstand(PersonModel(1.8)), 44, 1}; }
+Scene Handstand() { return {MakeHandstand(ScaledReferenceModel(1.8)), 44, 1}; }
 
 MatrixXd Angles(const PoseTrajectory& trajectory) {
   MatrixXd angles(trajectory.joint_names.size(), trajectory.num_frames());
@@ -201,7 +201,9 @@ const MarkerErrors kCalibrated = {0, 0.004, 0.25, 0.0001};
 
 TEST(SmoothingTest, Handstand) { Measure("handstand", Handstand()); }
 
-TEST(SmoothingTest, Cartwheel) { Measure("cartwheel", {MakeCartwheel(PersonModel(1.8)), 44, 3}); }
+TEST(SmoothingTest, Cartwheel) {
+  Measure("cartwheel", {MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
+}
 
 TEST(SmoothingTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
@@ -250,7 +252,8 @@ void ExpectHalfHiddenIsBorne(const std::string& name, const Scene& scene) {
 }
 
 TEST(SmoothingTest, HalfOfTheMarkersHiddenOnTheHandstand) {
-  ExpectHalfHiddenIsBorne("handstand", {MakeHandstand(PersonModel(1.8)), 44, 1, kCalibrated});
+  ExpectHalfHiddenIsBorne("handstand",
+                          {MakeHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
 }
 
 TEST(SmoothingTest, HalfOfTheMarkersHiddenWhileWalking) {

@@ -21,10 +21,10 @@ void Print(const Eigen::Matrix3Xd& markers) {
 }
 
 int Run(const std::string& method) {
-  const KinematicModel model = PersonModel(1.8);
+  const KinematicModel model = ScaledReferenceModel(1.8);
   const MarkerSequence all = SynthesizeMarkers(model, MakeHandstand(model), MarkerErrors{}, 1);
   const MarkerSequence markers = OccludeShare(all.Slice(0, kFrames), 0.2, 30, 1);
-  const std::vector<MarkerAssignment> assignments = AssignByName(model, markers);
+  const std::vector<MarkerAssignment> assignments = AssignAll(model, markers);
   const std::vector<int> joints = MotionJoints(model, 44);
   S2kfSettings settings;
   if (method == "s2kf-exact") settings.update = UpdateForm::kExact;

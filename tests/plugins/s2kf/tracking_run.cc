@@ -8,9 +8,7 @@
 
 #include "common/convert/converter_config.h"
 #include "common/fit/posture_fit.h"
-#include "common/io/mmm_model.h"
 #include "common/model/forward_kinematics.h"
-#include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/support/shared_data.h"
@@ -78,25 +76,10 @@ void AddErrors(const KinematicModel& model, const std::vector<int>& joints, cons
 
 }  // namespace
 
-KinematicModel PersonModel(double height) {
-  return ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model,
-                     {height, 70, {}});
-}
-
 std::vector<int> MotionJoints(const KinematicModel& model, int count) {
   ConverterConfig config;
   config.joint_set = count == 40 ? "mmm40" : "mmm44";
   return ResolveJoints(config, model);
-}
-
-std::vector<MarkerAssignment> AssignByName(const KinematicModel& model,
-                                           const MarkerSequence& recording) {
-  std::vector<MarkerAssignment> assignments;
-  for (int i = 0; i < recording.num_labels(); ++i) {
-    const int marker = model.FindMarker("MARKER_" + recording.labels()[i]);
-    if (marker >= 0) assignments.push_back({i, marker, 1.0});
-  }
-  return assignments;
 }
 
 PoseTrajectory LowPassed(const PoseTrajectory& motion) {

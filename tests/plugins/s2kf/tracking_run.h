@@ -9,18 +9,15 @@
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 #include "plugins/s2kf/s2kf_settings.h"
+#include "tests/support/synthetic_person.h"
 
 namespace mmm_converter::s2kf {
 
-/// The project's reference model scaled to a person.
-KinematicModel PersonModel(double height);
+using testing::AssignAll;
+using testing::ScaledReferenceModel;
 
 /// Indices of KIT's 44 joints, or of the 40 of the paper.
 std::vector<int> MotionJoints(const KinematicModel& model, int count);
-
-/// Labels are marker names without MARKER_, all mapped.
-std::vector<MarkerAssignment> AssignByName(const KinematicModel& model,
-                                           const MarkerSequence& recording);
 
 /// A recorded motion made smooth: joint angles and root low-passed at 6 Hz (Gaussian), as joint
 /// angles that were fitted frame by frame jump.

@@ -25,20 +25,20 @@ struct Scene {
       : motion(std::move(trajectory)),
         joints(MotionJoints(model, num_joints)),
         markers(SynthesizeMarkers(model, motion, MarkerErrors{}, seed)),
-        assignments(AssignByName(model, markers)) {}
+        assignments(AssignAll(model, markers)) {}
 
   TrackedRun Run(const S2kfSettings& settings, const MarkerSequence& seen) const {
     return RunTracker(model, joints, settings, seen, markers, &motion, assignments);
   }
 
-  KinematicModel model = PersonModel(kHeight);
+  KinematicModel model = ScaledReferenceModel(kHeight);
   PoseTrajectory motion;
   std::vector<int> joints;
   MarkerSequence markers;
   std::vector<MarkerAssignment> assignments;
 };
 
-Scene Handstand() { return {MakeHandstand(PersonModel(kHeight)), 44, 1}; }
+Scene Handstand() { return {MakeHandstand(ScaledReferenceModel(kHeight)), 44, 1}; }
 
 /// A real motion at 100 Hz with quick arms.
 Scene QuickMotion() {
@@ -75,7 +75,7 @@ TEST(TrackingTest, HandstandFollowsTheOptimumInsideTheLimits) {
 }
 
 TEST(TrackingTest, CartwheelGoesThroughPitch90) {
-  const Scene scene(MakeCartwheel(PersonModel(kHeight)), 44, 3);
+  const Scene scene(MakeCartwheel(ScaledReferenceModel(kHeight)), 44, 3);
   const TrackedRun run = scene.Run(S2kfSettings{}, scene.markers);
   Report("cartwheel", run);
   EXPECT_EQ(run.BadFrames(0, static_cast<int>(run.distance.size())), 0);
@@ -125,7 +125,7 @@ TEST(TrackingTest, EveryFilterFollowsTheOptimum) {
 }
 
 TEST(TrackingTest, PapersConfigurationIsLinearToFiveDigitsAndConverges) {
-  const Scene scene(MakeHandstand(PersonModel(kHeight)), 40, 1);
+  const Scene scene(MakeHandstand(ScaledReferenceModel(kHeight)), 40, 1);
   S2kfSettings settings = PaperSettings();
   ASSERT_EQ(settings.filter, FilterType::kS2kf);
   const TrackedRun s2kf = scene.Run(settings, scene.markers);
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, RecoveryTest, ::testing::Bool(),
                          [](const auto& test) { return test.param ? "RealMotion" : "Handstand"; });
 
 TEST(StartTest, FromRandomPosturesAndAnyHeading) {
-  const KinematicModel model = PersonModel(kHeight);
+  const KinematicModel model = ScaledReferenceModel(kHeight);
   const std::vector<int> joints = MotionJoints(model, 44);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -230,7 +230,7 @@ TEST(StartTest, FromRandomPosturesAndAnyHeading) {
     }
     still.postures.assign(30, q);
     const MarkerSequence markers = SynthesizeMarkers(model, still, {0, 0, 0.25, 0.001}, 100 + i);
-    S2kfConverter converter(model, AssignByName(model, markers), joints, S2kfSettings{});
+    S2kfConverter converter(model, AssignAll(model, markers), joints, S2kfSettings{});
     const FrameEstimate* estimate = &converter.Assemble(markers.frame(0));
     for (int k = 1; k < 30; ++k) estimate = &converter.Track(markers.frame(k), 0.01);
     found += estimate->residuals.mean() <= 0.003;

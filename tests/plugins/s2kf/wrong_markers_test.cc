@@ -31,7 +31,7 @@ constexpr double kRise = 0.003;
 enum class MotionName { kHandstand, kWalking };
 
 PoseTrajectory Motion(MotionName name) {
-  if (name == MotionName::kHandstand) return MakeHandstand(PersonModel(1.8));
+  if (name == MotionName::kHandstand) return MakeHandstand(ScaledReferenceModel(1.8));
   const MmmMotionFile file =
       ReadMmmMotionFile(testing::SharedData("mmm/motions_legacy/walking_medium01_motion395.xml"));
   return LowPassed(file.motions.front().trajectory);
@@ -57,7 +57,7 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
     // What calibration leaves of a marker's place.
     if (is_calibrated) errors.offset = 0.003;
     markers_ = SynthesizeMarkers(model_, motion_, errors, 1);
-    assignments_ = AssignByName(model_, markers_);
+    assignments_ = AssignAll(model_, markers_);
     clean_ = Track(markers_);
     EXPECT_TRUE(clean_.incidents.empty());
   }
@@ -123,7 +123,7 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
     EXPECT_NEAR(run.incidents[0].last_frame, end - 1, kLate) << label;
   }
 
-  KinematicModel model_ = PersonModel(1.8);
+  KinematicModel model_ = ScaledReferenceModel(1.8);
   PoseTrajectory motion_;
   std::vector<int> joints_;
   MarkerSequence markers_;
