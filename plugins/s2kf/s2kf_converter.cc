@@ -185,9 +185,10 @@ bool S2kfConverter::IsInDoubt(double distance, double dt) {
       track_.hidden_for[i] += dt;
     }
   }
-  track_.far = distance > kDoubtFactor * track_.usual_distance + kDoubtDistance;
-  track_.doubt =
-      track_.far || returned >= kManyReturned ? kDoubtFrames : std::max(track_.doubt - 1, 0);
+  const double level = kDoubtFactor * track_.usual_distance;
+  const bool rises = distance > level + kDoubtDistance;
+  track_.far = distance > level + std::max(kDoubtDistance, settings_.marker_deviation);
+  track_.doubt = rises || returned >= kManyReturned ? kDoubtFrames : std::max(track_.doubt - 1, 0);
   const double step = 1 - std::exp(-dt / kLevelTime);
   track_.usual_distance += step * (distance - track_.usual_distance);
   return track_.doubt > 0;
