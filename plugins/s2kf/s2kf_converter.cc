@@ -29,9 +29,10 @@ constexpr double kDoubtFactor = 1.15;
 constexpr double kDoubtDistance = 0.001;
 // The usual level follows with this time constant [s].
 constexpr double kLevelTime = 1.0;
-// A found posture must lower the cost by this share to replace the filter's, and the mean distance
-// by more than the noise of a marker: the filter smooths, so its posture never has the least cost,
-// least of all where a few hidden markers leave a fit free.
+// A found posture must lower the cost by this share to replace the filter's: the filter smooths, so
+// its posture never has the least cost. Markers that are not seen leave a fit free, and a track
+// that is smoothed is cut where it is taken up anew: there the mean distance must fall, too, by up
+// to the noise of a marker.
 constexpr double kClearlyBetter = 0.1;
 
 // Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
@@ -56,6 +57,16 @@ VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
   VectorXd scales(assignments.size());
   for (std::size_t i = 0; i < assignments.size(); ++i) scales[i] = assignments[i].noise_scale;
   return scales;
+}
+
+}  // namespace
+
+namespace {
+
+int CountSeen(const Matrix3Xd& z) {
+  int seen = 0;
+  for (Eigen::Index m = 0; m < z.cols(); ++m) seen += z.col(m).allFinite();
+  return seen;
 }
 
 }  // namespace
@@ -202,7 +213,10 @@ bool S2kfConverter::Recover() {
   search_.Improve(z_, noise_scale_, fit_options_, &candidate_);
   const PostureFit::Result after = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_);
   if (after.cost > (1 - kClearlyBetter) * before.cost) return false;
-  if (after.mean_distance > before.mean_distance - settings_.marker_deviation) return false;
+  const double unseen = 1 - static_cast<double>(CountSeen(z_)) / static_cast<double>(z_.cols());
+  const double least_gain =
+      (settings_.smoothing ? 1 : std::min(1.0, 2 * unseen)) * settings_.marker_deviation;
+  if (after.mean_distance > before.mean_distance - least_gain) return false;
   filter_.StartAt(candidate_, &track_.belief);
   return true;
 }

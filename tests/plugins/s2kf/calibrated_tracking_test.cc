@@ -129,6 +129,22 @@ TEST(CalibratedTracking, HiddenMarkersOfKitRecordingsArePredicted) {
   EXPECT_LT(online, 0.008);
 }
 
+// The bound: 4 mm. 10 Hz; what smoothing costs there is printed.
+TEST(CalibratedTracking, HeldOutHalvesOfKitRecordingsAreWithinFourMillimetres) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA()
+  for (const KitRecording& recording : kKitRecordings) {
+    const KitTrial trial(recording);
+    const KinematicModel person = FitToSubject(trial.model, trial.subject);
+    const auto distance = [&](const char* converter) {
+      return Track(person, trial.assignments, Shipped(converter), trial.second, trial.second).all;
+    };
+    const double online = distance("s2kf_default");
+    std::printf("[ measured ] %s, calibrated: s2kf_default %.2f mm, s2kf_offline %.2f mm\n",
+                recording.name.c_str(), 1000 * online, 1000 * distance("s2kf_offline"));
+    EXPECT_LT(online, 0.004) << recording.name;
+  }
+}
+
 // At 10 Hz, under noise that lets the posture move far between frames, the pass backwards leaves
 // what is linear: it must stay with the filter's postures there.
 TEST(CalibratedTracking, SmoothingStaysWithTheFilterWhereItIsNotLinear) {
