@@ -109,7 +109,7 @@ TEST(FitBody, DeviationsFallWithFramesAndNeverExceedThePrior) {
     return FitBody(&kinematics, {}, ones, &frames, &body);
   };
   const BodyFitResult few = fit_of(20);
-  const BodyFitResult many = fit_of(80);
+  const BodyFitResult many = fit_of(40);
   EXPECT_LT(many.deviations.scales.mean(), few.deviations.scales.mean());
   EXPECT_LT(many.deviations.offsets.mean(), few.deviations.offsets.mean());
   EXPECT_TRUE((few.deviations.scales.array() <= few.prior_scale_deviations.array()).all());

@@ -135,7 +135,7 @@ TEST(Calibration, TheModelsOwnPersonStaysTheModel) {
 TEST(Calibration, SeveralRecordingsOfOnePersonAddUp) {
   const KinematicModel model = testing::ScaledReferenceModel(kHeight);
   const Trial arms(model, testing::RangeOfMotion(model, 6, 0.7, 8), 8);
-  const Trial more(model, testing::RangeOfMotion(model, 20, 0.7, 9), 8);
+  const Trial more(model, testing::RangeOfMotion(model, 10, 0.7, 9), 8);
   const CalibrationResult both = CalibrateSubject(
       model, testing::TrackedJoints(model), {arms.ForCalibration(), more.ForCalibration()}, {});
   ASSERT_EQ(both.subject.sources.size(), 2);
