@@ -7,7 +7,6 @@
 #include "common/calibrate/robust_cost.h"
 #include "common/fit/posture_fit.h"
 #include "common/math/dense.h"
-
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {

@@ -59,10 +59,6 @@ VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
   return scales;
 }
 
-}  // namespace
-
-namespace {
-
 int CountSeen(const Matrix3Xd& z) {
   int seen = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) seen += z.col(m).allFinite();
@@ -229,9 +225,7 @@ bool S2kfConverter::Reopen() {
   fit.Solve(measured_, noise_scale_, fit_options_, &candidate_);
   const double all = fit.Evaluate(measured_, noise_scale_, fit_options_, candidate_).cost;
   const double used = fit.Evaluate(z_, noise_scale_, fit_options_, candidate_).cost;
-  int num_used = 0;
-  for (int m = 0; m < kinematics_.num_markers(); ++m) num_used += z_.col(m).allFinite();
-  if ((all - used) * num_used > kAsWell * used * left_out) return false;
+  if ((all - used) * CountSeen(z_) > kAsWell * used * left_out) return false;
   filter_.StartAt(candidate_, &track_.belief);
   gate_.Open();
   return true;

@@ -69,8 +69,10 @@ class S2kfConverter : public MotionConverter {
               ConversionResult* result);
   /// Whether a smoothed posture is about as near to the gathered markers as the filter's.
   bool IsAsNear(const Belief& smoothed, const Belief& filtered);
-  /// Mean distance of the gathered markers, each counted up to the robust distance [m].
+  /// ClippedMean of the gathered markers' distances from those of a belief, which it places [m].
   double MeasuredDistance(const Belief& belief);
+  /// Mean of the finite ones, each counted up to the robust distance [m]; 0 where there is none.
+  double ClippedMean(const Eigen::VectorXd& distances) const;
   void WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
                      ConversionResult* result);
   /// Takes the assigned markers out of a frame into measured_; returns how many are seen.

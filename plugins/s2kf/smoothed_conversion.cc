@@ -79,16 +79,6 @@ void S2kfConverter::KeepCheckpoint(int k, Checkpoints* checkpoints) {
 
 void S2kfConverter::FindRetakes(const MarkerSequence& recording, const ConversionResult& result,
                                 Checkpoints* checkpoints) {
-  const auto distance = [&](int k) {
-    double sum = 0;
-    int seen = 0;
-    for (const double residual : result.residuals.col(k)) {
-      if (!std::isfinite(residual)) continue;
-      sum += std::min(residual, fit_options_.robust_distance);
-      ++seen;
-    }
-    return seen > 0 ? sum / seen : 0;
-  };
   const double dt = 1 / recording.rate();
   for (int k = recording.num_frames() - 1; k > checkpoints->first; --k) {
     if (!result.frames[k].reassembled) continue;
@@ -102,7 +92,8 @@ void S2kfConverter::FindRetakes(const MarkerSequence& recording, const Conversio
       // The motion model is the same backwards.
       filter_.Predict(dt, &track_.belief);
       filter_.Update(z_, &track_.belief);
-      if (ClippedDistance() > kNoFarther * distance(k - 1)) break;
+      const double before = ClippedMean(result.residuals.col(k - 1));
+      if (MeasuredDistance(track_.belief) > kNoFarther * before) break;
       --k;
       checkpoints->retakes[k] = posture_;
       checkpoints->retakes.erase(k + 1);
@@ -184,19 +175,21 @@ void S2kfConverter::Smooth(const MarkerSequence& recording, const Checkpoints& c
 
 bool S2kfConverter::IsAsNear(const Belief& smoothed, const Belief& filtered) {
   const double limit = kMuchFarther * MeasuredDistance(filtered) + kMuchFartherDistance;
-  return MeasuredDistance(smoothed) <= limit;  // false for NaN
+  const bool is_near = MeasuredDistance(smoothed) <= limit;
+  return is_near && posture_.joint_angles.allFinite();
 }
 
 double S2kfConverter::MeasuredDistance(const Belief& belief) {
-  filter_.ToPosture(belief, &posture_);
-  kinematics_.ComputeMarkers(posture_.position, posture_.orientation.toRotationMatrix(),
-                             posture_.joint_angles, &at_);
+  Place(belief);
+  return ClippedMean((measured_ - at_.p_WM).colwise().norm().transpose());
+}
+
+double S2kfConverter::ClippedMean(const VectorXd& distances) const {
   double sum = 0;
   int seen = 0;
-  for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    if (!IsSeen(measured_.col(m))) continue;
-    const double distance = (measured_.col(m) - at_.p_WM.col(m)).norm();
-    sum += distance <= fit_options_.robust_distance ? distance : fit_options_.robust_distance;
+  for (const double distance : distances) {
+    if (!std::isfinite(distance)) continue;
+    sum += std::min(distance, fit_options_.robust_distance);
     ++seen;
   }
   return sum / std::max(seen, 1);
@@ -205,12 +198,10 @@ double S2kfConverter::MeasuredDistance(const Belief& belief) {
 void S2kfConverter::WriteSmoothed(const MarkerSequence& recording, int k, const Belief& belief,
                                   ConversionResult* result) {
   Gather(recording.frame(k));
-  Posture& posture = result->trajectory.postures[k];
-  filter_.ToPosture(belief, &posture);
+  Place(belief);
   filter_.Deviations(belief, &deviations_);
+  result->trajectory.postures[k] = posture_;
   result->trajectory.standard_deviations.col(k) = deviations_;
-  kinematics_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
-                             posture.joint_angles, &at_);
   result->residuals.col(k) = (measured_ - at_.p_WM).colwise().norm().transpose();
 }
 
