@@ -14,4 +14,8 @@ std::string_view PlotLibrary();
 std::string_view SceneLibrary();
 std::string_view LibraryLicences();
 
+std::string_view IndexTemplate();  ///< of the index of a batch, with places {{name}}
+std::string_view IndexStyles();
+std::string_view IndexScript();
+
 }  // namespace mmm_converter

@@ -28,9 +28,9 @@ function formatNumber(value, digits) {
   return Number.isFinite(value) ? value.toFixed(digits) : "–";
 }
 
-// A name that may be broken after each underscore.
+// A name that may be broken after each underscore and slash.
 function breakable(name) {
-  const parts = name.split(/(?<=_)/);
+  const parts = name.split(/(?<=[_/])/);
   return parts.flatMap((part, i) => i === 0 ? [part] : [element("wbr"), part]);
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace mmm_converter {
+
+/// Text that becomes text of an element or of an attribute in double quotes.
+std::string EscapeHtml(std::string_view text);
+
+/// JSON as a script element of a class: data for the page's script. No content can end it.
+std::string DataBlock(std::string_view name, std::string_view json);
+
+/// A page with its places {{name}} filled; what is filled in is not looked at again. Each place
+/// must be among the texts.
+std::string FillPage(std::string_view page,
+                     const std::map<std::string_view, std::string_view>& texts);
+
+}  // namespace mmm_converter
