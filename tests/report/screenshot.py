@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""screenshot.py REPORT.html OUT.png WIDTH [options]: a picture of a report."""
+"""screenshot.py PAGE.html OUT.png WIDTH [options]: a picture of a report or of a batch's index."""
 
 import argparse
 import base64
@@ -17,7 +17,7 @@ def main():
     parser.add_argument("--height", type=int, help="cut off below; default: the whole page")
     parser.add_argument("--from", dest="start", default="html", help="CSS selector of what is uppermost")
     parser.add_argument("--scheme", choices=["light", "dark"], default="light")
-    parser.add_argument("--section", type=int, default=0)
+    parser.add_argument("--section", type=int)
     parser.add_argument("--time", type=float, help="share of the motion, 0 to 1")
     parser.add_argument("--script", help="JavaScript to run first")
     options = parser.parse_args()
@@ -25,7 +25,8 @@ def main():
     with Browser(options.width, 900) as browser:
         browser.prefer(options.scheme)
         browser.open(options.report)
-        browser.run("mmmReport.showSection(arguments[0])", options.section)
+        if options.section is not None:
+            browser.run("mmmReport.showSection(arguments[0])", options.section)
         if options.time is not None:
             browser.run("mmmReport.seek(arguments[0] * (mmmReport.frames - 1))", options.time)
         if options.script:
