@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "common/io/mmm_model.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -29,6 +28,26 @@ void TakeFrames(const InputRequest& request, Input* input) {
   if (begin > 0 || end < markers.num_frames()) markers = markers.Slice(begin, end);
 }
 
+}  // namespace
+
+std::string ModelFile(const InputRequest& request) {
+  return request.model_file.empty() ? DataFile(kDefaultModel) : request.model_file;
+}
+
+Input ReadInput(const InputRequest& request) {
+  Input input;
+  input.recording = ReadRecording(request.file, request.reading);
+  input.warnings = input.recording.warnings;
+  TakeFrames(request, &input);
+  input.model_file = ModelFile(request);
+  const auto model = request.model
+                         ? request.model
+                         : std::make_shared<const MmmModel>(ReadMmmModel(input.model_file));
+  input.warnings.insert(input.warnings.end(), model->warnings.begin(), model->warnings.end());
+  input.reference = std::shared_ptr<const KinematicModel>(model, &model->model);
+  return input;
+}
+
 void ParseFrames(const std::string& text, InputRequest* request) {
   const std::size_t colon = text.find(':');
   const auto part = [&](const std::string& number) -> std::optional<int> {
@@ -36,27 +55,13 @@ void ParseFrames(const std::string& text, InputRequest* request) {
     const auto value = ParseLong(number);
     if (!value || *value < 0 || *value > std::numeric_limits<int>::max()) {
       throw UsageError(
-          fmt::format("--frames: \"{}\" is not A:B; for instance 100:400, 100: or :400", text));
+          fmt::format("frames: \"{}\" is not A:B; for instance 100:400, 100: or :400", text));
     }
     return static_cast<int>(*value);
   };
   if (colon == std::string::npos) part(text + ":");  // throws
   request->first_frame = part(text.substr(0, colon));
   request->end_frame = part(text.substr(colon + 1));
-}
-
-}  // namespace
-
-Input ReadInput(const InputRequest& request) {
-  Input input;
-  input.recording = ReadRecording(request.file, request.reading);
-  input.warnings = input.recording.warnings;
-  TakeFrames(request, &input);
-  input.model_file = request.model_file.empty() ? DataFile(kDefaultModel) : request.model_file;
-  MmmModel model = ReadMmmModel(input.model_file);
-  input.warnings.insert(input.warnings.end(), model.warnings.begin(), model.warnings.end());
-  input.reference = std::make_shared<KinematicModel>(std::move(model.model));
-  return input;
 }
 
 const std::vector<OptionGroup>& InputOptions() {

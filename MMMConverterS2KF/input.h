@@ -8,6 +8,7 @@
 
 #include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/person.h"
+#include "common/io/mmm_model.h"
 #include "common/io/recording.h"
 #include "common/model/kinematic_model.h"
 
@@ -17,9 +18,10 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::optional<int> first_frame;  ///< counted from 0
-  std::optional<int> end_frame;    ///< the frame behind the last
-  std::string model_file;          ///< reference model
+  std::optional<int> first_frame;         ///< counted from 0
+  std::optional<int> end_frame;           ///< the frame behind the last
+  std::string model_file;                 ///< reference model
+  std::shared_ptr<const MmmModel> model;  ///< of that file, where it has been read before
   PersonRequest person;
 };
 
@@ -31,11 +33,18 @@ struct Input {
   std::vector<std::string> warnings;
 };
 
+/// The file of the reference model.
+std::string ModelFile(const InputRequest& request);
+
 /// @throws Error
 Input ReadInput(const InputRequest& request);
 
 /// The options of an InputRequest, for every command that reads recordings.
 const std::vector<OptionGroup>& InputOptions();
+
+/// "A:B": frames A to B-1, counted from 0; either may be left out.
+/// @throws UsageError
+void ParseFrames(const std::string& text, InputRequest* request);
 
 /// @throws UsageError
 InputRequest MakeInputRequest(const Arguments& arguments, const std::string& file);

@@ -21,6 +21,7 @@ constexpr int kMisused = 2;
 
 constexpr std::array kCommands = {
     Command{"convert", "a recording in, an MMM motion out", RunConvert},
+    Command{"batch", "a whole database of recordings, on all cores", RunBatch},
     Command{"calibrate", "who the person is, from recordings", RunCalibrate},
     Command{"compare", "converters side by side on recordings", RunCompare},
     Command{"evaluate", "the paper's evaluation, done anew, with a report", RunEvaluate},

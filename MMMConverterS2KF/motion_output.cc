@@ -15,13 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string MotionName(const ConversionRequest& request, const Recording& recording) {
-  if (!request.motion_name.empty()) return request.motion_name;
-  if (!recording.motion.empty()) return recording.motion;
-  if (!recording.subject.empty()) return recording.subject;
-  return fs::path(request.input.file).stem().string();
-}
-
 bool IsMmm2(const Recording& recording) { return recording.format == "MMM 2.0"; }
 
 // The file's markers stay as they are if the motion is in the same coordinates.
@@ -79,8 +72,14 @@ std::string ChooseOutput(const ConversionRequest& request, const ConversionRepor
   return output;
 }
 
+std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording) {
+  if (!request.motion_name.empty()) return request.motion_name;
+  if (!recording.motion.empty()) return recording.motion;
+  if (!recording.subject.empty()) return recording.subject;
+  return fs::path(request.input.file).stem().string();
+}
+
 void WriteMotion(const ConversionRequest& request, ConversionReport* report) {
-  report->motion_name = MotionName(request, report->input.recording);
   MmmMotionOutput output;
   output.recording_name = fs::path(request.input.file).stem().string();
   output.motion_name = report->motion_name;

@@ -9,6 +9,9 @@ namespace mmm_converter {
 /// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
 std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report);
 
+/// What the motion is called: as asked for, else as in the recording, else as the file.
+std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording);
+
 /// Writes report.result. Of an MMM 2.0 recording, all other motions and sensors are kept as they
 /// are.
 void WriteMotion(const ConversionRequest& request, ConversionReport* report);

@@ -65,17 +65,18 @@ void WritePerson(const ConversionReport& report) {
 }  // namespace
 
 ConversionReport RunConversion(const ConversionRequest& request,
-                               const std::function<void(int, int)>& progress) {
+                               const std::function<bool(int, int)>& progress) {
   ConversionReport report;
   report.input = ReadInput(request.input);
   AddWarnings(report.input.warnings, &report);
-  report.converter = ChooseConverter(request.converter);
+  report.converter = request.choice ? *request.choice : ChooseConverter(request.converter);
   AddWarnings(report.converter.config.warnings, &report);
   ConverterConfig& config = report.converter.config;
   if (request.self_calibrate) config.subject_file.clear();
   report.output_format =
       request.output_format.empty() ? config.output_format : request.output_format;
   report.output = ChooseOutput(request, report);
+  report.motion_name = ChooseMotionName(request, report.input.recording);
 
   const KinematicModel& reference = *report.input.reference;
   const MarkerSequence& markers = report.input.recording.markers;
@@ -96,15 +97,17 @@ ConversionReport RunConversion(const ConversionRequest& request,
   const auto converter =
       report.converter.plugin->factory().Create(*report.model, assignments, config);
   report.result = converter->Convert(markers, *report.model, assignments, [&](int done) {
-    if (progress) progress(done, markers.num_frames());
-    return true;
+    return !progress || progress(done, markers.num_frames());
   });
-  WriteMotion(request, &report);
-  WritePerson(report);
-  if (!request.csv_file.empty()) {
-    WriteFileAtomically(request.csv_file, FormatTrajectoryCsv(report.result.trajectory));
-  }
   return report;
+}
+
+void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
+  WriteMotion(request, report);
+  WritePerson(*report);
+  if (!request.csv_file.empty()) {
+    WriteFileAtomically(request.csv_file, FormatTrajectoryCsv(report->result.trajectory));
+  }
 }
 
 }  // namespace mmm_converter

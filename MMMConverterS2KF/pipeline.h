@@ -20,7 +20,8 @@ namespace mmm_converter {
 struct ConversionRequest {
   InputRequest input;
   ConverterRequest converter;
-  std::string output;           ///< input stem + "_mmm.xml", beside the input
+  std::shared_ptr<const ConverterChoice> choice;  ///< for it, where that was made before
+  std::string output;                             ///< input stem + "_mmm.xml", beside the input
   std::string output_format;    ///< "2.0" or "1.0"; empty: what the configuration says
   std::string csv_file;         ///< also write the trajectory with its standard deviations
   std::string motion_name;      ///< to write
@@ -46,9 +47,14 @@ struct ConversionReport {
 };
 
 /// Reads the recording, loads and scales the model, matches the markers, calibrates where asked to,
-/// converts, and writes the motion and what else is asked for. progress(done, all): frames.
-/// @throws Error; the output is then as it was before.
+/// and converts; writes nothing. progress(done, all): frames; may be empty; returning false ends it
+/// with an Error.
+/// @throws Error
 ConversionReport RunConversion(const ConversionRequest& request,
-                               const std::function<void(int, int)>& progress);
+                               const std::function<bool(int, int)>& progress);
+
+/// Writes the motion and what else is asked for.
+/// @throws Error; each file is then as it was before, or whole.
+void WriteConversion(const ConversionRequest& request, ConversionReport* report);
 
 }  // namespace mmm_converter

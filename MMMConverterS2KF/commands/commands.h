@@ -13,6 +13,7 @@ struct Command {
   int (*run)(const std::vector<std::string>& words);
 };
 
+int RunBatch(const std::vector<std::string>& words);
 int RunCalibrate(const std::vector<std::string>& words);
 int RunCompare(const std::vector<std::string>& words);
 int RunConvert(const std::vector<std::string>& words);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <iostream>
 
 #include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/conversion_page.h"
 #include "MMMConverterS2KF/log.h"
 #include "MMMConverterS2KF/pipeline.h"
 #include "MMMConverterS2KF/progress.h"
-#include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/summary.h"
 #include "common/support/atomic_file.h"
 
@@ -104,32 +103,6 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   return request;
 }
 
-// What a page says of the calibration; empty: there was none.
-std::string DescribeCalibration(const ConversionReport& report) {
-  if (!report.calibration) return "";
-  return fmt::format(
-      "The person \"{}\" was calibrated on {} frames of this recording: the best postures leave "
-      "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
-      report.person.subject->name, report.calibration->frames,
-      1e3 * report.calibration->distance_after, 1e3 * report.calibration->distance_before);
-}
-
-std::string FormatConversionReport(const ConversionReport& report) {
-  Trial trial;
-  trial.name = std::filesystem::path(report.input.recording.file).filename().string();
-  trial.markers = report.input.recording.markers;
-  trial.model = report.model;
-  trial.subject = report.person.subject;
-  Contender contender;
-  contender.name = std::filesystem::path(report.converter.config.file).stem().string();
-  contender.configuration = report.converter.text;
-  contender.config = report.converter.config;
-  const Comparison comparison =
-      CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
-  return FormatReport(report.motion_name,
-                      {{report.motion_name, DescribeCalibration(report), &comparison}});
-}
-
 }  // namespace
 
 int RunConvert(const std::vector<std::string>& words) {
@@ -143,15 +116,18 @@ int RunConvert(const std::vector<std::string>& words) {
   StartLog(arguments.Get("log").value_or("info"));
   const ConversionRequest request = MakeRequest(arguments);
   ProgressBar bar("frames");
-  const ConversionReport report =
-      RunConversion(request, [&](int done, int all) { bar.Show(done, all); });
+  ConversionReport report = RunConversion(request, [&](int done, int all) {
+    bar.Show(done, all);
+    return true;
+  });
   bar.Clear();
+  WriteConversion(request, &report);
   for (const std::string& warning : report.warnings) LogWarning(warning);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatSummaryJson(report));
   }
   if (const auto file = arguments.Get("report")) {
-    WriteFileAtomically(*file, FormatConversionReport(report));
+    WriteFileAtomically(*file, FormatConversionPage(report));
   }
   std::cout << FormatSummary(report);
   return 0;

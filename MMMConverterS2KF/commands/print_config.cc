@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "common/convert/plugin_loader.h"
@@ -16,10 +17,12 @@ const std::vector<OptionGroup> kOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF print-config NAME
-Prints the configuration of a converter with every setting, documented, at its default.
+Prints the configuration of a converter with every setting, documented, at its default; of the name
+batch a manifest for batch.
 
 {}Examples
   MMMConverterS2KF print-config S2KFConverter > my.xml
+  MMMConverterS2KF print-config batch > manifest.xml
   MMMConverterS2KF print-config --plugin build/MyConverter.so
 )";
 
@@ -31,6 +34,8 @@ int RunPrintConfig(const std::vector<std::string>& words) {
     std::cout << fmt::format(kUsage, FormatOptions(kOptions));
   } else if (const auto file = arguments.Get("plugin")) {
     std::cout << LoadedPlugin(*file).factory().config_template();
+  } else if (arguments.positional() == "batch") {
+    std::cout << ManifestTemplate();
   } else if (arguments.positional()) {
     std::cout << LoadPluginByName(*arguments.positional()).factory().config_template();
   } else {

@@ -3,11 +3,11 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -18,8 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Names of the files that are not yet whole.
+constexpr std::string_view kScratchBegin = ".mmm_converter.";
+constexpr std::string_view kScratchEnd = ".tmp";
+
 [[noreturn]] void Fail(const std::string& path, int error_number) {
-  throw Error(fmt::format("{}: can't be written: {}", path, std::strerror(error_number)));
+  throw WriteError(path, error_number);
 }
 
 /// The file that a chain of symbolic links leads to, which need not exist.
@@ -101,14 +105,34 @@ struct Created {
   std::string name;
 };
 
+/// Whether this process is now the one that has the file, which RemoveAbandonedFiles has not
+/// removed meanwhile. Where files can't be locked, nobody removes them.
+bool Take(int descriptor) {
+  if (::flock(descriptor, LOCK_EX) != 0) return true;
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
 /// A new file in `folder` under a name that nothing else has; descriptor -1 where that failed.
 Created CreateIn(const fs::path& folder) {
   constexpr int kMostTries = 1000;
   for (int i = 0;; ++i) {
-    std::string name = folder / fmt::format(".mmm_converter.{}.{}.tmp", ::getpid(), i);
+    std::string name = folder / fmt::format("{}{}.{}{}", kScratchBegin, ::getpid(), i, kScratchEnd);
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0 && !Take(descriptor)) {
+      ::close(descriptor);
+      continue;
+    }
     if (descriptor >= 0 || errno != EEXIST || i == kMostTries) return {descriptor, std::move(name)};
   }
+}
+
+/// Removes a file unless the process that writes it is alive, which has it locked.
+void RemoveIfAbandoned(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(file.c_str());
+  ::close(descriptor);
 }
 
 }  // namespace
@@ -143,6 +167,17 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
     Fail(path, errno);
   }
   scratch.Keep();
+}
+
+void RemoveAbandonedFiles(const std::string& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(kScratchBegin) && name.ends_with(kScratchEnd)) {
+      RemoveIfAbandoned(entry->path());
+    }
+  }
 }
 
 }  // namespace mmm_converter

@@ -14,12 +14,17 @@ namespace mmm_converter {
 /// is replaced. An existing file keeps its permissions; a new one gets what the process's umask
 /// allows. Something other than a regular file, such as /dev/stdout or a pipe, is written to
 /// directly.
-/// @throws Error naming the path and the system's reason (no such folder, no permission, no space,
-/// a folder).
+/// @throws Error naming the path and the system's reason; WriteError where the system refused (no
+/// permission, no space).
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
 /// The same for a text that is made while it is written. Where making it throws, nothing is
 /// changed; only what is written to directly then ends early.
 void WriteFileAtomically(const std::string& path, const TextPieces& content);
+
+/// Removes from a folder what WriteFileAtomically left there when its process was killed. What
+/// processes that are alive are writing stays, on other machines too as far as the file system has
+/// locks.
+void RemoveAbandonedFiles(const std::string& folder);
 
 }  // namespace mmm_converter

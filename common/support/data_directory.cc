@@ -13,9 +13,9 @@ namespace mmm_converter {
 
 namespace fs = std::filesystem;
 
-std::string LibraryDirectory() {
+std::string LibraryFile() {
   Dl_info info = {};
-  if (dladdr(reinterpret_cast<const void*>(&LibraryDirectory), &info) == 0 ||
+  if (dladdr(reinterpret_cast<const void*>(&LibraryFile), &info) == 0 ||
       info.dli_fname == nullptr) {
     throw Error(
         "can't find out where libmmm_converter_common is; set MMM_CONVERTER_DATA and "
@@ -23,8 +23,10 @@ std::string LibraryDirectory() {
   }
   std::error_code failure;
   const fs::path library = fs::canonical(info.dli_fname, failure);
-  return (failure ? fs::absolute(info.dli_fname) : library).parent_path().string();
+  return (failure ? fs::absolute(info.dli_fname) : library).string();
 }
+
+std::string LibraryDirectory() { return fs::path(LibraryFile()).parent_path().string(); }
 
 std::string DataDirectory() {
   if (const char* folder = std::getenv("MMM_CONVERTER_DATA"); folder != nullptr && *folder != 0) {

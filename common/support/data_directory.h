@@ -5,7 +5,10 @@
 
 namespace mmm_converter {
 
-/// The folder that the common library was loaded from; plugins and data are found relative to it,
+/// The file that the common library was loaded from.
+std::string LibraryFile();
+
+/// Its folder; plugins and data are found relative to it,
 /// so that an installation can be moved.
 std::string LibraryDirectory();
 

@@ -14,4 +14,17 @@ class Error : public std::runtime_error {
   ~Error() override;
 };
 
+/// A file can't be written.
+class WriteError : public Error {
+ public:
+  /// error_number: errno
+  WriteError(const std::string& path, int error_number);
+  /// Whether other files of the same disk can't be written either: it is full, over a quota, broken
+  /// or gone.
+  bool concerns_disk() const;
+
+ private:
+  int error_number_;
+};
+
 }  // namespace mmm_converter

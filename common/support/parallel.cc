@@ -2,15 +2,16 @@
 #include "common/support/parallel.h"
 
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <cstddef>
 
+#include "common/support/machine.h"
+
 namespace mmm_converter {
 
-int DefaultJobs() { return oneapi::tbb::info::default_concurrency(); }
+int DefaultJobs() { return AvailableCores(); }
 
 void ParallelFor(int count, int jobs, const std::function<void(int)>& body) {
   if (jobs == 0) jobs = DefaultJobs();

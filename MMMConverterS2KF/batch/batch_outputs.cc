@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/batch_outputs.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+void MakeFolder(const std::string& path) {
+  std::error_code failure;
+  fs::create_directories(path, failure);
+  if (failure) throw WriteError(path, failure.value());
+}
+
+}  // namespace
+
+std::string MotionPath(const std::string& id) { return "motions/" + id + ".xml"; }
+std::string CsvPath(const std::string& id) { return "csv/" + id + ".csv"; }
+std::string SubjectPath(const std::string& id) { return "subjects/" + id + ".xml"; }
+std::string PagePath(const std::string& id) { return "reports/" + id + ".html"; }
+
+BatchFolder::BatchFolder(const std::string& path) : path_(path) {
+  MakeFolder(path);
+  RemoveAbandonedFiles(path);
+}
+
+std::string BatchFolder::Full(const std::string& relative) const {
+  return (fs::path(path_) / relative).string();
+}
+
+bool BatchFolder::Has(const std::string& relative) const {
+  std::error_code failure;
+  return fs::is_regular_file(Full(relative), failure);
+}
+
+std::vector<std::string> BatchFolder::OutputsOf(const BatchEntry& entry) {
+  std::vector<std::string> outputs = {MotionPath(entry.id)};
+  if (entry.csv) outputs.push_back(CsvPath(entry.id));
+  if (entry.request.self_calibrate) outputs.push_back(SubjectPath(entry.id));
+  return outputs;
+}
+
+void BatchFolder::MakeReady(const std::string& relative) {
+  const std::string folder = fs::path(Full(relative)).parent_path().string();
+  const std::scoped_lock lock(mutex_);
+  if (!ready_.insert(folder).second) return;
+  try {
+    MakeFolder(folder);
+  } catch (const WriteError&) {
+    ready_.erase(folder);
+    throw;
+  }
+  RemoveAbandonedFiles(folder);
+}
+
+std::map<std::string, std::uint64_t> BatchFolder::Sizes(
+    const std::vector<std::string>& relative) const {
+  std::map<std::string, std::uint64_t> sizes;
+  for (const std::string& path : relative) sizes[path] = InspectFile(Full(path)).bytes;
+  return sizes;
+}
+
+bool BatchFolder::IsComplete(const JournalRecord& record,
+                             const std::vector<std::string>& relative) const {
+  for (const std::string& path : relative) {
+    const auto recorded = record.outputs.find(path);
+    std::error_code failure;
+    const auto size = fs::file_size(Full(path), failure);
+    if (failure || recorded == record.outputs.end() || size != recorded->second) return false;
+  }
+  return true;
+}
+
+void BatchFolder::Remove(const std::string& relative) const {
+  std::error_code failure;
+  fs::remove(Full(relative), failure);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "MMMConverterS2KF/batch/batch_outputs.h"
+#include "MMMConverterS2KF/batch/batch_result.h"
+#include "MMMConverterS2KF/batch/batch_run.h"
+#include "MMMConverterS2KF/batch/entry_conversion.h"
+#include "MMMConverterS2KF/batch/interruption.h"
+#include "MMMConverterS2KF/batch/memory_budget.h"
+#include "MMMConverterS2KF/report/batch_index.h"
+#include "common/support/atomic_file.h"
+#include "common/support/parallel.h"
+
+namespace mmm_converter {
+namespace {
+
+class ResultsWriter {
+ public:
+  ResultsWriter(const BatchManifest& manifest, const BatchOptions& options, BatchProgress* progress)
+      : manifest_(manifest),
+        options_(options),
+        progress_(progress),
+        folder_(options.output),
+        memory_(options.memory) {
+    ReadJournals(options.output, [this](JournalRecord record) {
+      const std::string id = record.id;
+      records_[id] = std::move(record);
+    });
+  }
+
+  BatchResults Write() {
+    WriteWorstPages();
+    std::vector<std::string> lines;
+    lines.reserve(manifest_.entries.size());
+    BatchResults results;
+    double distance = 0;
+    for (const BatchEntry& entry : manifest_.entries) {
+      lines.push_back(Line(entry));
+      const ResultFigures figures = ReadFigures(lines.back());
+      results.converted += figures.state == "converted";
+      results.failed += figures.state == "failed";
+      results.missing += figures.state == "missing";
+      results.frames += figures.frames;
+      results.recorded_seconds += figures.recorded_seconds;
+      results.seconds += figures.seconds;
+      distance += static_cast<double>(figures.frames) * figures.mean_distance_mm;
+    }
+    if (results.frames > 0)
+      results.mean_distance_mm = distance / static_cast<double>(results.frames);
+    WriteFileAtomically(folder_.Full("results.jsonl"), [&](const TextSink& sink) {
+      for (const std::string& line : lines) sink(line + "\n");
+    });
+    WriteFileAtomically(folder_.Full("results.csv"), FormatResultsCsv(lines));
+    WriteFileAtomically(folder_.Full("index.html"), FormatBatchIndex(manifest_.name, lines));
+    return results;
+  }
+
+ private:
+  // What the journal says of an entry as it is in the manifest now; nullptr: nothing.
+  const JournalRecord* Find(const BatchEntry& entry) {
+    const auto found = records_.find(entry.id);
+    if (found == records_.end()) return nullptr;
+    const JournalRecord& record = found->second;
+    if (!record.converted) return &record;
+    try {
+      ConversionRequest request = entry.request;
+      inputs_.Prepare(&request);
+      const bool is_current = record.fingerprint == inputs_.Fingerprint(entry, request) &&
+                              folder_.IsComplete(record, BatchFolder::OutputsOf(entry));
+      return is_current ? &record : nullptr;
+    } catch (const Error&) {
+      return nullptr;
+    }
+  }
+
+  std::string Line(const BatchEntry& entry) {
+    const JournalRecord* record = Find(entry);
+    if (record == nullptr) return FormatResultLine(entry, "", "", "");
+    if (!record->converted) return FormatResultLine(entry, record->result, "", "");
+    const std::string page = PagePath(entry.id);
+    return FormatResultLine(entry, record->result, MotionPath(entry.id),
+                            folder_.Has(page) ? page : "");
+  }
+
+  // Those with the largest mean distance, the largest first.
+  std::vector<const BatchEntry*> Worst() {
+    std::vector<std::pair<double, const BatchEntry*>> entries;
+    for (const BatchEntry& entry : manifest_.entries) {
+      const JournalRecord* record = Find(entry);
+      if (record == nullptr || !record->converted) continue;
+      entries.emplace_back(-ReadFigures(record->result).mean_distance_mm, &entry);
+    }
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<const BatchEntry*> worst;
+    const std::size_t count = std::min<std::size_t>(entries.size(), options_.reports.worst);
+    for (std::size_t i = 0; i < count; ++i) worst.push_back(entries[i].second);
+    return worst;
+  }
+
+  // Converts the worst once more, since pages need all that a conversion knows.
+  void WriteWorstPages() {
+    if (options_.reports.all) return;
+    std::vector<const BatchEntry*> worst = Worst();
+    worst.erase(std::remove_if(
+                    worst.begin(), worst.end(),
+                    [this](const BatchEntry* entry) { return folder_.Has(PagePath(entry->id)); }),
+                worst.end());
+    ParallelFor(static_cast<int>(worst.size()), options_.jobs,
+                [&](int i) { WritePageOf(*worst[static_cast<std::size_t>(i)]); });
+  }
+
+  void WritePageOf(const BatchEntry& entry) {
+    if (InterruptionWatch::Signal() != 0) return;
+    try {
+      ConversionRequest request = entry.request;
+      inputs_.Prepare(&request);
+      const std::string& file = request.input.file;
+      const auto part = memory_.Take(file, ConversionMemory(file, InspectFile(file).bytes));
+      const auto goes_on = [] { return InterruptionWatch::Signal() == 0; };
+      WritePage(entry, ConvertEntry(entry, folder_, &request, goes_on), &folder_);
+    } catch (const WriteError&) {
+      throw;
+    } catch (const Error& error) {
+      progress_->Warn(fmt::format("{}: no report: {}", entry.id, error.what()));
+    }
+  }
+
+  const BatchManifest& manifest_;
+  const BatchOptions& options_;
+  BatchProgress* progress_;
+  BatchFolder folder_;
+  MemoryBudget memory_;
+  SharedInputs inputs_;
+  std::unordered_map<std::string, JournalRecord> records_;  // by id
+};
+
+}  // namespace
+
+BatchResults WriteBatchResults(const BatchManifest& manifest, const BatchOptions& options,
+                               BatchProgress* progress) {
+  return ResultsWriter(manifest, options, progress).Write();
+}
+
+}  // namespace mmm_converter

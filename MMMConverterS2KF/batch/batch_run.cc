@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/batch_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <new>
+#include <thread>
+#include <unordered_map>
+
+#include "MMMConverterS2KF/batch/batch_outputs.h"
+#include "MMMConverterS2KF/batch/batch_result.h"
+#include "MMMConverterS2KF/batch/entry_conversion.h"
+#include "MMMConverterS2KF/batch/interruption.h"
+#include "MMMConverterS2KF/batch/journal.h"
+#include "MMMConverterS2KF/batch/memory_budget.h"
+#include "common/support/content_hash.h"
+
+namespace mmm_converter {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string DescribeShortly(const std::string& result) {
+  const ResultFigures figures = ReadFigures(result);
+  return fmt::format("{} frames, {:.1f} mm, {:.2f} s{}", figures.frames, figures.mean_distance_mm,
+                     figures.seconds,
+                     figures.warnings > 0 ? fmt::format(", {} warnings", figures.warnings) : "");
+}
+
+class BatchRunner {
+ public:
+  BatchRunner(std::vector<BatchEntry> entries, const BatchOptions& options, BatchProgress* progress)
+      : entries_(std::move(entries)),
+        options_(options),
+        progress_(progress),
+        folder_(options.output),
+        memory_(options.memory),
+        journal_(options.output, options.shard, options.shards, !options.resume) {
+    if (options.resume) ReadDone();
+  }
+
+  BatchOutcome Run() {
+    progress_->Start(static_cast<int>(entries_.size()));
+    std::vector<std::thread> threads;
+    for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { Work(); });
+    for (std::thread& thread : threads) thread.join();
+    outcome_.signal = InterruptionWatch::Signal();
+    outcome_.seconds = progress_->Seconds();
+    outcome_.not_done = static_cast<int>(entries_.size()) - outcome_.converted - outcome_.failed -
+                        outcome_.unchanged;
+    return outcome_;
+  }
+
+ private:
+  void ReadDone() {
+    ReadJournals(options_.output, [this](JournalRecord record) {
+      record.result.clear();
+      const std::string id = record.id;
+      done_[id] = std::move(record);
+    });
+  }
+
+  bool IsEnding() const { return is_ending_ || InterruptionWatch::Signal() != 0; }
+
+  void Work() {
+    while (!IsEnding()) {
+      const std::size_t i = next_++;
+      if (i >= entries_.size()) return;
+      Process(entries_[i]);
+    }
+  }
+
+  void Process(const BatchEntry& entry) {
+    const Clock::time_point start = Clock::now();
+    std::string fingerprint;
+    std::string reason;
+    try {
+      ConversionRequest request = entry.request;
+      inputs_.Prepare(&request);
+      fingerprint = inputs_.Fingerprint(entry, request);
+      for (const std::string& output : folder_.OutputsOf(entry)) folder_.MakeReady(output);
+      if (IsDone(entry, fingerprint)) return NoteUnchanged();
+      return Convert(entry, std::move(request), fingerprint, start);
+    } catch (const WriteError& error) {
+      if (error.concerns_disk()) return End(error.what());
+      reason = error.what();
+    } catch (const std::bad_alloc&) {
+      reason = entry.request.input.file + ": there is not enough memory for it; use fewer --jobs";
+    } catch (const Error& error) {
+      reason = error.what();
+    } catch (const std::exception& error) {
+      reason = fmt::format("{}: unexpected: {}", entry.request.input.file, error.what());
+    }
+    if (IsEnding()) return;  // that is why it failed
+    NoteFailed(entry, fingerprint, reason, SecondsSince(start));
+  }
+
+  bool IsDone(const BatchEntry& entry, const std::string& fingerprint) const {
+    const auto found = done_.find(entry.id);
+    if (found == done_.end()) return false;
+    const JournalRecord& record = found->second;
+    std::vector<std::string> outputs = folder_.OutputsOf(entry);
+    if (options_.reports.all) outputs.push_back(PagePath(entry.id));
+    return record.converted && record.fingerprint == fingerprint &&
+           folder_.IsComplete(record, outputs) && IsRecordingUnchanged(entry, record);
+  }
+
+  // Of a recording that is not there any more there is nothing better than what was made of it.
+  static bool IsRecordingUnchanged(const BatchEntry& entry, const JournalRecord& record) {
+    try {
+      return IsUnchanged(entry.request.input.file, record.recording);
+    } catch (const Error&) {
+      return true;
+    }
+  }
+
+  void Convert(const BatchEntry& entry, ConversionRequest request, const std::string& fingerprint,
+               Clock::time_point start) {
+    JournalRecord record;
+    record.id = entry.id;
+    record.converted = true;
+    record.fingerprint = fingerprint;
+    const std::string& file = request.input.file;
+    record.recording = InspectFile(file);
+    const auto part = memory_.Take(file, ConversionMemory(file, record.recording.bytes));
+    record.recording.hash = HashFile(file);
+    folder_.Remove(PagePath(entry.id));
+    std::vector<std::string> outputs = folder_.OutputsOf(entry);
+    ConversionReport report =
+        ConvertEntry(entry, folder_, &request, [this] { return !IsEnding(); });
+    WriteConversion(request, &report);
+    if (options_.reports.all) {
+      WritePage(entry, report, &folder_);
+      outputs.push_back(PagePath(entry.id));
+    }
+    record.outputs = folder_.Sizes(outputs);
+    record.result = FormatResult(report, SecondsSince(start));
+    NoteConverted(record);
+  }
+
+  void NoteUnchanged() {
+    const std::scoped_lock lock(mutex_);
+    ++outcome_.unchanged;
+    progress_->Unchanged();
+  }
+
+  void NoteConverted(const JournalRecord& record) {
+    const std::scoped_lock lock(mutex_);
+    journal_.Append(record);
+    ++outcome_.converted;
+    progress_->Converted(record.id, DescribeShortly(record.result));
+  }
+
+  void NoteFailed(const BatchEntry& entry, const std::string& fingerprint,
+                  const std::string& reason, double seconds) {
+    JournalRecord record;
+    record.id = entry.id;
+    record.fingerprint = fingerprint;
+    record.result = FormatFailure(reason, seconds);
+    const std::scoped_lock lock(mutex_);
+    ++outcome_.failed;
+    progress_->Failed(fmt::format("{}: {}", entry.id, reason));
+    try {
+      journal_.Append(record);
+    } catch (const WriteError& error) {
+      EndLocked(error.what());
+    }
+    if (options_.fail_fast) EndLocked("ended by the first failure, as --fail-fast asks for");
+  }
+
+  void End(const std::string& obstacle) {
+    const std::scoped_lock lock(mutex_);
+    EndLocked(obstacle);
+  }
+
+  void EndLocked(const std::string& obstacle) {
+    if (outcome_.obstacle.empty()) outcome_.obstacle = obstacle;
+    is_ending_ = true;
+  }
+
+  std::vector<BatchEntry> entries_;
+  const BatchOptions& options_;
+  BatchProgress* progress_;
+  BatchFolder folder_;
+  MemoryBudget memory_;
+  SharedInputs inputs_;
+  std::unordered_map<std::string, JournalRecord> done_;  // by id, without results
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> is_ending_ = false;
+  std::mutex mutex_;  // of what follows
+  Journal journal_;
+  BatchOutcome outcome_;
+};
+
+}  // namespace
+
+BatchOutcome ConvertBatch(const BatchManifest& manifest, const BatchOptions& options,
+                          BatchProgress* progress) {
+  return BatchRunner(ShardOf(manifest.entries, options.shard, options.shards), options, progress)
+      .Run();
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/pipeline.h"
+
+namespace mmm_converter {
+
+/// A recording of a batch, with what holds for it.
+struct BatchEntry {
+  std::string id;             ///< names its outputs: a relative path without ending, "1723/Cut"
+  std::string group;          ///< names of the groups around it, outermost first, "KIT / 1723"
+  int line = 0;               ///< in the manifest
+  ConversionRequest request;  ///< without outputs
+  std::map<std::string, std::string> settings;  ///< the attributes that the request is made of
+  bool csv = false;                             ///< write postures as CSV too
+  std::map<std::string, std::string> metadata;  ///< passed on to the results
+};
+
+/// A `<Batch>` file (xml_config/schema/batch.xsd). An attribute of <Batch> or <Group> holds for
+/// every recording inside; of several, the innermost.
+struct BatchManifest {
+  std::string file;  ///< for messages
+  std::string name;
+  std::vector<BatchEntry> entries;  ///< in the file's order; ids are unique
+};
+
+/// @throws Error with file and line for all that is not well-formed or not allowed.
+BatchManifest ReadManifest(const std::string& path);
+
+/// As ReadManifest, from text. Relative paths start at the folder of `file`, which need not exist.
+BatchManifest ParseManifest(const std::string& xml, const std::string& file);
+
+/// A documented manifest with every attribute.
+std::string ManifestTemplate();
+
+/// 1-based part of `shards`: every entry is in one of them, which depends on its place only.
+std::vector<BatchEntry> ShardOf(const std::vector<BatchEntry>& entries, int shard, int shards);
+
+}  // namespace mmm_converter

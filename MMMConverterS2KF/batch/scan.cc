@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "MMMConverterS2KF/batch/subjects_table.h"
+#include "common/io/file_content.h"
+#include "common/io/mmm_motion.h"
+#include "common/io/processor_config.h"
+#include "common/io/xml_text.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+using Texts = std::map<std::string, std::string>;
+
+struct FoundRecording {
+  std::string file;  // name in its folder
+  Texts attributes, metadata;
+};
+
+// What is said of a person in an MMM motion; several people are nobody's.
+Texts PersonOf(const std::string& motion, const std::string& file) {
+  constexpr std::string_view kBegin = "<ModelProcessorConfig";
+  constexpr std::string_view kEnd = "</ModelProcessorConfig>";
+  std::set<Texts> people;
+  for (std::size_t at = motion.find(kBegin); at != std::string::npos;
+       at = motion.find(kBegin, at)) {
+    const std::size_t end = motion.find(kEnd, at);
+    if (end == std::string::npos) break;
+    const ProcessorConfig config =
+        ParseProcessorConfig(motion.substr(at, end + kEnd.size() - at), file);
+    Texts person;
+    if (config.height) person["height_m"] = fmt::format("{:g}", *config.height);
+    if (config.mass) person["mass_kg"] = fmt::format("{:g}", *config.mass);
+    if (config.hand_length)
+      person["handLength_mm"] = fmt::format("{:g}", 1e3 * *config.hand_length);
+    if (!person.empty()) people.insert(std::move(person));
+    at = end;
+  }
+  return people.size() == 1 ? *people.begin() : Texts();
+}
+
+bool HasMarkers(const std::string& motion) {
+  return motion.find("<MarkerPosition") != std::string::npos;
+}
+
+class Scanner {
+ public:
+  Scanner(const fs::path& folder, const std::string& subjects_file) : folder_(folder) {
+    if (!subjects_file.empty()) {
+      subjects_file_ = fs::absolute(subjects_file);
+      rows_ = ReadSubjectsTable(subjects_file);
+    }
+  }
+
+  Scan Run() {
+    Visit(folder_);
+    for (const auto& [name, row] : rows_) {
+      if (row.is_used) continue;
+      scan_.warnings.push_back(
+          fmt::format("{}: there is no recording in or at \"{}\"", subjects_file_.string(), name));
+    }
+    if (scan_.recordings == 0) {
+      throw Error(fmt::format("{}: has no recording (C3D, TRC, or MMM motion with markers)",
+                              folder_.string()));
+    }
+    scan_.manifest = fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<!-- {} recordings; all that may be said of them: MMMConverterS2KF print-config batch "
+        "-->\n"
+        "<Batch name=\"{}\" folder=\"{}\" config=\"s2kf_default\">\n{}</Batch>\n",
+        scan_.recordings, EscapeXml(folder_.filename().string()), EscapeXml(folder_.string()),
+        groups_);
+    return std::move(scan_);
+  }
+
+ private:
+  // Names in a folder, sorted; what can't be read is a warning.
+  std::vector<fs::directory_entry> List(const fs::path& folder) {
+    std::vector<fs::directory_entry> entries;
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+      entries.push_back(*entry);
+    }
+    if (failure) {
+      scan_.warnings.push_back(
+          fmt::format("{}: can't be read: {}", folder.string(), failure.message()));
+    }
+    std::sort(entries.begin(), entries.end());
+    return entries;
+  }
+
+  void Visit(const fs::path& folder) {
+    const std::vector<fs::directory_entry> entries = List(folder);
+    std::vector<FoundRecording> recordings;
+    std::set<std::string> measured;  // stems of C3D and TRC files
+    std::error_code failure;
+    for (const fs::directory_entry& entry : entries) {
+      const std::string ending = ToLower(entry.path().extension().string());
+      if (!entry.is_regular_file(failure) || (ending != ".c3d" && ending != ".trc")) continue;
+      recordings.push_back({entry.path().filename().string(), {}, {}});
+      measured.insert(entry.path().stem().string());
+    }
+    for (const fs::directory_entry& entry : entries) {
+      if (!entry.is_regular_file(failure) || ToLower(entry.path().extension().string()) != ".xml")
+        continue;
+      TakeMotion(entry.path(), measured, &recordings);
+    }
+    Add(folder, std::move(recordings));
+    for (const fs::directory_entry& entry : entries) {
+      if (entry.is_directory(failure) && !entry.is_symlink(failure)) Visit(entry.path());
+    }
+  }
+
+  // An MMM motion: a recording, or of the person of the recordings of the same name.
+  void TakeMotion(const fs::path& file, const std::set<std::string>& measured,
+                  std::vector<FoundRecording>* recordings) {
+    constexpr std::size_t kStart = 4096;
+    const std::string stem = file.stem().string();
+    try {
+      if (!LooksLikeMmmMotion(ReadFileStart(file.string(), kStart))) return;
+      const std::string content = ReadFileContent(file.string());
+      if (measured.count(stem) > 0) {
+        const Texts person = PersonOf(content, file.string());
+        for (FoundRecording& recording : *recordings) {
+          if (fs::path(recording.file).stem() == stem) recording.attributes = person;
+        }
+      } else if (HasMarkers(content) && !stem.ends_with("_mmm")) {
+        recordings->push_back({file.filename().string(), {}, {}});
+      }
+    } catch (const Error& error) {
+      scan_.warnings.emplace_back(error.what());
+    }
+  }
+
+  // The table's line for a folder or file; the table comes before MMM motions.
+  void TakeRow(const std::string& name, FoundRecording* recording) {
+    const auto found = rows_.find(name);
+    if (found == rows_.end()) return;
+    found->second.is_used = true;
+    for (const auto& [key, value] : found->second.attributes) {
+      const bool is_file = key == "subjectFile";
+      recording->attributes[key] =
+          is_file ? (subjects_file_.parent_path() / value).lexically_normal().string() : value;
+    }
+    for (const auto& [key, value] : found->second.metadata) recording->metadata[key] = value;
+  }
+
+  void Add(const fs::path& folder, std::vector<FoundRecording> recordings) {
+    if (recordings.empty()) return;
+    scan_.recordings += static_cast<int>(recordings.size());
+    const fs::path relative = folder.lexically_relative(folder_);
+    for (FoundRecording& recording : recordings) {
+      TakeRow(relative.generic_string(), &recording);
+      TakeRow((relative / recording.file).lexically_normal().generic_string(), &recording);
+      TakeRow((relative / fs::path(recording.file).stem()).lexically_normal().generic_string(),
+              &recording);
+    }
+    const Texts attributes = Common(recordings, &FoundRecording::attributes);
+    const Texts metadata = Common(recordings, &FoundRecording::metadata);
+    groups_ += fmt::format(
+        "  <Group name=\"{}\"{}>\n",
+        EscapeXml(relative == "." ? folder.filename().string() : relative.generic_string()),
+        Format(attributes));
+    groups_ += FormatMetadata("    ", metadata);
+    for (const FoundRecording& recording : recordings) {
+      const std::string file = (relative / recording.file).lexically_normal().generic_string();
+      const Texts own = Without(recording.attributes, attributes);
+      const Texts own_metadata = Without(recording.metadata, metadata);
+      groups_ += fmt::format("    <Recording file=\"{}\"{}{}", EscapeXml(file),
+                             Id(file, recordings), Format(own));
+      groups_ += own_metadata.empty()
+                     ? "/>\n"
+                     : ">\n" + FormatMetadata("      ", own_metadata) + "    </Recording>\n";
+    }
+    groups_ += "  </Group>\n";
+  }
+
+  // Recordings that differ in their ending only need one.
+  static std::string Id(const std::string& file, const std::vector<FoundRecording>& recordings) {
+    const fs::path stem = fs::path(file).stem();
+    const auto has_stem = [&](const FoundRecording& other) {
+      return fs::path(other.file).stem() == stem;
+    };
+    if (std::count_if(recordings.begin(), recordings.end(), has_stem) < 2) return "";
+    return " id=\"" + EscapeXml(file) + "\"";
+  }
+
+  // What all recordings have alike.
+  static Texts Common(const std::vector<FoundRecording>& recordings, Texts FoundRecording::*texts) {
+    Texts common;
+    for (const auto& item : recordings.front().*texts) {
+      const bool all_have =
+          std::all_of(recordings.begin(), recordings.end(), [&](const FoundRecording& recording) {
+            const auto found = (recording.*texts).find(item.first);
+            return found != (recording.*texts).end() && found->second == item.second;
+          });
+      if (all_have) common.insert(item);
+    }
+    return common;
+  }
+
+  static Texts Without(const Texts& texts, const Texts& others) {
+    Texts rest;
+    for (const auto& item : texts) {
+      if (others.count(item.first) == 0) rest.insert(item);
+    }
+    return rest;
+  }
+
+  static std::string Format(const Texts& attributes) {
+    std::string text;
+    for (const auto& [name, value] : attributes) {
+      text += fmt::format(" {}=\"{}\"", name, EscapeXml(value));
+    }
+    return text;
+  }
+
+  static std::string FormatMetadata(const std::string& indent, const Texts& metadata) {
+    std::string text;
+    for (const auto& [name, value] : metadata) {
+      text += fmt::format("{}<Metadata name=\"{}\" value=\"{}\"/>\n", indent, EscapeXml(name),
+                          EscapeXml(value));
+    }
+    return text;
+  }
+
+  fs::path folder_;
+  fs::path subjects_file_;
+  std::map<std::string, SubjectsRow> rows_;
+  Scan scan_;
+  std::string groups_;
+};
+
+}  // namespace
+
+Scan ScanFolder(const std::string& folder, const std::string& subjects_file) {
+  std::error_code failure;
+  const fs::path path = fs::canonical(folder, failure);
+  if (failure || !fs::is_directory(path, failure)) {
+    throw Error(fmt::format("{}: is no folder that can be read", folder));
+  }
+  return Scanner(path, subjects_file).Run();
+}
+
+}  // namespace mmm_converter

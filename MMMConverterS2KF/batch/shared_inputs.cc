@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/shared_inputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "common/support/content_hash.h"
+#include "common/support/data_directory.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string HashProgram() {
+  std::vector<std::string> files = {"/proc/self/exe", LibraryFile()};
+  std::vector<std::string> sets;
+  for (const auto& file : fs::directory_iterator(fs::path(DataDirectory()) / "marker_sets")) {
+    sets.push_back(file.path().string());
+  }
+  std::sort(sets.begin(), sets.end());
+  files.insert(files.end(), sets.begin(), sets.end());
+  ContentHash hash;
+  hash.AddPart(MMM_CONVERTER_VERSION);
+  for (const std::string& file : files) {
+    if (fs::is_regular_file(file)) hash.AddPart(HashFile(file));
+  }
+  return hash.Hex();
+}
+
+}  // namespace
+
+SharedInputs::SharedInputs() : program_(HashProgram()) {}
+
+void SharedInputs::Prepare(ConversionRequest* request) {
+  const std::scoped_lock lock(mutex_);
+  const std::string model_file = ModelFile(request->input);
+  auto& model = models_[model_file];
+  if (!model) model = std::make_shared<MmmModel>(ReadMmmModel(model_file));
+  request->input.model = model;
+  const ConverterRequest& converter = request->converter;
+  auto& choice = choices_[converter.config + '\n' + converter.plugin_file];
+  if (!choice) choice = std::make_shared<ConverterChoice>(ChooseConverter(converter));
+  request->choice = choice;
+}
+
+std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConversionRequest& request) {
+  const ConverterConfig& config = request.choice->config;
+  ContentHash hash;
+  hash.AddPart(program_);
+  hash.AddPart(FileHash(request.choice->plugin->path()));
+  hash.AddPart(request.choice->text);
+  hash.AddPart(FileHash(ModelFile(request.input)));
+  hash.AddPart(fs::path(request.input.file).filename().string());
+  for (const auto& [name, value] : entry.settings) {
+    hash.AddPart(name);
+    hash.AddPart(value);
+  }
+  const std::string own_set = (fs::path(config.file).parent_path() / config.marker_set).string();
+  for (const std::string& file :
+       {request.input.person.processor_file, request.input.person.subject_file, config.subject_file,
+        own_set}) {
+    hash.AddPart(!file.empty() && fs::is_regular_file(file) ? FileHash(file) : "");
+  }
+  return hash.Hex();
+}
+
+std::string SharedInputs::FileHash(const std::string& path) {
+  const std::scoped_lock lock(mutex_);
+  std::string& hash = hashes_[path];
+  if (hash.empty()) hash = HashFile(path);
+  return hash;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "MMMConverterS2KF/batch/batch_run.h"
+#include "MMMConverterS2KF/batch/interruption.h"
+#include "MMMConverterS2KF/batch/manifest.h"
+#include "MMMConverterS2KF/batch/scan.h"
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/log.h"
+#include "common/support/machine.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kMostJobs = 1024;
+constexpr int kMostShards = 1000000;
+constexpr double kShareOfMemory = 0.75;
+constexpr int kSignalExit = 128;  // as shells say it
+
+const std::vector<OptionGroup> kOptions = {
+    {"Batch",
+     {{"output,o", "FOLDER", "where motions, reports, journal and results go", ""},
+      {"resume", "", "keep what an earlier run has done, if nothing that it depends on has changed",
+       ""},
+      {"fail-fast", "", "end with the first recording that can't be converted", ""},
+      {"reports", "WHICH",
+       "pages: worst:N, the N with the largest distance; all or none; "
+       "default: worst:20",
+       ""}}},
+    {"Work",
+     {{"jobs", "N", "recordings at a time; default: all cores that this process may use", ""},
+      {"memory", "SIZE", "for all jobs together, e.g. 8G; default: three quarters of what is free",
+       ""},
+      {"shard", "I/N", "only the I-th of N parts of the manifest, without results; see --merge",
+       ""},
+      {"merge", "", "convert nothing: the results of all shards, when they have ended", ""}}},
+    {"Making a manifest",
+     {{"scan", "FOLDER", "print a manifest of the recordings in FOLDER and below", ""},
+      {"subjects", "FILE",
+       "with --scan: CSV table of persons: folder (or file),height_m,mass_kg,"
+       "subject_file; other columns become metadata",
+       ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF batch MANIFEST -o FOLDER [options]
+Converts the recordings of a manifest (XML; print-config batch shows all that it may say). What can't
+be converted fails alone. A run that was ended, however, is taken up again with --resume.
+
+{}FOLDER has motions/ID.xml, and as asked for reports/, csv/ and subjects/; journal.jsonl, a line for
+each recording that has ended; results.jsonl and results.csv; index.html, the worst first. Exit code
+1 where a recording failed, 128 + the signal's number where one ended the run.
+
+Examples
+  MMMConverterS2KF batch --scan recordings --subjects subjects.csv > manifest.xml
+  MMMConverterS2KF batch manifest.xml -o converted
+  MMMConverterS2KF batch manifest.xml -o converted --resume
+  MMMConverterS2KF batch manifest.xml -o converted --resume --shard 3/16
+  MMMConverterS2KF batch manifest.xml -o converted --merge
+)";
+
+ReportChoice ParseReports(const std::string& text) {
+  constexpr std::string_view kWorst = "worst:";
+  ReportChoice choice;
+  if (text == "all") return {true, 0};
+  if (text == "none") return {false, 0};
+  const auto count =
+      text.starts_with(kWorst) ? ParseLong(text.substr(kWorst.size())) : std::nullopt;
+  if (!count || *count < 0 || *count > kMostShards) {
+    throw UsageError(
+        fmt::format("--reports: \"{}\" is not allowed; use worst:20, all or none", text));
+  }
+  choice.worst = static_cast<int>(*count);
+  return choice;
+}
+
+void ParseShard(const std::string& text, BatchOptions* options) {
+  const std::size_t slash = text.find('/');
+  const std::string behind = slash == std::string::npos ? "" : text.substr(slash + 1);
+  const long shard = ParseLong(text.substr(0, slash)).value_or(0);
+  const long shards = ParseLong(behind).value_or(0);
+  if (shard < 1 || shards < shard || shards > kMostShards) {
+    throw UsageError(
+        fmt::format("--shard: \"{}\" is not I/N; for instance 1/4, 2/4, 3/4 and 4/4", text));
+  }
+  options->shard = static_cast<int>(shard);
+  options->shards = static_cast<int>(shards);
+}
+
+BatchOptions MakeOptions(const Arguments& arguments) {
+  BatchOptions options;
+  if (!arguments.Has("output")) {
+    throw UsageError(
+        "batch: where to? For instance: MMMConverterS2KF batch manifest.xml -o converted");
+  }
+  options.output = *arguments.Get("output");
+  options.jobs = arguments.GetInteger("jobs", 1, kMostJobs).value_or(AvailableCores());
+  options.resume = arguments.Has("resume");
+  options.fail_fast = arguments.Has("fail-fast");
+  options.memory =
+      static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(AvailableMemory()));
+  if (const auto memory = arguments.Get("memory")) {
+    const auto bytes = ParseByteSize(*memory);
+    if (!bytes) {
+      throw UsageError(
+          fmt::format("--memory: \"{}\" is no size; for instance 800M or 8G", *memory));
+    }
+    options.memory = *bytes;
+  }
+  if (const auto reports = arguments.Get("reports")) options.reports = ParseReports(*reports);
+  if (const auto shard = arguments.Get("shard")) ParseShard(*shard, &options);
+  if (arguments.Has("merge") && options.shards > 1) {
+    throw UsageError("batch: --merge is for all shards together; leave --shard out");
+  }
+  return options;
+}
+
+std::string DescribeRun(const BatchOutcome& outcome) {
+  std::string text = fmt::format("{} converted, {} failed", outcome.converted, outcome.failed);
+  if (outcome.unchanged > 0) text += fmt::format(", {} unchanged", outcome.unchanged);
+  if (outcome.not_done > 0) text += fmt::format(", {} not done", outcome.not_done);
+  const double rate = outcome.converted / std::max(outcome.seconds, 1e-3);
+  return text +
+         fmt::format(" in {} ({:.3g} recordings a second)", FormatDuration(outcome.seconds), rate);
+}
+
+std::string DescribeResults(const BatchManifest& manifest, const BatchOptions& options,
+                            const BatchResults& results) {
+  const std::filesystem::path index = std::filesystem::path(options.output) / "index.html";
+  std::string text = fmt::format(
+      "batch      {}: {} recordings, {} converted, {} failed, {} missing\n", manifest.name,
+      manifest.entries.size(), results.converted, results.failed, results.missing);
+  if (results.converted > 0) {
+    text +=
+        fmt::format("recorded   {} in {} frames; {:.3g} times as long as converting them took\n",
+                    FormatDuration(results.recorded_seconds), results.frames,
+                    results.recorded_seconds / std::max(results.seconds, 1e-3));
+    text += fmt::format("distance   mean {:.1f} mm over all frames\n", results.mean_distance_mm);
+  }
+  return text + fmt::format("results    {}\n", index.string());
+}
+
+int Merge(const BatchManifest& manifest, const BatchOptions& options) {
+  BatchProgress progress("recordings");
+  const BatchResults results = WriteBatchResults(manifest, options, &progress);
+  std::cout << DescribeResults(manifest, options, results);
+  return results.failed + results.missing > 0 ? 1 : 0;
+}
+
+int Convert(const BatchManifest& manifest, const BatchOptions& options) {
+  BatchProgress progress("recordings");
+  const InterruptionWatch watch;
+  const BatchOutcome outcome = ConvertBatch(manifest, options, &progress);
+  const bool was_ended = outcome.signal != 0 || !outcome.obstacle.empty();
+  if (!outcome.obstacle.empty()) {
+    LogError(outcome.obstacle + "; what is done stays: go on with --resume");
+  } else if (was_ended) {
+    LogWarning("interrupted; what is done stays: go on with --resume");
+  }
+  if (!was_ended && options.shards == 1) {
+    std::cout << DescribeResults(manifest, options,
+                                 WriteBatchResults(manifest, options, &progress));
+  }
+  const std::string shard =
+      options.shards > 1 ? fmt::format(" shard {}/{}:", options.shard, options.shards) : "";
+  std::cout << fmt::format("run       {} {}\n", shard, DescribeRun(outcome));
+  if (InterruptionWatch::Signal() != 0) return kSignalExit + InterruptionWatch::Signal();
+  return was_ended || outcome.failed > 0 ? 1 : 0;
+}
+
+int PrintScan(const Arguments& arguments) {
+  if (arguments.positional()) {
+    throw UsageError(fmt::format("batch: --scan makes a manifest, {} is one; use one of them",
+                                 *arguments.positional()));
+  }
+  const Scan scan = ScanFolder(*arguments.Get("scan"), arguments.Get("subjects").value_or(""));
+  for (const std::string& warning : scan.warnings) LogWarning(warning);
+  std::cout << scan.manifest;
+  return 0;
+}
+
+}  // namespace
+
+int RunBatch(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("batch", kOptions, words);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
+    return 0;
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  if (arguments.Has("scan")) return PrintScan(arguments);
+  if (!arguments.positional()) {
+    throw UsageError(
+        "batch: which manifest? For instance: MMMConverterS2KF batch manifest.xml -o converted; "
+        "batch --scan FOLDER makes one");
+  }
+  const BatchOptions options = MakeOptions(arguments);
+  const BatchManifest manifest = ReadManifest(*arguments.positional());
+  return arguments.Has("merge") ? Merge(manifest, options) : Convert(manifest, options);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace mmm_converter {
+
+/// A text file to which whole lines are added, each on the disk before Append returns. One process
+/// at a time has it.
+class LineFile {
+ public:
+  /// Creates or opens the file; a last line without its end, from a process that was killed in it,
+  /// is cut off. `empty`: all old lines are dropped.
+  /// @throws Error naming the system's reason, and where another process has the file.
+  LineFile(const std::string& path, bool empty);
+  ~LineFile();
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+
+  /// Whole or not at all. Not for several threads at a time.
+  /// @throws WriteError; the file is then as it was.
+  void Append(std::string_view line);
+
+ private:
+  void CutOffPartOfLine();
+
+  std::string path_;
+  int descriptor_ = -1;
+  long size_ = 0;  // [bytes] of whole lines
+};
+
+/// Calls visit for each whole line of a file, without its end; nothing where there is no such file.
+/// @throws Error where it can't be read.
+void ForEachLine(const std::string& path, const std::function<void(std::string_view)>& visit);
+
+}  // namespace mmm_converter
