@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+"""examples/batch/gnu_parallel.sh with a shard that is killed, and killed itself."""
+
+import os
+import signal
+import subprocess
+
+import batch_runs
+
+
+class GnuParallel(batch_runs.BatchCase):
+
+    def start(self):
+        return subprocess.Popen(
+            [self.examples / "gnu_parallel.sh", self.manifest, self.out, str(batch_runs.SHARDS), "--jobs", "2"],
+            env=self.environment, start_new_session=True)
+
+    def test_killed_shard_is_run_again(self):
+        run = self.start()
+        self.kill(2)
+        self.assertEqual(run.wait(batch_runs.SECONDS), 0)
+        self.assert_undisturbed()
+
+    def test_killed_run_is_resumed(self):
+        run = self.start()
+        self.catch(2)
+        os.killpg(run.pid, signal.SIGKILL)
+        batch_runs.until(lambda: not batch_runs.processes(self.program, self.out), "the end of all shards")
+        run.wait()
+        self.assertFalse((self.out / "results.jsonl").exists())
+
+        self.assertEqual(self.start().wait(batch_runs.SECONDS), 0)
+        self.assert_undisturbed()
+
+
+if __name__ == "__main__":
+    batch_runs.main()
