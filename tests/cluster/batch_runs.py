@@ -70,11 +70,11 @@ class BatchCase(unittest.TestCase):
     def catch(self, shard):
         """The process of a shard, stopped in the midst of its work."""
         def stopped():
-            found = processes(self.program, self.out, f"{shard}/{SHARDS}")
-            if not found or self.entries_of(shard) == 0:
+            if self.entries_of(shard) == 0:
                 return None
-            os.kill(found[0], signal.SIGSTOP)
-            return found[0]
+            (found,) = processes(self.program, self.out, f"{shard}/{SHARDS}")
+            os.kill(found, signal.SIGSTOP)
+            return found
 
         process = until(stopped, f"the first entry of shard {shard}")
         self.assertLess(self.entries_of(shard), len(results(self.undisturbed)) / SHARDS,
