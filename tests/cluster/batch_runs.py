@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Batches by the engines of examples/batch: shards that are caught at work, and what must come out."""
 
+import contextlib
 import filecmp
 import json
 import os
@@ -78,8 +79,24 @@ class BatchCase(unittest.TestCase):
         return found[0]
 
     def kill(self, shard):
-        """Kills a shard as it works, as a power cut does."""
+        """Kills a shard as it works."""
         os.kill(self.catch(shard), signal.SIGKILL)
+
+    def cut_power(self, run):
+        """Kills an engine, a process group, and all shards, as one of them works."""
+        self.catch(2)
+        os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+
+        def gone():
+            left = processes(self.program, self.out)
+            for process in left:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(process, signal.SIGKILL)
+            return not left
+
+        until(gone, "the end of all shards")
+        self.assertFalse((self.out / "results.jsonl").exists())
 
     def motions(self, folder):
         return sorted(file.relative_to(folder) for file in (folder / "motions").rglob("*") if file.is_file())

@@ -5,6 +5,7 @@ That happens when the command ends, when this process is told to end, and when i
 TMPDIR of the command is a folder that is removed then.
 """
 
+import contextlib
 import ctypes
 import os
 import pathlib
@@ -20,10 +21,8 @@ def parents():
     """Of every process: its parent."""
     found = {}
     for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        try:
+        with contextlib.suppress(OSError):  # ended meanwhile
             found[int(stat.parent.name)] = int(stat.read_text().rpartition(")")[2].split()[1])
-        except (OSError, ValueError):
-            pass  # ended meanwhile
     return found
 
 
@@ -39,10 +38,8 @@ def end_descendants():
     """Those whose parents end become this process's children, so none is lost."""
     while True:
         for pid in descendants():
-            try:
+            with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
-            except ProcessLookupError:
-                pass
         try:
             os.waitpid(-1, 0)
         except ChildProcessError:

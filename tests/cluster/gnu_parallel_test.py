@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """examples/batch/gnu_parallel.sh with a shard that is killed, and killed itself."""
 
-import os
-import signal
 import subprocess
 
 import batch_runs
@@ -22,13 +20,7 @@ class GnuParallel(batch_runs.BatchCase):
         self.assert_undisturbed()
 
     def test_killed_run_is_resumed(self):
-        run = self.start()
-        self.catch(2)
-        os.killpg(run.pid, signal.SIGKILL)
-        batch_runs.until(lambda: not batch_runs.processes(self.program, self.out), "the end of all shards")
-        run.wait()
-        self.assertFalse((self.out / "results.jsonl").exists())
-
+        self.cut_power(self.start())
         self.assertEqual(self.start().wait(batch_runs.SECONDS), 0)
         self.assert_undisturbed()
 

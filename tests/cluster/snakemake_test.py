@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """examples/batch/Snakefile, killed in the midst of its work and run again."""
 
-import os
-import signal
 import subprocess
 
 import batch_runs
@@ -18,13 +16,7 @@ class Snakemake(batch_runs.BatchCase):
             cwd=self.out, env=self.environment, start_new_session=True)
 
     def test_killed_run_is_resumed(self):
-        run = self.start()
-        self.catch(2)
-        os.killpg(run.pid, signal.SIGKILL)
-        batch_runs.until(lambda: not batch_runs.processes(self.program, self.out), "the end of all shards")
-        run.wait()
-        self.assertFalse((self.out / "results.jsonl").exists())
-
+        self.cut_power(self.start())
         self.assertEqual(self.start("--unlock").wait(batch_runs.SECONDS), 0)
         self.assertEqual(self.start().wait(batch_runs.SECONDS), 0)
         self.assert_undisturbed()
