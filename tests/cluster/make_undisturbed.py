@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import sys
 
-RECORDINGS, LENGTH = "24", "10"  # six a shard; [s]
+RECORDINGS, LENGTH = "24", "3"  # six a shard; [s]
 
 
 def main():
