@@ -52,15 +52,16 @@ def results(folder):
 
 
 class BatchCase(unittest.TestCase):
-    """main() sets the first four from the command line: PROGRAM EXAMPLES MANIFEST UNDISTURBED WORK."""
+    """main() sets these from the command line: PROGRAM EXAMPLES MANIFEST UNDISTURBED."""
 
-    program = examples = manifest = undisturbed = work = pathlib.Path()
+    program = examples = manifest = undisturbed = pathlib.Path()
     maxDiff = None
 
     def setUp(self):
-        self.out = self.work / self.id().rpartition(".")[2] / "a folder"  # its space must be quoted
+        # Beside the undisturbed one, as motions name their model by a relative path; its space must be quoted.
+        self.out = self.undisturbed.with_name(self.id().replace("__main__.", "").replace(".", " "))
         shutil.rmtree(self.out, ignore_errors=True)
-        self.out.mkdir(parents=True)
+        self.out.mkdir()
         self.environment = {**os.environ, "PROGRAM": str(self.program)}
 
     def entries_of(self, shard):
@@ -116,7 +117,7 @@ class BatchCase(unittest.TestCase):
 
 
 def main():
-    names = ("program", "examples", "manifest", "undisturbed", "work")
+    names = ("program", "examples", "manifest", "undisturbed")
     for name, path in zip(names, sys.argv[1:], strict=True):
         setattr(BatchCase, name, pathlib.Path(path))
     unittest.main(argv=sys.argv[:1], verbosity=2)
