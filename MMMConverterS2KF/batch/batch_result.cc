@@ -38,15 +38,21 @@ Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) :
 std::string CsvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + "\"";
+  for (const char c : text) {
+    if (c == '"') field += c;
+    field += c;
+  }
+  field += '"';
+  return field;
 }
 
 // Objects become columns "a.b", arrays of text one text.
 void Flatten(const std::string& name, const Json& value, Json* row) {
   if (value.is_object()) {
     for (const auto& [key, part] : value.items()) {
-      Flatten(name.empty() ? key : name + "." + key, part, row);
+      std::string column = name;
+      if (!column.empty()) column += '.';
+      Flatten(column += key, part, row);
     }
   } else if (value.is_array()) {
     std::string text;

@@ -119,7 +119,8 @@ class ResultsWriter {
       ConversionRequest request = entry.request;
       inputs_.Prepare(&request);
       const std::string& file = request.input.file;
-      const auto part = memory_.Take(file, ConversionMemory(file, InspectFile(file).bytes));
+      const std::uint64_t bytes = ConversionMemory(file, InspectFile(file).bytes, true);
+      const auto part = memory_.Take(file, bytes);
       const auto goes_on = [] { return InterruptionWatch::Signal() == 0; };
       WritePage(entry, ConvertEntry(entry, folder_, &request, goes_on), &folder_);
     } catch (const WriteError&) {

@@ -49,6 +49,7 @@ class BatchRunner {
   BatchOutcome Run() {
     progress_->Start(static_cast<int>(entries_.size()));
     std::vector<std::thread> threads;
+    threads.reserve(options_.jobs);
     for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { Work(); });
     for (std::thread& thread : threads) thread.join();
     outcome_.signal = InterruptionWatch::Signal();
@@ -129,7 +130,9 @@ class BatchRunner {
     record.fingerprint = fingerprint;
     const std::string& file = request.input.file;
     record.recording = InspectFile(file);
-    const auto part = memory_.Take(file, ConversionMemory(file, record.recording.bytes));
+    const std::uint64_t bytes =
+        ConversionMemory(file, record.recording.bytes, options_.reports.all);
+    const auto part = memory_.Take(file, bytes);
     record.recording.hash = HashFile(file);
     folder_.Remove(PagePath(entry.id));
     std::vector<std::string> outputs = folder_.OutputsOf(entry);

@@ -108,11 +108,11 @@ class ManifestReader {
 
   void CheckId(int line, const std::string& id) {
     const fs::path path(id);
-    const bool is_plain = !id.empty() && path.is_relative() && path == path.lexically_normal() &&
-                          path.has_filename() && *path.begin() != ".." && *path.begin() != "." &&
-                          std::none_of(id.begin(), id.end(), [](char c) {
-                            return static_cast<unsigned char>(c) < ' ' || c == '\\';
-                          });
+    const bool is_plain =
+        !id.empty() && path.is_relative() && id == path.lexically_normal().string() &&
+        path.has_filename() && *path.begin() != ".." && *path.begin() != "." &&
+        std::none_of(id.begin(), id.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\\'; });
     if (!is_plain) {
       diagnostics_.AddError(line, fmt::format("id=\"{}\" names the outputs and must be a relative "
                                               "path without . and .., such as 1723/Cut",

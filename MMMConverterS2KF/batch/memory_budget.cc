@@ -32,10 +32,14 @@ void MemoryBudget::GiveBack(std::uint64_t bytes) {
   freed_.notify_all();
 }
 
-std::uint64_t ConversionMemory(const std::string& file, std::uint64_t bytes) {
+std::uint64_t ConversionMemory(const std::string& file, std::uint64_t bytes, bool with_page) {
   constexpr std::uint64_t kLeast = std::uint64_t{32} << 20;
-  const bool is_binary = ToLower(std::filesystem::path(file).extension().string()) == ".c3d";
-  return kLeast + (is_binary ? 16 : 8) * bytes;
+  const std::string ending = ToLower(std::filesystem::path(file).extension().string());
+  // A number takes four bytes in C3D, nine in TRC, and with its markup fifty in MMM.
+  std::uint64_t factor = 8;
+  if (ending == ".trc") factor = 5;
+  if (ending == ".xml") factor = 2;
+  return kLeast + (with_page ? 2 : 1) * factor * bytes;
 }
 
 }  // namespace mmm_converter

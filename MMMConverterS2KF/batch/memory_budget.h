@@ -41,7 +41,8 @@ class MemoryBudget {
   std::condition_variable freed_;
 };
 
-/// What converting a recording of so many bytes needs at most: C3D, or else text.
-std::uint64_t ConversionMemory(const std::string& file, std::uint64_t bytes);
+/// What converting a recording of so many bytes takes at most [bytes], measured on ten minutes of
+/// 53 markers and rounded up; with_page: and writing its page.
+std::uint64_t ConversionMemory(const std::string& file, std::uint64_t bytes, bool with_page);
 
 }  // namespace mmm_converter

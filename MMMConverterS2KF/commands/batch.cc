@@ -8,6 +8,7 @@
 
 #include "MMMConverterS2KF/batch/batch_run.h"
 #include "MMMConverterS2KF/batch/interruption.h"
+#include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/batch/scan.h"
 #include "MMMConverterS2KF/command_line.h"
@@ -155,7 +156,20 @@ int Merge(const BatchManifest& manifest, const BatchOptions& options) {
   return results.failed + results.missing > 0 ? 1 : 0;
 }
 
+void WarnOfEarlierRun(const std::string& folder) {
+  int ended = 0;
+  if (std::filesystem::is_directory(folder)) {
+    ReadJournals(folder, [&](const JournalRecord& record) { ended += record.converted ? 1 : 0; });
+  }
+  if (ended == 0) return;
+  LogWarning(fmt::format(
+      "{}: an earlier run has converted {} recordings; all are converted anew, --resume would keep "
+      "what is unchanged",
+      folder, ended));
+}
+
 int Convert(const BatchManifest& manifest, const BatchOptions& options) {
+  if (!options.resume) WarnOfEarlierRun(options.output);
   BatchProgress progress("recordings");
   const InterruptionWatch watch;
   const BatchOutcome outcome = ConvertBatch(manifest, options, &progress);

@@ -67,7 +67,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
   const std::vector<Misuse> misuses = {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
-       "unknown command \"fly\"; use convert, calibrate, compare, evaluate, info, print-config or "
+       "unknown command \"fly\"; use convert, batch, calibrate, compare, evaluate, info, "
+       "print-config or "
        "report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},

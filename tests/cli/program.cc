@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "tests/cli/program.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "tests/support/shared_data.h"
 #include "tests/support/test_plugins.h"
@@ -45,6 +50,51 @@ ProgramRun RunProgram(const std::vector<std::string>& arguments,
   run.out = ReadText(base + ".out");
   run.err = ReadText(base + ".err");
   return run;
+}
+
+StartedProgram::StartedProgram(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {MMM_CONVERTER_BINARY_DIR "/bin/MMMConverterS2KF"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const std::string log = ::testing::TempDir() + "/cli_" + TestName() + ".started";
+  process_ = ::fork();
+  if (process_ != 0) return;
+  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  ::dup2(file, STDOUT_FILENO);
+  ::dup2(file, STDERR_FILENO);
+  ::execv(pointers.front(), pointers.data());
+  ::_exit(127);
+}
+
+StartedProgram::~StartedProgram() {
+  Send(SIGKILL);
+  Wait();
+}
+
+bool StartedProgram::HasEnded() {
+  has_ended_ = has_ended_ || ::waitpid(process_, &status_, WNOHANG) == process_;
+  return has_ended_;
+}
+
+void StartedProgram::WaitForLines(const std::string& file, int lines) {
+  const auto count = [&] {
+    const std::string text = ReadText(file);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  while (!HasEnded() && count() < lines) std::this_thread::yield();
+}
+
+void StartedProgram::Send(int signal) {
+  if (!HasEnded()) ::kill(process_, signal);
+}
+
+int StartedProgram::Wait() {
+  if (!has_ended_) ::waitpid(process_, &status_, 0);
+  has_ended_ = true;
+  return WIFSIGNALED(status_) ? -WTERMSIG(status_) : WEXITSTATUS(status_);
 }
 
 std::string TestFolder() {

@@ -17,6 +17,28 @@ struct ProgramRun {
 ProgramRun RunProgram(const std::vector<std::string>& arguments,
                       const std::map<std::string, std::string>& environment = {});
 
+/// The real program while it works; killed at the end of its scope.
+class StartedProgram {
+ public:
+  explicit StartedProgram(const std::vector<std::string>& arguments);
+  ~StartedProgram();
+  StartedProgram(const StartedProgram&) = delete;
+  StartedProgram& operator=(const StartedProgram&) = delete;
+
+  /// Waits until a file has so many lines, or the program has ended.
+  void WaitForLines(const std::string& file, int lines);
+  void Send(int signal);
+  /// Waits for its end. The exit code; of one that a signal killed, -signal.
+  int Wait();
+
+ private:
+  bool HasEnded();
+
+  int process_ = -1;
+  int status_ = 0;
+  bool has_ended_ = false;
+};
+
 /// A folder of its own for the running test, empty at first; `TestFolder() + "/name"`.
 std::string TestFolder();
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -159,6 +160,31 @@ TEST_F(AtomicFile, LeavesTheOldFileWhereThereIsNoPermission) {
   EXPECT_EQ(Content(Path("read_only")), "old");
   EXPECT_EQ(Content(Path("in_read_only_folder")), "old");
   EXPECT_EQ(EntriesInFolder(), 2);
+}
+
+TEST_F(AtomicFile, WhatKilledProcessesLeftIsRemovedAndNothingElse) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    WriteFileAtomically(Path("file"), [](const TextSink& sink) {
+      sink("half");
+      ::raise(SIGKILL);
+    });
+  }
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  WriteFileAtomically(Path("other"), "whole");
+  EXPECT_EQ(EntriesInFolder(), 2);
+  WriteFileAtomically(Path("file"), [&](const TextSink& sink) {
+    sink("wh");
+    EXPECT_EQ(EntriesInFolder(), 3);
+    RemoveAbandonedFiles(folder_);  // what a process that is alive is writing stays
+    EXPECT_EQ(EntriesInFolder(), 2);
+    sink("ole");
+  });
+  EXPECT_EQ(Content(Path("file")), "whole");
+  EXPECT_EQ(Content(Path("other")), "whole");
+  EXPECT_EQ(EntriesInFolder(), 2);
+  RemoveAbandonedFiles(Path("nowhere"));
 }
 
 }  // namespace

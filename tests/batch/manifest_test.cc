@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/manifest.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+BatchManifest Parse(const std::string& xml) { return ParseManifest(xml, "/data/night.xml"); }
+
+std::string ErrorOf(const std::string& xml) {
+  try {
+    Parse(xml);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Manifest, TheInnermostHolds) {
+  const BatchManifest manifest = Parse(R"(
+    <Batch name="kit" config="s2kf_offline" height_m="1.75" csv="true">
+      <Recording file="a.c3d"/>
+      <Group name="1723" height_m="1.68" mass_kg="62">
+        <Recording file="1723/Cut.c3d" mass_kg="63" csv="false" frames="10:"/>
+        <Group name="late" subjectFile="../anna.xml">
+          <Recording file="1723/Peel.c3d" handLength_mm="180"/>
+        </Group>
+      </Group>
+    </Batch>)");
+  EXPECT_EQ(manifest.name, "kit");
+  ASSERT_EQ(manifest.entries.size(), 3U);
+  const auto& [first, cut, peel] =
+      std::tie(manifest.entries[0], manifest.entries[1], manifest.entries[2]);
+  EXPECT_EQ(first.id, "a");
+  EXPECT_EQ(first.group, "");
+  EXPECT_EQ(first.request.input.file, "/data/a.c3d");
+  EXPECT_EQ(first.request.input.person.height, 1.75);
+  EXPECT_FALSE(first.request.input.person.mass);
+  EXPECT_TRUE(first.csv);
+  EXPECT_EQ(cut.id, "1723/Cut");
+  EXPECT_EQ(cut.group, "1723");
+  EXPECT_EQ(cut.request.input.person.height, 1.68);
+  EXPECT_EQ(cut.request.input.person.mass, 63);
+  EXPECT_EQ(cut.request.input.first_frame, 10);
+  EXPECT_FALSE(cut.csv);
+  EXPECT_EQ(peel.group, "1723 / late");
+  EXPECT_EQ(peel.request.input.person.mass, 62);
+  EXPECT_DOUBLE_EQ(peel.request.input.person.hand_length.value(), 0.18);
+  EXPECT_EQ(peel.request.input.person.subject_file, "/anna.xml");
+  EXPECT_EQ(peel.request.converter.config, "s2kf_offline");
+}
+
+TEST(Manifest, MetadataHoldInside) {
+  const BatchManifest manifest = Parse(R"(
+    <Batch>
+      <Recording file="a.c3d"/>
+      <Group><Recording file="b.c3d"><Metadata name="trial" value="7"/></Recording>
+        <Metadata name="day" value="2"/></Group>
+      <Metadata name="day" value="1"/>
+    </Batch>)");
+  EXPECT_EQ(manifest.name, "night");
+  EXPECT_THAT(manifest.entries[0].metadata, ElementsAre(Pair("day", "1")));
+  EXPECT_THAT(manifest.entries[1].metadata, ElementsAre(Pair("day", "2"), Pair("trial", "7")));
+}
+
+TEST(Manifest, RecordingsMayStartElsewhere) {
+  const BatchManifest manifest = Parse(R"(
+    <Batch folder="/archive"><Recording file="1723/Cut.c3d"/><Recording file="../x/walk.trc"/>
+      <Recording file="/other/run.c3d" id="own/name"/></Batch>)");
+  EXPECT_EQ(manifest.entries[0].request.input.file, "/archive/1723/Cut.c3d");
+  EXPECT_EQ(manifest.entries[0].id, "1723/Cut");
+  EXPECT_EQ(manifest.entries[1].request.input.file, "/x/walk.trc");
+  EXPECT_EQ(manifest.entries[1].id, "walk");
+  EXPECT_EQ(manifest.entries[2].request.input.file, "/other/run.c3d");
+  EXPECT_EQ(manifest.entries[2].id, "own/name");
+}
+
+TEST(Manifest, OfAGivenAndAnEstimatedPersonTheInnermostHolds) {
+  const BatchManifest manifest = Parse(R"(
+    <Batch selfCalibrate="true"><Recording file="a.c3d"/>
+      <Group subjectFile="anna.xml"><Recording file="b.c3d"/>
+        <Recording file="c.c3d" selfCalibrate="true"/></Group></Batch>)");
+  EXPECT_TRUE(manifest.entries[0].request.self_calibrate);
+  EXPECT_FALSE(manifest.entries[1].request.self_calibrate);
+  EXPECT_EQ(manifest.entries[1].request.input.person.subject_file, "/data/anna.xml");
+  EXPECT_TRUE(manifest.entries[2].request.self_calibrate);
+  EXPECT_EQ(manifest.entries[2].request.input.person.subject_file, "");
+}
+
+TEST(Manifest, SaysAllThatIsWrongWithItsLine) {
+  EXPECT_THAT(
+      ErrorOf("<Batch height_m='175'>\n<Recording file='a.c3d' hieght_m='1.7'/>\n<Recording/>\n"
+              "<Recrding file='b.c3d'/>\n<Recording file='a.trc' frames='5'/>\n"
+              "<Recording file='c.c3d' up='w'/>\n</Batch>"),
+      AllOf(
+          HasSubstr(
+              "/data/night.xml:1: <Batch>: height_m=\"175\" is not allowed; give a number from 0.5 "
+              "to 2.5"),
+          HasSubstr(":2: <Recording>: unknown attribute hieght_m; did you mean height_m?"),
+          HasSubstr(":3: <Recording> needs file=\"...\""),
+          HasSubstr(":4: unknown element <Recrding> in <Batch>"),
+          HasSubstr(":5: <Recording>: frames"),
+          HasSubstr(":5: id=\"a\" is that of the recording in line 2 too"),
+          HasSubstr(":6: <Recording>: up=\"w\" is not allowed")));
+  EXPECT_THAT(ErrorOf("<Batch/>"), HasSubstr("has no <Recording"));
+  EXPECT_THAT(ErrorOf("<ConverterConfig type='S2KFConverter'/>"),
+              HasSubstr("a manifest starts with <Batch>"));
+  EXPECT_THAT(ErrorOf("<Batch><Recording file='a' selfCalibrate='true' subjectFile='b'/></Batch>"),
+              HasSubstr("use one"));
+  EXPECT_THAT(ErrorOf("<Batch><Recording"), HasSubstr("/data/night.xml:1"));
+}
+
+TEST(Manifest, AnIdStaysInsideTheFolder) {
+  for (const std::string id :
+       {"", "/etc/passwd", "../up", "a/../../b", "a//b", "./a", "a/", ".", "a\\b"}) {
+    EXPECT_THAT(ErrorOf("<Batch><Recording file='a.c3d' id='" + id + "'/></Batch>"),
+                HasSubstr("must be a relative path"))
+        << id;
+  }
+}
+
+TEST(Manifest, TheTemplateIsAManifestAndNamesEveryAttribute) {
+  const BatchManifest manifest = Parse(ManifestTemplate());
+  EXPECT_EQ(manifest.entries.size(), 3U);
+  EXPECT_THAT(ManifestTemplate(), AllOf(HasSubstr("  height_m "), HasSubstr("  csv ")));
+}
+
+TEST(Manifest, ShardsAreAPartition) {
+  std::string xml = "<Batch>";
+  for (int i = 0; i < 11; ++i) xml += "<Recording file='" + std::to_string(i) + ".c3d'/>";
+  const BatchManifest manifest = Parse(xml + "</Batch>");
+  std::multiset<std::string> ids;
+  for (int shard = 1; shard <= 4; ++shard) {
+    const std::vector<BatchEntry> part = ShardOf(manifest.entries, shard, 4);
+    EXPECT_GE(part.size(), 2U);
+    EXPECT_LE(part.size(), 3U);
+    for (const BatchEntry& entry : part) ids.insert(entry.id);
+  }
+  EXPECT_EQ(ids.size(), 11U);
+  EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 11U);
+  EXPECT_EQ(ShardOf(manifest.entries, 1, 1).size(), 11U);
+  EXPECT_TRUE(ShardOf(manifest.entries, 20, 20).empty());
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// batch: what is written, what is kept, and what is said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tests/cli/batch_manifest.h"
+#include "tests/cli/program.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using testing::Contents;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::QuickConverter;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::TestFolder;
+using testing::WriteManifest;
+using testing::WriteText;
+using Json = nlohmann::json;
+
+std::string Out(const std::string& name = "out") { return TestFolder() + "/" + name; }
+
+std::vector<Json> Results(const std::string& out) {
+  std::vector<Json> lines;
+  std::ifstream file(out + "/results.jsonl");
+  for (std::string line; std::getline(file, line);) lines.push_back(Json::parse(line));
+  return lines;
+}
+
+// Without what differs from run to run.
+std::vector<Json> Figures(const std::string& out) {
+  std::vector<Json> lines = Results(out);
+  for (Json& line : lines) {
+    line.erase("seconds");
+    line.erase("ms_per_frame");
+  }
+  return lines;
+}
+
+TEST(Batch, ConvertsTheSampleLikeConvert) {
+  const std::string manifest =
+      WriteManifest(0, "name='night' mass_kg='75' csv='true'",
+                    "<Group name='gym'><Metadata name='day' value='1'/>"
+                    "<Recording file='handstand.c3d' id='gym/first' frames=':60'/></Group>");
+  const auto run = RunProgram({"batch", manifest, "-o", Out(), "--reports", "worst:1"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("night: 1 recordings, 1 converted, 0 failed, 0 missing"),
+                             HasSubstr("index.html"), HasSubstr("1 converted, 0 failed")));
+  EXPECT_THAT(run.err, HasSubstr("[1/1] gym/first: 60 frames, "));
+  const std::string single = TestFolder() + "/out/motions/gym/single.xml";
+  ASSERT_EQ(
+      RunProgram({"convert", TestFolder() + "/handstand.c3d", "--height", "1.8", "--mass", "75",
+                  "--frames", ":60", "-o", single, "--csv", TestFolder() + "/single.csv"})
+          .exit_code,
+      0);
+  EXPECT_EQ(ReadText(Out() + "/motions/gym/first.xml"), ReadText(single));
+  EXPECT_EQ(ReadText(Out() + "/csv/gym/first.csv"), ReadText(TestFolder() + "/single.csv"));
+  EXPECT_THAT(ReadText(Out() + "/reports/gym/first.html"), HasSubstr("<!DOCTYPE html>"));
+  EXPECT_THAT(ReadText(Out() + "/index.html"),
+              AllOf(HasSubstr("<!DOCTYPE html>"), HasSubstr("gym/first")));
+  const std::vector<Json> lines = Results(Out());
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0]["id"], "gym/first");
+  EXPECT_EQ(lines[0]["group"], "gym");
+  EXPECT_EQ(lines[0]["metadata"]["day"], "1");
+  EXPECT_EQ(lines[0]["frames"], 60);
+  EXPECT_EQ(lines[0]["height_source"], "given");
+  EXPECT_EQ(lines[0]["configuration"], "s2kf_default");
+  EXPECT_EQ(lines[0]["motion"], "motions/gym/first.xml");
+  EXPECT_EQ(lines[0]["report"], "reports/gym/first.html");
+  EXPECT_GT(lines[0]["worst_marker_mm"], lines[0]["distance_mm"]["mean"]);
+  EXPECT_THAT(ReadText(Out() + "/results.csv"), HasSubstr("\ngym/first,converted,"));
+}
+
+TEST(Batch, OneBadEntryFailsAlone) {
+  const std::string manifest = WriteManifest(
+      3, QuickConverter(),
+      "<Recording file='missing.c3d'/><Recording file='handstand.c3d' id='far' frames='9999:'/>"
+      "<Recording file='handstand.c3d' id='bad model' model='none.xml'/>"
+      "<Recording file='handstand.c3d' id='bad config' config='none.xml' plugin=''/>");
+  const auto run = RunProgram({"batch", manifest, "-o", Out()});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("missing: "), HasSubstr("missing.c3d: "),
+                             HasSubstr("none.xml"), HasSubstr("has no frame of the recording's")));
+  EXPECT_THAT(run.out, HasSubstr("7 recordings, 3 converted, 4 failed, 0 missing"));
+  const std::vector<Json> lines = Results(Out());
+  ASSERT_EQ(lines.size(), 7U);
+  EXPECT_EQ(lines[2]["state"], "converted");
+  for (int i = 3; i < 7; ++i) {
+    EXPECT_EQ(lines[i]["state"], "failed");
+    EXPECT_THAT(lines[i]["reason"].get<std::string>(), Not(IsEmpty()));
+  }
+  EXPECT_EQ(Contents(Out() + "/motions").size(), 3U);
+}
+
+TEST(Batch, FailFastEndsWithTheFirst) {
+  const std::string manifest = WriteManifest(0, QuickConverter(),
+                                             "<Recording file='missing.c3d'/>"
+                                             "<Recording file='handstand.c3d'/>");
+  const auto run = RunProgram({"batch", manifest, "-o", Out(), "--fail-fast", "--jobs", "1"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("--fail-fast"));
+  EXPECT_THAT(run.out, HasSubstr("0 converted, 1 failed, 1 not done"));
+  EXPECT_THAT(Contents(Out() + "/motions"), IsEmpty());
+}
+
+TEST(Batch, TheResultsDoNotDependOnJobsAndShards) {
+  const std::string manifest = WriteManifest(8, "mass_kg='75'");
+  const auto convert = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"batch", manifest, "-o", Out(name), "--reports", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    return RunProgram(words).exit_code;
+  };
+  ASSERT_EQ(convert("one", {"--jobs", "1"}), 0);
+  const auto motions = Contents(Out("one") + "/motions");
+  ASSERT_EQ(motions.size(), 8U);
+  for (const std::string jobs : {"2", "8"}) {
+    ASSERT_EQ(convert("jobs" + jobs, {"--jobs", jobs}), 0);
+    EXPECT_EQ(Contents(Out("jobs" + jobs) + "/motions"), motions);
+    EXPECT_EQ(Figures(Out("jobs" + jobs)), Figures(Out("one")));
+  }
+  for (const std::string shard : {"4/4", "2/4", "1/4"}) {
+    ASSERT_EQ(convert("shards", {"--shard", shard}), 0);
+  }
+  const auto early =
+      RunProgram({"batch", manifest, "-o", Out("shards"), "--merge", "--reports", "none"});
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_THAT(early.out, HasSubstr("6 converted, 0 failed, 2 missing"));
+  ASSERT_EQ(convert("shards", {"--shard", "3/4"}), 0);
+  EXPECT_EQ(convert("shards", {"--merge"}), 0);
+  EXPECT_EQ(Contents(Out("shards") + "/motions"), motions);
+  EXPECT_EQ(Figures(Out("shards")), Figures(Out("one")));
+}
+
+// What a run with --resume did.
+std::string Resumed(const std::string& manifest) {
+  return RunProgram({"batch", manifest, "-o", Out(), "--resume", "--reports", "none"}).out;
+}
+
+TEST(Batch, ResumeRedoesWhatHasChanged) {
+  const std::string model = TestFolder() + "/own_model.xml";
+  fs::copy_file(fs::path(testing::Handstand()).parent_path() / "../xml_config/models/mmm.xml",
+                model);
+  const std::string manifest =
+      WriteManifest(3, QuickConverter(), "<Recording file='own.c3d' model='own_model.xml'/>");
+  fs::copy_file(testing::Handstand(), TestFolder() + "/own.c3d");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("4 converted, 0 failed in"));
+  EXPECT_THAT(Resumed(manifest), HasSubstr("0 converted, 0 failed, 4 unchanged"));
+  fs::remove(Out() + "/motions/1.xml");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 3 unchanged"));
+  WriteText(Out() + "/motions/2.xml", "cut off");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 3 unchanged"));
+  std::string recording = ReadText(TestFolder() + "/own.c3d");
+  recording[recording.size() - 100] ^= 1;  // a bit of the last frame
+  WriteText(TestFolder() + "/own.c3d", recording);
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 3 unchanged"));
+  WriteText(model, ReadText(model) + "<!-- another -->");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 3 unchanged"));
+  WriteManifest(3, QuickConverter() + " mass_kg='80'",
+                "<Recording file='own.c3d' model='own_model.xml'/>");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("4 converted, 0 failed in"));
+  fs::remove(TestFolder() + "/own.c3d");  // what was made of it stays
+  EXPECT_THAT(Resumed(manifest), HasSubstr("0 converted, 0 failed, 4 unchanged"));
+}
+
+TEST(Batch, ResumeTriesAgainWhatFailed) {
+  const std::string manifest = WriteManifest(1, QuickConverter(), "<Recording file='late.c3d'/>");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 1 failed"));
+  fs::copy_file(testing::Handstand(), TestFolder() + "/late.c3d");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 1 unchanged"));
+}
+
+TEST(Batch, WithoutResumeAllIsDoneAnew) {
+  const std::string manifest = WriteManifest(2, QuickConverter());
+  Resumed(manifest);
+  const auto run = RunProgram({"batch", manifest, "-o", Out(), "--reports", "none"});
+  EXPECT_THAT(run.out, HasSubstr("2 converted, 0 failed in"));
+  EXPECT_THAT(run.err, HasSubstr("an earlier run has converted 2 recordings"));
+}
+
+TEST(Batch, MemoryIsBounded) {
+  const std::string manifest = WriteManifest(2, QuickConverter());
+  const auto run = RunProgram({"batch", manifest, "-o", Out(), "--memory", "1M"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("more than the 1 MiB allowed"));
+}
+
+TEST(Batch, SelfCalibrationLeavesTheSubject) {
+  const std::string manifest =
+      WriteManifest(0, "", "<Recording file='handstand.c3d' selfCalibrate='true'/>");
+  ASSERT_EQ(RunProgram({"batch", manifest, "-o", Out(), "--reports", "none"}).exit_code, 0);
+  EXPECT_THAT(ReadText(Out() + "/subjects/handstand.xml"), HasSubstr("<Subject "));
+  EXPECT_EQ(Results(Out())[0]["subject"].is_string(), true);
+}
+
+TEST(Batch, ScansAFolder) {
+  fs::create_directories(TestFolder() + "/kit/7");
+  fs::copy_file(testing::Handstand(), TestFolder() + "/kit/7/walk.c3d");
+  WriteText(TestFolder() + "/subjects.csv", "folder,height_m\n7,1.8\n");
+  const auto run = RunProgram(
+      {"batch", "--scan", TestFolder() + "/kit", "--subjects", TestFolder() + "/subjects.csv"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  WriteText(TestFolder() + "/manifest.xml", run.out);
+  const auto convert = RunProgram({"batch", TestFolder() + "/manifest.xml", "-o", Out()});
+  EXPECT_EQ(convert.exit_code, 0) << convert.err;
+  EXPECT_TRUE(fs::exists(Out() + "/motions/7/walk.xml"));
+  EXPECT_TRUE(fs::exists(Out() + "/reports/7/walk.html"));
+}
+
+TEST(Batch, WhatIsNotUnderstoodIsExitCode2) {
+  const std::string manifest = WriteManifest(1, QuickConverter());
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"batch"},
+           {"batch", manifest},
+           {"batch", manifest, "-o", Out(), "--jobs", "0"},
+           {"batch", manifest, "-o", Out(), "--shard", "0/4"},
+           {"batch", manifest, "-o", Out(), "--shard", "5/4"},
+           {"batch", manifest, "-o", Out(), "--shard", "4"},
+           {"batch", manifest, "-o", Out(), "--memory", "much"},
+           {"batch", manifest, "-o", Out(), "--reports", "best"},
+           {"batch", manifest, "-o", Out(), "--merge", "--shard", "1/2"},
+           {"batch", manifest, "--scan", TestFolder()}}) {
+    EXPECT_EQ(RunProgram(words).exit_code, 2) << Json(words).dump();
+  }
+  EXPECT_FALSE(fs::exists(Out()));
+  WriteText(TestFolder() + "/none.xml", "<Batch/>");
+  EXPECT_EQ(RunProgram({"batch", TestFolder() + "/none.xml", "-o", Out()}).exit_code, 1);
+  EXPECT_EQ(RunProgram({"batch", manifest, "-o", manifest}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace mmm_converter

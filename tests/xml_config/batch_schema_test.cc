@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "MMMConverterS2KF/batch/manifest.h"
+#include "MMMConverterS2KF/batch/manifest_attributes.h"
+#include "common/support/error.h"
+#include "tests/xml_config/xmllint.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr const char* kSchema = "batch.xsd";
+
+bool IsReadable(const std::string& xml) {
+  try {
+    ParseManifest(xml, "manifest.xml");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+TEST(BatchSchema, TakesTheTemplate) {
+  EXPECT_TRUE(testing::IsValidText(kSchema, ManifestTemplate()));
+}
+
+TEST(BatchSchema, AgreesWithTheReader) {
+  const auto recording = [](const std::string& attributes) {
+    return "<Batch><Group><Recording file='a.c3d' " + attributes + "/></Group></Batch>";
+  };
+  for (const std::string& xml :
+       {recording("height_m='0.5' mass_kg='400' handLength_mm='50' csv='true' unit='in'"),
+        recording("up='-X' frames=':' format='1.0' rate_hz='0.1' ignoreResiduals='false'"),
+        std::string("<Batch><Metadata name='a' value=''/><Recording file='a'><Metadata name='a' "
+                    "value='b'/></Recording></Batch>")}) {
+    EXPECT_TRUE(testing::IsValidText(kSchema, xml)) << xml;
+    EXPECT_TRUE(IsReadable(xml)) << xml;
+  }
+  for (const std::string& xml :
+       {recording("height_m='0.4'"), recording("mass_kg='x'"), recording("handLength_mm='0.18'"),
+        recording("csv='yes'"), recording("unit='ft'"), recording("up='w'"),
+        recording("frames='5'"), recording("format='3'"), recording("rate_hz='0'"),
+        recording("selfCalibrate='1'"), recording("ignoreResiduals=''"), recording("what='1'"),
+        recording("id=''"), std::string("<Batch><Group file='a.c3d'/></Batch>"),
+        std::string("<Batch><Recording/></Batch>"),
+        std::string("<Batch><Metadata value='1'/><Recording file='a'/></Batch>")}) {
+    EXPECT_FALSE(testing::IsValidText(kSchema, xml)) << xml;
+    EXPECT_FALSE(IsReadable(xml)) << xml;
+  }
+}
+
+TEST(BatchSchema, HasEveryAttribute) {
+  for (const ManifestAttribute& attribute : ManifestAttributes()) {
+    const std::string name = attribute.name;
+    std::string value = "1";
+    for (const char* other : {"true", "mm", "x", ":", "2.0", "100"}) {
+      if (IsReadable("<Batch " + name + "='" + value + "'><Recording file='a.c3d'/></Batch>"))
+        break;
+      value = other;
+    }
+    const std::string xml = "<Batch " + name + "='" + value + "'><Recording file='a.c3d'/></Batch>";
+    EXPECT_TRUE(IsReadable(xml)) << xml;
+    EXPECT_TRUE(testing::IsValidText(kSchema, xml)) << xml;
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter
