@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kWidth = 50;
 constexpr const char* kEraseLine = "\r\033[K";
+constexpr std::chrono::milliseconds kBetweenStages(100);
 
 }  // namespace
 
@@ -21,8 +22,12 @@ ProgressBar::ProgressBar(const char* unit)
 void ProgressBar::Show(int done, int all, const std::string& stage) {
   if (!is_terminal_ || all <= 0) return;
   const int percent = static_cast<int>(100LL * done / all);
-  if (percent == percent_) return;
+  const auto now = std::chrono::steady_clock::now();
+  const bool is_new_stage = stage != stage_ && now - drawn_ >= kBetweenStages;
+  if (percent == percent_ && !is_new_stage) return;
   percent_ = percent;
+  stage_ = stage;
+  drawn_ = now;
   const int filled = kWidth * percent / 100;
   fmt::print(stderr, "{}[{:<{}}] {}/{} {}{}{}", kEraseLine, std::string(filled, '='), kWidth, done,
              all, unit_, stage.empty() ? "" : ": ", stage);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <string>
 
 namespace mmm_converter {
@@ -14,14 +15,18 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// stage: what is being done; may be empty.
+  /// stage: what is being done; may be empty. Drawn at a new percent, and at another stage ten
+  /// times a second at most.
   void Show(int done, int all, const std::string& stage = "");
   void Clear();
+  bool is_terminal() const { return is_terminal_; }
 
  private:
   const char* unit_;
   bool is_terminal_;
   int percent_ = -1;  // what the terminal shows; -1: nothing
+  std::string stage_;
+  std::chrono::steady_clock::time_point drawn_;
 };
 
 }  // namespace mmm_converter

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/batch/batch_outputs.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -59,22 +60,19 @@ void BatchFolder::MakeReady(const std::string& relative) {
   RemoveAbandonedFiles(folder);
 }
 
-std::map<std::string, std::uint64_t> BatchFolder::Sizes(
+std::map<std::string, FileState> BatchFolder::Inspect(
     const std::vector<std::string>& relative) const {
-  std::map<std::string, std::uint64_t> sizes;
-  for (const std::string& path : relative) sizes[path] = InspectFile(Full(path)).bytes;
-  return sizes;
+  std::map<std::string, FileState> states;
+  for (const std::string& path : relative) states[path] = InspectFile(Full(path));
+  return states;
 }
 
 bool BatchFolder::IsComplete(const JournalRecord& record,
                              const std::vector<std::string>& relative) const {
-  for (const std::string& path : relative) {
-    const auto recorded = record.outputs.find(path);
-    std::error_code failure;
-    const auto size = fs::file_size(Full(path), failure);
-    if (failure || recorded == record.outputs.end() || size != recorded->second) return false;
-  }
-  return true;
+  return std::all_of(relative.begin(), relative.end(), [&](const std::string& path) {
+    const auto state = record.outputs.find(path);
+    return state != record.outputs.end() && Has(path) && IsUnchanged(Full(path), state->second);
+  });
 }
 
 void BatchFolder::Remove(const std::string& relative) const {

@@ -25,7 +25,6 @@ class BatchFolder {
   /// @throws WriteError
   explicit BatchFolder(const std::string& path);
 
-  const std::string& path() const { return path_; }
   std::string Full(const std::string& relative) const;
   bool Has(const std::string& relative) const;
 
@@ -37,9 +36,9 @@ class BatchFolder {
   void MakeReady(const std::string& relative);
 
   /// @throws Error where a file is not there.
-  std::map<std::string, std::uint64_t> Sizes(const std::vector<std::string>& relative) const;
+  std::map<std::string, FileState> Inspect(const std::vector<std::string>& relative) const;
 
-  /// Whether all these files are there, and as large as the record says.
+  /// Whether all these files are there, as the record says.
   bool IsComplete(const JournalRecord& record, const std::vector<std::string>& relative) const;
 
   void Remove(const std::string& relative) const;  ///< where it is there

@@ -5,36 +5,31 @@
 #include <mutex>
 #include <string>
 
+#include "MMMConverterS2KF/progress.h"
+
 namespace mmm_converter {
 
 /// What a batch says while it works, on stderr: on a terminal one line with rate and time left,
 /// else a line for each entry that has ended. For several threads.
 class BatchProgress {
  public:
-  explicit BatchProgress(const std::string& unit);
-  ~BatchProgress();
-  BatchProgress(const BatchProgress&) = delete;
-  BatchProgress& operator=(const BatchProgress&) = delete;
-
   /// all: entries. The clock starts.
   void Start(int all);
   void Converted(const std::string& id, const std::string& figures);
   void Failed(const std::string& reason);
   void Unchanged();
-  /// A message; the progress line stays below.
+  /// Messages; the progress line stays below.
+  void Say(const std::string& message);
   void Warn(const std::string& message);
   double Seconds() const;  ///< since Start
 
  private:
-  void Draw(bool at_once);
-  void Erase();
+  void Draw();
   std::string Count() const;
 
-  std::string unit_;
-  bool is_terminal_;
-  bool is_drawn_ = false;
+  ProgressBar bar_{"recordings"};
   int all_ = 0, done_ = 0, failed_ = 0, unchanged_ = 0;
-  std::chrono::steady_clock::time_point start_, drawn_;
+  std::chrono::steady_clock::time_point start_;
   std::mutex mutex_;
 };
 

@@ -24,11 +24,9 @@ class ResultsWriter {
         options_(options),
         progress_(progress),
         folder_(options.output),
-        memory_(options.memory) {
-    ReadJournals(options.output, [this](JournalRecord record) {
-      const std::string id = record.id;
-      records_[id] = std::move(record);
-    });
+        memory_(options.memory),
+        records_(ReadJournals(options.output)) {
+    for (const BatchEntry& entry : manifest.entries) current_.push_back(Find(entry));
   }
 
   BatchResults Write() {
@@ -37,8 +35,8 @@ class ResultsWriter {
     lines.reserve(manifest_.entries.size());
     BatchResults results;
     double distance = 0;
-    for (const BatchEntry& entry : manifest_.entries) {
-      lines.push_back(Line(entry));
+    for (std::size_t i = 0; i < current_.size(); ++i) {
+      lines.push_back(Line(manifest_.entries[i], current_[i]));
       const ResultFigures figures = ReadFigures(lines.back());
       results.converted += figures.state == "converted";
       results.failed += figures.state == "failed";
@@ -76,8 +74,7 @@ class ResultsWriter {
     }
   }
 
-  std::string Line(const BatchEntry& entry) {
-    const JournalRecord* record = Find(entry);
+  std::string Line(const BatchEntry& entry, const JournalRecord* record) const {
     if (record == nullptr) return FormatResultLine(entry, "", "", "");
     if (!record->converted) return FormatResultLine(entry, record->result, "", "");
     const std::string page = PagePath(entry.id);
@@ -86,12 +83,12 @@ class ResultsWriter {
   }
 
   // Those with the largest mean distance, the largest first.
-  std::vector<const BatchEntry*> Worst() {
+  std::vector<const BatchEntry*> Worst() const {
     std::vector<std::pair<double, const BatchEntry*>> entries;
-    for (const BatchEntry& entry : manifest_.entries) {
-      const JournalRecord* record = Find(entry);
-      if (record == nullptr || !record->converted) continue;
-      entries.emplace_back(-ReadFigures(record->result).mean_distance_mm, &entry);
+    for (std::size_t i = 0; i < current_.size(); ++i) {
+      if (current_[i] == nullptr || !current_[i]->converted) continue;
+      entries.emplace_back(-ReadFigures(current_[i]->result).mean_distance_mm,
+                           &manifest_.entries[i]);
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -109,6 +106,8 @@ class ResultsWriter {
                     worst.begin(), worst.end(),
                     [this](const BatchEntry* entry) { return folder_.Has(PagePath(entry->id)); }),
                 worst.end());
+    if (worst.empty()) return;
+    progress_->Say(fmt::format("reports of the worst: {} to be made", worst.size()));
     ParallelFor(static_cast<int>(worst.size()), options_.jobs,
                 [&](int i) { WritePageOf(*worst[static_cast<std::size_t>(i)]); });
   }
@@ -119,7 +118,7 @@ class ResultsWriter {
       ConversionRequest request = entry.request;
       inputs_.Prepare(&request);
       const std::string& file = request.input.file;
-      const std::uint64_t bytes = ConversionMemory(file, InspectFile(file).bytes, true);
+      const std::uint64_t bytes = ConversionMemory(file, FileSize(file), true);
       const auto part = memory_.Take(file, bytes);
       const auto goes_on = [] { return InterruptionWatch::Signal() == 0; };
       WritePage(entry, ConvertEntry(entry, folder_, &request, goes_on), &folder_);
@@ -137,6 +136,7 @@ class ResultsWriter {
   MemoryBudget memory_;
   SharedInputs inputs_;
   std::unordered_map<std::string, JournalRecord> records_;  // by id
+  std::vector<const JournalRecord*> current_;               // of each entry; nullptr: none
 };
 
 }  // namespace

@@ -16,7 +16,6 @@
 #include "MMMConverterS2KF/batch/interruption.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
-#include "common/support/content_hash.h"
 
 namespace mmm_converter {
 namespace {
@@ -42,8 +41,8 @@ class BatchRunner {
         progress_(progress),
         folder_(options.output),
         memory_(options.memory),
-        journal_(options.output, options.shard, options.shards, !options.resume) {
-    if (options.resume) ReadDone();
+        journal_(options.output, options.shard, options.shards) {
+    if (options.resume) done_ = ReadJournals(options.output);
   }
 
   BatchOutcome Run() {
@@ -60,14 +59,6 @@ class BatchRunner {
   }
 
  private:
-  void ReadDone() {
-    ReadJournals(options_.output, [this](JournalRecord record) {
-      record.result.clear();
-      const std::string id = record.id;
-      done_[id] = std::move(record);
-    });
-  }
-
   bool IsEnding() const { return is_ending_ || InterruptionWatch::Signal() != 0; }
 
   void Work() {
@@ -133,17 +124,16 @@ class BatchRunner {
     const std::uint64_t bytes =
         ConversionMemory(file, record.recording.bytes, options_.reports.all);
     const auto part = memory_.Take(file, bytes);
-    record.recording.hash = HashFile(file);
-    folder_.Remove(PagePath(entry.id));
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     ConversionReport report =
         ConvertEntry(entry, folder_, &request, [this] { return !IsEnding(); });
+    folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     WriteConversion(request, &report);
     if (options_.reports.all) {
       WritePage(entry, report, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
-    record.outputs = folder_.Sizes(outputs);
+    record.outputs = folder_.Inspect(outputs);
     record.result = FormatResult(report, SecondsSince(start));
     NoteConverted(record);
   }
@@ -194,7 +184,7 @@ class BatchRunner {
   BatchFolder folder_;
   MemoryBudget memory_;
   SharedInputs inputs_;
-  std::unordered_map<std::string, JournalRecord> done_;  // by id, without results
+  std::unordered_map<std::string, JournalRecord> done_;  // by id
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> is_ending_ = false;
   std::mutex mutex_;  // of what follows

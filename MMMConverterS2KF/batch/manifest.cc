@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <unordered_map>
 
@@ -170,9 +169,7 @@ class ManifestReader {
   }
 
   void CheckNames(const XmlElement& element, const std::vector<std::string>& names) {
-    for (const auto& [attribute, value] : element.attributes) {
-      if (std::find(names.begin(), names.end(), attribute) != names.end()) continue;
-      if (attribute.starts_with("xmlns") || attribute.starts_with("xsi:")) continue;
+    for (const std::string& attribute : element.AttributesBeside(names)) {
       const std::string closest = ClosestName(attribute, names);
       diagnostics_.AddError(element.line,
                             fmt::format("<{}>: unknown attribute {}; {}", element.name, attribute,

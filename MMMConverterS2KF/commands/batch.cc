@@ -150,17 +150,16 @@ std::string DescribeResults(const BatchManifest& manifest, const BatchOptions& o
 }
 
 int Merge(const BatchManifest& manifest, const BatchOptions& options) {
-  BatchProgress progress("recordings");
+  BatchProgress progress;
   const BatchResults results = WriteBatchResults(manifest, options, &progress);
   std::cout << DescribeResults(manifest, options, results);
   return results.failed + results.missing > 0 ? 1 : 0;
 }
 
 void WarnOfEarlierRun(const std::string& folder) {
-  int ended = 0;
-  if (std::filesystem::is_directory(folder)) {
-    ReadJournals(folder, [&](const JournalRecord& record) { ended += record.converted ? 1 : 0; });
-  }
+  const auto records = ReadJournals(folder);
+  const auto ended = std::count_if(records.begin(), records.end(),
+                                   [](const auto& record) { return record.second.converted; });
   if (ended == 0) return;
   LogWarning(fmt::format(
       "{}: an earlier run has converted {} recordings; all are converted anew, --resume would keep "
@@ -170,7 +169,7 @@ void WarnOfEarlierRun(const std::string& folder) {
 
 int Convert(const BatchManifest& manifest, const BatchOptions& options) {
   if (!options.resume) WarnOfEarlierRun(options.output);
-  BatchProgress progress("recordings");
+  BatchProgress progress;
   const InterruptionWatch watch;
   const BatchOutcome outcome = ConvertBatch(manifest, options, &progress);
   const bool was_ended = outcome.signal != 0 || !outcome.obstacle.empty();

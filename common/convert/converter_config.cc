@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -225,10 +224,7 @@ class ConfigReader {
   }
 
   void AllowAttributes(const XmlElement& element, const std::vector<std::string>& names) {
-    for (const auto& [attribute, value] : element.attributes) {
-      if (std::find(names.begin(), names.end(), attribute) != names.end()) continue;
-      // Where a file names its schema.
-      if (attribute.starts_with("xmlns") || attribute.starts_with("xsi:")) continue;
+    for (const std::string& attribute : element.AttributesBeside(names)) {
       ReportUnknown(element.line, fmt::format("<{}>: unknown attribute {}; use {}", element.name,
                                               attribute, JoinNames(names)));
     }

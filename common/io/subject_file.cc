@@ -197,10 +197,7 @@ class SubjectReader {
   }
 
   void AllowAttributes(const XmlElement& element, const std::vector<std::string>& names) {
-    for (const auto& [attribute, value] : element.attributes) {
-      if (std::find(names.begin(), names.end(), attribute) != names.end()) continue;
-      // Where a file names its schema.
-      if (attribute.starts_with("xmlns") || attribute.starts_with("xsi:")) continue;
+    for (const std::string& attribute : element.AttributesBeside(names)) {
       Fail(element, fmt::format("unknown attribute {}{}", attribute,
                                 names.empty() ? "" : "; use " + JoinNames(names)));
     }

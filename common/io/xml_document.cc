@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
+
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -77,6 +79,15 @@ const std::string* XmlElement::FindAttribute(std::string_view attribute_name) co
     if (EqualIgnoringCase(key, attribute_name)) return &value;
   }
   return nullptr;
+}
+
+std::vector<std::string> XmlElement::AttributesBeside(const std::vector<std::string>& names) const {
+  std::vector<std::string> others;
+  for (const auto& [key, value] : attributes) {
+    if (key.starts_with("xmlns") || key.starts_with("xsi:")) continue;
+    if (std::find(names.begin(), names.end(), key) == names.end()) others.push_back(key);
+  }
+  return others;
 }
 
 XmlElement ParseXml(std::string_view content, const std::string& file) {

@@ -24,6 +24,8 @@ struct XmlElement {
   const XmlElement* FindChild(std::string_view child_name) const;  ///< the first; nullptr: none
   std::vector<const XmlElement*> FindChildren(std::string_view child_name) const;
   const std::string* FindAttribute(std::string_view attribute_name) const;  ///< nullptr: none
+  /// Attributes other than these and than those by which a file names its schema, as written.
+  std::vector<std::string> AttributesBeside(const std::vector<std::string>& names) const;
 };
 
 /// Parses XML text; `file` is only named in messages. Comments and declarations are dropped,

@@ -28,18 +28,13 @@ void SyncFolder(const std::string& path) {
 
 }  // namespace
 
-LineFile::LineFile(const std::string& path, bool empty) : path_(path) {
+LineFile::LineFile(const std::string& path) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw WriteError(path, errno);
   // A file system without locks has to do without.
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
     throw Error(fmt::format("{}: another process is writing to it; wait until it has ended", path));
-  }
-  if (empty && ::ftruncate(descriptor_, 0) != 0) {
-    const WriteError failure(path, errno);
-    ::close(descriptor_);
-    throw failure;
   }
   CutOffPartOfLine();
   SyncFolder(path);
@@ -52,8 +47,7 @@ void LineFile::CutOffPartOfLine() {
   char last = '\n';
   const auto read_last = [&] { return ::pread(descriptor_, &last, 1, size_ - 1) == 1; };
   while (size_ > 0 && read_last() && last != '\n') --size_;
-  if (::ftruncate(descriptor_, size_) != 0) return;
-  ::lseek(descriptor_, size_, SEEK_SET);
+  [[maybe_unused]] const int cut = ::ftruncate(descriptor_, size_);
 }
 
 void LineFile::Append(std::string_view line) {

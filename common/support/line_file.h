@@ -12,9 +12,9 @@ namespace mmm_converter {
 class LineFile {
  public:
   /// Creates or opens the file; a last line without its end, from a process that was killed in it,
-  /// is cut off. `empty`: all old lines are dropped.
+  /// is cut off.
   /// @throws Error naming the system's reason, and where another process has the file.
-  LineFile(const std::string& path, bool empty);
+  explicit LineFile(const std::string& path);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;

@@ -6,9 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <vector>
 
-#include "common/support/content_hash.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -23,19 +21,13 @@ class JournalTest : public ::testing::Test {
     fs::create_directories(folder_);
   }
 
-  std::vector<JournalRecord> Read() const {
-    std::vector<JournalRecord> records;
-    ReadJournals(folder_, [&](JournalRecord record) { records.push_back(std::move(record)); });
-    return records;
-  }
-
   static JournalRecord Record(const std::string& id) {
     JournalRecord record;
     record.id = id;
     record.converted = true;
     record.fingerprint = "f";
     record.recording = {123, 1700000000123456789, "h"};
-    record.outputs = {{"motions/" + id + ".xml", 45}};
+    record.outputs = {{"motions/" + id + ".xml", {45, 6, "o"}}};
     record.result = R"({"state":"converted"})";
     return record;
   }
@@ -45,54 +37,61 @@ class JournalTest : public ::testing::Test {
 };
 
 TEST_F(JournalTest, GivesBackWhatWasWritten) {
-  JournalRecord record = Record("a/\"b\"");
-  Journal(folder_, 1, 1, true).Append(record);
-  const std::vector<JournalRecord> records = Read();
+  const JournalRecord written = Record("a/\"b\"");
+  Journal(folder_, 1, 1).Append(written);
+  const auto records = ReadJournals(folder_);
   ASSERT_EQ(records.size(), 1U);
-  EXPECT_EQ(records[0].id, record.id);
-  EXPECT_TRUE(records[0].converted);
-  EXPECT_EQ(records[0].fingerprint, "f");
-  EXPECT_EQ(records[0].recording.bytes, 123U);
-  EXPECT_EQ(records[0].recording.modified, 1700000000123456789);
-  EXPECT_EQ(records[0].recording.hash, "h");
-  EXPECT_EQ(records[0].outputs, record.outputs);
-  EXPECT_EQ(records[0].result, record.result);
+  const JournalRecord& record = records.at(written.id);
+  EXPECT_EQ(record.id, written.id);
+  EXPECT_GT(record.time, 0);
+  EXPECT_TRUE(record.converted);
+  EXPECT_EQ(record.fingerprint, "f");
+  EXPECT_EQ(record.recording.bytes, 123U);
+  EXPECT_EQ(record.recording.modified, 1700000000123456789);
+  EXPECT_EQ(record.recording.hash, "h");
+  ASSERT_EQ(record.outputs.size(), 1U);
+  const FileState& output = record.outputs.at("motions/a/\"b\".xml");
+  EXPECT_EQ(output.bytes, 45U);
+  EXPECT_EQ(output.modified, 6);
+  EXPECT_EQ(output.hash, "o");
+  EXPECT_EQ(record.result, written.result);
 }
 
-TEST_F(JournalTest, ShardsHaveTheirOwnAndAllAreRead) {
-  Journal(folder_, 1, 2, true).Append(Record("a"));
-  Journal(folder_, 2, 2, true).Append(Record("b"));
-  Journal(folder_, 1, 1, true).Append(Record("c"));
+TEST_F(JournalTest, ShardsHaveTheirOwnAndTheLatestRecordHolds) {
+  Journal(folder_, 1, 2).Append(Record("a"));
+  Journal(folder_, 2, 2).Append(Record("b"));
+  JournalRecord failed = Record("a");
+  failed.converted = false;
+  Journal(folder_, 1, 1).Append(failed);
   EXPECT_TRUE(fs::exists(folder_ + "/journal.2of2.jsonl"));
-  EXPECT_EQ(Read().size(), 3U);
-  Journal(folder_, 1, 2, true).Append(Record("d"));  // fresh: "a" is gone
-  Journal(folder_, 2, 2, false).Append(Record("e"));
-  EXPECT_EQ(Read().size(), 4U);
+  Journal(folder_, 1, 2).Append(Record("c"));  // the first journal is the newest file now
+  const auto records = ReadJournals(folder_);
+  EXPECT_EQ(records.size(), 3U);
+  EXPECT_FALSE(records.at("a").converted);
 }
 
 TEST_F(JournalTest, LeavesOutWhatItDoesNotUnderstand) {
   std::ofstream(folder_ + "/journal.jsonl")
       << "{}\nnonsense\n{\"id\":\"a\",\"converted\":1}\n[1]\n";
-  Journal(folder_, 1, 1, false).Append(Record("b"));
-  EXPECT_EQ(Read().size(), 1U);
-  EXPECT_THROW(ReadJournals(folder_ + "/nowhere", [](const JournalRecord&) {}), Error);
+  Journal(folder_, 1, 1).Append(Record("b"));
+  EXPECT_EQ(ReadJournals(folder_).size(), 1U);
+  EXPECT_TRUE(ReadJournals(folder_ + "/nowhere").empty());
 }
 
-TEST_F(JournalTest, KnowsWhetherARecordingHasChanged) {
+TEST_F(JournalTest, KnowsWhetherAFileHasChanged) {
   const std::string file = folder_ + "/walk.c3d";
   std::ofstream(file) << "old";
-  RecordedFile recorded = InspectFile(file);
-  recorded.hash = HashFile(file);
-  EXPECT_TRUE(IsUnchanged(file, recorded));
+  const FileState state = InspectFile(file);
+  EXPECT_TRUE(IsUnchanged(file, state));
   fs::last_write_time(file, fs::last_write_time(file) + std::chrono::hours(1));
-  EXPECT_TRUE(IsUnchanged(file, recorded));  // copied anew
+  EXPECT_TRUE(IsUnchanged(file, state));  // copied anew
   std::ofstream(file) << "new";
   fs::last_write_time(file, fs::last_write_time(file) + std::chrono::hours(1));
-  EXPECT_FALSE(IsUnchanged(file, recorded));
+  EXPECT_FALSE(IsUnchanged(file, state));
   std::ofstream(file) << "longer";
-  EXPECT_FALSE(IsUnchanged(file, recorded));
+  EXPECT_FALSE(IsUnchanged(file, state));
   fs::remove(file);
-  EXPECT_THROW(IsUnchanged(file, recorded), Error);
+  EXPECT_THROW(IsUnchanged(file, state), Error);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "MMMConverterS2KF/batch/manifest.h"
@@ -53,12 +54,14 @@ TEST(BatchSchema, HasEveryAttribute) {
   for (const ManifestAttribute& attribute : ManifestAttributes()) {
     const std::string name = attribute.name;
     std::string value = "1";
+    const auto manifest = [&] {
+      return fmt::format("<Batch {}='{}'><Recording file='a.c3d'/></Batch>", name, value);
+    };
     for (const char* other : {"true", "mm", "x", ":", "2.0", "100"}) {
-      if (IsReadable("<Batch " + name + "='" + value + "'><Recording file='a.c3d'/></Batch>"))
-        break;
+      if (IsReadable(manifest())) break;
       value = other;
     }
-    const std::string xml = "<Batch " + name + "='" + value + "'><Recording file='a.c3d'/></Batch>";
+    const std::string xml = manifest();
     EXPECT_TRUE(IsReadable(xml)) << xml;
     EXPECT_TRUE(testing::IsValidText(kSchema, xml)) << xml;
   }

@@ -35,34 +35,32 @@ class LineFileTest : public ::testing::Test {
 TEST_F(LineFileTest, KeepsLinesFromRunToRun) {
   EXPECT_THAT(Lines(), IsEmpty());
   {
-    LineFile file(path_, false);
+    LineFile file(path_);
     file.Append("one");
     file.Append("");
   }
-  LineFile(path_, false).Append("three");
+  LineFile(path_).Append("three");
   EXPECT_THAT(Lines(), ElementsAre("one", "", "three"));
-  LineFile(path_, true).Append("new");
-  EXPECT_THAT(Lines(), ElementsAre("new"));
 }
 
 TEST_F(LineFileTest, CutsOffWhatAKilledProcessLeft) {
   std::ofstream(path_) << "one\ntw";
   EXPECT_THAT(Lines(), ElementsAre("one"));
-  LineFile(path_, false).Append("three");
+  LineFile(path_).Append("three");
   EXPECT_THAT(Lines(), ElementsAre("one", "three"));
 }
 
 TEST_F(LineFileTest, WithoutAWholeLineIsEmpty) {
   std::ofstream(path_) << "half";
-  LineFile(path_, false).Append("whole");
+  LineFile(path_).Append("whole");
   EXPECT_THAT(Lines(), ElementsAre("whole"));
 }
 
 TEST_F(LineFileTest, HasOneWriter) {
-  LineFile file(path_, false);
+  LineFile file(path_);
   file.Append("one");
   try {
-    LineFile(path_, true).Append("two");
+    LineFile(path_).Append("two");
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("another process is writing to it"));
@@ -71,7 +69,7 @@ TEST_F(LineFileTest, HasOneWriter) {
 }
 
 TEST_F(LineFileTest, AFullDiskIsSaid) {
-  LineFile file("/dev/full", false);
+  LineFile file("/dev/full");
   try {
     file.Append("one");
     FAIL();
@@ -82,7 +80,7 @@ TEST_F(LineFileTest, AFullDiskIsSaid) {
 }
 
 TEST_F(LineFileTest, SaysWhereItCannotBe) {
-  EXPECT_THROW(LineFile("/nowhere/at all", false), WriteError);
+  EXPECT_THROW(LineFile("/nowhere/at all"), WriteError);
   EXPECT_FALSE(WriteError("file", EACCES).concerns_disk());
 }
 
