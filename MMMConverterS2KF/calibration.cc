@@ -120,12 +120,4 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   return report;
 }
 
-void CheckIsNoInput(const std::string& output, const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs) {
-    std::error_code failure;
-    if (!fs::equivalent(output, input, failure)) continue;
-    throw Error(fmt::format("{}: is read, and would be lost; give another file", output));
-  }
-}
-
 }  // namespace mmm_converter

@@ -56,8 +56,4 @@ std::string SubjectProgram();
 /// The person's name where none is given: of the recording's subject or motion, else of its file.
 std::string SubjectName(const Input& input);
 
-/// Before `output` is written.
-/// @throws Error where it is one of the files that are read.
-void CheckIsNoInput(const std::string& output, const std::vector<std::string>& inputs);
-
 }  // namespace mmm_converter

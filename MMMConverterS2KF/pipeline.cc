@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "MMMConverterS2KF/motion_output.h"
+#include "MMMConverterS2KF/output_files.h"
 #include "common/io/mmm_model_subject.h"
 #include "common/io/subject_file.h"
-#include "common/io/trajectory_csv.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -38,17 +38,23 @@ void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
       std::make_shared<KinematicModel>(FitToSubject(scaled, report->calibration->subject));
 }
 
-void CheckPersonOutputs(const ConversionRequest& request, const ConversionReport& report) {
+void CheckOutputs(const ConversionRequest& request, const ConversionReport& report) {
   if (!request.model_output.empty() && !report.person.subject) {
     throw Error(
         fmt::format("--model-out {}: no subject is known whose model that would be; use "
                     "--self-calibrate or --subject-file",
                     request.model_output));
   }
-  const std::vector<std::string> inputs = {request.input.file, report.input.model_file,
-                                           report.person.subject_file};
-  CheckIsNoInput(request.subject_output, inputs);
-  CheckIsNoInput(request.model_output, inputs);
+  const std::vector<std::string> inputs = {
+      request.input.file, report.input.model_file, request.input.person.processor_file,
+      report.person.subject_file, report.converter.config.file};
+  std::vector<std::string> outputs = {request.subject_output, request.model_output,
+                                      request.exports.csv, request.exports.trc,
+                                      request.exports.mot};
+  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
+  for (const std::string& output : outputs) CheckIsNoInput(output, inputs);
+  outputs.push_back(report.output);
+  CheckAreDifferentFiles(outputs);
 }
 
 void WritePerson(const ConversionReport& report) {
@@ -90,7 +96,7 @@ ConversionReport RunConversion(const ConversionRequest& request,
                     &report.person, &report.warnings));
 
   if (request.self_calibrate) SelfCalibrate(config, &report);
-  CheckPersonOutputs(request, report);
+  CheckOutputs(request, report);
   report.subject_output = request.subject_output;
   report.model_output = request.model_output;
 
@@ -105,9 +111,7 @@ ConversionReport RunConversion(const ConversionRequest& request,
 void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
   WriteMotion(request, report);
   WritePerson(*report);
-  if (!request.csv_file.empty()) {
-    WriteFileAtomically(request.csv_file, FormatTrajectoryCsv(report->result.trajectory));
-  }
+  WriteExports(request.exports, *report);
 }
 
 }  // namespace mmm_converter

@@ -9,6 +9,7 @@
 
 #include "MMMConverterS2KF/calibration.h"
 #include "MMMConverterS2KF/converter_choice.h"
+#include "MMMConverterS2KF/exports.h"
 #include "MMMConverterS2KF/input.h"
 #include "MMMConverterS2KF/person.h"
 #include "common/convert/marker_mapping.h"
@@ -22,13 +23,14 @@ struct ConversionRequest {
   ConverterRequest converter;
   std::shared_ptr<const ConverterChoice> choice;  ///< for it, where that was made before
   std::string output;                             ///< input stem + "_mmm.xml", beside the input
-  std::string output_format;    ///< "2.0" or "1.0"; empty: what the configuration says
-  std::string csv_file;         ///< also write the trajectory with its standard deviations
-  std::string motion_name;      ///< to write
-  std::string model_path;       ///< to write, as it is
-  bool self_calibrate = false;  ///< estimate the person from the recording itself
-  std::string subject_output;   ///< also write the estimated subject
-  std::string model_output;     ///< also write the subject's model
+  std::string output_format;              ///< "2.0" or "1.0"; empty: what the configuration says
+  std::string motion_name;                ///< to write
+  std::string model_path;                 ///< to write, as it is
+  bool self_calibrate = false;            ///< estimate the person from the recording itself
+  std::string subject_output;             ///< also write the estimated subject
+  std::string model_output;               ///< also write the subject's model
+  ExportFiles exports;                    ///< for other programs
+  std::vector<std::string> more_outputs;  ///< that the caller writes
 };
 
 /// Everything that a summary tells.

@@ -9,7 +9,7 @@ namespace mmm_converter {
 ConversionReport ConvertEntry(const BatchEntry& entry, const BatchFolder& folder,
                               ConversionRequest* request, const std::function<bool()>& goes_on) {
   request->output = folder.Full(MotionPath(entry.id));
-  if (entry.csv) request->csv_file = folder.Full(CsvPath(entry.id));
+  if (entry.csv) request->exports.csv = folder.Full(CsvPath(entry.id));
   if (request->self_calibrate) request->subject_output = folder.Full(SubjectPath(entry.id));
   return RunConversion(*request, [&](int, int) { return goes_on(); });
 }

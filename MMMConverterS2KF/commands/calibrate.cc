@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/comparison_setup.h"
 #include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/output_files.h"
 #include "MMMConverterS2KF/progress.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "common/io/mmm_model_subject.h"

@@ -20,11 +20,20 @@ const std::vector<OptionGroup> kOwnOptions = {
      {{"output,o", "FILE", "the motion; default: INPUT without its ending + _mmm.xml",
        "outputMotion"},
       {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
-      {"csv", "FILE", "also write postures and their standard deviations as CSV", ""},
       {"report", "FILE", "write a page (HTML) with player and plots", ""},
       {"summary", "FILE", "write a summary as JSON", ""},
       {"model-path", "PATH", "what the motion says of where its model is; default: relative to it",
        ""}}},
+    {"Export",
+     {{"export-csv", "FILE",
+       "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
+       "postures are smoothed (-c s2kf_offline)",
+       ""},
+      {"export-trc", "FILE",
+       "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
+       "them (LABEL_model)",
+       ""},
+      {"export-mot", "FILE", "postures as OpenSim's motion, in metres and degrees with y up", ""}}},
     {"Converter",
      {{"config,c", "FILE", "configuration, or the name of a shipped one; default: s2kf_default",
        "converterConfigFile"},
@@ -56,6 +65,7 @@ Examples
   MMMConverterS2KF convert run.c3d --subject-file anna.xml
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert walk.c3d --frames 100:400 -c my.xml --format 1.0
+  MMMConverterS2KF convert walk.c3d --height 1.75 --export-trc walk.trc --export-mot walk.mot
 )";
 
 std::vector<OptionGroup> Options() {
@@ -84,7 +94,6 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.output = arguments.Get("output").value_or("");
   if (arguments.Has("format"))
     request.output_format = arguments.GetChoice("format", {"2.0", "1.0"}, "");
-  request.csv_file = arguments.Get("csv").value_or("");
   request.motion_name = request.input.reading.motion;
   request.model_path = arguments.Get("model-path").value_or("");
   request.self_calibrate = arguments.Has("self-calibrate");
@@ -96,6 +105,12 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   }
   if (!request.self_calibrate && !request.subject_output.empty()) {
     throw UsageError("convert: --subject-out needs --self-calibrate, which estimates the subject");
+  }
+  request.exports = {arguments.Get("export-csv").value_or(""),
+                     arguments.Get("export-trc").value_or(""),
+                     arguments.Get("export-mot").value_or("")};
+  for (const char* option : {"summary", "report"}) {
+    if (const auto file = arguments.Get(option)) request.more_outputs.push_back(*file);
   }
   request.converter = {arguments.Get("config").value_or(""),
                        arguments.Get("converter").value_or(""),

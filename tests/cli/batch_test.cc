@@ -60,7 +60,7 @@ TEST(Batch, ConvertsTheSampleLikeConvert) {
   const std::string single = TestFolder() + "/out/motions/gym/single.xml";
   ASSERT_EQ(
       RunProgram({"convert", TestFolder() + "/handstand.c3d", "--height", "1.8", "--mass", "75",
-                  "--frames", ":60", "-o", single, "--csv", TestFolder() + "/single.csv"})
+                  "--frames", ":60", "-o", single, "--export-csv", TestFolder() + "/single.csv"})
           .exit_code,
       0);
   EXPECT_EQ(ReadText(Out() + "/motions/gym/first.xml"), ReadText(single));

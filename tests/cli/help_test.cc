@@ -38,6 +38,13 @@ TEST(Help, EveryCommandHasOneWithExamples) {
   }
 }
 
+TEST(Help, ConvertSaysWhatItsExportsHold) {
+  EXPECT_THAT(RunProgram({"convert", "--help"}).out,
+              AllOf(HasSubstr("--export-csv FILE"), HasSubstr("where postures are smoothed"),
+                    HasSubstr("--export-trc FILE"), HasSubstr("y up"), HasSubstr("LABEL_model"),
+                    HasSubstr("--export-mot FILE"), HasSubstr("degrees")));
+}
+
 TEST(Help, VersionIsPrinted) {
   EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 0."));
   EXPECT_EQ(RunProgram({"info", "--version"}).out, RunProgram({"--version"}).out);

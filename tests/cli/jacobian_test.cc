@@ -37,7 +37,7 @@ std::string Shipped(const std::string& name) {
 
 TEST(Jacobian, ConvertsTheSampleWithoutAConfiguration) {
   const std::string csv = TestFolder() + "/o.csv";
-  const auto json = ConvertSample({"--converter", "JacobianConverter", "--csv", csv});
+  const auto json = ConvertSample({"--converter", "JacobianConverter", "--export-csv", csv});
   EXPECT_EQ(json["converter"], "JacobianConverter");
   EXPECT_EQ(json["frames"], 675);
   EXPECT_EQ(json["frames_not_converged"], 0);

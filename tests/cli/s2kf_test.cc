@@ -29,7 +29,7 @@ TEST(S2kf, ConvertsTheSample) {
   const std::string summary = TestFolder() + "/handstand.json";
   const std::string csv = TestFolder() + "/handstand.csv";
   const auto run = RunProgram({"convert", Handstand(), "--height", "1.8", "-o", motion, "--summary",
-                               summary, "--csv", csv});
+                               summary, "--export-csv", csv});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto json = nlohmann::json::parse(ReadText(summary));
   EXPECT_EQ(json["converter"], "S2KFConverter");
@@ -55,7 +55,7 @@ TEST(S2kf, TheOfflinePresetSmoothsAndWritesDerivatives) {
   const std::string page = TestFolder() + "/smooth.html";
   const auto run = RunProgram({"convert", Handstand(), "--height", "1.8", "--frames", ":200", "-c",
                                "s2kf_offline", "--format", "1.0", "-o", motion, "--summary",
-                               summary, "--csv", csv, "--report", page});
+                               summary, "--export-csv", csv, "--report", page});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("chosen from the recording"));
   const auto json = nlohmann::json::parse(ReadText(summary));
