@@ -57,6 +57,18 @@ struct SimbodyModel::System {
       : model(kinematic_model), matter(multibody) {}
 
   void AddSegment(const Segment& segment);
+  SimTK::State At(const Posture& posture) const;
+  SimTK::State Moving(const Posture& posture, const Eigen::VectorXd& velocities) const;
+  SimTK::Vector_<SimTK::SpatialVec> Weights(const SimTK::State& state) const;
+  SimTK::Vector InOrder(const Eigen::VectorXd& ours, const SimTK::State& state) const;
+  Eigen::VectorXd OutOfOrder(const SimTK::Vector& theirs, const SimTK::State& state) const;
+
+  const SimTK::MobilizedBody& body(int segment) const {
+    return matter.getMobilizedBody(bodies[segment]);
+  }
+  SimTK::UIndex rate_index(int joint, const SimTK::State& state) const {
+    return body(model.joint_segment(joint)).getFirstUIndex(state);
+  }
 
   KinematicModel model;
   SimTK::MultibodySystem multibody;
@@ -84,6 +96,74 @@ void SimbodyModel::System::AddSegment(const Segment& segment) {
                        .getMobilizedBodyIndex());
 }
 
+SimTK::State SimbodyModel::System::At(const Posture& posture) const {
+  assert(posture.joint_angles.size() == model.num_joints());
+  SimTK::State state = multibody.getDefaultState();
+  Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
+  X_WR.translate(posture.position).rotate(posture.orientation);
+  body(0).setQToFitTransform(state, ToSimbody(X_WR));
+  for (int i = 0; i < model.num_joints(); ++i) {
+    body(model.joint_segment(i)).setOneQ(state, 0, posture.joint_angles[i]);
+  }
+  multibody.realize(state, SimTK::Stage::Position);
+  return state;
+}
+
+SimTK::State SimbodyModel::System::Moving(const Posture& posture,
+                                          const Eigen::VectorXd& velocities) const {
+  assert(velocities.size() == 6 + model.num_joints());
+  // Not state.updU(): like all of State's inline functions it asks that NDEBUG is as it was where
+  // the library was compiled, which Debian's was not.
+  SimTK::State state = At(posture);
+  for (int i = 0; i < 3; ++i) {
+    body(0).setOneU(state, i, velocities[3 + i]);
+    body(0).setOneU(state, 3 + i, velocities[i]);
+  }
+  for (int i = 0; i < model.num_joints(); ++i) {
+    body(model.joint_segment(i)).setOneU(state, 0, velocities[6 + i]);
+  }
+  multibody.realize(state, SimTK::Stage::Velocity);
+  return state;
+}
+
+/// Ours: root position, root rotation (W), joints. Simbody's Free mobilizer on the ground has the
+/// angular velocity (W) first, then the velocity of its origin; so has every dual of it.
+SimTK::Vector SimbodyModel::System::InOrder(const Eigen::VectorXd& ours,
+                                            const SimTK::State& state) const {
+  assert(ours.size() == 6 + model.num_joints());
+  SimTK::Vector theirs(matter.getNumMobilities(), 0.0);
+  const int root = body(0).getFirstUIndex(state);
+  for (int i = 0; i < 3; ++i) {
+    theirs[root + i] = ours[3 + i];
+    theirs[root + 3 + i] = ours[i];
+  }
+  for (int i = 0; i < model.num_joints(); ++i) theirs[rate_index(i, state)] = ours[6 + i];
+  return theirs;
+}
+
+Eigen::VectorXd SimbodyModel::System::OutOfOrder(const SimTK::Vector& theirs,
+                                                 const SimTK::State& state) const {
+  Eigen::VectorXd ours(6 + model.num_joints());
+  const int root = body(0).getFirstUIndex(state);
+  for (int i = 0; i < 3; ++i) {
+    ours[3 + i] = theirs[root + i];
+    ours[i] = theirs[root + 3 + i];
+  }
+  for (int i = 0; i < model.num_joints(); ++i) ours[6 + i] = theirs[rate_index(i, state)];
+  return ours;
+}
+
+SimTK::Vector_<SimTK::SpatialVec> SimbodyModel::System::Weights(const SimTK::State& state) const {
+  SimTK::Vector_<SimTK::SpatialVec> forces(matter.getNumBodies(),
+                                           SimTK::SpatialVec(SimTK::Vec3(0)));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Segment& segment = model.segments()[i];
+    matter.addInStationForce(state, bodies[i], ToSimbody(segment.p_SB),
+                             SimTK::Vec3(0, 0, -segment.mass * kGravity), forces);
+  }
+  return forces;
+}
+
 SimbodyModel::SimbodyModel(const KinematicModel& model) : system_(new System(model)) {
   for (const Segment& segment : model.segments()) system_->AddSegment(segment);
   system_->multibody.realizeTopology();
@@ -93,18 +173,10 @@ SimbodyModel::~SimbodyModel() = default;
 
 WholeBodyState SimbodyModel::At(const Posture& posture) const {
   const System& system = *system_;
-  assert(posture.joint_angles.size() == system.model.num_joints());
-  SimTK::State state = system.multibody.getDefaultState();
-  Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
-  X_WR.translate(posture.position).rotate(posture.orientation);
-  system.matter.getMobilizedBody(system.bodies[0]).setQToFitTransform(state, ToSimbody(X_WR));
-  for (int i = 0; i < system.model.num_joints(); ++i) {
-    system.matter.getMobilizedBody(system.bodies[system.model.joint_segment(i)])
-        .setOneQ(state, 0, posture.joint_angles[i]);
-  }
-  system.multibody.realize(state, SimTK::Stage::Position);
+  const SimTK::State state = system.At(posture);
 
   WholeBodyState result;
+  result.X_WS.reserve(system.bodies.size());
   for (const SimTK::MobilizedBodyIndex index : system.bodies) {
     const SimTK::Transform& X = system.matter.getMobilizedBody(index).getBodyTransform(state);
     Eigen::Isometry3d& X_WS = result.X_WS.emplace_back(Eigen::Isometry3d::Identity());
@@ -114,9 +186,8 @@ WholeBodyState SimbodyModel::At(const Posture& posture) const {
   result.p_WM.resize(3, static_cast<Eigen::Index>(system.model.markers().size()));
   for (Eigen::Index i = 0; i < result.p_WM.cols(); ++i) {
     const ModelMarker& marker = system.model.markers()[i];
-    result.p_WM.col(i) =
-        FromSimbody(system.matter.getMobilizedBody(system.bodies[marker.segment])
-                        .findStationLocationInGround(state, ToSimbody(marker.p_SM)));
+    result.p_WM.col(i) = FromSimbody(
+        system.body(marker.segment).findStationLocationInGround(state, ToSimbody(marker.p_SM)));
   }
   result.mass = system.matter.calcSystemMass(state);
   result.center_of_mass.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -127,6 +198,48 @@ WholeBodyState SimbodyModel::At(const Posture& posture) const {
         FromSimbody(system.matter.calcSystemCentralInertiaInGround(state).toMat33());
   }
   return result;
+}
+
+WholeBodyMotion SimbodyModel::Moving(const Posture& posture, const Eigen::VectorXd& velocities,
+                                     const Eigen::VectorXd& accelerations) const {
+  const System& system = *system_;
+  const SimTK::SimbodyMatterSubsystem& matter = system.matter;
+  const SimTK::State state = system.Moving(posture, velocities);
+  const SimTK::Vec3 p = matter.calcSystemMassCenterLocationInGround(state);
+  const SimTK::Vec3 v = matter.calcSystemMassCenterVelocityInGround(state);
+  const SimTK::SpatialVec momentum = matter.calcSystemCentralMomentum(state);
+
+  WholeBodyMotion result;
+  result.center_of_mass = FromSimbody(p);
+  result.center_of_mass_velocity = FromSimbody(v);
+  result.angular_momentum = FromSimbody(momentum[0]);
+  result.linear_momentum = FromSimbody(momentum[1]);
+  for (const SimTK::MobilizedBodyIndex index : system.bodies) {
+    const SimTK::MobilizedBody& body = matter.getMobilizedBody(index);
+    const SimTK::SpatialVec own = body.calcBodyMomentumAboutBodyMassCenterInGround(state);
+    const SimTK::Vec3 from_center = body.findMassCenterLocationInGround(state) - p;
+    const SimTK::Vec3 relative = own[1] - body.getBodyMass(state) * v;
+    result.segment_angular_momentum += (own[0] + SimTK::cross(from_center, relative)).norm();
+  }
+  result.kinetic_energy = matter.calcKineticEnergy(state);
+  SimTK::Vector forces;
+  matter.calcResidualForceIgnoringConstraints(state, SimTK::Vector(), system.Weights(state),
+                                              system.InOrder(accelerations, state), forces);
+  result.forces = system.OutOfOrder(forces, state);
+  return result;
+}
+
+Eigen::VectorXd SimbodyModel::Accelerations(const Posture& posture,
+                                            const Eigen::VectorXd& velocities,
+                                            const Eigen::VectorXd& forces) const {
+  const System& system = *system_;
+  const SimTK::State state = system.Moving(posture, velocities);
+  system.multibody.realize(state, SimTK::Stage::Dynamics);
+  SimTK::Vector accelerations;
+  SimTK::Vector_<SimTK::SpatialVec> of_bodies;
+  system.matter.calcAccelerationIgnoringConstraints(
+      state, system.InOrder(forces, state), system.Weights(state), accelerations, of_bodies);
+  return system.OutOfOrder(accelerations, state);
 }
 
 }  // namespace mmm_converter

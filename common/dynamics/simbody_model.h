@@ -11,6 +11,8 @@
 
 namespace mmm_converter {
 
+inline constexpr double kGravity = 9.81;  ///< [m/s^2]
+
 /// What Simbody computes at one posture; all in W.
 struct WholeBodyState {
   std::vector<Eigen::Isometry3d> X_WS;  ///< of all segments, in the model's order [m]
@@ -18,6 +20,19 @@ struct WholeBodyState {
   double mass = 0;                      ///< of the whole body [kg]
   Eigen::Vector3d center_of_mass;       ///< of the whole body [m]; NaN where it has no mass
   Eigen::Matrix3d central_inertia;      ///< of the whole body about its centre of mass [kg m^2]
+};
+
+/// What Simbody computes from a posture, velocities and accelerations; all in W. Needs mass.
+struct WholeBodyMotion {
+  Eigen::Vector3d center_of_mass;           ///< [m]
+  Eigen::Vector3d center_of_mass_velocity;  ///< [m/s]
+  Eigen::Vector3d linear_momentum;          ///< [kg m/s]
+  Eigen::Vector3d angular_momentum;         ///< about the centre of mass [kg m^2/s]
+  double segment_angular_momentum = 0;      ///< sum of the segments' |L| about it [kg m^2/s]
+  double kinetic_energy = 0;                ///< [J]
+  /// That make the body move so, beside weight: force on the root [N], moment about its origin
+  /// [N m], joint torques [N m].
+  Eigen::VectorXd forces;
 };
 
 /// A KinematicModel as a Simbody multibody system: for dynamics, and as an independent check of our
@@ -29,6 +44,18 @@ class SimbodyModel {
   ~SimbodyModel();
 
   WholeBodyState At(const Posture& posture) const;
+
+  // Velocities and accelerations are those of a PoseTrajectory: 6 + joints; kGravity pulls along
+  // -z.
+
+  /// Inverse dynamics.
+  WholeBodyMotion Moving(const Posture& posture, const Eigen::VectorXd& velocities,
+                         const Eigen::VectorXd& accelerations) const;
+
+  /// Forward dynamics: the accelerations under weight and `forces`, laid out as WholeBodyMotion's.
+  /// Needs a body that moves with every joint.
+  Eigen::VectorXd Accelerations(const Posture& posture, const Eigen::VectorXd& velocities,
+                                const Eigen::VectorXd& forces) const;
 
  private:
   struct System;

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "common/dynamics/ground_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/math/statistics.h"
+#include "common/model/forward_kinematics.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Body index of each segment, -1 for those of none; `names` gets the bodies' names.
+std::vector<int> EndsOfReferenceModel(const KinematicModel& model,
+                                      std::vector<std::string>* names) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> kEnds = {
+      {{"left foot", "LAx_joint"},
+       {"right foot", "RAx_joint"},
+       {"left hand", "LWx_joint"},
+       {"right hand", "RWx_joint"}}};
+  std::vector<int> owner(model.segments().size(), -1);
+  for (const auto& [name, node] : kEnds) {
+    const int first = model.FindSegment(node);
+    if (first < 0) continue;
+    owner[first] = static_cast<int>(names->size());
+    for (std::size_t i = first + 1; i < owner.size(); ++i) {
+      if (owner[model.segments()[i].parent] == owner[first]) owner[i] = owner[first];
+    }
+    names->emplace_back(name);
+  }
+  return owner;
+}
+
+/// The same for the segments that move with a joint after which there is no other.
+std::vector<int> EndsOfLimbs(const KinematicModel& model, std::vector<std::string>* names) {
+  const std::vector<Segment>& segments = model.segments();
+  std::vector<int> moved_by(segments.size(), 0);  // the segment whose joint, or the root, moves it
+  std::vector<bool> is_end(segments.size(), true);
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    moved_by[i] = segments[i].joint < 0 ? moved_by[segments[i].parent] : static_cast<int>(i);
+    if (segments[i].joint >= 0) is_end[moved_by[segments[i].parent]] = false;
+  }
+  std::vector<int> owner(segments.size(), -1);
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const int first = moved_by[i];
+    if (first == 0 || !is_end[first]) continue;
+    if (first == static_cast<int>(i)) {
+      owner[i] = static_cast<int>(names->size());
+      names->push_back(segments[i].name);
+    } else {
+      owner[i] = owner[first];
+    }
+  }
+  return owner;
+}
+
+/// Origins of all segments, then all markers, 3 x points.
+Eigen::Matrix3Xd Points(const KinematicModel& model, const Posture& posture) {
+  const std::vector<Eigen::Isometry3d> X_WS = SegmentPoses(model, posture);
+  const std::size_t segments = X_WS.size();
+  Eigen::Matrix3Xd points(3, static_cast<Index>(segments + model.markers().size()));
+  for (std::size_t i = 0; i < segments; ++i) {
+    points.col(static_cast<Index>(i)) = X_WS[i].translation();
+  }
+  for (std::size_t i = 0; i < model.markers().size(); ++i) {
+    const ModelMarker& marker = model.markers()[i];
+    points.col(static_cast<Index>(segments + i)) = X_WS[marker.segment] * marker.p_SM;
+  }
+  return points;
+}
+
+/// Columns of Points.
+std::vector<Index> PointsOf(const ContactBody& body, const KinematicModel& model) {
+  std::vector<Index> points(body.segments.begin(), body.segments.end());
+  const auto segments = static_cast<Index>(model.segments().size());
+  points.reserve(body.segments.size() + body.markers.size());
+  for (const int marker : body.markers) points.push_back(segments + marker);
+  return points;
+}
+
+Index Lowest(const std::vector<Index>& candidates, const Eigen::Matrix3Xd& points) {
+  return *std::min_element(candidates.begin(), candidates.end(),
+                           [&](Index a, Index b) { return points(2, a) < points(2, b); });
+}
+
+/// Heights of the lowest points, one entry a body, and how fast these points are.
+struct LowestPoints {
+  Eigen::MatrixXd heights;
+  Eigen::MatrixXd speeds;
+};
+
+LowestPoints FindLowestPoints(const KinematicModel& model, const std::vector<ContactBody>& bodies,
+                              const PoseTrajectory& motion) {
+  const auto num_bodies = static_cast<Index>(bodies.size());
+  LowestPoints lowest{Eigen::MatrixXd(num_bodies, motion.num_frames()),
+                      Eigen::MatrixXd(num_bodies, motion.num_frames())};
+  std::vector<std::vector<Index>> candidates;
+  candidates.reserve(bodies.size());
+  for (const ContactBody& body : bodies) candidates.push_back(PointsOf(body, model));
+
+  Eigen::Matrix3Xd before = Points(model, motion.postures[0]);
+  Eigen::Matrix3Xd points = before;
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    const int next = std::min(k + 1, motion.num_frames() - 1);
+    const Eigen::Matrix3Xd after = Points(model, motion.postures[next]);
+    const double seconds = (next - std::max(k - 1, 0)) / motion.rate;
+    for (Index b = 0; b < num_bodies; ++b) {
+      const Index point = Lowest(candidates[b], points);
+      lowest.heights(b, k) = points(2, point);
+      lowest.speeds(b, k) = (after.col(point) - before.col(point)).norm() / seconds;
+    }
+    before = std::exchange(points, after);
+  }
+  return lowest;
+}
+
+/// The median of the whole body's lowest point over the frames in which that is slow; of all frames
+/// where there is none.
+double GroundHeight(const LowestPoints& lowest, double speed) {
+  std::vector<double> slow;
+  std::vector<double> all;
+  for (Index k = 0; k < lowest.heights.cols(); ++k) {
+    Index body = 0;
+    all.push_back(lowest.heights.col(k).minCoeff(&body));
+    if (lowest.speeds(body, k) <= speed) slow.push_back(all.back());
+  }
+  return Median(slow.empty() ? all : slow);
+}
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Appends to a hull, counterclockwise, the points in their order (Andrew's monotone chain).
+void AppendChain(const std::vector<Vector2d>& points, std::vector<Vector2d>* hull) {
+  const std::size_t first = hull->size();
+  for (const Vector2d& p : points) {
+    while (hull->size() >= first + 2 &&
+           Cross(hull->back() - hull->end()[-2], p - hull->back()) <= 0) {
+      hull->pop_back();
+    }
+    hull->push_back(p);
+  }
+  hull->pop_back();  // starts the other chain
+}
+
+double DistanceFromEdge(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
+  const double length2 = (b - a).squaredNorm();
+  const double share = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
+  return (a + share * (b - a) - p).norm();
+}
+
+}  // namespace
+
+std::vector<ContactBody> ContactBodies(const KinematicModel& model) {
+  std::vector<std::string> names;
+  std::vector<int> owner = EndsOfReferenceModel(model, &names);
+  if (names.empty()) owner = EndsOfLimbs(model, &names);
+  names.emplace_back("body");
+  std::vector<ContactBody> bodies(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) bodies[i].name = names[i];
+  const auto body_of = [&](int segment) -> ContactBody& {
+    return owner[segment] < 0 ? bodies.back() : bodies[owner[segment]];
+  };
+  for (int i = 0; i < static_cast<int>(owner.size()); ++i) body_of(i).segments.push_back(i);
+  for (int i = 0; i < static_cast<int>(model.markers().size()); ++i) {
+    body_of(model.markers()[i].segment).markers.push_back(i);
+  }
+  return bodies;
+}
+
+GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
+                                const PoseTrajectory& motion, double height, double speed) {
+  const LowestPoints lowest = FindLowestPoints(model, bodies, motion);
+  GroundContact contact;
+  contact.ground_height = GroundHeight(lowest, speed);
+  contact.heights = lowest.heights.array() - contact.ground_height;
+  contact.touches =
+      (contact.heights.array() <= height && lowest.speeds.array() <= speed).cast<int>();
+  return contact;
+}
+
+Eigen::VectorXd DistanceOutsideSupport(const KinematicModel& model,
+                                       const std::vector<ContactBody>& bodies,
+                                       const PoseTrajectory& motion, const GroundContact& contact,
+                                       const Eigen::Matrix2Xd& centers_of_pressure) {
+  Eigen::VectorXd distances = Eigen::VectorXd::Constant(motion.num_frames(), kNaN);
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    if (!centers_of_pressure.col(k).allFinite()) continue;
+    if (contact.touches.col(k).maxCoeff() == 0) continue;
+    const Eigen::Matrix3Xd points = Points(model, motion.postures[k]);
+    std::vector<Vector2d> support;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (contact.touches(static_cast<Index>(b), k) == 0) continue;
+      for (const Index i : PointsOf(bodies[b], model))
+        support.emplace_back(points.col(i).head<2>());
+    }
+    distances[k] = DistanceOutsideHull(std::move(support), centers_of_pressure.col(k));
+  }
+  return distances;
+}
+
+double DistanceOutsideHull(std::vector<Vector2d> points, const Vector2d& p) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  std::vector<Vector2d> hull;
+  hull.reserve(2 * points.size());
+  AppendChain(points, &hull);
+  std::reverse(points.begin(), points.end());
+  AppendChain(points, &hull);
+  if (hull.empty()) return (points.front() - p).norm();  // one point
+  bool inside = hull.size() > 2;
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d& a = hull[i];
+    const Vector2d& b = hull[(i + 1) % hull.size()];
+    inside = inside && Cross(b - a, p - a) >= 0;
+    distance = std::min(distance, DistanceFromEdge(a, b, p));
+  }
+  return inside ? 0 : distance;
+}
+
+}  // namespace mmm_converter

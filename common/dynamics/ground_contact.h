@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+#include "common/motion/pose_trajectory.h"
+
+namespace mmm_converter {
+
+/// A part of the body that can stand on the ground.
+struct ContactBody {
+  std::string name;  ///< "left foot", "right hand", ...; another model's: its last moved segment
+  std::vector<int> segments;
+  std::vector<int> markers;
+};
+
+/// Feet and hands of MMM's reference model; of other models, what hangs on the last joint of each
+/// limb. The rest of the body is the last one, "body".
+std::vector<ContactBody> ContactBodies(const KinematicModel& model);
+
+/// Guesses: the points of a body are the origins of its segments and its markers.
+struct GroundContact {
+  double ground_height = 0;  ///< where the body's lowest point rests: the median of its heights [m]
+  Eigen::MatrixXd heights;   ///< bodies x frames: lowest point above the ground [m]
+  Eigen::MatrixXi touches;   ///< bodies x frames: 1 where that is low and slow, else 0
+};
+
+/// Low is at most `height` [m] above the ground, slow at most `speed` [m/s]. The motion names all
+/// joints of the model; z is up.
+GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
+                                const PoseTrajectory& motion, double height, double speed);
+
+/// How far the centre of pressure lies outside of the convex hull of the bodies that touch, seen
+/// from above; one entry a frame [m], 0 within, NaN where nothing touches or a centre is NaN.
+Eigen::VectorXd DistanceOutsideSupport(const KinematicModel& model,
+                                       const std::vector<ContactBody>& bodies,
+                                       const PoseTrajectory& motion, const GroundContact& contact,
+                                       const Eigen::Matrix2Xd& centers_of_pressure);
+
+/// Distance of p from the convex hull of `points` (at least one) [m]; 0 within.
+double DistanceOutsideHull(std::vector<Eigen::Vector2d> points, const Eigen::Vector2d& p);
+
+}  // namespace mmm_converter

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "common/dynamics/ground_contact.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/io/mmm_model.h"
+#include "tests/common/dynamics/test_bodies.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Vector2d;
+using ::testing::ElementsAre;
+
+std::vector<std::string> Names(const std::vector<ContactBody>& bodies) {
+  std::vector<std::string> names;
+  for (const ContactBody& body : bodies) names.push_back(body.name);
+  return names;
+}
+
+TEST(GroundContact, ThePersonHasFeetAndHands) {
+  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  const std::vector<ContactBody> bodies = ContactBodies(model);
+  EXPECT_THAT(Names(bodies),
+              ElementsAre("left foot", "right foot", "left hand", "right hand", "body"));
+  std::vector<std::string> markers;
+  for (const int i : bodies[0].markers) markers.push_back(model.markers()[i].name);
+  EXPECT_THAT(markers, ElementsAre("MARKER_LANK", "MARKER_LHEE", "MARKER_LMT1", "MARKER_LMT5",
+                                   "MARKER_LTOE"));
+  std::size_t segments = 0;
+  std::size_t all_markers = 0;
+  for (const ContactBody& body : bodies) {
+    segments += body.segments.size();
+    all_markers += body.markers.size();
+  }
+  EXPECT_EQ(segments, model.segments().size());
+  EXPECT_EQ(all_markers, model.markers().size());
+}
+
+TEST(GroundContact, AnotherModelStandsOnTheEndsOfItsLimbs) {
+  const std::vector<ContactBody> bodies = ContactBodies(testing::Chain(3));
+  EXPECT_THAT(Names(bodies), ElementsAre("link_3", "body"));
+  EXPECT_THAT(bodies[0].segments, ElementsAre(3));
+  EXPECT_THAT(bodies[1].segments, ElementsAre(0, 1, 2));
+}
+
+TEST(GroundContact, AnObjectIsOneBody) {
+  const std::vector<ContactBody> bodies = ContactBodies(testing::Brick());
+  EXPECT_THAT(Names(bodies), ElementsAre("body"));
+  EXPECT_EQ(bodies[0].markers.size(), 8U);
+}
+
+/// A brick that stands on a floor at 0.7 m, slides with 2 m/s and then hovers.
+TEST(GroundContact, TouchingIsLowAndSlow) {
+  const KinematicModel model = testing::Brick();
+  PoseTrajectory motion;
+  motion.rate = 50;
+  for (int k = 0; k < 90; ++k) {
+    Posture q = ZeroPosture(model);
+    q.position = {k < 60 ? 0.0 : 2 * (std::min(k, 75) - 60) / 50.0, 0, k < 80 ? 0.9 : 1.1};
+    motion.postures.push_back(q);
+  }
+  const GroundContact contact = FindGroundContact(model, ContactBodies(model), motion, 0.04, 0.8);
+  EXPECT_NEAR(contact.ground_height, 0.7, 1e-12);
+  EXPECT_EQ(contact.touches(0, 30), 1);
+  EXPECT_EQ(contact.touches(0, 70), 0);
+  EXPECT_EQ(contact.touches(0, 85), 0);
+  EXPECT_NEAR(contact.heights(0, 70), 0, 1e-12);
+  EXPECT_NEAR(contact.heights(0, 85), 0.2, 1e-12);
+}
+
+TEST(GroundContact, DistanceFromAHull) {
+  const std::vector<Vector2d> square = {{0, 0}, {1, 0}, {0.5, 0.5}, {1, 1}, {0, 1}, {0.5, 0}};
+  EXPECT_EQ(DistanceOutsideHull(square, {0.3, 0.9}), 0);
+  EXPECT_EQ(DistanceOutsideHull(square, {1, 0.5}), 0);
+  EXPECT_DOUBLE_EQ(DistanceOutsideHull(square, {0.5, -0.2}), 0.2);
+  EXPECT_DOUBLE_EQ(DistanceOutsideHull(square, {4, 5}), 5);
+  const std::vector<Vector2d> line = {{0, 0}, {2, 0}, {1, 0}};
+  EXPECT_DOUBLE_EQ(DistanceOutsideHull(line, {1, 0.5}), 0.5);
+  EXPECT_DOUBLE_EQ(DistanceOutsideHull(line, {3, 0}), 1);
+  EXPECT_DOUBLE_EQ(DistanceOutsideHull({{1, 1}}, {1, 3}), 2);
+  EXPECT_DOUBLE_EQ(DistanceOutsideHull({{1, 1}, {1, 1}}, {1, 3}), 2);
+}
+
+}  // namespace
+}  // namespace mmm_converter
