@@ -128,9 +128,10 @@ std::string DescribeRun(const BatchOutcome& outcome) {
   std::string text = fmt::format("{} converted, {} failed", outcome.converted, outcome.failed);
   if (outcome.unchanged > 0) text += fmt::format(", {} unchanged", outcome.unchanged);
   if (outcome.not_done > 0) text += fmt::format(", {} not done", outcome.not_done);
+  text += " in " + FormatDuration(outcome.seconds);
+  if (outcome.converted == 0) return text;
   const double rate = outcome.converted / std::max(outcome.seconds, 1e-3);
-  return text +
-         fmt::format(" in {} ({:.3g} recordings a second)", FormatDuration(outcome.seconds), rate);
+  return text + fmt::format(" ({:.3g} recordings a second)", rate);
 }
 
 std::string DescribeResults(const BatchManifest& manifest, const BatchOptions& options,
