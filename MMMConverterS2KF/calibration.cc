@@ -26,10 +26,15 @@ void Append(const std::vector<std::string>& more, std::vector<std::string>* all)
   }
 }
 
-CalibrationInput ReadOne(const InputRequest& request, const ConverterConfig& config,
+CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
                          std::vector<std::string>* warnings) {
   CalibrationInput one;
   one.input = ReadInput(request);
+  MatchModel(request, &one.input, matched);
+  const ConverterConfig& config = *matched;
+  if (config.model_processor == "None") {
+    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
+  }
   const MarkerSequence& markers = one.input.recording.markers;
   const KinematicModel& reference = *one.input.reference;
   const std::vector<MarkerPair> pairs =
@@ -88,18 +93,12 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   CalibrationReport report;
   ConverterConfig config = ChooseConverter(request.converter).config;
   Append(config.warnings, &report.warnings);
-  if (config.model_processor == "None") {
-    throw Error(
-        fmt::format("{}: <Model name=\"None\">: the model is not scaled, but a subject is "
-                    "relative to the scaled one; use another configuration",
-                    config.file));
-  }
   config.subject_file.clear();  // it is what is estimated
   const int num_inputs = static_cast<int>(request.inputs.size());
   report.recordings.reserve(request.inputs.size());
   for (int i = 0; i < num_inputs; ++i) {
     if (progress) progress(i, num_inputs);
-    report.recordings.push_back(ReadOne(request.inputs[i], config, &report.warnings));
+    report.recordings.push_back(ReadOne(request.inputs[i], &config, &report.warnings));
   }
   CheckOnePerson(request, report.recordings);
   const Input& first = report.recordings.front().input;

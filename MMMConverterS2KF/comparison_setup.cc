@@ -27,8 +27,10 @@ void NumberRepeatedNames(std::vector<Named>* items) {
   }
 }
 
-void TakeModel(const InputRequest& request, const Input& input, const ConverterConfig& config,
-               Trial* trial, std::vector<std::string>* warnings) {
+void TakeModel(const InputRequest& request, ConverterConfig config, Input* read, Trial* trial,
+               std::vector<std::string>* warnings) {
+  MatchModel(request, read, &config);
+  const Input& input = *read;
   const MarkerSequence& markers = input.recording.markers;
   std::string set;
   const std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, markers, *input.reference, &set);
@@ -71,7 +73,7 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
         if (!request.person.mass) request.person.mass = truth.mass;
       }
     }
-    TakeModel(request, input, config, &trial, warnings);
+    TakeModel(request, config, &input, &trial, warnings);
     trial.markers = std::move(input.recording.markers);
   } catch (const Error& error) {
     trial.failure = error.what();

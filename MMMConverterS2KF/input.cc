@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -34,18 +35,41 @@ std::string ModelFile(const InputRequest& request) {
   return request.model_file.empty() ? DataFile(kDefaultModel) : request.model_file;
 }
 
-Input ReadInput(const InputRequest& request) {
+Input ReadModel(const InputRequest& request) {
   Input input;
-  input.recording = ReadRecording(request.file, request.reading);
-  input.warnings = input.recording.warnings;
-  TakeFrames(request, &input);
   input.model_file = ModelFile(request);
-  const auto model = request.model
-                         ? request.model
-                         : std::make_shared<const MmmModel>(ReadMmmModel(input.model_file));
-  input.warnings.insert(input.warnings.end(), model->warnings.begin(), model->warnings.end());
-  input.reference = std::shared_ptr<const KinematicModel>(model, &model->model);
+  input.model = request.model
+                    ? request.model
+                    : std::make_shared<const LoadedModel>(ReadModelFile(input.model_file));
+  input.warnings = input.model->warnings;
+  input.reference = std::shared_ptr<const KinematicModel>(input.model, &input.model->model);
   return input;
+}
+
+Input ReadInput(const InputRequest& request) {
+  Recording recording = ReadRecording(request.file, request.reading);
+  Input input = ReadModel(request);
+  input.warnings.insert(input.warnings.begin(), recording.warnings.begin(),
+                        recording.warnings.end());
+  input.recording = std::move(recording);
+  TakeFrames(request, &input);
+  return input;
+}
+
+void TakeMarkerSet(const InputRequest& request, ConverterConfig* config) {
+  if (request.marker_set.empty()) return;
+  namespace fs = std::filesystem;
+  const bool is_file = fs::exists(request.marker_set) || request.marker_set.ends_with(".xml");
+  config->marker_set = is_file ? fs::absolute(request.marker_set).string() : request.marker_set;
+  config->marker_pairs.clear();
+}
+
+void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config) {
+  TakeMarkerSet(request, config);
+  if (!input->model->is_reference) config->model_processor = "None";
+  const auto set = ReadOwnMarkerSet(*config);
+  if (!set || set->places.empty()) return;
+  input->reference = std::make_shared<KinematicModel>(PlaceMarkers(*set, *input->model));
 }
 
 void ParseFrames(const std::string& text, InputRequest* request) {
@@ -84,7 +108,12 @@ const std::vector<OptionGroup>& InputOptions() {
          "outputModelProcessorConfigFile"},
         {"subject-file", "FILE",
          "who the person is, from calibrate: height, mass, segment lengths and marker places", ""},
-        {"model", "FILE", "reference model; default: the shipped MMM model", "outputModelFile"}}}};
+        {"model", "FILE", "MMM model, or a URDF as it is; default: the shipped MMM model",
+         "outputModelFile"},
+        {"marker-set", "FILE",
+         "which labels stand for which markers, and where these are; default: what the "
+         "configuration says",
+         ""}}}};
   return options;
 }
 
@@ -99,6 +128,7 @@ InputRequest MakeInputRequest(const Arguments& arguments, const std::string& fil
   request.reading.motion = arguments.Get("motion").value_or("");
   if (const auto frames = arguments.Get("frames")) ParseFrames(*frames, &request);
   request.model_file = arguments.Get("model").value_or("");
+  request.marker_set = arguments.Get("marker-set").value_or("");
   request.person.processor_file = arguments.Get("person").value_or("");
   request.person.subject_file = arguments.Get("subject-file").value_or("");
   request.person.height = arguments.GetNumber("height", "metres, e.g. 1.75");

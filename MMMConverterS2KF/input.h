@@ -8,7 +8,8 @@
 
 #include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/person.h"
-#include "common/io/mmm_model.h"
+#include "common/convert/converter_config.h"
+#include "common/io/model_file.h"
 #include "common/io/recording.h"
 #include "common/model/kinematic_model.h"
 
@@ -18,10 +19,11 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::optional<int> first_frame;         ///< counted from 0
-  std::optional<int> end_frame;           ///< the frame behind the last
-  std::string model_file;                 ///< reference model
-  std::shared_ptr<const MmmModel> model;  ///< of that file, where it has been read before
+  std::optional<int> first_frame;            ///< counted from 0
+  std::optional<int> end_frame;              ///< the frame behind the last
+  std::string model_file;                    ///< reference model, or a URDF
+  std::shared_ptr<const LoadedModel> model;  ///< of that file, where it has been read before
+  std::string marker_set;                    ///< file or name; comes before the configuration's
   PersonRequest person;
 };
 
@@ -29,15 +31,28 @@ struct Input {
   Recording recording;  ///< the frames asked for
   int first_frame = 0;  ///< of them, counted from 0
   std::string model_file;
-  std::shared_ptr<const KinematicModel> reference;  ///< not scaled
+  std::shared_ptr<const LoadedModel> model;         ///< of that file
+  std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
   std::vector<std::string> warnings;
 };
 
 /// The file of the reference model.
 std::string ModelFile(const InputRequest& request);
 
+/// The model only; no recording.
+/// @throws Error
+Input ReadModel(const InputRequest& request);
+
 /// @throws Error
 Input ReadInput(const InputRequest& request);
+
+/// The request's marker set instead of the configuration's, where it names one.
+void TakeMarkerSet(const InputRequest& request, ConverterConfig* config);
+
+/// Brings model and configuration together: TakeMarkerSet; the reference gets the markers that the
+/// configuration's marker set places; a model that is not of a person of 1 m is not scaled.
+/// @throws Error as ReadMarkerSet and PlaceMarkers.
+void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config);
 
 /// The options of an InputRequest, for every command that reads recordings.
 const std::vector<OptionGroup>& InputOptions();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "common/convert/converter_config.h"
 #include "common/fit/height_estimate.h"
@@ -15,6 +16,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kAssumedMass = 70;  // [kg]
+constexpr const char* kAssumed = "assumed";
 
 // The first source that has a value.
 std::optional<PersonValue> Choose(const std::optional<double>& given,
@@ -89,23 +91,36 @@ void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
   const auto hand_length =
       Choose(request.hand_length, processor.hand_length, file, recording.hand_length);
   person->height = height.value_or(PersonValue());
-  person->mass = mass ? *mass : PersonValue{kAssumedMass, "assumed"};
+  person->mass = mass ? *mass : PersonValue{kAssumedMass, kAssumed};
   if (hand_length) person->hand_length = hand_length->value;
+}
+
+KinematicModel Scale(const PersonRequest& request, const KinematicModel& reference,
+                     const Recording& recording, const ConverterConfig& config,
+                     const std::function<PersonValue()>& estimate_height, Person* person,
+                     std::vector<std::string>* warnings) {
+  ProcessorConfig processor;
+  if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
+  person->subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
+  if (!person->subject_file.empty()) {
+    person->subject = std::make_shared<Subject>(ReadSubject(person->subject_file, reference));
+    TakeSubject(request, processor, recording, person, warnings);
+    return FitToSubject(ScaleWinter(reference, ToWinterScaling(*person)), *person->subject);
+  }
+  TakeNumbers(request, processor, recording, person);
+  if (person->height.source.empty()) person->height = estimate_height();
+  return ScaleWinter(reference, ToWinterScaling(*person));
 }
 
 KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel& reference,
                              const ConverterConfig& config, Person* person,
                              std::vector<std::string>* warnings) {
   if (!request.subject_file.empty()) {
-    throw Error(
-        fmt::format("{}: <Model name=\"None\">: the model is not scaled, but the subject {} "
-                    "is relative to the scaled one; use another configuration",
-                    config.file, request.subject_file));
+    throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
+                            WhyUnscaled(config), request.subject_file));
   }
   if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
-    warnings->push_back(config.file +
-                        ": <Model name=\"None\">: the model is not scaled; height, mass and "
-                        "hand length are left out");
+    warnings->push_back(WhyUnscaled(config) + "; height, mass and hand length are left out");
   }
   person->height = {0, "model is not scaled"};
   person->mass = person->height;
@@ -113,6 +128,10 @@ KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel&
 }
 
 }  // namespace
+
+std::string WhyUnscaled(const ConverterConfig& config) {
+  return "the model is not scaled (it is a URDF, or " + config.file + " has <Model name=\"None\">)";
+}
 
 WinterScaling ToWinterScaling(const Person& person) {
   return {person.height.value, person.mass.value, person.hand_length};
@@ -125,18 +144,20 @@ KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel&
   if (config.model_processor == "None") {
     return LeaveUnscaled(request, reference, config, person, warnings);
   }
-  ProcessorConfig processor;
-  if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
-  person->subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
-  if (!person->subject_file.empty()) {
-    person->subject = std::make_shared<Subject>(ReadSubject(person->subject_file, reference));
-    TakeSubject(request, processor, recording, person, warnings);
-    return FitToSubject(ScaleWinter(reference, ToWinterScaling(*person)), *person->subject);
-  }
-  TakeNumbers(request, processor, recording, person);
-  if (person->height.source.empty())
-    person->height = Estimate(reference, recording, config, assignments);
-  return ScaleWinter(reference, ToWinterScaling(*person));
+  const auto estimate = [&] { return Estimate(reference, recording, config, assignments); };
+  return Scale(request, reference, recording, config, estimate, person, warnings);
+}
+
+KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                                  const ConverterConfig& config, Person* person,
+                                  std::vector<std::string>* warnings) {
+  constexpr const char* kUnknown =
+      "how tall and heavy is the person? Give --height and --mass, --person or --subject-file";
+  if (config.model_processor == "None") throw Error(WhyUnscaled(config));
+  const auto fail = []() -> PersonValue { throw Error(kUnknown); };
+  KinematicModel model = Scale(request, reference, Recording(), config, fail, person, warnings);
+  if (person->mass.source == kAssumed) throw Error(kUnknown);
+  return model;
 }
 
 }  // namespace mmm_converter

@@ -35,19 +35,29 @@ struct Person {
   std::string subject_file;                ///< empty: none
 };
 
+/// For messages: which file has it that the model is not scaled.
+std::string WhyUnscaled(const ConverterConfig& config);
+
 /// What Winter's scaling takes of a person.
 WinterScaling ToWinterScaling(const Person& person);
 
 /// The model of the recorded person: the reference scaled by height and mass, or as it is where the
-/// configuration says so; fitted to the subject where the request or the configuration names one.
-/// Height, mass and hand length are the subject's, or else are taken from the request, the
-/// processor file, or the recording, in this order; then the height is estimated from the assigned
-/// markers and the mass assumed. Says in person what was taken and from where.
+/// configuration says so (<Model name="None">; MatchModel); fitted to the subject where the request
+/// or the configuration names one. Height, mass and hand length are the subject's, or else are
+/// taken from the request, the processor file, or the recording, in this order; then the height is
+/// estimated from the assigned markers and the mass assumed. Says in person what was taken and from
+/// where.
 /// @throws Error; also where the user gives another height or hand length than the subject's, which
 ///         its segment scales are relative to.
 KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
                              const Recording& recording, const ConverterConfig& config,
                              const std::vector<MarkerAssignment>& assignments, Person* person,
                              std::vector<std::string>* warnings);
+
+/// As ScaleToPerson without a recording: nothing is estimated or assumed.
+/// @throws Error; also where height or mass are not known, or the model is not scaled.
+KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                                  const ConverterConfig& config, Person* person,
+                                  std::vector<std::string>* warnings);
 
 }  // namespace mmm_converter

@@ -22,9 +22,7 @@ void AddWarnings(const std::vector<std::string>& more, ConversionReport* report)
 // The person as the recording itself shows them.
 void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
   if (config.model_processor == "None") {
-    throw Error(config.file +
-                ": <Model name=\"None\">: the model is not scaled, but a subject is "
-                "relative to the scaled one; use another configuration");
+    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }
   const Recording& recording = report->input.recording;
   const std::string file = std::filesystem::path(recording.file).filename().string();
@@ -78,6 +76,7 @@ ConversionReport RunConversion(const ConversionRequest& request,
   report.converter = request.choice ? *request.choice : ChooseConverter(request.converter);
   AddWarnings(report.converter.config.warnings, &report);
   ConverterConfig& config = report.converter.config;
+  MatchModel(request.input, &report.input, &config);
   if (request.self_calibrate) config.subject_file.clear();
   report.output_format =
       request.output_format.empty() ? config.output_format : request.output_format;

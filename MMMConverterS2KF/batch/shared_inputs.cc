@@ -37,7 +37,7 @@ void SharedInputs::Prepare(ConversionRequest* request) {
   const std::scoped_lock lock(mutex_);
   const std::string model_file = ModelFile(request->input);
   auto& model = models_[model_file];
-  if (!model) model = std::make_shared<MmmModel>(ReadMmmModel(model_file));
+  if (!model) model = std::make_shared<LoadedModel>(ReadModelFile(model_file));
   request->input.model = model;
   const ConverterRequest& converter = request->converter;
   auto& choice = choices_[converter.config + '\n' + converter.plugin_file];

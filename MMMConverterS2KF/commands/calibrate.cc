@@ -99,6 +99,9 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
     trials.push_back(std::move(trial));
   }
   std::vector<Contender> contenders = {MakeContender(arguments.Get("config").value_or(""))};
+  InputRequest request;
+  request.marker_set = arguments.Get("marker-set").value_or("");
+  TakeMarkerSet(request, &contenders.front().config);
   MakeNamesUnique(&trials, &contenders);
   ProgressBar bar("runs");
   const Comparison comparison = Compare(std::move(trials), std::move(contenders), {},

@@ -18,6 +18,7 @@ int RunCalibrate(const std::vector<std::string>& words);
 int RunCompare(const std::vector<std::string>& words);
 int RunConvert(const std::vector<std::string>& words);
 int RunEvaluate(const std::vector<std::string>& words);
+int RunExportUrdf(const std::vector<std::string>& words);
 int RunInfo(const std::vector<std::string>& words);
 int RunPrintConfig(const std::vector<std::string>& words);
 int RunReport(const std::vector<std::string>& words);

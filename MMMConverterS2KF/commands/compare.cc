@@ -130,6 +130,8 @@ int RunCompare(const std::vector<std::string>& words) {
   StartLog(arguments.Get("log").value_or("info"));
   const ComparisonOptions options = MakeOptions(arguments);
   std::vector<Contender> contenders = MakeContenders(arguments);
+  const InputRequest request = MakeInputRequest(arguments.ForPositional(0, kPerRecording), "");
+  for (Contender& contender : contenders) TakeMarkerSet(request, &contender.config);
   std::vector<Trial> trials = MakeTrials(arguments, contenders.front().config);
   MakeNamesUnique(&trials, &contenders);
   ProgressBar bar("runs");

@@ -13,8 +13,8 @@
 #include "common/convert/converter_config.h"
 #include "common/convert/plugin_loader.h"
 #include "common/io/file_content.h"
-#include "common/io/mmm_model.h"
 #include "common/io/mmm_motion.h"
+#include "common/io/model_file.h"
 #include "common/io/recording.h"
 #include "common/io/xml_document.h"
 #include "common/io/xml_text.h"
@@ -133,7 +133,7 @@ Description DescribeMotions(const std::string& file) {
 }
 
 Description DescribeModel(const std::string& file) {
-  const MmmModel parsed = ReadMmmModel(file);
+  const LoadedModel parsed = ReadModelFile(file);
   for (const std::string& warning : parsed.warnings) LogWarning(warning);
   const KinematicModel& model = parsed.model;
   Description description;
@@ -224,10 +224,10 @@ Description Describe(const std::string& file, const Arguments& arguments) {
   if (EqualIgnoringCase(root, "MMM")) return DescribeMotions(file);
   if (EqualIgnoringCase(root, "Robot")) return DescribeModel(file);
   if (EqualIgnoringCase(root, "ConverterConfig")) return DescribeConfig(file);
-  throw Error(
-      fmt::format("{}:{}: is an XML file of <{}>; expected <MMM> (motion), <Robot> (model) or "
-                  "<ConverterConfig>",
-                  file, ReadXmlFile(file).line, root));
+  throw Error(fmt::format(
+      "{}:{}: is an XML file of <{}>; expected <MMM> (motion), <Robot> (model, URDF) or "
+      "<ConverterConfig>",
+      file, ReadXmlFile(file).line, root));
 }
 
 }  // namespace

@@ -76,9 +76,11 @@ Comparison CompareSolutions(const Arguments& arguments) {
   Trial trial = MakeTrial(request, "", ConverterConfig(), &warnings);
   if (!trial.failure.empty()) throw Error(trial.failure);
   for (const std::string& warning : warnings) LogWarning(warning);
+  ConverterConfig config;
+  TakeMarkerSet(request, &config);
   std::string set;
   const std::vector<MarkerPair> pairs =
-      ResolveMarkerPairs(ConverterConfig(), trial.markers, *trial.model, &set);
+      ResolveMarkerPairs(config, trial.markers, *trial.model, &set);
   const MarkerMapping mapping = ResolveMarkerMapping(pairs, trial.markers, *trial.model);
   Solutions solutions;
   for (std::size_t i = 1; i < files.size(); ++i) {

@@ -11,15 +11,16 @@ constexpr const char* kShared = R"(<?xml version="1.0" encoding="UTF-8"?>
      an attribute's name ends with its unit. -->
 <ConverterConfig type="{0}">
   <!-- name: Winter (the reference model is scaled by the person's height and mass) or
-       None (it is used as it is) -->
+       None (it is used as it is, like every URDF) -->
   <Model name="Winter">
     <!-- Who the person is: a file that calibrate wrote, relative to this one; the option
          subject-file of the command line comes first:
          <Subject file="1723.xml"/> -->
     <!-- Which label of the recording stands for which marker of the model.
-         set: the name of a shipped marker set, a file of that kind, or auto (the shipped set that
-         knows most labels). Or a list; noiseScale: factor on the marker's standard deviation, above
-         1 trusts it less. Of several labels for one marker the first that is seen is taken:
+         set: the name of a shipped marker set, a file of that kind, or auto (of the shipped sets and
+         the names of the model's own markers what knows most labels). Or a list; noiseScale: factor
+         on the marker's standard deviation, above 1 trusts it less. Of several labels for one marker
+         the first that is seen is taken:
          <MarkerMapping>
            <Mapping source="C7" target="MARKER_C7" noiseScale="1"/>
            ...

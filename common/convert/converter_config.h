@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/convert/marker_mapping.h"
+#include "common/convert/marker_set.h"
 #include "common/convert/settings.h"
 #include "common/io/xml_document.h"
 
@@ -50,12 +52,18 @@ std::vector<int> ResolveJoints(const ConverterConfig& config, const KinematicMod
 
 /// Which labels stand for which markers: config.marker_pairs, or else those of marker_set, as far
 /// as the model has their markers. marker_set is the name of a shipped set or of its file
-/// ("kit53"), a file ("my_set.xml", relative to the configuration), or "auto": the shipped set that
-/// knows most labels of the recording. name: the set's, or "" for a list.
+/// ("kit53"), a file ("my_set.xml", relative to the configuration), or "auto": of the shipped sets
+/// and the names of the model's markers what knows most labels of the recording. name: the set's,
+/// or
+/// "" for a list.
 /// @throws Error where there is no such set, or no set knows three labels.
 std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
                                            const MarkerSequence& recording,
                                            const KinematicModel& model, std::string* name);
+
+/// The marker set that the configuration names as a file; nothing where it names none.
+/// @throws Error as ReadMarkerSet.
+std::optional<MarkerSet> ReadOwnMarkerSet(const ConverterConfig& config);
 
 /// The documented template of a configuration: the parts that all converters share at their
 /// defaults, then those of the plugin's settings with their present values.

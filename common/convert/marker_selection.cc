@@ -35,22 +35,32 @@ const MarkerSet& FindSet(const std::vector<MarkerSet>& sets, const ConverterConf
                   closest.empty() ? "" : " (did you mean " + closest + "?)", JoinNames(names)));
 }
 
+/// As far as the model has their markers, and the model's own names.
+void FitToModel(const KinematicModel& model, std::vector<MarkerSet>* sets) {
+  for (MarkerSet& set : *sets) set.pairs = PairsInModel(set, model);
+  sets->push_back(OwnMarkerSet(model));
+}
+
 }  // namespace
+
+std::optional<MarkerSet> ReadOwnMarkerSet(const ConverterConfig& config) {
+  if (!config.marker_pairs.empty() || !config.marker_set.ends_with(".xml")) return std::nullopt;
+  return ReadMarkerSet((fs::path(config.file).parent_path() / config.marker_set).string());
+}
 
 std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
                                            const MarkerSequence& recording,
                                            const KinematicModel& model, std::string* name) {
   name->clear();
   if (!config.marker_pairs.empty()) return config.marker_pairs;
-  if (config.marker_set.ends_with(".xml")) {
-    const MarkerSet set =
-        ReadMarkerSet((fs::path(config.file).parent_path() / config.marker_set).string());
-    *name = set.name;
-    return PairsInModel(set, model);
+  if (const auto own = ReadOwnMarkerSet(config)) {
+    *name = own->name;
+    return PairsInModel(*own, model);
   }
-  const std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
-  const MarkerSet& set =
-      config.marker_set == "auto" ? ChooseMarkerSet(sets, recording) : FindSet(sets, config);
+  std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
+  const bool is_free = config.marker_set == "auto";
+  if (is_free) FitToModel(model, &sets);
+  const MarkerSet& set = is_free ? ChooseMarkerSet(sets, recording) : FindSet(sets, config);
   *name = set.name;
   return PairsInModel(set, model);
 }

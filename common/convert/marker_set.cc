@@ -16,6 +16,7 @@
 #include "common/model/kinematic_model.h"
 #include "common/support/diagnostics.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -23,6 +24,7 @@ namespace {
 
 constexpr double kMinNoiseScale = 0.01;
 constexpr double kMaxNoiseScale = 100;
+constexpr double kFarthestPlace = 10;  // [m]; no segment is longer
 
 void CheckAttributes(const XmlElement& element, const std::vector<std::string>& allowed,
                      Diagnostics* diagnostics) {
@@ -62,6 +64,50 @@ MarkerPair ReadMapping(const XmlElement& element, Diagnostics* diagnostics) {
   return pair;
 }
 
+double Millimetres(const XmlElement& element, const char* attribute, Diagnostics* diagnostics) {
+  constexpr double kMetresPerMillimetre = 1e-3;
+  const std::string text = Required(element, attribute, diagnostics);
+  const double value = kMetresPerMillimetre * ParseDouble(text).value_or(NAN);
+  if (!text.empty() && !(std::abs(value) <= kFarthestPlace)) {
+    diagnostics->AddError(element.line, fmt::format("{}=\"{}\": must be a number of mm, at most {}",
+                                                    attribute, text, 1e3 * kFarthestPlace));
+  }
+  return value;
+}
+
+MarkerPlace ReadPlace(const XmlElement& element, Diagnostics* diagnostics) {
+  CheckAttributes(element, {"name", "segment", "x_mm", "y_mm", "z_mm"}, diagnostics);
+  MarkerPlace place;
+  place.marker = Required(element, "name", diagnostics);
+  place.segment = Required(element, "segment", diagnostics);
+  place.p_SM.x() = Millimetres(element, "x_mm", diagnostics);
+  place.p_SM.y() = Millimetres(element, "y_mm", diagnostics);
+  place.p_SM.z() = Millimetres(element, "z_mm", diagnostics);
+  place.line = element.line;
+  return place;
+}
+
+/// A placed marker without a label of its own is labelled by its name.
+void AddOwnLabels(MarkerSet* set) {
+  std::set<std::string> labels;
+  std::set<std::string> targets;
+  for (const MarkerPair& pair : set->pairs) {
+    labels.insert(NormalizeLabel(pair.source));
+    targets.insert(pair.target);
+  }
+  for (const MarkerPlace& place : set->places) {
+    const bool is_free = labels.insert(NormalizeLabel(place.marker)).second;
+    if (is_free && !targets.contains(place.marker))
+      set->pairs.push_back({place.marker, place.marker});
+  }
+}
+
+/// -1: none.
+int FindSegment(const LoadedModel& model, const std::string& name) {
+  const auto link = model.segment_of_link.find(name);
+  return model.model.FindSegment(link == model.segment_of_link.end() ? name : link->second);
+}
+
 /// Model markers that the set finds a label for, with the noise scale of the pair used.
 std::map<std::string, double> MappedMarkers(const MarkerSet& set, const MarkerSequence& recording) {
   std::set<std::string> labels;
@@ -89,10 +135,20 @@ MarkerSet ReadMarkerSet(const std::string& path) {
   set.name = Required(root, "name", &diagnostics);
   if (const std::string* text = root.FindAttribute("description")) set.description = *text;
   std::map<std::string, std::string> targets;
+  std::set<std::string> placed;
   for (const XmlElement& child : root.children) {
+    if (child.Is("Marker")) {
+      set.places.push_back(ReadPlace(child, &diagnostics));
+      if (!placed.insert(set.places.back().marker).second) {
+        diagnostics.AddError(child.line,
+                             fmt::format("marker {} is placed twice", set.places.back().marker));
+      }
+      continue;
+    }
     if (!child.Is("Mapping")) {
-      diagnostics.AddError(child.line,
-                           fmt::format("<{}>: only <Mapping> is allowed here", child.name));
+      diagnostics.AddError(
+          child.line,
+          fmt::format("<{}>: only <Mapping> and <Marker> are allowed here", child.name));
       continue;
     }
     MarkerPair pair = ReadMapping(child, &diagnostics);
@@ -101,8 +157,11 @@ MarkerSet ReadMarkerSet(const std::string& path) {
     }
     set.pairs.push_back(std::move(pair));
   }
-  if (set.pairs.empty()) diagnostics.AddError(root.line, "the set has no <Mapping>");
+  if (set.pairs.empty() && set.places.empty()) {
+    diagnostics.AddError(root.line, "the set has no <Mapping> and no <Marker>");
+  }
   diagnostics.ThrowIfErrors();
+  AddOwnLabels(&set);
   return set;
 }
 
@@ -118,6 +177,41 @@ std::vector<MarkerSet> ReadMarkerSets(const std::string& folder) {
   sets.reserve(files.size());
   for (const std::string& file : files) sets.push_back(ReadMarkerSet(file));
   return sets;
+}
+
+KinematicModel PlaceMarkers(const MarkerSet& set, const LoadedModel& model) {
+  const KinematicModel& bare = model.model;
+  ModelDescription description{bare.name(), bare.segments(), bare.markers(), bare.node_sets()};
+  Diagnostics diagnostics(set.file);
+  for (const MarkerPlace& place : set.places) {
+    const int segment = FindSegment(model, place.segment);
+    if (segment < 0) {
+      std::vector<std::string> names;
+      for (const Segment& known : bare.segments()) names.push_back(known.name);
+      for (const auto& [link, unused] : model.segment_of_link) names.push_back(link);
+      const std::string closest = ClosestName(place.segment, names);
+      diagnostics.AddError(
+          place.line, fmt::format("marker {}: model {} has no segment \"{}\"{}", place.marker,
+                                  bare.name(), place.segment,
+                                  closest.empty() ? "; `MMMConverterS2KF info MODEL` lists them"
+                                                  : " (did you mean " + closest + "?)"));
+      continue;
+    }
+    const int marker = bare.FindMarker(place.marker);
+    ModelMarker& placed = marker < 0 ? description.markers.emplace_back()
+                                     : description.markers[static_cast<std::size_t>(marker)];
+    placed = {place.marker, segment, place.p_SM};
+  }
+  diagnostics.ThrowIfErrors();
+  return KinematicModel(std::move(description));
+}
+
+MarkerSet OwnMarkerSet(const KinematicModel& model) {
+  MarkerSet set;
+  set.name = "the model's own";
+  set.pairs.reserve(model.markers().size());
+  for (const ModelMarker& marker : model.markers()) set.pairs.push_back({marker.name, marker.name});
+  return set;
 }
 
 std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel& model) {

@@ -5,18 +5,29 @@
 #include <vector>
 
 #include "common/convert/marker_mapping.h"
+#include "common/io/model_file.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
 
+/// A `<Marker name="" segment="" x_mm="" y_mm="" z_mm=""/>`: where a marker is worn.
+struct MarkerPlace {
+  std::string marker;
+  std::string segment;                             ///< or joint or, of a URDF, link
+  Eigen::Vector3d p_SM = Eigen::Vector3d::Zero();  ///< in axes of the segment, not scaled [m]
+  int line = 0;
+};
+
 /// A `<MarkerSet name="">` file: which labels of a laboratory's marker set stand for which model
 /// markers. Several `<Mapping source="" target="" noiseScale="" warning=""/>` with the same target
-/// are substitutes, the best first.
+/// are substitutes, the best first. Markers that the set places need no mapping: their label is
+/// their name.
 struct MarkerSet {
   std::string file;
   std::string name;
   std::string description;
   std::vector<MarkerPair> pairs;
+  std::vector<MarkerPlace> places;  ///< for models without these markers, or with them elsewhere
 };
 
 /// @throws Error with file and line for anything that is not well-formed or not allowed.
@@ -24,6 +35,13 @@ MarkerSet ReadMarkerSet(const std::string& path);
 
 /// All *.xml files of a folder, by name. @throws Error as ReadMarkerSet, or where there is none.
 std::vector<MarkerSet> ReadMarkerSets(const std::string& folder);
+
+/// The model with the markers that the set places.
+/// @throws Error with file and line for each segment that the model does not have.
+KinematicModel PlaceMarkers(const MarkerSet& set, const LoadedModel& model);
+
+/// The set in which each marker of the model is labelled by its name.
+MarkerSet OwnMarkerSet(const KinematicModel& model);
 
 /// The pairs whose target the model has: not every model has every marker of a set.
 std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel& model);

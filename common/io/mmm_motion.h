@@ -60,7 +60,7 @@ struct MmmMotionOutput {
   std::string recording_name;  ///< 2.0: MMM's name attribute; empty: none
   std::string motion_name;
   std::string model_path;             ///< see ModelPathFor
-  double height = 0;                  ///< [m]
+  double height = 0;                  ///< [m]; 0: the model is not scaled
   double mass = 0;                    ///< [kg]
   std::optional<double> hand_length;  ///< [m]
   std::string comment;                ///< stands in the model's element; empty: none

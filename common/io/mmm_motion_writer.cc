@@ -110,6 +110,7 @@ void CheckFinite(const PoseTrajectory& trajectory) {
 
 void AppendProcessor(const MmmMotionOutput& output, std::string_view indent, char quote,
                      Text text) {
+  if (output.height <= 0) return;
   const std::string quoted = fmt::format("{0}Winter{0}", quote);
   text << indent << "<ModelProcessorConfig type=" << quoted << ">\n" << indent << "\t<Height>";
   text.Number(output.height) << "</Height>\n" << indent << "\t<Mass>";

@@ -28,8 +28,8 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 }
 
 TEST(Help, EveryCommandHasOneWithExamples) {
-  for (const char* command :
-       {"calibrate", "compare", "convert", "evaluate", "info", "print-config", "report"}) {
+  for (const char* command : {"calibrate", "compare", "convert", "evaluate", "export-urdf", "info",
+                              "print-config", "report"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -74,9 +74,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
   const std::vector<Misuse> misuses = {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
-       "unknown command \"fly\"; use convert, batch, calibrate, compare, evaluate, info, "
-       "print-config or "
-       "report"},
+       "unknown command \"fly\"; use convert, batch, calibrate, compare, evaluate, "
+       "export-urdf, info, print-config or report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
@@ -104,6 +103,7 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"convert", "a.c3d", "--frames", "-5:9"}, "\"-5:9\" is not A:B"},
       {{"convert", "a.c3d", "--format", "3"}, "\"3\" is not allowed; use 2.0 or 1.0"},
       {{"convert", "a.c3d", "--log", "loud"}, "\"loud\" is not a level; use off, error"},
+      {{"export-urdf", "--height", "1.7"}, "export-urdf: which file is to be written?"},
       {{"info"}, "info: which file?"},
       {{"print-config"}, "print-config: which converter?"}};
   for (const Misuse& misuse : misuses) {

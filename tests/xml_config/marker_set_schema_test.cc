@@ -27,6 +27,10 @@ TEST(MarkerSetSchema, RefusesWhatTheReaderRefuses) {
     return testing::IsValidText(kSchema, "<MarkerSet name='a'>" + mappings + "</MarkerSet>");
   };
   EXPECT_TRUE(is_valid("<Mapping source='a' target='b' noiseScale='2' warning='w'/>"));
+  EXPECT_TRUE(is_valid("<Marker name='a' segment='b' x_mm='0' y_mm='-1e3' z_mm='0.5'/>"));
+  EXPECT_FALSE(is_valid("<Marker name='a' segment='b' x_mm='0' y_mm='0'/>"));
+  EXPECT_FALSE(is_valid("<Marker name='a' segment='b' x_mm='0' y_mm='0' z_mm='x'/>"));
+  EXPECT_FALSE(is_valid("<Marker name='a' segment='b' x_mm='0' y_mm='0' z_mm='20000'/>"));
   EXPECT_FALSE(is_valid(""));
   EXPECT_FALSE(is_valid("<Mapping source='a'/>"));
   EXPECT_FALSE(is_valid("<Mapping source='a' target=''/>"));

@@ -71,6 +71,43 @@ TEST(MarkerSet, ShippedSetsNameMarkersOfTheShippedModel) {
   }
 }
 
+TEST(MarkerSet, PlacesMarkersOnSegmentsAndLinks) {
+  const std::string path = ::testing::TempDir() + "places.xml";
+  std::ofstream(path) << "<MarkerSet name='s'><Marker name='A' segment='arm' x_mm='1' y_mm='2' "
+                         "z_mm='-3'/><Marker name='B' segment='elbow' x_mm='0' y_mm='0' z_mm='10'/>"
+                         "<Marker name='C' segment='root' x_mm='5' y_mm='0' z_mm='0'/>"
+                         "<Mapping source='own' target='B'/></MarkerSet>";
+  const MarkerSet set = ReadMarkerSet(path);
+  ModelDescription description;
+  description.segments.resize(2);
+  description.segments[0].name = "root";
+  description.segments[1].name = "elbow";
+  description.segments[1].parent = 0;
+  description.markers = {{"C", 1, Eigen::Vector3d::Zero()}, {"D", 0, Eigen::Vector3d::Zero()}};
+  const KinematicModel placed =
+      PlaceMarkers(set, {KinematicModel(description), false, {{"arm", "elbow"}}, {}});
+  ASSERT_EQ(placed.markers().size(), 4u);
+  EXPECT_EQ(placed.markers()[placed.FindMarker("A")].segment, 1);
+  EXPECT_EQ(placed.markers()[placed.FindMarker("A")].p_SM, Eigen::Vector3d(1e-3, 2e-3, -3e-3));
+  EXPECT_EQ(placed.markers()[placed.FindMarker("B")].segment, 1);
+  EXPECT_EQ(placed.markers()[placed.FindMarker("C")].segment, 0);  // moved
+  EXPECT_EQ(placed.markers()[placed.FindMarker("C")].p_SM.x(), 5e-3);
+  ASSERT_EQ(set.pairs.size(), 3u);  // B has a label of its own
+  EXPECT_EQ(set.pairs[0].source, "own");
+  EXPECT_EQ(set.pairs[1].source, "A");
+  EXPECT_EQ(set.pairs[1].target, "A");
+  EXPECT_EQ(set.pairs[2].source, "C");
+}
+
+TEST(MarkerSet, PlacesThatCanNotBeReadAreNamed) {
+  EXPECT_THAT(
+      MessageOf("<MarkerSet name='s'>\n<Marker name='A' segment='b' x_mm='1' y_mm='nan' "
+                "z_mm='1e9'/>\n<Marker name='A' segment='b' x_mm='1' y_mm='1'/></MarkerSet>"),
+      AllOf(HasSubstr("set.xml:2: y_mm=\"nan\": must be a number of mm"),
+            HasSubstr("set.xml:2: z_mm=\"1e9\""), HasSubstr("set.xml:3: <Marker> needs"),
+            HasSubstr("set.xml:3: marker A is placed twice")));
+}
+
 TEST(MarkerSet, MapsRealRecordings) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   struct {

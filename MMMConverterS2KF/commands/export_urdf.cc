@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/output_files.h"
+#include "common/io/urdf_model_writer.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kOptions = {
+    {"Files", {{"output,o", "FILE", "the URDF", ""}}},
+    {"Person and model",
+     {{"height", "METRES", "of the person", ""},
+      {"mass", "KG", "of the person", ""},
+      {"hand-length", "METRES", "default: by the height", ""},
+      {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
+      {"subject-file", "FILE",
+       "who the person is, from calibrate: height, mass, segment lengths and marker places", ""},
+      {"model", "FILE", "MMM reference model; default: the shipped one", ""},
+      {"marker-set", "FILE", "markers of this set are placed on the model", ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF export-urdf --height H --mass M -o FILE [options]
+The MMM model of a person as a URDF: joints with limits, masses, inertia, markers as fixed links
+MARKER_..._marker, simple shapes. convert --model takes it as it takes any URDF.
+
+{}Examples
+  MMMConverterS2KF export-urdf --height 1.75 --mass 70 -o anna.urdf
+  MMMConverterS2KF export-urdf --subject-file anna.xml -o anna.urdf
+)";
+
+std::string Describe(const KinematicModel& model, const Person& person) {
+  return fmt::format("{} of a person of {:.6g} m and {:.6g} kg{}", model.name(),
+                     person.height.value, person.mass.value,
+                     person.subject ? ", the subject " + person.subject->name : "");
+}
+
+}  // namespace
+
+int RunExportUrdf(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("export-urdf", kOptions, words);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
+    return 0;
+  }
+  const auto output = arguments.Get("output");
+  if (!output || arguments.positional()) {
+    throw UsageError(
+        "export-urdf: which file is to be written? For instance: MMMConverterS2KF export-urdf "
+        "--height 1.75 --mass 70 -o anna.urdf");
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const InputRequest request = MakeInputRequest(arguments, "");
+  Input input = ReadModel(request);
+  CheckIsNoInput(*output, {input.model_file, request.person.subject_file, request.marker_set,
+                           request.person.processor_file});
+  ConverterConfig config;
+  MatchModel(request, &input, &config);
+  Person person;
+  const KinematicModel model =
+      ScaleToKnownPerson(request.person, *input.reference, config, &person, &input.warnings);
+  const UrdfText urdf = FormatUrdf(model, Describe(model, person));
+  input.warnings.insert(input.warnings.end(), urdf.warnings.begin(), urdf.warnings.end());
+  for (const std::string& warning : input.warnings) LogWarning(warning);
+  WriteFileAtomically(*output, urdf.xml);
+  std::cout << fmt::format("{}: {}; {} links, {} joints that turn, {} markers, {:.6g} kg\n",
+                           *output, Describe(model, person), model.segments().size(),
+                           model.num_joints(), model.markers().size(), model.total_mass());
+  return 0;
+}
+
+}  // namespace mmm_converter

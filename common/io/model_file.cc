@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/model_file.h"
+
+#include "common/io/file_content.h"
+#include "common/io/mmm_model.h"
+#include "common/io/urdf_model_reader.h"
+#include "common/io/xml_text.h"
+
+namespace mmm_converter {
+namespace {
+
+/// Simox models are <Robot> in any case, with nodes instead of links.
+bool IsUrdf(const std::string& content) {
+  return RootName(content) == "robot" && content.find("<RobotNode") == std::string::npos;
+}
+
+}  // namespace
+
+LoadedModel ReadModelFile(const std::string& path) {
+  const std::string content = ReadFileContent(path, kMaxModelBytes);
+  if (IsUrdf(content)) {
+    UrdfModel urdf = ParseUrdfModel(content, path);
+    return {std::move(urdf.model), false, std::move(urdf.segment_of_link),
+            std::move(urdf.warnings)};
+  }
+  MmmModel mmm = ParseMmmModel(content, path);
+  return {std::move(mmm.model), true, {}, std::move(mmm.warnings)};
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+struct UrdfModel {
+  /// A segment for each link, named by the joint that carries it; the root by its link.
+  KinematicModel model;
+  std::map<std::string, std::string> segment_of_link;
+  std::vector<std::string> warnings;  ///< each as `file:line: message`
+};
+
+/// Reads a URDF (urdfdom). Its root floats. Fixed links called `<label>_marker` are markers
+/// `label`; they stay segments only where they have a mass or children. Continuous joints, and
+/// revolute ones that turn further, are tracked from -2 pi to 2 pi. KinematicModel couples no
+/// joints and slides none: mimic joints are held at their offset, prismatic joints at 0 or at their
+/// limit nearest to it. A warning names each of these.
+/// @throws Error as ParseUrdf, and for planar and floating joints.
+UrdfModel ReadUrdfModel(const std::string& path);
+
+/// As ReadUrdfModel; `file` is only named in messages.
+UrdfModel ParseUrdfModel(std::string_view content, const std::string& file);
+
+}  // namespace mmm_converter

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+struct UrdfText {
+  std::string xml;
+  std::vector<std::string> warnings;  ///< what simulators may refuse, and names that were changed
+};
+
+/// The model as a URDF that ReadUrdfModel reads back with the same kinematics, limits, masses and
+/// inertia. A segment becomes a joint of its name that carries the link `<name>_link`; the root,
+/// which floats in a URDF by itself, is the link of its name. A marker is a fixed link
+/// `<marker>_marker`. What does not turn (prismatic nodes too) is fixed; limits of effort and
+/// velocity, which a model does not have, are large numbers. Shapes: cylinders from joint to joint,
+/// spheres for markers and for what ends a chain. comment: stands at the beginning; may be empty.
+UrdfText FormatUrdf(const KinematicModel& model, const std::string& comment);
+
+}  // namespace mmm_converter
