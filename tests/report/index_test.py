@@ -2,16 +2,11 @@
 """index_test.py FOLDER [unittest arguments]: the indices of make_index_cases in a real browser."""
 
 import json
-import pathlib
-import sys
-import unittest
 
-from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-from browser import Browser
+from page_case import PageCase, run_tests
 
-FOLDER = pathlib.Path()
 ROWS_AT_ONCE = 200
 DIGITS = {"distance_mm.mean": 2, "distance_mm.p95": 1, "frames": 0, "ms_per_frame.median": 3}
 
@@ -22,36 +17,8 @@ def member(result, path):
     return result
 
 
-class ReportPage(unittest.TestCase):
-    """Few tests, as each starts a browser of its own; each ends with an empty console."""
-
-    def setUp(self):
-        self.browser = Browser(webgl=False)
-        self.addCleanup(self.browser.close)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.errors(), [])
-
-    def open(self, name):
-        self.browser.open(FOLDER / name)
-
-    def run_script(self, script, *arguments):
-        return self.browser.run(script, *arguments)
-
-    def find(self, selector):
-        return self.browser.driver.find_element(By.CSS_SELECTOR, selector)
-
-    def click(self, selector):
-        self.run_script("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
-        self.find(selector).click()
-        self.browser.settle()
-
-    def text(self, selector):
-        return self.run_script("return document.querySelector(arguments[0]).textContent", selector)
-
-    def texts(self, selector):
-        return self.run_script(
-            "return Array.from(document.querySelectorAll(arguments[0]), (one) => one.textContent)", selector)
+class ReportPage(PageCase):
+    """Few tests, as each starts a browser of its own."""
 
     def chosen(self):
         return self.run_script("return mmmReport.chosen")
@@ -63,7 +30,7 @@ class ReportPage(unittest.TestCase):
         self.browser.settle()
 
     def results(self):
-        return [json.loads(line) for line in (FOLDER / "results.jsonl").read_text().splitlines()]
+        return [json.loads(line) for line in (self.folder / "results.jsonl").read_text().splitlines()]
 
     def check_totals(self, results):
         totals = dict(zip(self.texts("#totals dt"), self.texts("#totals dd")))
@@ -124,7 +91,7 @@ class ReportPage(unittest.TestCase):
         self.assertEqual(links, [results[100]["report"], results[100]["motion"]])
         self.click(".disclose")
         self.assertEqual(self.texts("tr.details"), [])
-        self.assertEqual(self.run_script("return performance.getEntriesByType('resource').length"), 0)
+        self.check_nothing_was_loaded()
 
     def test_index_sorts_and_filters(self):
         results = self.results()
@@ -175,15 +142,7 @@ class ReportPage(unittest.TestCase):
         self.assertEqual({results[i]["state"] for i in self.chosen()}, {"missing"})
 
     def test_index_of_odd_batches(self):
-        shown = {}
-        for width, scheme in ((1200, "light"), (400, "dark")):
-            self.browser.resize(width, 800)
-            self.browser.prefer(scheme)
-            for name in ("hostile", "empty", "failed", "one"):
-                self.open(name + ".html")
-                self.assertEqual(self.run_script("return document.documentElement.scrollWidth"), width, name)
-            shown[scheme] = self.run_script("return getComputedStyle(document.body).backgroundColor")
-        self.assertNotEqual(shown["light"], shown["dark"])
+        self.check_fits(("hostile.html", "empty.html", "failed.html", "one.html"))
         self.assertEqual(self.texts("#totals dd")[:3], ["1", "0", "0"])
         self.assertEqual(len(self.texts(".distribution")), 4)
         self.open("empty.html")
@@ -204,8 +163,7 @@ class ReportPage(unittest.TestCase):
             self.run_script("document.querySelectorAll('.disclose')[arguments[0]].click()", i)
         self.search("script")
         self.browser.settle()
-        self.assertIsNone(self.run_script("return window.hacked === undefined ? null : window.hacked"))
-        self.assertEqual(self.run_script("return document.images.length"), 0)
+        self.check_nothing_was_run()
         for selector in ("h1", "#failures", "tr[data-entry] th", "tr.failed .reason", "tr.details li", "tr.details dl"):
             self.assertIn("<script>window.hacked=1</script>", self.text(selector), selector)
         self.assertIn("metadata __proto__", self.texts("tr.details dt"))
@@ -222,9 +180,8 @@ class ReportPage(unittest.TestCase):
         self.assertEqual(self.chosen(), [12345])
         print("[ measured ] ms until an index of 100,000 entries is ready:",
               self.run_script("return performance.getEntriesByName('ready')[0].startTime"),
-              "bytes an entry:", (FOLDER / "large.html").stat().st_size / 100_000)
+              "bytes an entry:", (self.folder / "large.html").stat().st_size / 100_000)
 
 
 if __name__ == "__main__":
-    FOLDER = pathlib.Path(sys.argv.pop(1))
-    unittest.main()
+    run_tests()

@@ -2,45 +2,15 @@
 """page_test.py FOLDER [unittest arguments]: the reports of make_reports.py in a real browser."""
 
 import json
-import pathlib
-import sys
-import unittest
 
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 from browser import Browser
+from page_case import COUNT_DRAWN, PIXELS, PageCase, run_tests
 
-FOLDER = pathlib.Path()
 COLOURS = ["--converter-0", "--converter-1"]  # of the converters that have a result
-
-# Pixels of a picture or canvas, read from a copy, as reading slows a canvas down.
-PIXELS = """
-function pixelsOf(picture) {
-  const copy = document.createElement("canvas");
-  [copy.width, copy.height] = [picture.width, picture.height];
-  const pen = copy.getContext("2d", {willReadFrequently: true});
-  pen.drawImage(picture, 0, 0);
-  return pen.getImageData(0, 0, copy.width, copy.height).data;
-}
-function shadesOf(picture) {
-  return new Set(new Uint32Array(pixelsOf(picture).buffer)).size;
-}
-// Opaque pixels of a colour of the style sheet.
-function countColour(pictures, name, tolerance) {
-  const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const rgb = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-  let count = 0;
-  for (const picture of pictures) {
-    const data = pixelsOf(picture);
-    for (let i = 0; i < data.length; i += 4) {
-      if (data[i + 3] > 200 && rgb.every((value, j) => Math.abs(data[i + j] - value) <= tolerance)) ++count;
-    }
-  }
-  return count;
-}
-"""
 
 # Of a picture of an element (PNG, base64): its number of shades, or of pixels of a colour.
 COUNT_SHOWN = PIXELS + """
@@ -50,33 +20,9 @@ image.onload = () => done(name === null ? shadesOf(image) : countColour([image],
 image.src = "data:image/png;base64," + png;
 """
 
-# Numbers of pixels of a colour in the canvases of an element.
-COUNT_DRAWN = PIXELS + """
-return countColour(document.querySelectorAll(arguments[0] + " canvas"), arguments[1], 8);
-"""
 
-
-class ReportPage(unittest.TestCase):
-    """Each test opens reports in a browser of its own, and ends with an empty console."""
-
-    def setUp(self):
-        self.browser = Browser()
-        self.addCleanup(lambda: self.browser.close())
-
-    def tearDown(self):
-        self.assertEqual(self.browser.errors(), [])
-
-    def open(self, name):
-        self.browser.open(FOLDER / name)
-
-    def run_script(self, script, *arguments):
-        return self.browser.run(script, *arguments)
-
-    def find(self, selector):
-        return self.browser.driver.find_element(By.CSS_SELECTOR, selector)
-
-    def text(self, selector):
-        return self.run_script("return document.querySelector(arguments[0]).textContent", selector)
+class ReportPage(PageCase):
+    webgl = True
 
     def frame(self):
         return self.run_script("return mmmReport.frame")
@@ -163,7 +109,7 @@ class ReportPage(unittest.TestCase):
 
     def test_figures_equal_the_json(self):
         self.open("compare.html")
-        figures = json.loads((FOLDER / "compare.json").read_text())
+        figures = json.loads((self.folder / "compare.json").read_text())
         self.assertEqual(self.run_script("return mmmReport.figures"), [figures])
         compared = 0
         for row in figures["rows"]:
@@ -184,7 +130,7 @@ class ReportPage(unittest.TestCase):
 
     def test_failure_is_a_row_with_its_reason(self):
         self.open("compare.html")
-        failed = [row for row in json.loads((FOLDER / "compare.json").read_text())["rows"] if row["failure"]]
+        failed = [row for row in json.loads((self.folder / "compare.json").read_text())["rows"] if row["failure"]]
         self.assertEqual(len(failed), 1)
         self.assertIn(failed[0]["failure"], self.text("tr.failed"))
         self.assertRegex(self.text(".verdict"), r"s2kf_default \d\d\.\d\d mm.* 1 of 3 failed")
@@ -290,11 +236,7 @@ class ReportPage(unittest.TestCase):
         self.assertGreater(self.run_script(COUNT_DRAWN, "#distance-plot", COLOURS[0]), 100)
 
     def test_no_page_scrolls_sideways(self):
-        for width in (1200, 400):
-            self.browser.resize(width, 800)
-            for name in ("compare.html", "convert.html", "finished.html", "hostile.html"):
-                self.open(name)
-                self.assertEqual(self.run_script("return document.documentElement.scrollWidth"), width, name)
+        self.check_fits(("compare.html", "convert.html", "finished.html", "hostile.html"))
 
     def test_hostile_text_stays_text(self):
         self.open("hostile.html")
@@ -302,8 +244,7 @@ class ReportPage(unittest.TestCase):
         ActionChains(self.browser.driver).move_to_element(self.find("#heat-map")).perform()
         ActionChains(self.browser.driver).move_to_element(self.find("#distance-plot .plot-area")).perform()
         self.browser.settle()
-        self.assertIsNone(self.run_script("return window.hacked === undefined ? null : window.hacked"))
-        self.assertEqual(self.run_script("return document.images.length"), 0)
+        self.check_nothing_was_run()
         for selector in ("h1", "#sections", "tr.failed", "#converters", "#heat-names", "#heat-readout",
                          "#configurations pre", "#notes", "#joint", "#trial", "#distance-plot .readout"):
             self.assertIn("<script>window.hacked=1</script>", self.text(selector), selector)
@@ -321,7 +262,7 @@ class ReportPage(unittest.TestCase):
         self.assertTrue(self.find("#view").is_displayed())
 
     def test_long_recording(self):
-        self.assertLess((FOLDER / "long.html").stat().st_size, 15_000_000)
+        self.assertLess((self.folder / "long.html").stat().st_size, 15_000_000)
         self.open("long.html")
         self.assertEqual(self.run_script("return mmmReport.frames"), 6000)
         self.run_script("mmmReport.seek(5999)")
@@ -342,9 +283,8 @@ class ReportPage(unittest.TestCase):
 
     def test_nothing_is_loaded(self):
         self.open("compare.html")
-        self.assertEqual(self.run_script("return performance.getEntriesByType('resource').length"), 0)
+        self.check_nothing_was_loaded()
 
 
 if __name__ == "__main__":
-    FOLDER = pathlib.Path(sys.argv.pop(1))
-    unittest.main()
+    run_tests()
