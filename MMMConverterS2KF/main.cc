@@ -23,6 +23,7 @@ constexpr std::array kCommands = {
     Command{"convert", "a recording in, an MMM motion out", RunConvert},
     Command{"batch", "a whole database of recordings, on all cores", RunBatch},
     Command{"calibrate", "who the person is, from recordings", RunCalibrate},
+    Command{"check-dynamics", "whether a body can move like a motion", RunCheckDynamics},
     Command{"compare", "converters side by side on recordings", RunCompare},
     Command{"evaluate", "the paper's evaluation, done anew, with a report", RunEvaluate},
     Command{"export-urdf", "the model of a person as a URDF, for robotics", RunExportUrdf},
@@ -50,7 +51,7 @@ Exit codes: 0 done, 1 input or conversion failed, 2 not understood
 void PrintHelp() {
   std::string commands;
   for (const Command& command : kCommands) {
-    commands += fmt::format("  {:<13} {}\n", command.name, command.summary);
+    commands += fmt::format("  {:<15} {}\n", command.name, command.summary);
   }
   std::cout << fmt::format(kUsage, MMM_CONVERTER_VERSION, commands);
 }

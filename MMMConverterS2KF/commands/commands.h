@@ -15,6 +15,7 @@ struct Command {
 
 int RunBatch(const std::vector<std::string>& words);
 int RunCalibrate(const std::vector<std::string>& words);
+int RunCheckDynamics(const std::vector<std::string>& words);
 int RunCompare(const std::vector<std::string>& words);
 int RunConvert(const std::vector<std::string>& words);
 int RunEvaluate(const std::vector<std::string>& words);

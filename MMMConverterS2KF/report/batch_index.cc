@@ -130,12 +130,13 @@ std::string FormatEntries(const std::vector<std::string>& results) {
 }  // namespace
 
 std::string FormatBatchIndex(const std::string& title, const std::vector<std::string>& results) {
-  const std::string escaped_title = EscapeHtml(title);
   const std::string data = DataBlock("batch", FormatEntries(results));
-  return FillPage(IndexTemplate(), {{"title", escaped_title},
-                                    {"styles", IndexStyles()},
-                                    {"script", IndexScript()},
-                                    {"data", data}});
+  return FormatPage({.title = title,
+                     .styles = IndexStyles(),
+                     .content = IndexContent(),
+                     .data = data,
+                     .libraries = {},
+                     .script = IndexScript()});
 }
 
 }  // namespace mmm_converter

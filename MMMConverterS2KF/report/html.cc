@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/html.h"
 
+#include "MMMConverterS2KF/report/page_sources.h"
+
 namespace mmm_converter {
 
 std::string EscapeHtml(std::string_view text) {
@@ -52,6 +54,20 @@ std::string FillPage(std::string_view page,
   }
   filled += page;
   return filled;
+}
+
+std::string FormatPage(const Page& page) {
+  const std::string title = EscapeHtml(page.title);
+  std::string libraries;
+  if (!page.libraries.empty()) libraries.append("<!--\n").append(LibraryLicences()).append("-->\n");
+  for (const std::string_view library : page.libraries)
+    libraries.append("<script>\n").append(library).append("\n</script>\n");
+  return FillPage(PageFrame(), {{"title", title},
+                                {"styles", page.styles},
+                                {"content", page.content},
+                                {"data", page.data},
+                                {"libraries", libraries},
+                                {"script", page.script}});
 }
 
 }  // namespace mmm_converter

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mmm_converter {
 
@@ -17,5 +18,18 @@ std::string DataBlock(std::string_view name, std::string_view json);
 /// must be among the texts.
 std::string FillPage(std::string_view page,
                      const std::map<std::string_view, std::string_view>& texts);
+
+/// What one page has of its own.
+struct Page {
+  std::string_view title;    ///< not escaped
+  std::string_view styles;   ///< CSS
+  std::string_view content;  ///< HTML below the heading
+  std::string_view data;     ///< DataBlocks
+  std::vector<std::string_view> libraries;  ///< scripts of others, whose licences the page then has
+  std::string_view script;
+};
+
+/// The whole text of a page; it loads nothing from elsewhere.
+std::string FormatPage(const Page& page);
 
 }  // namespace mmm_converter

@@ -15,6 +15,15 @@ struct PackedArray {
   std::string base64;
 };
 
+/// As an object of nlohmann's json.
+template <typename Json>
+Json ToJson(const PackedArray& packed) {
+  return {{"type", packed.type},
+          {"scale", packed.scale},
+          {"offset", packed.offset},
+          {"base64", packed.base64}};
+}
+
 PackedArray PackFloats(const Eigen::Ref<const Eigen::MatrixXd>& numbers);
 
 /// Steps of 1/65534 of the range of the finite numbers.

@@ -7,15 +7,24 @@ namespace mmm_converter {
 
 // Files that are compiled in; CMakeLists.txt says which.
 
-std::string_view PageTemplate();  ///< with places {{name}}
-std::string_view PageStyles();
-std::string_view PageScript();
+std::string_view PageFrame();  ///< of every page, with places {{name}}
 std::string_view PlotLibrary();
 std::string_view SceneLibrary();
 std::string_view LibraryLicences();
 
-std::string_view IndexTemplate();  ///< of the index of a batch, with places {{name}}
+// Of a report.
+std::string_view PageContent();
+std::string_view PageStyles();
+std::string_view PageScript();
+
+// Of the index of a batch.
+std::string_view IndexContent();
 std::string_view IndexStyles();
 std::string_view IndexScript();
+
+// Of a motion's dynamics.
+std::string_view DynamicsContent();
+std::string_view DynamicsStyles();
+std::string_view DynamicsScript();
 
 }  // namespace mmm_converter

@@ -26,15 +26,13 @@ std::string FormatData(const std::vector<ReportSection>& sections) {
 }  // namespace
 
 std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections) {
-  const std::string escaped_title = EscapeHtml(title);
   const std::string data = FormatData(sections);
-  return FillPage(PageTemplate(), {{"title", escaped_title},
-                                   {"styles", PageStyles()},
-                                   {"licences", LibraryLicences()},
-                                   {"scene_library", SceneLibrary()},
-                                   {"plot_library", PlotLibrary()},
-                                   {"script", PageScript()},
-                                   {"data", data}});
+  return FormatPage({.title = title,
+                     .styles = PageStyles(),
+                     .content = PageContent(),
+                     .data = data,
+                     .libraries = {SceneLibrary(), PlotLibrary()},
+                     .script = PageScript()});
 }
 
 }  // namespace mmm_converter

@@ -16,15 +16,8 @@ namespace {
 using Eigen::MatrixXd;
 using nlohmann::json;
 
-json ToJson(const PackedArray& packed) {
-  return {{"type", packed.type},
-          {"scale", packed.scale},
-          {"offset", packed.offset},
-          {"base64", packed.base64}};
-}
-
-json Floats(const MatrixXd& numbers) { return ToJson(PackFloats(numbers)); }
-json Quantised(const MatrixXd& numbers) { return ToJson(PackQuantised(numbers)); }
+json Floats(const MatrixXd& numbers) { return ToJson<json>(PackFloats(numbers)); }
+json Quantised(const MatrixXd& numbers) { return ToJson<json>(PackQuantised(numbers)); }
 
 json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -98,7 +91,7 @@ json TrialJson(const Trial& trial, const CommonGround& ground) {
               {"markers", ground.markers},
               {"model", ModelJson(*trial.model)},
               {"positions", Quantised(positions)},  // a frame's markers beside each other
-              {"hidden", ToJson(PackBits(ground.hidden.transpose()))},
+              {"hidden", ToJson<json>(PackBits(ground.hidden.transpose()))},
               {"optimum", Floats(ground.optimum)},
               {"mean_hidden", Floats(ground.mean_hidden)},
               {"most_hidden", Floats(ground.most_hidden)}});

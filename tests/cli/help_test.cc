@@ -28,8 +28,8 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 }
 
 TEST(Help, EveryCommandHasOneWithExamples) {
-  for (const char* command : {"calibrate", "compare", "convert", "evaluate", "export-urdf", "info",
-                              "print-config", "report"}) {
+  for (const char* command : {"calibrate", "check-dynamics", "compare", "convert", "evaluate",
+                              "export-urdf", "info", "print-config", "report"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -74,7 +74,7 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
   const std::vector<Misuse> misuses = {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
-       "unknown command \"fly\"; use convert, batch, calibrate, compare, evaluate, "
+       "unknown command \"fly\"; use convert, batch, calibrate, check-dynamics, compare, evaluate, "
        "export-urdf, info, print-config or report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
@@ -84,6 +84,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"calibrate", "a.c3d", "--subject-file", "s.xml"}, "unknown option --subject-file"},
       {{"convert", "a.c3d", "--self-calibrate", "--subject-file", "s.xml"}, "use one"},
       {{"convert", "a.c3d", "--subject-out", "s.xml"}, "--subject-out needs --self-calibrate"},
+      {{"check-dynamics"}, "check-dynamics: which motion?"},
+      {{"check-dynamics", "a.xml", "--low-pass", "-1"}, "--low-pass: -1 is not allowed"},
       {{"compare"}, "compare: which recordings?"},
       {{"report", "walk.c3d"}, "report: which recording and which motion?"},
       {{"compare", "a.c3d", "--hide", "2"}, "--hide: 2 is not allowed; give a number from 0 to 1"},

@@ -7,6 +7,7 @@
 #include "MMMConverterS2KF/report/report.h"
 #include "common/support/atomic_file.h"
 #include "tests/report/comparison_cases.h"
+#include "tests/report/dynamics_cases.h"
 
 namespace {
 
@@ -17,6 +18,7 @@ void MakeReports(const std::string& folder) {
   const std::string text = testing::kHostileText;
   WriteFileAtomically(folder + "/hostile.html",
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
+  WriteFileAtomically(folder + "/hostile_dynamics.html", testing::HostileDynamicsPage());
   const Comparison whole = testing::LongComparison();
   WriteFileAtomically(folder + "/long.html", FormatReport("60 s", {{"60 s", "", &whole}}));
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A plot over time with a cursor at the player's frame. Zooming one zooms all.
 
-// One line of a plot: {name, colour, dash, width, values, band}. values(k) is a number, band(k) [low, high];
-// a line without a name is not in the readout.
+// One line of a plot: {name, colour, dash, width, values, band, says}. values(k) is a number, band(k) [low, high];
+// says(k) is what the readout has in place of the number; a line without a name is not in it.
 
 class Chart {
-  // host: an empty element. unit: for the readout.
-  constructor(host, view, {lines, unit, digits, logarithmic, range, label}) {
+  // host: an empty element. unit: for the readout. shades: [first, last] frames of spans that are shaded.
+  constructor(host, view, {lines, unit, digits, logarithmic, range, label, shades, hasNoScale}) {
     this.host = host;
     this.view = view;
     // The library wants a line.
@@ -18,7 +18,7 @@ class Chart {
     this.cursor = element("div", {class: "cursor"});
     this.readout = element("p", {class: "readout", "aria-hidden": "true"});
     replaceContent(host, this.plot, this.readout);
-    this.graph = new Dygraph(this.plot, this.rows(), this.options(logarithmic, range));
+    this.graph = new Dygraph(this.plot, this.rows(), this.options(logarithmic, range, shades || [], hasNoScale));
     this.plot.append(this.cursor);
     this.setFrame(view.frame);
     this.write(null);
@@ -39,7 +39,7 @@ class Chart {
     return rows;
   }
 
-  options(logarithmic, range) {
+  options(logarithmic, range, shades, hasNoScale) {
     const series = {};
     // Names of users never reach the library, which would take them for markup.
     this.lines.forEach((line, i) => {
@@ -51,7 +51,8 @@ class Chart {
       valueRange: range || null, includeZero: !logarithmic && !range,
       gridLineColor: themeColour("grid"), axisLineColor: themeColour("line"), gridLineWidth: 1,
       axisLabelFontSize: 12, xRangePad: 0, animatedZooms: false, highlightCircleSize: 3,
-      axes: {y: {axisLabelWidth: 46}},
+      axes: {y: Object.assign({axisLabelWidth: 46}, hasNoScale ? {drawGrid: false, axisLabelFormatter: () => ""} : {})},
+      underlayCallback: (canvas, area, graph) => this.shade(shades, canvas, area, graph),
       interactionModel: withoutTouch(Dygraph.defaultInteractionModel),
       clickCallback: (event, x) => this.view.seek(this.view.trial.frameAt(x)),
       highlightCallback: (event, x) => this.write(this.view.trial.frameAt(x)),
@@ -64,13 +65,21 @@ class Chart {
     };
   }
 
+  shade(spans, canvas, area, graph) {
+    canvas.fillStyle = themeColour("shade");
+    for (const [first, last] of spans) {
+      const left = graph.toDomXCoord(this.view.trial.time(first));
+      canvas.fillRect(left, area.y, graph.toDomXCoord(this.view.trial.time(last)) - left, area.h);
+    }
+  }
+
   // The values at a frame, or at the player's.
   write(frame) {
     const k = frame === null ? this.view.frame : frame;
     this.pointed = frame;
     const parts = this.lines.filter((line) => line.name).flatMap((line) => [
       element("span", {class: "value"}, lineSwatch(line.colour, line.dash),
-        `${line.name} `, element("b", {}, formatNumber(line.values(k), this.digits)))]);
+        `${line.name} `, element("b", {}, line.says ? line.says(k) : formatNumber(line.values(k), this.digits)))]);
     replaceContent(this.readout,
       element("span", {class: "value"}, `${formatNumber(this.view.trial.time(k), 2)} s`), ...parts,
       element("span", {}, this.unit));
@@ -105,4 +114,24 @@ function withoutTouch(model) {
   const mouseOnly = Object.assign({}, model);
   for (const name of ["touchstart", "touchmove", "touchend"]) delete mouseOnly[name];
   return mouseOnly;
+}
+
+// Least and largest value of lines, their bands left out.
+function extremes(lines, frames) {
+  let least = Infinity;
+  let most = -Infinity;
+  for (const line of lines) {
+    for (let k = 0; k < frames; ++k) {
+      const value = line.values(k);
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+  }
+  return [least, most];
+}
+
+function withMargin([least, most]) {
+  if (!(least <= most)) return [0, 1];
+  const margin = 0.06 * (most - least) || 1;
+  return [least - margin, most + margin];
 }

@@ -155,26 +155,6 @@ class Plots {
   }
 }
 
-// Least and largest value of lines, their bands left out.
-function extremes(lines, frames) {
-  let least = Infinity;
-  let most = -Infinity;
-  for (const line of lines) {
-    for (let k = 0; k < frames; ++k) {
-      const value = line.values(k);
-      if (value < least) least = value;
-      if (value > most) most = value;
-    }
-  }
-  return [least, most];
-}
-
-function withMargin([least, most]) {
-  if (!(least <= most)) return [0, 1];
-  const margin = 0.06 * (most - least) || 1;
-  return [least - margin, most + margin];
-}
-
 // The range that is shown, so that rare peaks, such as a slow start, do not press all else flat.
 function rangeWithoutPeaks(lines, frames) {
   const values = [];

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "MMMConverterS2KF/command_line.h"
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/dynamics/dynamics_check.h"
+#include "MMMConverterS2KF/dynamics/dynamics_summary.h"
+#include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/output_files.h"
+#include "MMMConverterS2KF/report/dynamics_page.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kImplausible = 1;
+
+const OptionGroup kFiles = {"Files",
+                            {{"summary", "FILE", "write all figures as JSON", ""},
+                             {"report", "FILE", "write a page (HTML) with plots", ""}}};
+
+const OptionGroup kMotion = {
+    "Motion",
+    {{"motion", "NAME", "of a file with several", ""},
+     {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
+     {"low-pass", "HZ",
+      "before the motion is differentiated; 0: none, for motions that are smooth; default: 6",
+      ""}}};
+
+const OptionGroup kPerson = {
+    "Person and model",
+    {{"height", "METRES", "default: from the motion's file", ""},
+     {"mass", "KG", "default: from the motion's file, else 70", ""},
+     {"hand-length", "METRES", "default: from the motion's file, else by the height", ""},
+     {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
+     {"subject-file", "FILE", "who the person is, from calibrate", ""},
+     {"model", "FILE",
+      "reference model; default: the one that the motion's file names, else the shipped one", ""}}};
+
+const OptionGroup kGeneral = {
+    "General",
+    {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+     {"help,h", "", "print this help", ""}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
+Whether a body can move like the MMM motion (1.0 or 2.0): centre of mass, momentum, forces, torques and
+power by inverse dynamics (Simbody), beside what physics expects of them. The ground is level, and all
+that touches it is the body; z is up.
+
+{}Checks, and what is plausible
+  kinematics   Simbody and this program place the body within {:.0e} m of each other
+  mean force   vertical, as 1 body weight and the change of velocity ask for, ± {:g} body weights
+  ground       pulls with more than {:g} body weights, would need friction above {:g}, or would have to
+               push more than {:.0f} mm beside what touches it: each in at most {:.0f} % of the frames on it
+  flight       the centre of mass falls with {:g} m/s² ± {:.0f} %; angular momentum about it varies by
+               at most {:.0f} % (root mean square)
+  torque       at most {:g} N m for each kg of the body, in joints that do not stand on the ground
+Forces, flights and torques are not judged where accelerations are noise (above {:g} body weights), or
+where the rate is too low for the low-pass. Torques are told only while nothing below the joint
+touches the ground: a motion does not say how feet share the weight.
+
+Exit code 1 where a check is implausible, as for input that can't be read.
+
+Examples
+  MMMConverterS2KF check-dynamics walk_mmm.xml
+  MMMConverterS2KF check-dynamics jump_mmm.xml --subject-file anna.xml --report jump.html
+  MMMConverterS2KF check-dynamics run.xml --frames 100:400 --summary run.json --low-pass 10
+)";
+
+std::vector<OptionGroup> Options() { return {kFiles, kMotion, kPerson, kGeneral}; }
+
+std::string Help() {
+  return fmt::format(kUsage, FormatOptions(Options()), kMostKinematicsError, kMostMeanForceError,
+                     kForceTolerance, kMostFriction, 1000 * kMostOutsideSupport,
+                     100 * kMostBadFrames, kGravity, 100 * kMostFallError,
+                     100 * kMostMomentumVariation, kMostTorque, kNoiseForce);
+}
+
+DynamicsOptions MakeOptions(const Arguments& arguments) {
+  DynamicsOptions options;
+  options.cutoff = arguments.GetNumber("low-pass", "hertz, e.g. 6").value_or(options.cutoff);
+  if (options.cutoff < 0) {
+    throw UsageError(
+        fmt::format("--low-pass: {:g} is not allowed; give hertz, or 0 for none", options.cutoff));
+  }
+  return options;
+}
+
+void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
+  const std::string summary = arguments.Get("summary").value_or("");
+  const std::string page = arguments.Get("report").value_or("");
+  CheckAreDifferentFiles({summary, page});
+  const CheckedMotion& motion = report.motion;
+  for (const std::string& output : {summary, page}) {
+    if (output.empty()) continue;
+    CheckIsNoInput(output, {motion.file, motion.model_file, motion.person.subject_file,
+                            arguments.Get("person").value_or("")});
+  }
+  const std::string json = FormatDynamicsJson(report);
+  if (!summary.empty()) WriteFileAtomically(summary, json);
+  if (page.empty()) return;
+  const std::string title = std::filesystem::path(motion.file).filename().string();
+  WriteFileAtomically(page, FormatDynamicsPage(title, json, report.dynamics, report.plausibility));
+}
+
+}  // namespace
+
+int RunCheckDynamics(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("check-dynamics", Options(), words);
+  if (arguments.Has("help")) {
+    std::cout << Help();
+    return 0;
+  }
+  if (!arguments.positional()) {
+    throw UsageError(
+        "check-dynamics: which motion? For instance: MMMConverterS2KF check-dynamics walk_mmm.xml");
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const InputRequest request = MakeInputRequest(arguments, *arguments.positional());
+  const DynamicsReport report = CheckDynamics(request, MakeOptions(arguments));
+  for (const std::string& warning : report.motion.warnings) LogWarning(warning);
+  WriteFiles(arguments, report);
+  std::cout << FormatDynamicsSummary(report);
+  return report.plausibility.judgement == Judgement::kImplausible ? kImplausible : 0;
+}
+
+}  // namespace mmm_converter

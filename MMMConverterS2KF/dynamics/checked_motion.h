@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/person.h"
+#include "common/model/kinematic_model.h"
+#include "common/motion/pose_trajectory.h"
+
+namespace mmm_converter {
+
+/// A finished motion with the model of its person.
+struct CheckedMotion {
+  std::string file;
+  std::string name;        ///< of the motion
+  int first_frame = 0;     ///< that is checked, counted from 0 in the file
+  std::string model_file;  ///< reference model
+  Person person;
+  KinematicModel model;       ///< of the person
+  PoseTrajectory trajectory;  ///< all numbers finite
+  std::vector<std::string> warnings;
+};
+
+/// Reads the motion request.file, the only one or request.reading.motion. Its model is the
+/// request's, else the one that the file names, where it is there, else the shipped one; the person
+/// as for recordings, but nobody's height is estimated.
+/// @throws Error
+CheckedMotion ReadCheckedMotion(const InputRequest& request);
+
+}  // namespace mmm_converter

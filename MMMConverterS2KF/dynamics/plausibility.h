@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/dynamics/motion_dynamics.h"
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+// What a motion that a body can do stays within; README.md says where each is from.
+inline constexpr double kMostKinematicsError = 1e-9;    ///< Simbody's and ours [m]
+inline constexpr double kMostMeanForceError = 0.05;     ///< in body weights
+inline constexpr double kForceTolerance = 0.1;          ///< of a frame's force, in body weights
+inline constexpr double kMostFriction = 1.0;            ///< horizontal over vertical force
+inline constexpr double kMostOutsideSupport = 0.1;      ///< of the centre of pressure [m]
+inline constexpr double kMostBadFrames = 0.1;           ///< share of the frames on the ground
+inline constexpr double kMostFallError = 0.1;           ///< in flight, relative to gravity
+inline constexpr double kMostMomentumVariation = 0.15;  ///< in flight, relative
+inline constexpr double kMostTorque = 5;   ///< of a joint [N m] for each kg of the body
+inline constexpr double kNoiseForce = 10;  ///< body weights that only noise has, differentiated
+
+enum class Judgement { kPlausible, kImplausible, kNotJudged };
+const char* Name(Judgement judgement);  ///< "plausible", "implausible", "not judged"
+
+/// A measured figure beside what it must be.
+struct DynamicsCheck {
+  std::string name;
+  std::string measured;
+  std::string expected;
+  Judgement judgement = Judgement::kNotJudged;
+  std::string reason;  ///< why it is implausible or not judged; else empty
+};
+
+/// What a joint does at most over the frames in which nothing below it touches the ground. Where
+/// something does, the ground's force goes through the joint, and the motion does not tell how
+/// much: NaN where that is in all frames.
+struct JointPeak {
+  std::string joint;
+  double torque = 0;       ///< |.| [N m]
+  double torque_time = 0;  ///< [s]
+  double power = 0;        ///< |.| [W]
+  double power_time = 0;   ///< [s]
+  double free_share = 0;   ///< of the frames
+};
+
+struct Plausibility {
+  std::vector<DynamicsCheck> checks;
+  Judgement judgement = Judgement::kNotJudged;  ///< implausible where one check is
+  std::string differentiation;   ///< why forces and torques can't be judged; empty: they can
+  std::vector<JointPeak> peaks;  ///< of all joints, the largest torque first; empty as said above
+  Eigen::MatrixXd torques;       ///< joints x frames [N m]; NaN where the ground's force is in it
+  Eigen::MatrixXd powers;        ///< joints x frames [W]; the same
+};
+
+/// model: that of the dynamics.
+Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics);
+
+/// Vertical component of the residual force in each frame, in body weights.
+Eigen::VectorXd VerticalForce(const MotionDynamics& dynamics);
+
+/// What the mean of it must be: 1, and what the centre of mass is faster upwards at the end.
+double ExpectedMeanForce(const MotionDynamics& dynamics);
+
+/// Whether any part of the body touches the ground.
+bool IsOnGround(const MotionDynamics& dynamics, int frame);
+
+/// Angular momentum's deviation in a flight relative to its mean, and to what the segments have.
+double VariationOfSegments(const BallisticPhase& flight);
+
+}  // namespace mmm_converter

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// check-dynamics on motions whose physics is known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "common/io/mmm_model.h"
+#include "common/io/mmm_motion.h"
+#include "common/model/forward_kinematics.h"
+#include "common/model/model_scaling.h"
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::TestFolder;
+using testing::WriteText;
+using Json = nlohmann::json;
+
+constexpr double kHeight = 1.8;
+constexpr double kMass = 75;
+constexpr double kRate = 100;
+
+KinematicModel Person() {
+  return ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model,
+                     {kHeight, kMass, std::nullopt});
+}
+
+// The model standing with its lowest marker on z = 0, lifted by height(k) in each frame.
+template <typename Lift>
+PoseTrajectory Standing(int frames, Lift lift) {
+  const KinematicModel model = Person();
+  PoseTrajectory motion;
+  motion.rate = kRate;
+  for (int i = 0; i < model.num_joints(); ++i) motion.joint_names.push_back(model.joint(i).name);
+  Posture posture = ZeroPosture(model);
+  const double lowest = MarkerPositions(model, posture).row(2).minCoeff();
+  for (int k = 0; k < frames; ++k) {
+    posture.position.z() = lift(k) - lowest;
+    motion.postures.push_back(posture);
+  }
+  return motion;
+}
+
+std::string WriteMotion(const PoseTrajectory& trajectory, const std::string& name,
+                        const std::string& version = "2.0") {
+  MmmMotionOutput output;
+  output.motion_name = name;
+  output.model_path = testing::SourcePath("xml_config/models/mmm.xml");
+  output.height = kHeight;
+  output.mass = kMass;
+  output.trajectory = &trajectory;
+  std::string file = TestFolder() + "/" + name + ".xml";
+  WriteText(file, Join(version == "2.0" ? FormatMmmMotion2(output) : FormatMmmMotion1(output)));
+  return file;
+}
+
+// Stands, is thrown up with 3 m/s, and falls with `gravity` until it stands again.
+PoseTrajectory Jump(double gravity) {
+  constexpr double kSpeed = 3;
+  constexpr int kStart = 50;
+  const double seconds = 2 * kSpeed / gravity;
+  return Standing(2 * kStart + static_cast<int>(std::ceil(seconds * kRate)), [&](int k) {
+    const double t = (k - kStart) / kRate;
+    return t < 0 || t > seconds ? 0 : kSpeed * t - gravity / 2 * t * t;
+  });
+}
+
+std::string LastLine(const std::string& text) {
+  return text.substr(text.find_last_of('\n', text.size() - 2) + 1);
+}
+
+const Json& Check(const Json& json, const std::string& name) {
+  for (const Json& check : json["checks"]) {
+    if (check["check"] == name) return check;
+  }
+  ADD_FAILURE() << "no check " << name;
+  return json;
+}
+
+TEST(CheckDynamics, StandingIsPlausible) {
+  for (const char* version : {"1.0", "2.0"}) {
+    const std::string file = WriteMotion(Standing(100, [](int) { return 0.0; }), "stand", version);
+    const std::string summary = TestFolder() + "/s.json";
+    const auto run = RunProgram({"check-dynamics", file, "--summary", summary});
+    EXPECT_EQ(run.exit_code, 0) << run.out;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(LastLine(run.out), file +
+                                     " is plausible: a body can move like that (6 of 8 checks, "
+                                     "2 not judged).\n");
+    const Json json = Json::parse(ReadText(summary));
+    // MMM files have 1e-7 m; differentiated twice over 0.01 s and low-passed that is below 1e-3
+    // m/s².
+    const Json& force = json["forces"]["vertical_body_weights"];
+    EXPECT_NEAR(force["min"].get<double>(), 1, 1e-4);
+    EXPECT_NEAR(force["max"].get<double>(), 1, 1e-4);
+    EXPECT_NEAR(json["forces"]["body_weight_n"].get<double>(), kMass * 9.81, 1e-2);
+    EXPECT_LT(json["kinematics"]["marker_distance_m"].get<double>(), 1e-9);
+    EXPECT_TRUE(json["flights"].empty());
+    for (const Json& contact : json["contacts"]) {
+      const auto body = contact["body"].get<std::string>();
+      EXPECT_EQ(contact["share"], body.find("foot") == std::string::npos ? 0 : 1) << body;
+    }
+    EXPECT_EQ(json["verdict"], "plausible");
+    EXPECT_EQ(json["input"]["person"]["height_m"], kHeight);
+  }
+}
+
+TEST(CheckDynamics, FreeFallIsMeasuredAndSlowFallIsImplausible) {
+  const std::string summary = TestFolder() + "/s.json";
+  for (const double gravity : {9.81, 5.0}) {
+    const std::string file = WriteMotion(Jump(gravity), "jump");
+    const auto run = RunProgram({"check-dynamics", file, "--summary", summary});
+    const Json json = Json::parse(ReadText(summary));
+    ASSERT_EQ(json["flights"].size(), 1) << run.out;
+    // The low-pass before it rounds take-off and landing, which fall into the phase's ends.
+    EXPECT_NEAR(json["flights"][0]["acceleration_m_per_s2"][2].get<double>(), -gravity,
+                0.05 * gravity);
+    const bool is_free = gravity == 9.81;
+    EXPECT_EQ(Check(json, "fall in flight")["verdict"], is_free ? "plausible" : "implausible");
+    EXPECT_EQ(run.exit_code, json["verdict"] == "implausible" ? 1 : 0);
+    if (!is_free) {
+      EXPECT_EQ(run.exit_code, 1);
+      EXPECT_THAT(LastLine(run.out),
+                  AllOf(HasSubstr("is implausible"), HasSubstr("fall in flight")));
+    }
+  }
+}
+
+TEST(CheckDynamics, NoiseIsNotPrintedAsTorque) {
+  // 4 x 3 mm / (0.01 s)² = 120 m/s²: 12 body weights up and down.
+  const std::string file =
+      WriteMotion(Standing(100, [](int k) { return k % 2 == 0 ? 0.006 : 0.0; }), "noise");
+  const auto raw = RunProgram({"check-dynamics", file, "--low-pass", "0"});
+  EXPECT_EQ(raw.exit_code, 0);
+  EXPECT_THAT(raw.out, AllOf(HasSubstr("torques     not shown: accelerations are noise"),
+                             Not(HasSubstr("joint, off ground"))));
+  EXPECT_THAT(LastLine(raw.out), HasSubstr("is not judged: accelerations are noise"));
+  const auto smooth = RunProgram({"check-dynamics", file});
+  EXPECT_EQ(smooth.exit_code, 0) << smooth.out;
+  EXPECT_THAT(smooth.out, AllOf(HasSubstr("differences after a low-pass at 6 Hz"),
+                                HasSubstr("joint, off ground")));
+}
+
+TEST(CheckDynamics, TakesFramesPersonAndModel) {
+  const std::string file = WriteMotion(Standing(100, [](int) { return 0.0; }), "stand");
+  const std::string summary = TestFolder() + "/s.json";
+  const auto run = RunProgram({"check-dynamics", file, "--summary", summary, "--frames", "20:60",
+                               "--mass", "50", "--motion", "stand"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(ReadText(summary));
+  EXPECT_EQ(json["input"]["frames"], 40);
+  EXPECT_EQ(json["input"]["first_frame"], 20);
+  EXPECT_EQ(json["mass_kg"], 50);
+  EXPECT_EQ(json["input"]["person"]["mass_source"], "given");
+}
+
+struct BadMotion {
+  std::string text;
+  std::vector<std::string> options;
+  std::string message;
+};
+
+std::string Replaced(std::string text, const std::string& what, const std::string& with) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), with);
+}
+
+TEST(CheckDynamics, BadInputIsOneLine) {
+  const std::string stand = ReadText(WriteMotion(Standing(9, [](int) { return 0.0; }), "stand"));
+  const std::string one = ReadText(WriteMotion(Standing(1, [](int) { return 0.0; }), "one"));
+  const std::string model = testing::SourcePath("xml_config/models/mmm.xml");
+  const std::size_t mass = stand.find("<Mass>");
+  const std::string no_height =
+      Replaced(stand, "<Height>" + std::string("1.8") + "</Height>", "<!-- none -->");
+  ASSERT_NE(mass, std::string::npos);
+  const std::vector<BadMotion> cases = {
+      {"<MMM version=\"2.0\"><Motion name=\"m\"/></MMM>", {}, "has no motion with joint angles"},
+      {one, {}, "frame"},
+      {stand, {"--frames", "20:30"}, "has no frame of the motion's 9"},
+      {stand, {"--motion", "walk"}, "has no motion \"walk\" with joint angles; there is \"stand\""},
+      {no_height, {}, "does not say how tall the person is; give --height"},
+      {stand, {"--model", TestFolder() + "/none.xml"}, "none.xml: no such file"},
+      {stand, {"--subject-file", TestFolder() + "/none.xml"}, "none.xml: no such file"},
+      {stand, {"--mass", "0"}, "mass"},
+      {Replaced(stand, "<RootPosition>0 0 ", "<RootPosition>0 nan "), {}, "no"},
+      {"<Robot/>", {}, "an MMM motion has <MMM>"},
+      {"", {}, "empty"}};
+  const std::string file = TestFolder() + "/bad.xml";
+  for (const BadMotion& bad : cases) {
+    SCOPED_TRACE(bad.message);
+    WriteText(file, bad.text);
+    std::vector<std::string> words = {"check-dynamics", file};
+    words.insert(words.end(), bad.options.begin(), bad.options.end());
+    const auto run = RunProgram(words);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, AllOf(HasSubstr("error: "), HasSubstr(bad.message)));
+  }
+}
+
+TEST(CheckDynamics, AModelThatIsNotThereIsReplacedWithAWarning) {
+  const std::string stand = ReadText(WriteMotion(Standing(50, [](int) { return 0.0; }), "stand"));
+  const std::string path = testing::SourcePath("xml_config/models/mmm.xml");
+  const std::string file = TestFolder() + "/moved.xml";
+  WriteText(file, Replaced(stand, path, "../elsewhere/mmm.xml"));
+  const auto run = RunProgram({"check-dynamics", file});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("names the model ../elsewhere/mmm.xml, which is not there"));
+}
+
+TEST(CheckDynamics, RatesThatAreTooLowAreNotJudged) {
+  PoseTrajectory slow = Standing(40, [](int) { return 0.0; });
+  slow.rate = 10;
+  const auto run = RunProgram({"check-dynamics", WriteMotion(slow, "slow")});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(LastLine(run.out),
+              HasSubstr("is not judged: the rate shows nothing faster than 4 Hz"));
+}
+
+TEST(CheckDynamics, WalkingCarriesTheBodyWeight) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string summary = TestFolder() + "/s.json";
+  const std::string page = TestFolder() + "/walk.html";
+  const auto run = RunProgram(
+      {"check-dynamics", testing::SharedData("mmm/motions_legacy/walking_medium01_motion395.xml"),
+       "--summary", summary, "--report", page});
+  EXPECT_EQ(run.exit_code, 0) << run.out;
+  const Json json = Json::parse(ReadText(summary));
+  const Json& force = json["forces"]["vertical_body_weights"];
+  EXPECT_NEAR(force["mean"].get<double>(), 1, 0.05);
+  // Walking at a medium pace loads and unloads by 10 to 50 % of the weight, and never flies.
+  EXPECT_GT(force["max"].get<double>(), 1.1);
+  EXPECT_LT(force["max"].get<double>(), 1.5);
+  EXPECT_GT(force["min"].get<double>(), 0.5);
+  EXPECT_TRUE(json["flights"].empty());
+  EXPECT_THAT(ReadText(page), AllOf(HasSubstr("<title>walking_medium01_motion395.xml</title>"),
+                                    HasSubstr("class=\"series\""), Not(HasSubstr("<link"))));
+}
+
+}  // namespace
+}  // namespace mmm_converter
