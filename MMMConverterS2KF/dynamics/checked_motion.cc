@@ -23,7 +23,7 @@ std::string ChooseModel(const InputRequest& request, const MmmMotion& motion,
   const fs::path named = fs::path(request.file).parent_path() / motion.model_path;
   std::error_code failure;
   if (fs::is_regular_file(named, failure)) return named.lexically_normal().string();
-  const std::string shipped = ModelFile(request);
+  std::string shipped = ModelFile(request);
   warnings->push_back(
       fmt::format("{}: names the model {}, which is not there; {} is taken (--model gives another)",
                   request.file, motion.model_path, shipped));
