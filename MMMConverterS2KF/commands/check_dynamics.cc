@@ -39,7 +39,9 @@ const OptionGroup kPerson = {
      {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
      {"subject-file", "FILE", "who the person is, from calibrate", ""},
      {"model", "FILE",
-      "reference model; default: the one that the motion's file names, else the shipped one", ""}}};
+      "reference model, or a URDF; default: the one that the motion's file names, else the shipped "
+      "one",
+      ""}}};
 
 const OptionGroup kGeneral = {
     "General",

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "MMMConverterS2KF/comparison_setup.h"
-#include "common/io/mmm_model.h"
 #include "common/io/mmm_motion.h"
+#include "common/io/model_file.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -78,18 +78,20 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
     throw Error(fmt::format("{}: has no motion \"{}\" with joint angles; there is \"{}\"",
                             request.file, request.reading.motion, motion.name));
   }
-  if (!IsHeightKnown(request.person, motion)) {
+  std::vector<std::string> warnings;
+  const std::string model_file = ChooseModel(request, motion, &warnings);
+  const LoadedModel loaded = ReadModelFile(model_file);
+  warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+  ConverterConfig config;
+  if (!loaded.is_reference) config.model_processor = "None";
+  if (loaded.is_reference && !IsHeightKnown(request.person, motion)) {
     throw Error(fmt::format(
         "{}: does not say how tall the person is; give --height (and --mass), or --subject-file",
         request.file));
   }
-  std::vector<std::string> warnings;
-  const std::string model_file = ChooseModel(request, motion, &warnings);
-  const MmmModel reference = ReadMmmModel(model_file);
-  warnings.insert(warnings.end(), reference.warnings.begin(), reference.warnings.end());
   Person person;
-  KinematicModel model = ScaleToPerson(request.person, reference.model, PersonOf(motion),
-                                       ConverterConfig(), {}, &person, &warnings);
+  KinematicModel model =
+      ScaleToPerson(request.person, loaded.model, PersonOf(motion), config, {}, &person, &warnings);
   CheckedMotion checked = {request.file,
                            motion.name,
                            0,

@@ -22,6 +22,7 @@ Json Vector(const Eigen::Vector3d& v) { return {Number(v.x()), Number(v.y()), Nu
 
 Json DescribeMotion(const DynamicsReport& report) {
   const CheckedMotion& motion = report.motion;
+  const bool is_scaled = motion.person.height.value > 0;
   return {
       {"file", motion.file},
       {"motion", motion.name},
@@ -30,9 +31,9 @@ Json DescribeMotion(const DynamicsReport& report) {
       {"rate_hz", Number(report.dynamics.rate)},
       {"model", motion.model_file},
       {"person",
-       {{"height_m", Number(motion.person.height.value)},
+       {{"height_m", is_scaled ? Number(motion.person.height.value) : nullptr},
         {"height_source", motion.person.height.source},
-        {"mass_kg", Number(motion.person.mass.value)},
+        {"mass_kg", is_scaled ? Number(motion.person.mass.value) : nullptr},
         {"mass_source", motion.person.mass.source},
         {"subject", motion.person.subject ? Json(motion.person.subject->name) : Json(nullptr)}}}};
 }

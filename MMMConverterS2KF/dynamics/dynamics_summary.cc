@@ -41,6 +41,12 @@ std::string DescribeDifferentiation(const Differentiation& differentiation) {
       made, differentiation.raw_force_peak, differentiation.raw_force_rms);
 }
 
+std::string DescribePerson(const Person& person) {
+  if (person.height.value == 0) return person.height.source;
+  return fmt::format("{:.3g} m ({}), {:.4g} kg ({})", person.height.value, person.height.source,
+                     person.mass.value, person.mass.source);
+}
+
 std::string DescribeContacts(const MotionDynamics& dynamics) {
   std::string text;
   int off_ground = 0;
@@ -167,9 +173,7 @@ std::string FormatDynamicsSummary(const DynamicsReport& report) {
       Line("motion", fmt::format("{}: \"{}\", {} frames at {:.6g} Hz ({:.3f} s)", motion.file,
                                  motion.name, dynamics.num_frames(), dynamics.rate,
                                  (dynamics.num_frames() - 1) / dynamics.rate));
-  text += Line("person", fmt::format("{:.3g} m ({}), {:.4g} kg ({})", motion.person.height.value,
-                                     motion.person.height.source, motion.person.mass.value,
-                                     motion.person.mass.source));
+  text += Line("person", DescribePerson(motion.person));
   text += Line("model", motion.model_file);
   text += Line("derivatives", DescribeDifferentiation(dynamics.differentiation));
   text += FormatFigures(dynamics) + FormatPeaks(report.plausibility);

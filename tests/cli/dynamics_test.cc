@@ -165,6 +165,20 @@ TEST(CheckDynamics, TakesFramesPersonAndModel) {
   EXPECT_EQ(json["input"]["person"]["mass_source"], "given");
 }
 
+TEST(CheckDynamics, TakesARobotAsItIs) {
+  const std::string file = WriteMotion(Standing(50, [](int) { return 0.0; }), "stand");
+  const std::string robot = TestFolder() + "/robot.urdf";
+  const std::string summary = TestFolder() + "/s.json";
+  ASSERT_EQ(RunProgram({"export-urdf", "--height", "1.8", "--mass", "75", "-o", robot}).exit_code,
+            0);
+  const auto run = RunProgram({"check-dynamics", file, "--model", robot, "--summary", summary});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("person      model is not scaled"));
+  const Json json = Json::parse(ReadText(summary));
+  EXPECT_NEAR(json["mass_kg"].get<double>(), kMass, 1e-3);
+  EXPECT_TRUE(json["input"]["person"]["height_m"].is_null());
+}
+
 struct BadMotion {
   std::string text;
   std::vector<std::string> options;

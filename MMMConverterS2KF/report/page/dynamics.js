@@ -70,10 +70,11 @@ function makeFlights(flights) {
 
 function describeInput({input, mass_kg: mass, forces}) {
   const {person} = input;
+  const who = person.height_m === null ? `Body (${person.height_source})`
+    : `Person: ${formatNumber(person.height_m, 2)} m (${person.height_source})`;
   return `Motion “${input.motion}” of ${input.file}: ${plural(input.frames, "frame")} at ` +
-    `${formatNumber(input.rate_hz, 0)} Hz. Person: ${formatNumber(person.height_m, 2)} m (${person.height_source}), ` +
-    `${formatNumber(mass, 1)} kg (${person.mass_source}), weight ${formatNumber(forces.body_weight_n, 0)} N. ` +
-    `Model: ${input.model}.`;
+    `${formatNumber(input.rate_hz, 0)} Hz. ${who}, ${formatNumber(mass, 1)} kg (${person.mass_source}), ` +
+    `weight ${formatNumber(forces.body_weight_n, 0)} N. Model: ${input.model}.`;
 }
 
 function describeDerivatives(derivatives) {
