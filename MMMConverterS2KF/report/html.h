@@ -21,10 +21,10 @@ std::string FillPage(std::string_view page,
 
 /// What one page has of its own.
 struct Page {
-  std::string_view title;    ///< not escaped
-  std::string_view styles;   ///< CSS
-  std::string_view content;  ///< HTML below the heading
-  std::string_view data;     ///< DataBlocks
+  std::string_view title;                   ///< not escaped
+  std::string_view styles;                  ///< CSS
+  std::string_view content;                 ///< HTML below the heading
+  std::string_view data;                    ///< DataBlocks
   std::vector<std::string_view> libraries;  ///< scripts of others, whose licences the page then has
   std::string_view script;
 };
