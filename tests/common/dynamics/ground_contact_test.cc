@@ -18,6 +18,7 @@ using ::testing::ElementsAre;
 
 std::vector<std::string> Names(const std::vector<ContactBody>& bodies) {
   std::vector<std::string> names;
+  names.reserve(bodies.size());
   for (const ContactBody& body : bodies) names.push_back(body.name);
   return names;
 }
