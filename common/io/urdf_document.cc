@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <vector>
 
 #include "common/io/xml_document.h"
 #include "common/io/xml_text.h"
@@ -131,7 +132,6 @@ class DocumentBuilder {
   void ReadAxis(const urdf::Joint& source, UrdfJoint* joint);
   void ReadLimits(const urdf::Joint& source, UrdfJoint* joint);
   void LinkChild(int joint);
-  void CheckConnected();
 
   const XmlElement& robot_;
   const urdf::ModelInterface& model_;
@@ -260,27 +260,6 @@ void DocumentBuilder::LinkChild(int joint) {
   child.parent_joint = joint;
 }
 
-/// There is one root; a link that does not lead to it hangs in a circle.
-void DocumentBuilder::CheckConnected() {
-  const std::size_t num_links = document_.links.size();
-  std::vector<bool> is_connected(num_links, false);
-  is_connected[document_.root] = true;
-  for (std::size_t i = 0; i < num_links; ++i) {
-    std::vector<int> way;
-    int link = static_cast<int>(i);
-    while (!is_connected[link] && way.size() <= num_links) {
-      way.push_back(link);
-      link = document_.joints[document_.links[link].parent_joint].parent;
-    }
-    if (way.size() > num_links) {
-      Fail(document_.links[i].line, "link '{}' hangs in a circle of joints",
-           document_.links[i].name);
-      return;
-    }
-    for (const int seen : way) is_connected[seen] = true;
-  }
-}
-
 UrdfDocument DocumentBuilder::Build() {
   document_.name = model_.getName();
   for (const XmlElement* link : robot_.FindChildren("link")) AddLink(*link);
@@ -289,8 +268,6 @@ UrdfDocument DocumentBuilder::Build() {
   for (int joint = 0; joint < num_joints; ++joint) LinkChild(joint);
   diagnostics_.ThrowIfErrors();
   document_.root = link_indices_.at(model_.getRoot()->name);
-  CheckConnected();
-  diagnostics_.ThrowIfErrors();
   return std::move(document_);
 }
 
@@ -311,11 +288,49 @@ void CheckIsUrdf(const XmlElement& robot, const std::string& file) {
   }
 }
 
+std::string LinkOf(const XmlElement& joint, const char* end) {
+  const XmlElement* element = joint.FindChild(end);
+  const std::string* name = element == nullptr ? nullptr : element->FindAttribute("link");
+  return name == nullptr ? std::string() : std::string(Trim(*name));
+}
+
+/// urdfdom leaks links that carry each other.
+void CheckHasNoCircle(const XmlElement& robot, const std::string& file) {
+  std::multimap<std::string, std::string> children;
+  std::map<std::string, int> num_parents;
+  for (const XmlElement* joint : robot.FindChildren("joint")) {
+    const std::string parent = LinkOf(*joint, "parent");
+    const std::string child = LinkOf(*joint, "child");
+    if (parent.empty() || child.empty()) continue;
+    children.emplace(parent, child);
+    ++num_parents[child];
+  }
+  std::vector<std::string> free;
+  for (const auto& [parent, unused] : children) {
+    if (!num_parents.contains(parent)) free.push_back(parent);
+  }
+  while (!free.empty()) {
+    const std::string link = std::move(free.back());
+    free.pop_back();
+    for (auto [child, end] = children.equal_range(link); child != end; ++child) {
+      if (--num_parents[child->second] == 0) free.push_back(child->second);
+    }
+    children.erase(link);
+  }
+  if (children.empty()) return;
+  for (const XmlElement* joint : robot.FindChildren("joint")) {
+    if (!children.contains(LinkOf(*joint, "parent"))) continue;
+    throw Error(fmt::format("{}:{}: link '{}' hangs in a circle of joints", file, joint->line,
+                            LinkOf(*joint, "parent")));
+  }
+}
+
 }  // namespace
 
 UrdfDocument ParseUrdf(std::string_view content, Diagnostics* diagnostics) {
   const XmlElement file = ParseXml(content, diagnostics->file());
   CheckIsUrdf(file, diagnostics->file());
+  CheckHasNoCircle(file, diagnostics->file());
   const XmlElement robot = Essence(file);
   const auto model = ParseWithUrdfdom(robot, diagnostics->file());
   return DocumentBuilder(robot, *model, diagnostics).Build();

@@ -185,8 +185,8 @@ void ExpectLawsOfMotion(const KinematicModel& model, double tolerance) {
     const Instant next = After(now, h);
     const WholeBodyMotion b = simbody.Moving(past.posture, past.velocities, past.accelerations);
     const WholeBodyMotion a = simbody.Moving(next.posture, next.velocities, next.accelerations);
-    const auto rate = [h](const auto& after, const auto& before) -> decltype(auto) {
-      return ((after - before) / (2 * h)).eval();
+    const auto rate = [h](const Vector3d& after, const Vector3d& before) -> Vector3d {
+      return (after - before) / (2 * h);
     };
     EXPECT_LT(
         (rate(simbody.At(next.posture).center_of_mass, simbody.At(past.posture).center_of_mass) -

@@ -17,7 +17,6 @@ namespace mmm_converter {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -176,10 +175,12 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
       {Robot("<xacro:macro name='m'/>"), "r.urdf:2: <xacro:macro>: is xacro"},
       {Robot(two), "Two root links found: [a] and [b]"},
       {Robot(two + Joint("i", "fixed", "a", "b") + Joint("j", "fixed", "b", "a")),
-       "No root link found"},
+       "link 'a' hangs in a circle of joints"},
       {Robot("<link name='c'/>" + two + Joint("i", "fixed", "a", "b") +
              Joint("j", "fixed", "b", "a")),
-       "hangs in a circle of joints"},
+       "link 'a' hangs in a circle of joints"},
+      {Robot("<link name='a'/>" + Joint("i", "fixed", "a", "a")),
+       "link 'a' hangs in a circle of joints"},
       {Robot("<link name='c'/>" + two + Joint("i", "fixed", "a", "c") +
              Joint("j", "fixed", "b", "c") + Joint("k", "fixed", "a", "b")),
        "link 'c' is the child of both the joints 'i' and 'j'"},

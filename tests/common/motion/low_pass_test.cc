@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 MatrixXd Sine(int frames, double rate, double frequency) {
   MatrixXd values(frames, 1);
   for (int k = 0; k < frames; ++k) {
-    values(k, 0) = std::sin(2 * kPi * frequency * (k - frames / 2) / rate);
+    values(k, 0) = std::sin(2 * kPi * frequency * (k - 0.5 * frames) / rate);
   }
   return values;
 }
