@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "MMMConverterS2KF/report/report.h"
 
@@ -20,9 +21,7 @@ std::string DescribeCalibration(const ConversionReport& report) {
       1e3 * report.calibration->distance_after, 1e3 * report.calibration->distance_before);
 }
 
-}  // namespace
-
-std::string FormatConversionPage(const ConversionReport& report) {
+Comparison MakeComparison(const ConversionReport& report) {
   Trial trial;
   trial.name = std::filesystem::path(report.input.recording.file).filename().string();
   trial.markers = report.input.recording.markers;
@@ -32,10 +31,25 @@ std::string FormatConversionPage(const ConversionReport& report) {
   contender.name = std::filesystem::path(report.converter.config.file).stem().string();
   contender.configuration = report.converter.text;
   contender.config = report.converter.config;
-  const Comparison comparison =
-      CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
-  return FormatReport(report.motion_name,
-                      {{report.motion_name, DescribeCalibration(report), &comparison}});
+  return CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
+}
+
+}  // namespace
+
+std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports) {
+  std::vector<Comparison> comparisons;
+  std::vector<ReportSection> sections;
+  comparisons.reserve(reports.size());
+  sections.reserve(reports.size());
+  for (const ConversionReport* report : reports) {
+    comparisons.push_back(MakeComparison(*report));
+    sections.push_back({report->motion_name, DescribeCalibration(*report), &comparisons.back()});
+  }
+  const std::string title =
+      reports.size() == 1
+          ? reports.front()->motion_name
+          : std::filesystem::path(reports.front()->input.recording.file).filename().string();
+  return FormatReport(title, sections);
 }
 
 }  // namespace mmm_converter

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "MMMConverterS2KF/pipeline.h"
 
 namespace mmm_converter {
 
-/// A page (HTML) with player and plots of one conversion.
-std::string FormatConversionPage(const ConversionReport& report);
+/// A page (HTML) with player and plots of a conversion, or of several motions of a recording.
+std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports);
 
 }  // namespace mmm_converter

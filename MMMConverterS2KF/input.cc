@@ -47,7 +47,8 @@ Input ReadModel(const InputRequest& request) {
 }
 
 Input ReadInput(const InputRequest& request) {
-  Recording recording = ReadRecording(request.file, request.reading);
+  Recording recording =
+      request.recording ? *request.recording : ReadRecording(request.file, request.reading);
   Input input = ReadModel(request);
   input.warnings.insert(input.warnings.begin(), recording.warnings.begin(),
                         recording.warnings.end());
@@ -93,7 +94,8 @@ const std::vector<OptionGroup>& InputOptions() {
       {"Recording",
        {{"subject", "NAME", "label prefix to take where a recording has several subjects", ""},
         {"motion", "NAME",
-         "of an MMM file: the motion to convert; else: the name of the motion that is written",
+         "of an MMM file: the motion to convert (convert: or all); else: the name of the motion "
+         "that is written",
          "motionName"},
         {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
         {"unit", "mm|cm|m|in", "instead of what the file says", ""},

@@ -19,11 +19,12 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::optional<int> first_frame;            ///< counted from 0
-  std::optional<int> end_frame;              ///< the frame behind the last
-  std::string model_file;                    ///< reference model, or a URDF
-  std::shared_ptr<const LoadedModel> model;  ///< of that file, where it has been read before
-  std::string marker_set;                    ///< file or name; comes before the configuration's
+  std::shared_ptr<const Recording> recording;  ///< of that file, where it has been read before
+  std::optional<int> first_frame;              ///< counted from 0
+  std::optional<int> end_frame;                ///< the frame behind the last
+  std::string model_file;                      ///< reference model, or a URDF
+  std::shared_ptr<const LoadedModel> model;    ///< of that file, where it has been read before
+  std::string marker_set;                      ///< file or name; comes before the configuration's
   PersonRequest person;
 };
 

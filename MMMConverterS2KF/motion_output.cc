@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "common/io/file_content.h"
 #include "common/io/mmm_motion.h"
@@ -22,24 +23,6 @@ bool AreMarkersAsInFile(const Recording& recording) {
   return recording.up_axis == UpAxis::kZ && recording.unit == "mm";
 }
 
-TextPieces Format(const MmmMotionOutput& output, const ConversionRequest& request,
-                  ConversionReport* report) {
-  const Recording& recording = report->input.recording;
-  if (report->output_format == "2.0" && IsMmm2(recording)) {
-    MmmMotionOutput converted = output;
-    converted.motion_name = recording.motion;
-    if (AreMarkersAsInFile(recording)) converted.markers = nullptr;
-    return WithConvertedMotion(BytesOfFile(request.input.file), request.input.file, converted);
-  }
-  if (recording.num_motions > 1) {
-    report->warnings.push_back(
-        fmt::format("{}: has {} motions; the output has the converted one "
-                    "only (MMM 2.0 in and out keeps all)",
-                    request.input.file, recording.num_motions));
-  }
-  return report->output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
-}
-
 // The format has no place for a subject: players see the reference, scaled by height and mass.
 std::string DescribeSubject(const ConversionReport& report) {
   if (!report.person.subject) return "";
@@ -51,6 +34,46 @@ std::string DescribeSubject(const ConversionReport& report) {
       "places differ from this model scaled by height and mass{}",
       report.person.subject->name, file.empty() ? "" : " (" + name(file) + ")",
       report.model_output.empty() ? "" : "; the subject's model: " + name(report.model_output));
+}
+
+MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionReport& report) {
+  MmmMotionOutput output;
+  output.recording_name = fs::path(request.input.file).stem().string();
+  output.motion_name = report.motion_name;
+  output.model_path = !request.model_path.empty()
+                          ? request.model_path
+                          : ModelPathFor(report.input.model_file, report.output);
+  output.height = report.person.height.value;
+  output.mass = report.person.mass.value;
+  output.hand_length = report.person.hand_length;
+  output.comment = DescribeSubject(report);
+  output.trajectory = &report.result.trajectory;
+  output.markers = &report.input.recording.markers;
+  return output;
+}
+
+TextPieces Format(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  ConversionReport& first = *reports.front();
+  const Recording& recording = first.input.recording;
+  if (first.output_format == "2.0" && IsMmm2(recording)) {
+    std::vector<MmmMotionOutput> outputs;
+    outputs.reserve(reports.size());
+    for (const ConversionReport* report : reports) {
+      MmmMotionOutput output = DescribeMotion(request, *report);
+      output.motion_name = report->input.recording.motion;
+      if (AreMarkersAsInFile(report->input.recording)) output.markers = nullptr;
+      outputs.push_back(std::move(output));
+    }
+    return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
+  }
+  if (recording.num_motions > 1) {
+    first.warnings.push_back(
+        fmt::format("{}: has {} motions; the output has the converted one "
+                    "only (MMM 2.0 in and out keeps all)",
+                    request.input.file, recording.num_motions));
+  }
+  const MmmMotionOutput output = DescribeMotion(request, first);
+  return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
 }  // namespace
@@ -79,20 +102,8 @@ std::string ChooseMotionName(const ConversionRequest& request, const Recording& 
   return fs::path(request.input.file).stem().string();
 }
 
-void WriteMotion(const ConversionRequest& request, ConversionReport* report) {
-  MmmMotionOutput output;
-  output.recording_name = fs::path(request.input.file).stem().string();
-  output.motion_name = report->motion_name;
-  output.model_path = !request.model_path.empty()
-                          ? request.model_path
-                          : ModelPathFor(report->input.model_file, report->output);
-  output.height = report->person.height.value;
-  output.mass = report->person.mass.value;
-  output.hand_length = report->person.hand_length;
-  output.comment = DescribeSubject(*report);
-  output.trajectory = &report->result.trajectory;
-  output.markers = &report->input.recording.markers;
-  WriteFileAtomically(report->output, Format(output, request, report));
+void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  WriteFileAtomically(reports.front()->output, Format(request, reports));
 }
 
 }  // namespace mmm_converter

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "MMMConverterS2KF/pipeline.h"
 
 namespace mmm_converter {
@@ -12,8 +15,9 @@ std::string ChooseOutput(const ConversionRequest& request, const ConversionRepor
 /// What the motion is called: as asked for, else as in the recording, else as the file.
 std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording);
 
-/// Writes report.result. Of an MMM 2.0 recording, all other motions and sensors are kept as they
-/// are.
-void WriteMotion(const ConversionRequest& request, ConversionReport* report);
+/// Writes the results of one recording to their common output; several must be motions of an
+/// MMM 2.0 file that are written as such. Of an MMM 2.0 recording, all other motions and sensors
+/// are kept as they are.
+void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports);
 
 }  // namespace mmm_converter

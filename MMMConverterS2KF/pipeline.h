@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/converter_choice.h"
 #include "MMMConverterS2KF/exports.h"
 #include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/object.h"
 #include "MMMConverterS2KF/person.h"
 #include "common/convert/marker_mapping.h"
 #include "common/convert/motion_converter.h"
@@ -31,6 +32,9 @@ struct ConversionRequest {
   std::string model_output;               ///< also write the subject's model
   ExportFiles exports;                    ///< for other programs
   std::vector<std::string> more_outputs;  ///< that the caller writes
+  /// Folder of the models of objects; those that it lacks are written there.
+  std::string object_models;
+  bool is_one_of_all = false;  ///< of the file's motions; the model named is that of persons
 };
 
 /// Everything that a summary tells.
@@ -38,6 +42,7 @@ struct ConversionReport {
   Input input;
   ConverterChoice converter;
   Person person;
+  std::optional<ObjectModel> object;             ///< what is tracked, where it is no person
   std::shared_ptr<const KinematicModel> model;   ///< of the person
   std::optional<CalibrationResult> calibration;  ///< of this recording
   std::string marker_set;                        ///< empty: the configuration has its own list
@@ -54,6 +59,9 @@ struct ConversionReport {
 /// @throws Error
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<bool(int, int)>& progress);
+
+/// Writes the model of an object, where that is new. @throws Error
+void WriteObjectModel(const ConversionReport& report);
 
 /// Writes the motion and what else is asked for.
 /// @throws Error; each file is then as it was before, or whole.

@@ -212,6 +212,25 @@ std::string DescribeSubjectOutput(const ConversionReport& report) {
   return text + ". The subject's model: " + report.model_output + "\n";
 }
 
+bool IsModelBuilt(const ConversionReport& report) { return !report.object->text.empty(); }
+
+std::string DescribeObject(const ConversionReport& report) {
+  std::string text = "object     rigid, model " + report.object->source;
+  if (IsModelBuilt(report)) {
+    text +=
+        fmt::format(", {:.2f} mm from the markers (rms)", kMillimetres * report.object->distance);
+  }
+  return text + "\n";
+}
+
+Json ObjectJson(const ConversionReport& report) {
+  if (!report.object) return nullptr;
+  return {{"model_source", report.object->source},
+          {"model_is_new", IsModelBuilt(report)},
+          {"shape_distance_mm",
+           IsModelBuilt(report) ? Number(kMillimetres * report.object->distance) : Json(nullptr)}};
+}
+
 Json SubjectJson(const ConversionReport& report) {
   if (!report.person.subject) return nullptr;
   Json json = {{"file", report.person.subject_file},
@@ -236,7 +255,8 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
                       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
-  text += fmt::format("person     {}\n", DescribePersonShortly(report));
+  text += report.object ? DescribeObject(report)
+                        : fmt::format("person     {}\n", DescribePersonShortly(report));
   text += DescribeSubject(report);
   text += fmt::format("model      {}, {} joints tracked\n", report.input.model_file,
                       report.result.trajectory.joint_names.size());
@@ -275,6 +295,7 @@ std::string FormatSummaryJson(const ConversionReport& report) {
       {"motion", report.motion_name},
       {"model", report.input.model_file},
       {"person", DescribePerson(report)},
+      {"object", ObjectJson(report)},
       {"subject", SubjectJson(report)},
       {"converter", report.converter.config.type},
       {"plugin", report.converter.plugin->path()},

@@ -16,7 +16,7 @@ ConversionReport ConvertEntry(const BatchEntry& entry, const BatchFolder& folder
 
 void WritePage(const BatchEntry& entry, const ConversionReport& report, BatchFolder* folder) {
   folder->MakeReady(PagePath(entry.id));
-  WriteFileAtomically(folder->Full(PagePath(entry.id)), FormatConversionPage(report));
+  WriteFileAtomically(folder->Full(PagePath(entry.id)), FormatConversionPage({&report}));
 }
 
 }  // namespace mmm_converter

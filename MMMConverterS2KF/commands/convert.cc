@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <set>
 
+#include "MMMConverterS2KF/all_motions.h"
 #include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/conversion_page.h"
@@ -46,13 +48,22 @@ const std::vector<OptionGroup> kOwnOptions = {
       {"subject-out", "FILE", "with --self-calibrate: also write the person", ""},
       {"model-out", "FILE", "of a calibrated person: also write the model, for other MMM programs",
        ""}}},
+    {"Objects",
+     {{"object-models", "DIR",
+       "models of rigid objects, DIR/MOTION.xml each; one that is missing is built from its "
+       "motion's "
+       "markers and written there; default: all are built, into OUTPUT without ending + _objects",
+       ""}}},
     {"General",
      {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
       {"help,h", "", "print this help", ""}}}};
 
+constexpr const char* kAllMotions = "all";
+
 constexpr const char* kUsage = R"(MMMConverterS2KF convert INPUT [options]
 Converts the markers of INPUT (C3D, TRC, or an MMM motion with markers) into an MMM motion.
-Of an MMM 2.0 file all other motions are kept; -o may be INPUT then.
+Of an MMM 2.0 file all other motions are kept; -o may be INPUT then. --motion all converts every
+motion that has markers: persons with the reference model, rigid objects each with its own.
 
 {}MMMMotionConverter's options --inputMotion, --motionName, --converterConfigFile, --outputModelFile,
 --outputModelProcessorConfigFile and --outputMotion stand for INPUT, --motion, -c, --model, --person
@@ -64,6 +75,7 @@ Examples
   MMMConverterS2KF convert walk.c3d --height 1.75 --self-calibrate --subject-out anna.xml
   MMMConverterS2KF convert run.c3d --subject-file anna.xml
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
+  MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
   MMMConverterS2KF convert walk.c3d --frames 100:400 -c my.xml --format 1.0
   MMMConverterS2KF convert walk.c3d --height 1.75 --export-trc walk.trc --export-mot walk.mot
 )";
@@ -99,6 +111,7 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.self_calibrate = arguments.Has("self-calibrate");
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.model_output = arguments.Get("model-out").value_or("");
+  request.object_models = arguments.Get("object-models").value_or("");
   if (request.self_calibrate && !request.input.person.subject_file.empty()) {
     throw UsageError(
         "convert: --self-calibrate estimates the person, --subject-file says who it is; use one");
@@ -118,6 +131,58 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   return request;
 }
 
+// What has a place for one motion only.
+void CheckFitsAllMotions(const Arguments& arguments) {
+  for (const char* option :
+       {"export-csv", "export-trc", "export-mot", "model-path", "subject-out", "model-out"}) {
+    if (!arguments.Has(option)) continue;
+    throw UsageError(fmt::format(
+        "convert: --{} is for one motion, not for --motion all; use --motion NAME", option));
+  }
+}
+
+void LogWarnings(const AllMotions& all) {
+  std::set<std::string> known;
+  for (const MotionOutcome& outcome : all.motions) {
+    if (!outcome.report) continue;
+    for (const std::string& warning : outcome.report->warnings) {
+      if (known.insert(warning).second) LogWarning(warning);
+    }
+  }
+}
+
+std::string FormatPage(const AllMotions& all) {
+  std::vector<const ConversionReport*> reports;
+  for (const MotionOutcome& outcome : all.motions) {
+    if (outcome.report) reports.push_back(&*outcome.report);
+  }
+  return FormatConversionPage(reports);
+}
+
+int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& request) {
+  CheckFitsAllMotions(arguments);
+  ProgressBar bar("frames");
+  AllMotions all = RunAllMotions(request, [&](int done, int frames) {
+    bar.Show(done, frames);
+    return true;
+  });
+  bar.Clear();
+  WriteAllMotions(request, &all);
+  LogWarnings(all);
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatAllMotionsJson(all));
+  }
+  if (const auto file = arguments.Get("report")) WriteFileAtomically(*file, FormatPage(all));
+  std::cout << FormatAllMotions(all);
+  int failures = 0;
+  for (const MotionOutcome& outcome : all.motions) {
+    if (outcome.failure.empty()) continue;
+    LogError(fmt::format("motion {}: {}", outcome.name, outcome.failure));
+    ++failures;
+  }
+  return failures == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int RunConvert(const std::vector<std::string>& words) {
@@ -130,6 +195,7 @@ int RunConvert(const std::vector<std::string>& words) {
   }
   StartLog(arguments.Get("log").value_or("info"));
   const ConversionRequest request = MakeRequest(arguments);
+  if (request.motion_name == kAllMotions) return ConvertAllMotions(arguments, request);
   ProgressBar bar("frames");
   ConversionReport report = RunConversion(request, [&](int done, int all) {
     bar.Show(done, all);
@@ -142,7 +208,7 @@ int RunConvert(const std::vector<std::string>& words) {
     WriteFileAtomically(*file, FormatSummaryJson(report));
   }
   if (const auto file = arguments.Get("report")) {
-    WriteFileAtomically(*file, FormatConversionPage(report));
+    WriteFileAtomically(*file, FormatConversionPage({&report}));
   }
   std::cout << FormatSummary(report);
   return 0;

@@ -54,8 +54,7 @@ std::vector<int> ResolveJoints(const ConverterConfig& config, const KinematicMod
 /// as the model has their markers. marker_set is the name of a shipped set or of its file
 /// ("kit53"), a file ("my_set.xml", relative to the configuration), or "auto": of the shipped sets
 /// and the names of the model's markers what knows most labels of the recording. name: the set's,
-/// or
-/// "" for a list.
+/// or "" for a list.
 /// @throws Error where there is no such set, or no set knows three labels.
 std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
                                            const MarkerSequence& recording,

@@ -27,11 +27,15 @@ int CountSeen(const MarkerSequence& recording, const std::vector<MarkerAssignmen
       [&](const MarkerAssignment& assignment) { return IsSeen(points.col(assignment.label)); }));
 }
 
-// The first frame in which a posture can be assembled.
-int FindFirstFrame(const MarkerSequence& recording,
+// The first frame in which a posture can be assembled. A person is there from the start, objects
+// are fetched.
+int FindFirstFrame(const MarkerSequence& recording, const KinematicModel& model,
                    const std::vector<MarkerAssignment>& assignments) {
-  const int last = static_cast<int>(
-      std::min<double>(recording.num_frames(), std::max(1.0, std::ceil(recording.rate()))));
+  const bool is_object = model.num_joints() == 0;
+  const int last = is_object
+                       ? recording.num_frames()
+                       : static_cast<int>(std::min<double>(
+                             recording.num_frames(), std::max(1.0, std::ceil(recording.rate()))));
   int most = 0;
   for (int k = 0; k < last; ++k) {
     const int seen = CountSeen(recording, assignments, k);
@@ -39,10 +43,10 @@ int FindFirstFrame(const MarkerSequence& recording,
     most = std::max(most, seen);
   }
   throw Error(
-      fmt::format("no frame of the first second shows {} mapped markers (at most {} of {} are "
-                  "seen); start at a "
-                  "later frame with --frames, or check the marker mapping",
-                  kFewestMarkers, most, assignments.size()));
+      fmt::format("no frame{} shows {} mapped markers (at most {} of {} are seen); {}check the "
+                  "marker mapping",
+                  is_object ? "" : " of the first second", kFewestMarkers, most, assignments.size(),
+                  is_object ? "" : "start at a later frame with --frames, or "));
 }
 
 // Fills one frame of a result from what a converter says of it.
@@ -132,7 +136,7 @@ ConversionResult MotionConverter::Convert(const MarkerSequence& recording,
                                           const std::vector<MarkerAssignment>& assignments,
                                           const std::function<bool(int)>& progress) {
   using Clock = std::chrono::steady_clock;
-  const int first = FindFirstFrame(recording, assignments);
+  const int first = FindFirstFrame(recording, model, assignments);
   const int frames = recording.num_frames();
   const double dt = 1 / recording.rate();
   ResultWriter writer(recording, model, assignments, joints());

@@ -76,7 +76,8 @@ class MotionConverter {
   /// A whole recording: Assemble on the first frame, Track on the others. Leading frames in which
   /// fewer than three assigned markers are seen take the first assembled posture, not converged.
   /// progress(k): frames done, may be empty; returning false cancels (an Error is thrown).
-  /// @throws Error where no frame of the first second shows three assigned markers.
+  /// @throws Error where no frame of the first second (for a model without joints: no frame at all)
+  /// shows three assigned markers.
   virtual ConversionResult Convert(const MarkerSequence& recording, const KinematicModel& model,
                                    const std::vector<MarkerAssignment>& assignments,
                                    const std::function<bool(int)>& progress);

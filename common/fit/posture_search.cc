@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "common/fit/posture_search.h"
 
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "common/fit/rigid_shape.h"
 
 namespace mmm_converter {
 
@@ -38,28 +39,9 @@ PostureSearch::PostureSearch(const MarkerKinematics& kinematics)
 
 void PostureSearch::FitRigid(const Ref<const Matrix3Xd>& z, Posture* posture) {
   kinematics_.ComputeMarkers(Vector3d::Zero(), Matrix3d::Identity(), posture->joint_angles, &at_);
-  double total = 0;
-  Vector3d center_z = Vector3d::Zero();
-  Vector3d center_p = Vector3d::Zero();
-  for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    if (!z.col(m).allFinite()) continue;
-    total += rigidity_[m];
-    center_z += rigidity_[m] * z.col(m);
-    center_p += rigidity_[m] * at_.p_WM.col(m);
-  }
-  center_z /= total;
-  center_p /= total;
-  Matrix3d correlation = Matrix3d::Zero();
-  for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    if (!z.col(m).allFinite()) continue;
-    correlation += rigidity_[m] * (z.col(m) - center_z) * (at_.p_WM.col(m) - center_p).transpose();
-  }
-  const Eigen::JacobiSVD<Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  const Matrix3d R = svd.matrixU() * Vector3d(1, 1, handedness < 0 ? -1 : 1).asDiagonal() *
-                     svd.matrixV().transpose();
-  posture->orientation = Eigen::Quaterniond(R).normalized();
-  posture->position = center_z - R * center_p;
+  const Eigen::Isometry3d X_WS = FitRigidPose(at_.p_WM, z, rigidity_);
+  posture->orientation = Eigen::Quaterniond(X_WS.linear()).normalized();
+  posture->position = X_WS.translation();
 }
 
 void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* posture) {

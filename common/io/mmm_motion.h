@@ -76,15 +76,15 @@ struct MmmMotionOutput {
 TextPieces FormatMmmMotion2(const MmmMotionOutput& output);
 TextPieces FormatMmmMotion1(const MmmMotionOutput& output);
 
-/// The MMM 2.0 file `content` with its motion `output.motion_name` converted: Model and
-/// ModelProcessorConfig, the ModelPose sensors and those Kinematic sensors that have one of the
-/// converted joints are replaced; the MoCapMarker sensors too if `output.markers` is given. Every
-/// other byte stays: other motions, other sensors, annotations, comments. `file` is only named in
-/// messages. Trajectory and markers must outlive the text.
-/// @throws Error where `content` is not an MMM 2.0 file or has not exactly one motion of that name,
-/// or a posture is not finite.
-TextPieces WithConvertedMotion(const ByteSource& content, const std::string& file,
-                               const MmmMotionOutput& output);
+/// The MMM 2.0 file `content` with the motions called motion_name of each output converted: Model
+/// and ModelProcessorConfig, the ModelPose sensors and those Kinematic sensors that have one of the
+/// converted joints are replaced; the MoCapMarker sensors too if `markers` is given. Every other
+/// byte stays: other motions, other sensors, annotations, comments. `file` is only named in
+/// messages. Trajectories and markers must outlive the text.
+/// @throws Error where `content` is not an MMM 2.0 file or has not exactly one motion of such a
+/// name, or a posture is not finite.
+TextPieces WithConvertedMotions(const ByteSource& content, const std::string& file,
+                                const std::vector<MmmMotionOutput>& outputs);
 
 /// The path to write for a model: relative to the output file's folder, with forward slashes;
 /// absolute where there is no relative one. Neither file needs to exist. A relative argument counts

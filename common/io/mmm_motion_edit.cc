@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <memory>
 #include <optional>
 #include <unordered_set>
+#include <utility>
 
 #include "common/io/long_xml.h"
 #include "common/io/mmm_motion.h"
@@ -22,8 +25,9 @@ namespace {
 struct Edit {
   std::uint64_t begin;
   std::uint64_t end;
-  std::string before;         ///< new text
-  bool with_sensors = false;  ///< the sensors' elements follow it, and then
+  std::string before;  ///< new text
+  /// The elements of its sensors follow the new text, and then `after`; null: none.
+  const MmmMotionOutput* with_sensors = nullptr;
   std::string after = {};
 };
 
@@ -96,7 +100,7 @@ bool IsReplaced(const XmlElement& sensor, const MmmMotionOutput& output,
 void EditSensors(const XmlElement& element, const XmlRange& range, const ByteSource& content,
                  const MmmMotionOutput& output, std::vector<Edit>* edits) {
   if (range.inner_begin == range.end) {  // <Sensors/>
-    edits->push_back({range.begin, range.end, "<Sensors>\n\t\t\t", true, "\n\t\t</Sensors>"});
+    edits->push_back({range.begin, range.end, "<Sensors>\n\t\t\t", &output, "\n\t\t</Sensors>"});
     return;
   }
   const std::unordered_set<std::string> joints(output.trajectory->joint_names.begin(),
@@ -106,13 +110,13 @@ void EditSensors(const XmlElement& element, const XmlRange& range, const ByteSou
   for (std::size_t i = 0; i < element.children.size(); ++i) {
     const XmlRange& sensor = range.children[i];
     if (IsReplaced(element.children[i], output, joints)) {
-      edits->push_back(edits->size() == first ? Edit{sensor.begin, sensor.end, "", true}
+      edits->push_back(edits->size() == first ? Edit{sensor.begin, sensor.end, "", &output}
                                               : Removal(content, before, sensor));
     }
     before = sensor.end;
   }
   if (edits->size() == first) {
-    edits->push_back({range.inner_begin, range.inner_begin, "\n\t\t\t", true});
+    edits->push_back({range.inner_begin, range.inner_begin, "\n\t\t\t", &output});
   }
 }
 
@@ -162,8 +166,8 @@ void CheckSameTree(const XmlElement& element, const XmlRange& range, int depth,
 
 }  // namespace
 
-TextPieces WithConvertedMotion(const ByteSource& content, const std::string& file,
-                               const MmmMotionOutput& output) {
+TextPieces WithConvertedMotions(const ByteSource& content, const std::string& file,
+                                const std::vector<MmmMotionOutput>& outputs) {
   constexpr int kDepth = 3;  // MMM / Motion / Sensors / Sensor
   LongXml xml(content, file, {"Measurement"}, kDepth + 1);
   xml.CheckTheRest();
@@ -174,17 +178,25 @@ TextPieces WithConvertedMotion(const ByteSource& content, const std::string& fil
   }
   const XmlRange range = FindXmlRanges(content, kDepth);
   CheckSameTree(root, range, kDepth, file);
-  const std::size_t index = FindMotion(root, file, output.motion_name);
-  CheckWritable(output);
-  return [content, output,
-          edits = EditsOf(root.children[index], range.children[index], content, file, output)](
-             const TextSink& sink) {
+  // The edits point to them.
+  const auto kept = std::make_shared<const std::vector<MmmMotionOutput>>(outputs);
+  std::vector<Edit> edits;
+  for (const MmmMotionOutput& output : *kept) {
+    const std::size_t index = FindMotion(root, file, output.motion_name);
+    CheckWritable(output);
+    std::vector<Edit> more =
+        EditsOf(root.children[index], range.children[index], content, file, output);
+    std::move(more.begin(), more.end(), std::back_inserter(edits));
+  }
+  std::stable_sort(edits.begin(), edits.end(),
+                   [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
+  return [content, kept, edits = std::move(edits)](const TextSink& sink) {
     PieceWriter pieces(sink);
     std::uint64_t done = 0;
     for (const Edit& edit : edits) {
       CopyBytes(content, done, edit.begin, &pieces);
       *pieces.text() += edit.before;
-      if (edit.with_sensors) AppendSensorElements(output, &pieces);
+      if (edit.with_sensors != nullptr) AppendSensorElements(*edit.with_sensors, &pieces);
       *pieces.text() += edit.after;
       done = edit.end;
     }

@@ -158,24 +158,35 @@ std::ptrdiff_t ChooseMotion(const MmmMotionFile& mmm, const std::string& wanted,
   return most - mmm.motions.data();
 }
 
+/// Takes the markers out of the motion.
+Recording TakeMotion(const MmmMotionFile& mmm, const ReadRecordingOptions& options,
+                     const std::string& file, MmmMotion* motion) {
+  Recording recording;
+  recording.file = file;
+  recording.format = "MMM " + mmm.version;
+  recording.num_motions = static_cast<int>(mmm.motions.size());
+  recording.motion = motion->name;
+  recording.is_of_person =
+      motion->height || !motion->trajectory.joint_names.empty() || motion->type == "mmm";
+  recording.height = motion->height;
+  recording.mass = motion->mass;
+  recording.hand_length = motion->hand_length;
+  recording.model_path = motion->model_path;
+  recording.markers = std::move(motion->markers);
+  recording.unit = "mm";
+  if (options.unit) Warn("MMM files are always in mm; the unit given is not used", &recording);
+  if (options.up_axis) {
+    recording.up_axis = *options.up_axis;
+    ToMetresAndZUp(1, recording.up_axis, &recording.markers);
+  }
+  return recording;
+}
+
 void ReadMmm(const ReadRecordingOptions& options, Recording* recording) {
   MmmMotionFile mmm = ReadMmmMotionFile(recording->file);
-  MmmMotion& motion = mmm.motions[ChooseMotion(mmm, options.motion, recording->file)];
-  recording->format = "MMM " + mmm.version;
-  recording->num_motions = static_cast<int>(mmm.motions.size());
-  recording->motion = motion.name;
-  recording->height = motion.height;
-  recording->mass = motion.mass;
-  recording->hand_length = motion.hand_length;
-  recording->model_path = motion.model_path;
-  recording->markers = std::move(motion.markers);
-  recording->unit = "mm";
-  Append(mmm.warnings, &recording->warnings);
-  if (options.unit) Warn("MMM files are always in mm; the unit given is not used", recording);
-  if (options.up_axis) {
-    recording->up_axis = *options.up_axis;
-    ToMetresAndZUp(1, recording->up_axis, &recording->markers);
-  }
+  MmmMotion* motion = &mmm.motions[ChooseMotion(mmm, options.motion, recording->file)];
+  *recording = TakeMotion(mmm, options, recording->file, motion);
+  recording->warnings.insert(recording->warnings.begin(), mmm.warnings.begin(), mmm.warnings.end());
 }
 
 void ReadText(std::string_view start, const ReadRecordingOptions& options, Recording* recording) {
@@ -223,6 +234,25 @@ Recording ReadRecording(const std::string& path, const ReadRecordingOptions& opt
     ReadC3d(options, &recording);
   }
   return recording;
+}
+
+std::vector<Recording> ReadAllMotions(const std::string& path,
+                                      const ReadRecordingOptions& options) {
+  if (!LooksLikeMmmMotion(ReadFileStart(path, kMostBytesBeforeTheRoot))) {
+    throw Error(
+        fmt::format("{}: is not an MMM motion file; only these have several motions", path));
+  }
+  MmmMotionFile mmm = ReadMmmMotionFile(path);
+  std::vector<Recording> recordings;
+  recordings.reserve(mmm.motions.size());
+  for (MmmMotion& motion : mmm.motions) {
+    recordings.push_back(TakeMotion(mmm, options, path, &motion));
+  }
+  if (!recordings.empty()) {
+    std::vector<std::string>& warnings = recordings.front().warnings;
+    warnings.insert(warnings.begin(), mmm.warnings.begin(), mmm.warnings.end());
+  }
+  return recordings;
 }
 
 }  // namespace mmm_converter

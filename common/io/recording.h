@@ -37,9 +37,10 @@ struct Recording {
   std::string subject;                ///< the one that was read; empty: no prefix
   std::string motion;                 ///< MMM files: name of the motion that was read
   int num_motions = 0;                ///< MMM files: motions in the file
-  long first_frame = 1;               ///< number of the first stored frame in the capture
-  std::optional<double> height;       ///< [m], MMM files
-  std::optional<double> mass;         ///< [kg], MMM files
+  bool is_of_person = false;     ///< MMM files: that states a height, joints, or the type "mmm"
+  long first_frame = 1;          ///< number of the first stored frame in the capture
+  std::optional<double> height;  ///< [m], MMM files
+  std::optional<double> mass;    ///< [kg], MMM files
   std::optional<double> hand_length;  ///< [m], MMM files
   std::string model_path;             ///< MMM files: the model as the file names it
   std::string comment;                ///< C3D files of this project: what they say of themselves
@@ -50,5 +51,10 @@ struct Recording {
 /// @throws Error (no such file, empty, not a recording, no whole frame, several subjects or motions
 /// and none chosen: the message lists them).
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options);
+
+/// All motions of an MMM motion file, in its order; those without markers have no labels.
+/// options.motion does not count. Warnings of the file are the first one's.
+/// @throws Error as ReadRecording, and for a file of another format.
+std::vector<Recording> ReadAllMotions(const std::string& path, const ReadRecordingOptions& options);
 
 }  // namespace mmm_converter

@@ -57,7 +57,7 @@ MmmMotionOutput Output(const PoseTrajectory& trajectory, const std::string& name
 std::string MessageOf(const std::string& content, const std::string& name) {
   const PoseTrajectory trajectory = OneFrame();
   try {
-    Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, name)));
+    Join(WithConvertedMotions(BytesOf(content), "walk.xml", {Output(trajectory, name)}));
   } catch (const Error& error) {
     return error.what();
   }
@@ -69,15 +69,16 @@ TEST(MmmMotionEdit, ElementsOfAnyNameMayStandWhereMmmHasNone) {
   const std::string own = "<Notes><Measurement>1</Measurement><Measurement>2</Measurement></Notes>";
   content.insert(content.find("    <Annotation"), own);
   const PoseTrajectory trajectory = OneFrame();
-  EXPECT_THAT(Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "human"))),
-              HasSubstr(own));
+  EXPECT_THAT(
+      Join(WithConvertedMotions(BytesOf(content), "walk.xml", {Output(trajectory, "human")})),
+      HasSubstr(own));
 }
 
 TEST(MmmMotionEdit, ChangesOnlyWhatIsConverted) {
   const PoseTrajectory trajectory = OneFrame();
   const std::string content = kFile;
   const std::string text =
-      Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "human")));
+      Join(WithConvertedMotions(BytesOf(content), "walk.xml", {Output(trajectory, "human")}));
   // Up to the model, and from the marker sensor on, nothing has changed.
   const std::string head = content.substr(0, content.find("<Model path='old.xml'/>"));
   EXPECT_EQ(text.substr(0, head.size()), head);
@@ -98,7 +99,7 @@ TEST(MmmMotionEdit, ChangesOnlyWhatIsConverted) {
   EXPECT_EQ(file.Find("human")->trajectory.postures[0].joint_angles[0], 0.5);
   EXPECT_EQ(file.Find("human")->markers.num_frames(), 1);
   // A second conversion of the result changes nothing more.
-  EXPECT_EQ(Join(WithConvertedMotion(BytesOf(text), "walk.xml", Output(trajectory, "human"))),
+  EXPECT_EQ(Join(WithConvertedMotions(BytesOf(text), "walk.xml", {Output(trajectory, "human")})),
             text);
 }
 
@@ -107,7 +108,7 @@ TEST(MmmMotionEdit, ReplacesMarkersWhereSomeAreGiven) {
   const MarkerSequence markers({"T10"}, 1, 100, 0);
   MmmMotionOutput output = Output(trajectory, "human");
   output.markers = &markers;
-  const std::string text = Join(WithConvertedMotion(BytesOf(kFile), "walk.xml", output));
+  const std::string text = Join(WithConvertedMotions(BytesOf(kFile), "walk.xml", {output}));
   EXPECT_THAT(text, Not(HasSubstr("name='C7'")));
   EXPECT_THAT(text, HasSubstr("<Sensor type=\"MoCapMarker\""));
 }
@@ -118,7 +119,7 @@ TEST(MmmMotionEdit, FillsWhatIsMissing) {
     const std::string content =
         "<MMM version='2.0'><Motion name='a'>" + std::string(sensors) + "</Motion></MMM>";
     const std::string text =
-        Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "a")));
+        Join(WithConvertedMotions(BytesOf(content), "walk.xml", {Output(trajectory, "a")}));
     const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
     EXPECT_EQ(file.motions[0].trajectory.num_frames(), 1) << text;
     EXPECT_EQ(file.motions[0].model_path, "new.xml");
@@ -151,7 +152,7 @@ TEST(MmmMotionEdit, DamagedFilesAreEditedOrRefused) {
       content[random() % content.size()] = kBytes[random() % kBytes.size()];
     try {
       const std::string text =
-          Join(WithConvertedMotion(BytesOf(content), "walk.xml", Output(trajectory, "human")));
+          Join(WithConvertedMotions(BytesOf(content), "walk.xml", {Output(trajectory, "human")}));
       EXPECT_NO_THROW(ParseXml(text, "own.xml")) << content;
       ++edited;
       ParseMmmMotionFile(content, "walk.xml");
@@ -170,7 +171,7 @@ TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
   body.joint_names.resize(44);
   for (Posture& q : body.postures) q.joint_angles = q.joint_angles.head(44).eval();
   MmmMotionOutput output = Output(body, "true_1723");
-  const std::string text = Join(WithConvertedMotion(BytesOf(content), "stir.xml", output));
+  const std::string text = Join(WithConvertedMotions(BytesOf(content), "stir.xml", {output}));
   const auto motion_at = [](const std::string& t, const std::string& name) {
     return t.find("<Motion name=\"" + name + "\"");
   };
@@ -184,7 +185,7 @@ TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
   EXPECT_EQ(converted.markers.num_frames(), 79);
   EXPECT_EQ(converted.markers.frame(78), file.Find("true_1723")->markers.frame(78));
   EXPECT_EQ(converted.height, 1.7);
-  EXPECT_TRUE(Join(WithConvertedMotion(BytesOf(text), "own.xml", output)) == text);
+  EXPECT_TRUE(Join(WithConvertedMotions(BytesOf(text), "own.xml", {output})) == text);
 }
 
 TEST(ModelPath, IsRelativeToTheOutputWhereTheyAreNeighbours) {

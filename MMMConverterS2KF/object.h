@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/input.h"
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_mapping.h"
+
+namespace mmm_converter {
+
+/// Where an object's model may be.
+struct ObjectRequest {
+  /// Folder of models, each called as its motion + ".xml"; empty: there is none yet.
+  std::string models;
+  std::string new_models;        ///< folder for models that are built from markers
+  bool has_model_given = false;  ///< the input's reference model is one that the user named
+};
+
+/// Where the model of a rigid object is from.
+struct ObjectModel {
+  std::string source;   ///< "given", "named by the motion", "in MODELS", "built from N frames"
+  std::string text;     ///< of the file to write at Input::model_file; empty: that is there already
+  double distance = 0;  ///< of the markers from a built shape, root mean square [m]
+};
+
+/// The recorded thing, where it is an object rather than a person: the model given has no joints;
+/// or none is given and the recording is an MMM motion that states neither a height nor joints,
+/// with labels that no marker set of persons knows. Its model then becomes the input's: the one
+/// given, else the one of its name in request.models, else the file that the motion names if that
+/// is there and has its markers, else one that is built from the markers (EstimateRigidShape). What
+/// the configuration says of persons (scaling, subject, joints, a mapping to other markers) is
+/// taken out of it.
+/// @throws Error
+std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
+                                      ConverterConfig* config);
+
+/// @throws Error where the mapped markers of an object do not determine its pose.
+void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping);
+
+}  // namespace mmm_converter

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include "common/fit/rigid_shape.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/math/statistics.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+
+using Eigen::Index;
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::Ref;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kFewest = 3;  // markers of a pose
+
+// Frames that are looked at; more make the shape hardly better.
+constexpr int kMostFrames = 1000;
+
+// A frame whose distances between markers differ by more than this many times what is usual is
+// left out; so are points off a line by less than as much. What no system resolves is the least.
+constexpr double kUnusual = 3;
+constexpr double kResolution = 1e-5;  // [m]
+// Points are on a line where they are nearer to it than this share of their extent.
+constexpr double kThinnest = 1e-3;
+
+// Markers that stray from their shape by more than this share of its radius are no rigid body.
+constexpr double kMostStray = 0.1;
+
+constexpr int kMostIterations = 200;
+constexpr double kConverged = 1e-9;  // [m]
+
+bool IsPoint(const Ref<const Vector3d>& p) { return p.allFinite(); }
+
+int CountPoints(const Ref<const Matrix3Xd>& points) {
+  int count = 0;
+  for (Index i = 0; i < points.cols(); ++i) count += IsPoint(points.col(i));
+  return count;
+}
+
+Vector3d MeanPoint(const Ref<const Matrix3Xd>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (Index i = 0; i < points.cols(); ++i) {
+    if (IsPoint(points.col(i))) sum += points.col(i);
+  }
+  return sum / CountPoints(points);
+}
+
+// Root mean square along the three principal axes, the largest first [m].
+Vector3d PrincipalExtents(const Ref<const Matrix3Xd>& points) {
+  const Vector3d mean = MeanPoint(points);
+  Matrix3d scatter = Matrix3d::Zero();
+  for (Index i = 0; i < points.cols(); ++i) {
+    if (!IsPoint(points.col(i))) continue;
+    const Vector3d p = points.col(i) - mean;
+    scatter += p * p.transpose();
+  }
+  const Eigen::JacobiSVD<Matrix3d> svd(scatter / CountPoints(points));
+  return svd.singularValues().cwiseSqrt();
+}
+
+class ShapeEstimator {
+ public:
+  explicit ShapeEstimator(const MarkerSequence& recording) : recording_(recording) {
+    TakeFrames();
+    LeaveOutUnusualFrames();
+  }
+
+  RigidShape Estimate() {
+    const int start = FindStart();
+    shape_ = frames_[start].colwise() - MeanPoint(frames_[start]);
+    for (int i = 0; i < kMostIterations && Improve() > kConverged; ++i) {
+    }
+    return Finish(start);
+  }
+
+ private:
+  void TakeFrames() {
+    std::vector<int> usable;
+    int most = 0;
+    for (int k = 0; k < recording_.num_frames(); ++k) {
+      const int seen = CountPoints(recording_.frame(k));
+      most = std::max(most, seen);
+      if (seen >= kFewest) usable.push_back(k);
+    }
+    if (usable.empty()) {
+      throw Error(
+          fmt::format("no frame shows three of the {} markers ({}) together, at most {}; the pose "
+                      "of a rigid object needs three",
+                      recording_.num_labels(), fmt::join(recording_.labels(), ", "), most));
+    }
+    const std::size_t count = std::min<std::size_t>(usable.size(), kMostFrames);
+    frames_.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      frames_.emplace_back(recording_.frame(usable[i * usable.size() / count]));
+    }
+  }
+
+  // Median over the frames of each distance between two markers; NaN: never seen together.
+  Eigen::MatrixXd UsualDistances() const {
+    const int labels = recording_.num_labels();
+    Eigen::MatrixXd usual = Eigen::MatrixXd::Constant(labels, labels, kNaN);
+    std::vector<double> distances(frames_.size());
+    for (int i = 0; i < labels; ++i) {
+      for (int j = 0; j < i; ++j) {
+        for (std::size_t k = 0; k < frames_.size(); ++k) {
+          distances[k] = (frames_[k].col(i) - frames_[k].col(j)).norm();
+        }
+        usual(i, j) = Median(distances);
+      }
+    }
+    return usual;
+  }
+
+  void LeaveOutUnusualFrames() {
+    const Eigen::MatrixXd usual = UsualDistances();
+    std::vector<double> strains(frames_.size(), 0.0);
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      const Matrix3Xd& frame = frames_[k];
+      for (Index i = 0; i < frame.cols(); ++i) {
+        for (Index j = 0; j < i; ++j) {
+          const double strain = std::abs((frame.col(i) - frame.col(j)).norm() - usual(i, j));
+          if (std::isfinite(strain)) strains[k] = std::max(strains[k], strain);
+        }
+      }
+    }
+    tolerance_ = std::max(kUnusual * Median(strains), kResolution);
+    std::vector<Matrix3Xd> kept;
+    kept.reserve(frames_.size());
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      if (strains[k] <= tolerance_) kept.push_back(std::move(frames_[k]));
+    }
+    frames_ = std::move(kept);
+  }
+
+  bool DeterminesPose(const Matrix3Xd& points) const {
+    if (CountPoints(points) < kFewest) return false;
+    const Vector3d extents = PrincipalExtents(points);
+    return extents[1] > std::max(tolerance_, kThinnest * extents[0]);
+  }
+
+  // The first of the frames that show most markers.
+  int FindStart() const {
+    int start = -1;
+    int most = 0;
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      const int seen = CountPoints(frames_[k]);
+      if (seen <= most || !DeterminesPose(frames_[k])) continue;
+      start = static_cast<int>(k);
+      most = seen;
+    }
+    if (start < 0) ThrowNoStart();
+    return start;
+  }
+
+  [[noreturn]] void ThrowNoStart() const {
+    constexpr double kBesideALine = 0.1;  // of the extent along it
+    const bool is_line = std::none_of(frames_.begin(), frames_.end(), [](const Matrix3Xd& frame) {
+      const Vector3d extents = PrincipalExtents(frame);
+      return extents[1] > kBesideALine * extents[0];
+    });
+    const std::string names = fmt::format("{}", fmt::join(recording_.labels(), ", "));
+    if (is_line) {
+      throw Error(
+          fmt::format("the markers ({}) stand on a line, to within {:.2g} mm: turns about it can't "
+                      "be seen; one more marker beside it is needed",
+                      names, 1e3 * tolerance_));
+    }
+    throw Error(
+        fmt::format("the markers ({}) are no rigid object: in most frames distances between them "
+                    "differ by {:.2g} mm or more from their medians",
+                    names, 1e3 * tolerance_ / kUnusual));
+  }
+
+  // What a frame shows of the markers whose places are known.
+  Matrix3Xd KnownPoints(const Matrix3Xd& frame) const {
+    Matrix3Xd known = frame;
+    for (Index i = 0; i < known.cols(); ++i) {
+      if (!IsPoint(shape_.col(i))) known.col(i).setConstant(kNaN);
+    }
+    return known;
+  }
+
+  Isometry3d PoseIn(const Matrix3Xd& known) const {
+    Matrix3Xd places = shape_;
+    for (Index i = 0; i < places.cols(); ++i) {
+      if (!IsPoint(places.col(i))) places.col(i).setZero();
+    }
+    return FitRigidPose(places, known, VectorXd::Ones(places.cols()));
+  }
+
+  // Each place becomes the mean of where the frames have it; how far the farthest moved [m].
+  double Improve() {
+    Matrix3Xd sum = Matrix3Xd::Zero(3, shape_.cols());
+    VectorXd count = VectorXd::Zero(shape_.cols());
+    for (const Matrix3Xd& frame : frames_) {
+      const Matrix3Xd known = KnownPoints(frame);
+      if (!DeterminesPose(known)) continue;
+      const Isometry3d X_OW = PoseIn(known).inverse();
+      for (Index i = 0; i < frame.cols(); ++i) {
+        if (!IsPoint(frame.col(i))) continue;
+        sum.col(i) += X_OW * Vector3d(frame.col(i));
+        count[i] += 1;
+      }
+    }
+    double moved = 0;
+    for (Index i = 0; i < shape_.cols(); ++i) {
+      if (count[i] == 0) continue;
+      const Vector3d place = sum.col(i) / count[i];
+      const double step = (place - shape_.col(i)).norm();
+      moved = std::max(moved, std::isfinite(step) ? step : 1.0);  // a new one: go on
+      shape_.col(i) = place;
+    }
+    return moved;
+  }
+
+  RigidShape Finish(int start) {
+    const Matrix3d R_WO = PoseIn(KnownPoints(frames_[start])).linear();
+    shape_ = (R_WO * (shape_.colwise() - MeanPoint(shape_))).eval();
+    RigidShape result;
+    double squares = 0;
+    int points = 0;
+    for (const Matrix3Xd& frame : frames_) {
+      const Matrix3Xd known = KnownPoints(frame);
+      if (!DeterminesPose(known)) continue;
+      ++result.frames;
+      const Matrix3Xd away = PoseIn(known) * shape_ - known;
+      for (Index i = 0; i < away.cols(); ++i) {
+        if (!IsPoint(away.col(i))) continue;
+        squares += away.col(i).squaredNorm();
+        ++points;
+      }
+    }
+    result.distance = std::sqrt(squares / points);
+    const double radius = PrincipalExtents(shape_).norm();
+    if (result.distance > kMostStray * radius) {
+      throw Error(
+          fmt::format("the {} markers are no rigid object: they stray {:.0f} mm from their best "
+                      "common shape of {:.0f} mm (root mean square radius)",
+                      recording_.num_labels(), 1e3 * result.distance, 1e3 * radius));
+    }
+    for (int i = 0; i < recording_.num_labels(); ++i) {
+      if (IsPoint(shape_.col(i))) result.labels.push_back(i);
+    }
+    result.p_OM = shape_(Eigen::all, result.labels);
+    return result;
+  }
+
+  const MarkerSequence& recording_;
+  std::vector<Matrix3Xd> frames_;
+  double tolerance_ = 0;  // [m]
+  Matrix3Xd shape_;       // by label; NaN: not yet known
+};
+
+}  // namespace
+
+Isometry3d FitRigidPose(const Ref<const Matrix3Xd>& p_OM, const Ref<const Matrix3Xd>& z,
+                        const Ref<const VectorXd>& weights) {
+  double total = 0;
+  Vector3d center_z = Vector3d::Zero();
+  Vector3d center_p = Vector3d::Zero();
+  for (Index m = 0; m < z.cols(); ++m) {
+    if (!z.col(m).allFinite()) continue;
+    total += weights[m];
+    center_z += weights[m] * z.col(m);
+    center_p += weights[m] * p_OM.col(m);
+  }
+  center_z /= total;
+  center_p /= total;
+  Matrix3d correlation = Matrix3d::Zero();
+  for (Index m = 0; m < z.cols(); ++m) {
+    if (!z.col(m).allFinite()) continue;
+    correlation += weights[m] * (z.col(m) - center_z) * (p_OM.col(m) - center_p).transpose();
+  }
+  const Eigen::JacobiSVD<Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  const Matrix3d R = svd.matrixU() * Vector3d(1, 1, handedness < 0 ? -1 : 1).asDiagonal() *
+                     svd.matrixV().transpose();
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = R;
+  X.translation() = center_z - R * center_p;
+  return X;
+}
+
+double DistanceFromLine(const Ref<const Matrix3Xd>& points) {
+  return CountPoints(points) < kFewest ? 0 : PrincipalExtents(points).tail<2>().norm();
+}
+
+RigidShape EstimateRigidShape(const MarkerSequence& recording) {
+  return ShapeEstimator(recording).Estimate();
+}
+
+}  // namespace mmm_converter
