@@ -13,6 +13,7 @@
 
 #include "common/convert/marker_set.h"
 #include "common/fit/rigid_shape.h"
+#include "common/io/mmm_model.h"
 #include "common/io/mmm_object_model.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"

@@ -21,7 +21,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Going backwards from a posture that was found later goes on while it is no farther from the
-// markers than this share beyond the track, and ends where no joint angle differs by more [rad].
+// markers than this share beyond the track, and ends where neither the root's orientation nor a
+// joint angle differs by more [rad].
 constexpr double kNoFarther = 1.02;
 constexpr double kSameAngle = 0.02;
 
@@ -30,6 +31,11 @@ constexpr double kSameAngle = 0.02;
 // and this [m].
 constexpr double kMuchFarther = 1.5;
 constexpr double kMuchFartherDistance = 0.01;
+
+bool IsSamePosture(const Posture& a, const Posture& b) {
+  const auto apart = (a.joint_angles - b.joint_angles).array().abs();
+  return a.orientation.angularDistance(b.orientation) < kSameAngle && (apart < kSameAngle).all();
+}
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -97,8 +103,7 @@ void S2kfConverter::FindRetakes(const MarkerSequence& recording, const Conversio
       --k;
       checkpoints->retakes[k] = posture_;
       checkpoints->retakes.erase(k + 1);
-      const VectorXd apart = posture_.joint_angles - result.trajectory.postures[k].joint_angles;
-      if (apart.cwiseAbs().maxCoeff() < kSameAngle) break;
+      if (IsSamePosture(posture_, result.trajectory.postures[k])) break;
     }
   }
 }
