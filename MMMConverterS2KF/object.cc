@@ -88,7 +88,7 @@ bool HasMarkers(const KinematicModel& model, const Input& input, const Converter
 }
 
 // The file that the motion names, if it is there and has markers to track.
-bool UseNamedModel(const ConverterConfig& config, Input* input) {
+bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input* input) {
   const Recording& recording = input->recording;
   if (recording.model_path.empty()) return false;
   const std::string file =
@@ -99,16 +99,17 @@ bool UseNamedModel(const ConverterConfig& config, Input* input) {
     input->warnings.push_back(
         fmt::format("{}: the model of the motion {} has fewer than three of its markers ({}); one "
                     "is built from these",
-                    file, recording.motion, fmt::join(recording.markers.labels(), ", ")));
+                    file, name, fmt::join(recording.markers.labels(), ", ")));
     return false;
   }
   UseModel(file, std::move(model), input);
   return true;
 }
 
-KinematicModel ModelOf(const RigidShape& shape, const Recording& recording) {
+KinematicModel ModelOf(const std::string& name, const RigidShape& shape,
+                       const Recording& recording) {
   ModelDescription description;
-  description.name = recording.motion;
+  description.name = name;
   Segment root;
   root.name = "root_joint";
   description.segments.push_back(root);
@@ -119,30 +120,30 @@ KinematicModel ModelOf(const RigidShape& shape, const Recording& recording) {
   return KinematicModel(description);
 }
 
-void WarnOfUnplacedMarkers(const RigidShape& shape, Input* input) {
+void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape, Input* input) {
   const std::vector<std::string>& labels = input->recording.markers.labels();
   for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
     if (std::count(shape.labels.begin(), shape.labels.end(), i) > 0) continue;
     input->warnings.push_back(
         fmt::format("motion {}: marker {} is never seen with three others whose places are known, "
                     "and is left out of the model",
-                    input->recording.motion, labels[i]));
+                    name, labels[i]));
   }
 }
 
-ObjectModel BuildModel(const std::string& file, Input* input) {
+ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input) {
   const Recording& recording = input->recording;
   const RigidShape shape = EstimateRigidShape(recording.markers);
-  WarnOfUnplacedMarkers(shape, input);
+  WarnOfUnplacedMarkers(name, shape, input);
   ObjectModel built;
   built.source = fmt::format("built from {} frames", shape.frames);
   built.distance = shape.distance;
   built.text = FormatObjectModel(
-      ModelOf(shape, recording),
+      ModelOf(name, shape, recording),
       fmt::format("Built from the markers of the motion {} of {}: {} frames, {:.2f} mm from the "
-                  "markers (rms).\n     Origin: the markers' mean. Axes: the world's, in the first "
-                  "of the frames that show most markers.",
-                  recording.motion, fs::path(recording.file).filename().string(), shape.frames,
+                  "markers (rms). Origin: mean of the markers. Axes: those of the world in the "
+                  "first of the frames that show most markers.",
+                  name, fs::path(recording.file).filename().string(), shape.frames,
                   1e3 * shape.distance));
   MmmModel model = ParseMmmModel(built.text, file);
   UseModel(file, {std::move(model.model), true, {}, std::move(model.warnings)}, input);
@@ -150,9 +151,9 @@ ObjectModel BuildModel(const std::string& file, Input* input) {
 }
 
 ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& config, Input* input) {
-  const std::string name = FileNameOf(input->recording.motion);
+  const std::string file_name = FileNameOf(request.name);
   if (!request.models.empty()) {
-    const std::string file = (fs::path(request.models) / name).string();
+    const std::string file = (fs::path(request.models) / file_name).string();
     if (IsFile(file)) {
       LoadedModel model = ReadModelFile(file);
       if (!HasMarkers(model.model, *input, config)) {
@@ -165,8 +166,8 @@ ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& confi
       return {"in " + request.models, "", 0};
     }
   }
-  if (UseNamedModel(config, input)) return {"named by the motion", "", 0};
-  return BuildModel((fs::path(request.new_models) / name).string(), input);
+  if (UseNamedModel(request.name, config, input)) return {"named by the motion", "", 0};
+  return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input);
 }
 
 // A configuration is written for persons.
@@ -187,10 +188,15 @@ std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input
                                       ConverterConfig* config) {
   std::optional<ObjectModel> object;
   if (request.has_model_given) {
-    if (input->reference->num_joints() > 0) return std::nullopt;
+    const int joints = input->reference->num_joints();
+    if (joints > 0 && request.is_object) {
+      throw Error(fmt::format("{}: --object: the model has {} joints; give one without, or none",
+                              input->model_file, joints));
+    }
+    if (joints > 0) return std::nullopt;
     object = ObjectModel{"given", "", 0};
   } else {
-    if (IsPersonsRecording(*input, *config)) return std::nullopt;
+    if (!request.is_object && IsPersonsRecording(*input, *config)) return std::nullopt;
     object = FindModel(request, *config, input);
   }
   AdaptToObject(*input, config);

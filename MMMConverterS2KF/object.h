@@ -11,8 +11,10 @@
 
 namespace mmm_converter {
 
-/// Where an object's model may be.
+/// Whether a recording is an object's, and where its model may be.
 struct ObjectRequest {
+  bool is_object = false;  ///< the user says so
+  std::string name;        ///< of the motion
   /// Folder of models, each called as its motion + ".xml"; empty: there is none yet.
   std::string models;
   std::string new_models;        ///< folder for models that are built from markers
@@ -26,13 +28,13 @@ struct ObjectModel {
   double distance = 0;  ///< of the markers from a built shape, root mean square [m]
 };
 
-/// The recorded thing, where it is an object rather than a person: the model given has no joints;
-/// or none is given and the recording is an MMM motion that states neither a height nor joints,
-/// with labels that no marker set of persons knows. Its model then becomes the input's: the one
-/// given, else the one of its name in request.models, else the file that the motion names if that
-/// is there and has its markers, else one that is built from the markers (EstimateRigidShape). What
-/// the configuration says of persons (scaling, subject, joints, a mapping to other markers) is
-/// taken out of it.
+/// The recorded thing, where it is an object rather than a person: the user says so; the model
+/// given has no joints; or none is given and the recording is an MMM motion that states neither a
+/// height nor joints, with labels that no marker set of persons knows. Its model then becomes the
+/// input's: the one given, else the one of its name in request.models, else the file that the
+/// motion names if that is there and has its markers, else one that is built from the markers
+/// (EstimateRigidShape). What the configuration says of persons (scaling, subject, joints, a
+/// mapping to other markers) is taken out of it.
 /// @throws Error
 std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
                                       ConverterConfig* config);

@@ -39,6 +39,8 @@ void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
 // Models that are built go into the folder given, else into one beside the output.
 void TakeObject(const ConversionRequest& request, ConversionReport* report) {
   ObjectRequest object;
+  object.is_object = request.is_object;
+  object.name = report->motion_name;
   object.models = request.object_models;
   object.new_models = request.object_models;
   if (object.new_models.empty()) {

@@ -32,6 +32,7 @@ struct ConversionRequest {
   std::string model_output;               ///< also write the subject's model
   ExportFiles exports;                    ///< for other programs
   std::vector<std::string> more_outputs;  ///< that the caller writes
+  bool is_object = false;                 ///< of a rigid object, whatever the file says
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
   bool is_one_of_all = false;  ///< of the file's motions; the model named is that of persons

@@ -49,7 +49,8 @@ const std::vector<OptionGroup> kOwnOptions = {
       {"model-out", "FILE", "of a calibrated person: also write the model, for other MMM programs",
        ""}}},
     {"Objects",
-     {{"object-models", "DIR",
+     {{"object", "", "a rigid object was recorded, no person; MMM motions say so themselves", ""},
+      {"object-models", "DIR",
        "models of rigid objects, DIR/MOTION.xml each; one that is missing is built from its "
        "motion's "
        "markers and written there; default: all are built, into OUTPUT without ending + _objects",
@@ -76,6 +77,7 @@ Examples
   MMMConverterS2KF convert run.c3d --subject-file anna.xml
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
+  MMMConverterS2KF convert cup.c3d --object --object-models objects
   MMMConverterS2KF convert walk.c3d --frames 100:400 -c my.xml --format 1.0
   MMMConverterS2KF convert walk.c3d --height 1.75 --export-trc walk.trc --export-mot walk.mot
 )";
@@ -111,6 +113,7 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.self_calibrate = arguments.Has("self-calibrate");
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.model_output = arguments.Get("model-out").value_or("");
+  request.is_object = arguments.Has("object");
   request.object_models = arguments.Get("object-models").value_or("");
   if (request.self_calibrate && !request.input.person.subject_file.empty()) {
     throw UsageError(
@@ -133,8 +136,8 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
 
 // What has a place for one motion only.
 void CheckFitsAllMotions(const Arguments& arguments) {
-  for (const char* option :
-       {"export-csv", "export-trc", "export-mot", "model-path", "subject-out", "model-out"}) {
+  for (const char* option : {"object", "export-csv", "export-trc", "export-mot", "model-path",
+                             "subject-out", "model-out"}) {
     if (!arguments.Has(option)) continue;
     throw UsageError(fmt::format(
         "convert: --{} is for one motion, not for --motion all; use --motion NAME", option));

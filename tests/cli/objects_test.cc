@@ -12,6 +12,7 @@
 #include "common/math/rotation.h"
 #include "tests/cli/pose_deviation.h"
 #include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/test_plugins.h"
 
 namespace mmm_converter {
@@ -213,6 +214,33 @@ TEST(Objects, TheModelThatTheMotionNamesIsTakenWhereItIsThere) {
   const MmmMotionFile file = ReadMmmMotionFile(output);
   const Posture& last = FindMotion(file, "box").trajectory.postures.back();
   EXPECT_LT((last.position - PoseAt(59).translation()).norm(), 1e-3 * kLagMillimetres);
+}
+
+TEST(Objects, RecordingsOfOtherFormatsAreObjectsWhereTheUserSaysSo) {
+  const std::string trc = TestFolder() + "/box.trc";
+  const auto write = RunProgram({"convert", WriteRecording(ObjectMotion("box", kBox)), "--motion",
+                                 "box", "-o", TestFolder() + "/a.xml", "--export-trc", trc});
+  ASSERT_EQ(write.exit_code, 0) << write.err;
+  const std::string models = TestFolder() + "/models";
+  const std::string output = TestFolder() + "/b.xml";
+  const std::vector<std::string> call = {
+      "convert", trc, "--object", "--object-models", models, "--up", "y", "-o", output};
+  const auto run = RunProgram(call);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("built from 60 frames"));
+  const MmmMotionFile file = ReadMmmMotionFile(output);
+  const MmmMotion& motion = FindMotion(file, "box");
+  EXPECT_EQ(motion.model_path, "models/box.xml");
+  const Deviation deviation = DeviationOf(PosesOf(motion), TruePoses(0, 60));
+  EXPECT_LT(deviation.millimetres, kLagMillimetres);
+  EXPECT_LT(deviation.degrees, kLagDegrees);
+
+  const auto person = RunProgram({"convert", trc, "--up", "y", "-o", output});
+  EXPECT_EQ(person.exit_code, 1);
+  const auto joints = RunProgram({"convert", trc, "--object", "--model",
+                                  testing::SourcePath("xml_config/models/mmm.xml"), "-o", output});
+  EXPECT_EQ(joints.exit_code, 1);
+  EXPECT_THAT(joints.err, HasSubstr("--object: the model has"));
 }
 
 TEST(Objects, AMotionThatFailsIsNamedAndTheOthersAreConverted) {
