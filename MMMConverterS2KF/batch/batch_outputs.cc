@@ -22,7 +22,9 @@ void MakeFolder(const std::string& path) {
 }  // namespace
 
 std::string MotionPath(const std::string& id) { return "motions/" + id + ".xml"; }
-std::string CsvPath(const std::string& id) { return "csv/" + id + ".csv"; }
+std::string ExportPath(const std::string& format, const std::string& id) {
+  return format + "/" + id + "." + format;
+}
 std::string SubjectPath(const std::string& id) { return "subjects/" + id + ".xml"; }
 std::string PagePath(const std::string& id) { return "reports/" + id + ".html"; }
 
@@ -42,7 +44,9 @@ bool BatchFolder::Has(const std::string& relative) const {
 
 std::vector<std::string> BatchFolder::OutputsOf(const BatchEntry& entry) {
   std::vector<std::string> outputs = {MotionPath(entry.id)};
-  if (entry.csv) outputs.push_back(CsvPath(entry.id));
+  for (const std::string& format : entry.exports) {
+    outputs.push_back(ExportPath(format, entry.id));
+  }
   if (entry.request.self_calibrate) outputs.push_back(SubjectPath(entry.id));
   return outputs;
 }

@@ -14,7 +14,7 @@ namespace mmm_converter {
 
 /// Where an entry's files are, relative to the output folder.
 std::string MotionPath(const std::string& id);
-std::string CsvPath(const std::string& id);
+std::string ExportPath(const std::string& format, const std::string& id);
 std::string SubjectPath(const std::string& id);
 std::string PagePath(const std::string& id);
 

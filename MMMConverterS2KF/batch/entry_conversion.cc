@@ -9,7 +9,10 @@ namespace mmm_converter {
 ConversionReport ConvertEntry(const BatchEntry& entry, const BatchFolder& folder,
                               ConversionRequest* request, const std::function<bool()>& goes_on) {
   request->output = folder.Full(MotionPath(entry.id));
-  if (entry.csv) request->exports.csv = folder.Full(CsvPath(entry.id));
+  const auto path_of = [&](const std::string& format) {
+    return entry.exports.contains(format) ? folder.Full(ExportPath(format, entry.id)) : "";
+  };
+  request->exports = {path_of("csv"), path_of("trc"), path_of("mot")};
   if (request->self_calibrate) request->subject_output = folder.Full(SubjectPath(entry.id));
   return RunConversion(*request, [&](int, int) { return goes_on(); });
 }

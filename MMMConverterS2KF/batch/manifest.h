@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct BatchEntry {
   int line = 0;               ///< in the manifest
   ConversionRequest request;  ///< without outputs
   std::map<std::string, std::string> settings;  ///< the attributes that the request is made of
-  bool csv = false;                             ///< write postures as CSV too
+  std::set<std::string> exports;                ///< "csv", "mot", "trc": written too
   std::map<std::string, std::string> metadata;  ///< passed on to the results
 };
 

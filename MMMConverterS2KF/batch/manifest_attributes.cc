@@ -35,6 +35,17 @@ std::string TakeBoolean(const std::string& value, bool* flag) {
   return *flag || value == "false" ? "" : "use true or false";
 }
 
+std::string TakeExport(const std::string& format, const std::string& value, BatchEntry* entry) {
+  bool is_wanted = false;
+  const std::string expected = TakeBoolean(value, &is_wanted);
+  if (is_wanted) {
+    entry->exports.insert(format);
+  } else {
+    entry->exports.erase(format);
+  }
+  return expected;
+}
+
 // What a parser of command line options says of its value.
 template <typename Parse>
 std::string TakeParsed(Parse parse) {
@@ -46,8 +57,8 @@ std::string TakeParsed(Parse parse) {
   return "";
 }
 
-// A file beside the manifest, or the name of a shipped configuration.
-std::string FindConfig(const std::string& value, const std::string& folder) {
+// A file beside the manifest, or the name of something shipped.
+std::string FindShipped(const std::string& value, const std::string& folder) {
   const std::string file = FileIn(folder, value);
   const bool is_name = value.find('/') == std::string::npos && !value.ends_with(".xml");
   return is_name && !fs::exists(file) ? value : file;
@@ -62,7 +73,7 @@ const std::vector<ManifestAttribute>& ManifestAttributes() {
   static const std::vector<ManifestAttribute> attributes = {
       {"config", "the converter's configuration: a file, or the name of a shipped one",
        [](Value v, Value folder, Settings s) {
-         s->request.converter.config = FindConfig(v, folder);
+         s->request.converter.config = FindShipped(v, folder);
          return std::string();
        }},
       {"plugin", "the converter's plugin file, where it is none of the installed",
@@ -73,6 +84,12 @@ const std::vector<ManifestAttribute>& ManifestAttributes() {
       {"model", "reference model; the shipped MMM model without it",
        [](Value v, Value folder, Settings s) {
          s->request.input.model_file = FileIn(folder, v);
+         return std::string();
+       }},
+      {"markerSet",
+       "which labels stand for which markers, and where these are: a file, or a shipped set",
+       [](Value v, Value folder, Settings s) {
+         s->request.input.marker_set = FindShipped(v, folder);
          return std::string();
        }},
       {"modelPath", "what motions say of where their model is; relative to them without it",
@@ -143,7 +160,11 @@ const std::vector<ManifestAttribute>& ManifestAttributes() {
          return v == "2.0" || v == "1.0" ? "" : "use 2.0 or 1.0";
        }},
       {"csv", "true: write postures and their standard deviations as CSV too",
-       [](Value v, Value, Settings s) { return TakeBoolean(v, &s->csv); }}};
+       [](Value v, Value, Settings s) { return TakeExport("csv", v, s); }},
+      {"trc", "true: write markers, measured and the model's, as TRC too",
+       [](Value v, Value, Settings s) { return TakeExport("trc", v, s); }},
+      {"mot", "true: write postures for OpenSim too",
+       [](Value v, Value, Settings s) { return TakeExport("mot", v, s); }}};
   return attributes;
 }
 

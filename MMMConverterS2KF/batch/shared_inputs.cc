@@ -60,7 +60,7 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConversionR
   const std::string own_set = (fs::path(config.file).parent_path() / config.marker_set).string();
   for (const std::string& file :
        {request.input.person.processor_file, request.input.person.subject_file, config.subject_file,
-        own_set}) {
+        own_set, request.input.marker_set}) {
     hash.AddPart(!file.empty() && fs::is_regular_file(file) ? FileHash(file) : "");
   }
   return hash.Hex();

@@ -29,10 +29,10 @@ std::string ErrorOf(const std::string& xml) {
 
 TEST(Manifest, TheInnermostHolds) {
   const BatchManifest manifest = Parse(R"(
-    <Batch name="kit" config="s2kf_offline" height_m="1.75" csv="true">
+    <Batch name="kit" config="s2kf_offline" height_m="1.75" csv="true" mot="true" markerSet="kit53">
       <Recording file="a.c3d"/>
       <Group name="1723" height_m="1.68" mass_kg="62">
-        <Recording file="1723/Cut.c3d" mass_kg="63" csv="false" frames="10:"/>
+        <Recording file="1723/Cut.c3d" mass_kg="63" csv="false" markerSet="own.xml" frames="10:"/>
         <Group name="late" subjectFile="../anna.xml">
           <Recording file="1723/Peel.c3d" handLength_mm="180"/>
         </Group>
@@ -47,13 +47,15 @@ TEST(Manifest, TheInnermostHolds) {
   EXPECT_EQ(first.request.input.file, "/data/a.c3d");
   EXPECT_EQ(first.request.input.person.height, 1.75);
   EXPECT_FALSE(first.request.input.person.mass);
-  EXPECT_TRUE(first.csv);
+  EXPECT_EQ(first.exports, (std::set<std::string>{"csv", "mot"}));
+  EXPECT_EQ(first.request.input.marker_set, "kit53");
   EXPECT_EQ(cut.id, "1723/Cut");
   EXPECT_EQ(cut.group, "1723");
   EXPECT_EQ(cut.request.input.person.height, 1.68);
   EXPECT_EQ(cut.request.input.person.mass, 63);
   EXPECT_EQ(cut.request.input.first_frame, 10);
-  EXPECT_FALSE(cut.csv);
+  EXPECT_EQ(cut.exports, std::set<std::string>{"mot"});
+  EXPECT_EQ(cut.request.input.marker_set, "/data/own.xml");
   EXPECT_EQ(peel.group, "1723 / late");
   EXPECT_EQ(peel.request.input.person.mass, 62);
   EXPECT_DOUBLE_EQ(peel.request.input.person.hand_length.value(), 0.18);

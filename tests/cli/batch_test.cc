@@ -49,7 +49,7 @@ std::vector<Json> Figures(const std::string& out) {
 
 TEST(Batch, ConvertsTheSampleLikeConvert) {
   const std::string manifest =
-      WriteManifest(0, "name='night' mass_kg='75' csv='true'",
+      WriteManifest(0, "name='night' mass_kg='75' csv='true' trc='true' mot='true'",
                     "<Group name='gym'><Metadata name='day' value='1'/>"
                     "<Recording file='handstand.c3d' id='gym/first' frames=':60'/></Group>");
   const auto run = RunProgram({"batch", manifest, "-o", Out(), "--reports", "worst:1"});
@@ -58,13 +58,17 @@ TEST(Batch, ConvertsTheSampleLikeConvert) {
                              HasSubstr("index.html"), HasSubstr("1 converted, 0 failed")));
   EXPECT_THAT(run.err, HasSubstr("[1/1] gym/first: 60 frames, "));
   const std::string single = TestFolder() + "/out/motions/gym/single.xml";
-  ASSERT_EQ(
-      RunProgram({"convert", TestFolder() + "/handstand.c3d", "--height", "1.8", "--mass", "75",
-                  "--frames", ":60", "-o", single, "--export-csv", TestFolder() + "/single.csv"})
-          .exit_code,
-      0);
+  ASSERT_EQ(RunProgram({"convert", TestFolder() + "/handstand.c3d", "--height", "1.8", "--mass",
+                        "75", "--frames", ":60", "-o", single, "--export-csv",
+                        TestFolder() + "/first.csv", "--export-trc", TestFolder() + "/first.trc",
+                        "--export-mot", TestFolder() + "/first.mot"})
+                .exit_code,
+            0);
   EXPECT_EQ(ReadText(Out() + "/motions/gym/first.xml"), ReadText(single));
-  EXPECT_EQ(ReadText(Out() + "/csv/gym/first.csv"), ReadText(TestFolder() + "/single.csv"));
+  for (const std::string format : {"csv", "trc", "mot"}) {
+    EXPECT_EQ(ReadText(Out() + "/" + format + "/gym/first." + format),
+              ReadText(TestFolder() + "/first." + format));
+  }
   EXPECT_THAT(ReadText(Out() + "/reports/gym/first.html"), HasSubstr("<!DOCTYPE html>"));
   EXPECT_THAT(ReadText(Out() + "/index.html"),
               AllOf(HasSubstr("<!DOCTYPE html>"), HasSubstr("gym/first")));
