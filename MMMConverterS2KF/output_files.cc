@@ -2,7 +2,9 @@
 #include "MMMConverterS2KF/output_files.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <set>
 
@@ -17,6 +19,18 @@ void CheckIsNoInput(const std::string& output, const std::vector<std::string>& i
     std::error_code failure;
     if (!fs::equivalent(output, input, failure)) continue;
     throw Error(fmt::format("{}: is read, and would be lost; give another file", output));
+  }
+}
+
+void CheckCanBeWritten(const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) {
+    std::error_code failure;
+    if (output.empty() || fs::is_other(output, failure)) continue;
+    if (fs::is_directory(output, failure)) throw WriteError(output, EISDIR);
+    const fs::path file = fs::weakly_canonical(fs::absolute(output), failure);
+    const std::string folder =
+        (failure ? fs::absolute(output) : file).parent_path().string() + "/.";
+    if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(output, errno);
   }
 }
 

@@ -10,6 +10,11 @@ namespace mmm_converter {
 /// @throws Error where it is one of the files that are read.
 void CheckIsNoInput(const std::string& output, const std::vector<std::string>& inputs);
 
+/// Before the work whose result they hold: whether the system would let them be written, as far as
+/// can be told. Empty paths are left out.
+/// @throws WriteError
+void CheckCanBeWritten(const std::vector<std::string>& outputs);
+
 /// Before they are written; empty paths, devices and pipes are left out.
 /// @throws Error where two are the same file.
 void CheckAreDifferentFiles(const std::vector<std::string>& outputs);

@@ -89,6 +89,7 @@ void CheckOutputs(const ConversionRequest& request, const ConversionReport& repo
   for (const std::string& output : outputs) CheckIsNoInput(output, inputs);
   outputs.push_back(report.output);
   CheckAreDifferentFiles(outputs);
+  CheckCanBeWritten(outputs);
 }
 
 void WritePerson(const ConversionReport& report) {

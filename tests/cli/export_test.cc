@@ -238,13 +238,15 @@ TEST(Export, NothingThatIsReadOrWrittenIsOverwritten) {
   EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/x"));
 }
 
-TEST(Export, WhatCantBeWrittenIsNamed) {
-  for (const std::string option : {"--export-csv", "--export-trc", "--export-mot"}) {
+TEST(Export, WhatCantBeWrittenIsNamedBeforeAnythingIsWritten) {
+  for (const std::string option :
+       {"--export-csv", "--export-trc", "--export-mot", "--summary", "--report"}) {
     const auto run = RunProgram(
         WithTestConverter({"convert", Handstand(), "--height", "1.8", "--frames", ":10", "-o",
                            TestFolder() + "/o.xml", option, TestFolder() + "/absent/file"}));
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_THAT(run.err, AllOf(HasSubstr("error: "), HasSubstr("absent/file")));
+    EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/o.xml")) << option;
   }
 }
 
