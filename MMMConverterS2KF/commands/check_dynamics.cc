@@ -49,21 +49,26 @@ const OptionGroup kGeneral = {
      {"help,h", "", "print this help", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
-Whether a body can move like the MMM motion (1.0 or 2.0): centre of mass, momentum, forces, torques and
-power by inverse dynamics (Simbody), beside what physics expects of them. The ground is level, and all
-that touches it is the body; z is up.
+Whether a body can move like the MMM motion (1.0 or 2.0): centre of mass, momentum, forces, torques
+and power by inverse dynamics (Simbody), beside what physics expects of them. The ground is level,
+and all that touches it is the body; z is up.
 
 {}Checks, and what is plausible
   kinematics   Simbody and this program place the body within {:.0e} m of each other
   mean force   vertical, as 1 body weight and the change of velocity ask for, ± {:g} body weights
-  ground       pulls with more than {:g} body weights, would need friction above {:g}, or would have to
-               push more than {:.0f} mm beside what touches it: each in at most {:.0f} % of the frames on it
+  ground       pulls with more than {:g} body weights, would need friction above {:g}, or would have
+               to push more than {:.0f} mm beside what touches it: each in at most {:.0f} % of the
+               frames on it; the body's lowest point is more than {:.0f} mm above or below it in at
+               most as many of those in which something carries the body
   flight       the centre of mass falls with {:g} m/s² ± {:.0f} %; angular momentum about it varies by
                at most {:.0f} % (root mean square)
   torque       at most {:g} N m for each kg of the body, in joints that do not stand on the ground
-Forces, flights and torques are not judged where accelerations are noise (above {:g} body weights), or
-where the rate is too low for the low-pass. Torques are told only while nothing below the joint
-touches the ground: a motion does not say how feet share the weight.
+Forces, flights and torques are not judged where accelerations are noise (above {:g} body weights
+rms by what the low-pass takes away, or forces above {:g}), or where the rate is too low for the
+low-pass; the ground's checks not on less than {:g} s. The low-pass sees the frames beside --frames;
+the first and last period (1 / HZ) of the whole motion count for no force or torque. Torques are
+told only while nothing below the joint touches the ground: a motion does not say how feet share
+the weight.
 
 Exit code 1 where a check is implausible, as for input that can't be read.
 
@@ -78,8 +83,9 @@ std::vector<OptionGroup> Options() { return {kFiles, kMotion, kPerson, kGeneral}
 std::string Help() {
   return fmt::format(kUsage, FormatOptions(Options()), kMostKinematicsError, kMostMeanForceError,
                      kForceTolerance, kMostFriction, 1000 * kMostOutsideSupport,
-                     100 * kMostBadFrames, kGravity, 100 * kMostFallError,
-                     100 * kMostMomentumVariation, kMostTorque, kNoiseForce);
+                     100 * kMostBadFrames, 1000 * kMostUneven, kGravity, 100 * kMostFallError,
+                     100 * kMostMomentumVariation, kMostTorque, kMostNoise, kNoiseForce,
+                     kLeastOnGround);
 }
 
 DynamicsOptions MakeOptions(const Arguments& arguments) {

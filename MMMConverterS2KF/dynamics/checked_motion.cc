@@ -8,14 +8,50 @@
 #include <utility>
 
 #include "MMMConverterS2KF/comparison_setup.h"
+#include "common/io/file_content.h"
 #include "common/io/mmm_motion.h"
 #include "common/io/model_file.h"
+#include "common/io/trc_reader.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 
 namespace mmm_converter {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kFileStart = 512;  // in which a recording says what it is
+
+void CheckIsNoRecording(const std::string& file) {
+  const std::string start = ReadFileStart(file, kFileStart);
+  const bool is_c3d = start.size() > 1 && start[0] > 0 && start[0] < ' ' && start[1] == '\x50';
+  if (!is_c3d && !LooksLikeTrc(start)) return;
+  throw Error(fmt::format("{}: is a {} recording, which has markers only; convert it first", file,
+                          is_c3d ? "C3D" : "TRC"));
+}
+
+// The only motion with joint angles, or the one of that name.
+MmmMotion ReadChosenMotion(const std::string& file, const std::string& name) {
+  CheckIsNoRecording(file);
+  if (name.empty()) return ReadPostures(file, name);
+  MmmMotionFile content = ReadMmmMotionFile(file);
+  std::vector<std::string> others;
+  for (MmmMotion& motion : content.motions) {
+    if (motion.trajectory.num_frames() == 0 || motion.trajectory.joint_names.empty()) continue;
+    if (motion.name == name) return std::move(motion);
+    others.push_back(fmt::format("\"{}\"", motion.name));
+  }
+  const std::string there = others.empty() ? "none" : JoinNames(others);
+  const MmmMotion* found = content.Find(name);
+  if (found != nullptr && found->trajectory.num_frames() > 0) {
+    throw Error(fmt::format(
+        "{}: motion \"{}\" is that of a rigid object, without joints, which is not checked; with "
+        "joint angles there is {}",
+        file, name, there));
+  }
+  throw Error(
+      fmt::format("{}: has no motion \"{}\" with joint angles; there is {}", file, name, there));
+}
 
 std::string ChooseModel(const InputRequest& request, const MmmMotion& motion,
                         std::vector<std::string>* warnings) {
@@ -30,8 +66,15 @@ std::string ChooseModel(const InputRequest& request, const MmmMotion& motion,
   return shipped;
 }
 
+bool IsKnown(const Posture& posture) {
+  return posture.position.allFinite() && posture.orientation.coeffs().allFinite() &&
+         posture.joint_angles.allFinite();
+}
+
+// Frames next to those that are checked stay, for the derivatives' sake.
 void TakeFrames(const InputRequest& request, CheckedMotion* checked) {
   PoseTrajectory& trajectory = checked->trajectory;
+  std::vector<Posture>& postures = trajectory.postures;
   const int begin = request.first_frame.value_or(0);
   const int end =
       std::min(request.end_frame.value_or(trajectory.num_frames()), trajectory.num_frames());
@@ -39,21 +82,22 @@ void TakeFrames(const InputRequest& request, CheckedMotion* checked) {
     throw Error(fmt::format("{}: --frames {}:{} has no frame of the motion's {}, counted from 0",
                             request.file, begin, end, trajectory.num_frames()));
   }
-  trajectory.first_time = trajectory.time(begin);
-  trajectory.postures = {trajectory.postures.begin() + begin, trajectory.postures.begin() + end};
-  trajectory.standard_deviations.resize(0, 0);
-  checked->first_frame = begin;
-  for (int k = 0; k < trajectory.num_frames(); ++k) {
-    const Posture& posture = trajectory.postures[k];
-    if (posture.position.allFinite() && posture.orientation.coeffs().allFinite() &&
-        posture.joint_angles.allFinite()) {
-      continue;
-    }
+  const auto unknown = std::find_if_not(postures.begin() + begin, postures.end(), IsKnown);
+  const auto known_end = static_cast<int>(unknown - postures.begin());
+  if (known_end < end) {
     throw Error(
         fmt::format("{}: frame {} (at {:.3f} s) has root poses or joint angles that are no "
                     "numbers, or none; choose others with --frames",
-                    request.file, begin + k, trajectory.time(k)));
+                    request.file, known_end, trajectory.time(known_end)));
   }
+  int known_begin = begin;
+  while (known_begin > 0 && IsKnown(postures[known_begin - 1])) --known_begin;
+  trajectory.first_time = trajectory.time(known_begin);
+  postures = {postures.begin() + known_begin, postures.begin() + known_end};
+  trajectory.standard_deviations.resize(0, 0);
+  checked->first_frame = begin;
+  checked->begin = begin - known_begin;
+  checked->end = end - known_begin;
 }
 
 // What a recording says of its person.
@@ -73,13 +117,15 @@ bool IsHeightKnown(const PersonRequest& person, const MmmMotion& motion) {
 }  // namespace
 
 CheckedMotion ReadCheckedMotion(const InputRequest& request) {
-  MmmMotion motion = ReadPostures(request.file, request.reading.motion);
-  if (!request.reading.motion.empty() && motion.name != request.reading.motion) {
-    throw Error(fmt::format("{}: has no motion \"{}\" with joint angles; there is \"{}\"",
-                            request.file, request.reading.motion, motion.name));
-  }
+  MmmMotion motion = ReadChosenMotion(request.file, request.reading.motion);
   std::vector<std::string> warnings;
   const std::string model_file = ChooseModel(request, motion, &warnings);
+  if (!warnings.empty() && !IsHeightKnown(request.person, motion)) {
+    throw Error(
+        fmt::format("{}: names the model {}, which is not there, and no height to scale another "
+                    "by; give the model with --model, or a person's height with --height",
+                    request.file, motion.model_path));
+  }
   const LoadedModel loaded = ReadModelFile(model_file);
   warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   ConverterConfig config;

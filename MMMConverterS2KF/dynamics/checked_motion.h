@@ -15,12 +15,16 @@ namespace mmm_converter {
 struct CheckedMotion {
   std::string file;
   std::string name;        ///< of the motion
-  int first_frame = 0;     ///< that is checked, counted from 0 in the file
+  int first_frame = 0;     ///< that is checked, counted from 0 in the file; see begin
   std::string model_file;  ///< reference model
   Person person;
-  KinematicModel model;       ///< of the person
-  PoseTrajectory trajectory;  ///< all numbers finite
+  KinematicModel model;  ///< of the person
+  /// All numbers finite; with the frames before and behind those that are checked, as far as they
+  /// are known.
+  PoseTrajectory trajectory;
   std::vector<std::string> warnings;
+  int begin = 0;  ///< of trajectory: frames [begin, end) are checked
+  int end = 0;
 };
 
 /// Reads the motion request.file, the only one or request.reading.motion. Its model is the

@@ -45,6 +45,7 @@ Json DescribeDifferentiation(const Differentiation& differentiation) {
           {"low_pass_lowered", differentiation.cutoff_lowered},
           {"force_rms_body_weights", Number(differentiation.force_rms)},
           {"force_peak_body_weights", Number(differentiation.force_peak)},
+          {"noise_force_rms_body_weights", Number(differentiation.noise_force_rms)},
           {"unfiltered_force_rms_body_weights", Number(differentiation.raw_force_rms)},
           {"unfiltered_force_peak_body_weights", Number(differentiation.raw_force_peak)}};
 }
@@ -58,20 +59,33 @@ Json DescribeCenterOfMass(const MotionDynamics& dynamics) {
           {"largest_speed_m_per_s", Number(dynamics.com_velocity.colwise().norm().maxCoeff())}};
 }
 
+// The longest vector of the settled frames; NaN where there is none.
+double Largest(const MotionDynamics& dynamics, const Eigen::Matrix3Xd& vectors) {
+  const int frames = dynamics.settled_end - dynamics.settled_begin;
+  if (frames == 0) return std::nan("");
+  return vectors.middleCols(dynamics.settled_begin, frames).colwise().norm().maxCoeff();
+}
+
 Json DescribeForces(const MotionDynamics& dynamics) {
-  const Eigen::VectorXd vertical = VerticalForce(dynamics);
+  const Eigen::VectorXd all_vertical = VerticalForce(dynamics);
+  const int frames = dynamics.settled_end - dynamics.settled_begin;
+  const Eigen::VectorXd vertical = all_vertical.segment(dynamics.settled_begin, frames);
   const double weight = dynamics.body_weight();
-  return {
-      {"body_weight_n", Number(weight)},
-      {"vertical_body_weights",
-       {{"mean", Number(vertical.mean())},
-        {"expected_mean", Number(ExpectedMeanForce(dynamics))},
-        {"min", Number(vertical.minCoeff())},
-        {"max", Number(vertical.maxCoeff())}}},
-      {"largest_residual_force_n", Number(dynamics.residual_force.colwise().norm().maxCoeff())},
-      {"largest_residual_root_moment_nm",
-       Number(dynamics.residual_root_moment.colwise().norm().maxCoeff())},
-      {"largest_residual_moment_nm", Number(dynamics.residual_moment.colwise().norm().maxCoeff())}};
+  const double force = Largest(dynamics, dynamics.residual_force);
+  const double root_moment = Largest(dynamics, dynamics.residual_root_moment);
+  const double moment = Largest(dynamics, dynamics.residual_moment);
+  return {{"body_weight_n", Number(weight)},
+          {"vertical_body_weights",
+           {{"mean", Number(all_vertical.mean())},
+            {"expected_mean", Number(ExpectedMeanForce(dynamics))},
+            {"min", frames == 0 ? nullptr : Number(vertical.minCoeff())},
+            {"max", frames == 0 ? nullptr : Number(vertical.maxCoeff())}}},
+          {"largest_residual_force_n", Number(force)},
+          {"largest_residual_force_body_weights", Number(force / weight)},
+          {"largest_residual_root_moment_nm", Number(root_moment)},
+          {"largest_residual_root_moment_body_weight_metres", Number(root_moment / weight)},
+          {"largest_residual_moment_nm", Number(moment)},
+          {"largest_residual_moment_body_weight_metres", Number(moment / weight)}};
 }
 
 Json DescribeContacts(const MotionDynamics& dynamics) {

@@ -31,8 +31,9 @@ std::string Padded(const std::string& text, std::size_t width) {
 }
 
 std::string DescribeDifferentiation(const Differentiation& differentiation) {
-  const std::string made = fmt::format("forces up to {:.3g} body weights (rms {:.2g})",
-                                       differentiation.force_peak, differentiation.force_rms);
+  const std::string made =
+      fmt::format("the ground's force is up to {:.3g} body weights (rms {:.2g} about its mean)",
+                  differentiation.force_peak, differentiation.force_rms);
   if (differentiation.source == DerivativeSource::kMotion) return "those of the motion; " + made;
   if (differentiation.cutoff <= 0) return "differences of the motion as it is; " + made;
   return fmt::format(
@@ -161,7 +162,10 @@ std::string DynamicsSentence(const DynamicsReport& report) {
           "judged).",
           file, plausible.size(), checks.size(), open);
     case Judgement::kNotJudged:
-      return fmt::format("{} is not judged: {}.", file, report.plausibility.differentiation);
+      return fmt::format("{} is not judged: {}.", file,
+                         report.plausibility.differentiation.empty()
+                             ? "no check has enough to go by"
+                             : report.plausibility.differentiation);
   }
   return "";
 }

@@ -13,18 +13,24 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Why forces, and all that is made of accelerations, say nothing; empty: they do.
-std::string WhyNoForces(const Differentiation& differentiation) {
+std::string WhyNoForces(const MotionDynamics& dynamics) {
+  const Differentiation& differentiation = dynamics.differentiation;
   if (differentiation.cutoff_lowered) {
     return fmt::format(
         "the rate shows nothing faster than {:.3g} Hz: accelerations are far too small where the "
         "body meets the ground",
         differentiation.cutoff);
   }
-  if (differentiation.force_peak > kNoiseForce) {
+  if (differentiation.noise_force_rms > kMostNoise || differentiation.force_peak > kNoiseForce) {
     return fmt::format(
-        "accelerations are noise: they ask for up to {:.3g} body weights; smooth the motion "
-        "(convert -c s2kf_offline), or take a lower --low-pass",
-        differentiation.force_peak);
+        "accelerations are noise: it makes some {:.2g} body weights (rms) of forces of up to "
+        "{:.3g}; smooth the motion (convert -c s2kf_offline), or take a lower --low-pass",
+        differentiation.noise_force_rms, differentiation.force_peak);
+  }
+  if (dynamics.settled_begin == dynamics.settled_end) {
+    return fmt::format(
+        "no frame is {:.2g} s, a period of the low-pass, away from both ends of the recording",
+        1 / differentiation.cutoff);
   }
   return "";
 }
@@ -58,55 +64,74 @@ DynamicsCheck CheckMeanForce(const MotionDynamics& dynamics) {
                 "the accelerations do not add up to the velocities of the centre of mass");
 }
 
-// A share of the frames on the ground that are bad in some way.
-struct BadFrames {
-  int bad = 0;
-  int all = 0;
-  double share() const { return all == 0 ? 0 : static_cast<double>(bad) / all; }
+// What is bad about a frame: a figure above the most that is allowed.
+struct FrameCheck {
+  std::string name;
+  std::string frames;  // that count
+  std::string reason;
+  std::string unit;
+  double most;
 };
 
-template <typename Predicate>
-BadFrames CountOnGround(const MotionDynamics& dynamics, Predicate is_bad) {
-  BadFrames count;
-  for (int k = 0; k < dynamics.num_frames(); ++k) {
-    if (!IsOnGround(dynamics, k)) continue;
-    ++count.all;
-    if (is_bad(k)) ++count.bad;
-  }
-  return count;
-}
-
-template <typename Predicate>
-DynamicsCheck CheckOnGround(const MotionDynamics& dynamics, const std::string& name,
-                            const std::string& reason, const std::string& why_no_forces,
-                            Predicate is_bad) {
+// Of the frames that count, at most kMostBadFrames may be bad.
+template <typename Counts, typename Figure>
+DynamicsCheck CheckFrames(const MotionDynamics& dynamics, const FrameCheck& check,
+                          const std::string& why_no_forces, Counts counts, Figure figure) {
   const std::string expected = fmt::format("in at most {:.0f} %", 100 * kMostBadFrames);
-  if (!why_no_forces.empty()) return NotJudged(name, expected, why_no_forces);
-  const BadFrames count = CountOnGround(dynamics, is_bad);
-  if (count.all == 0) return NotJudged(name, expected, "nothing touches the ground");
-  return Judged(name, fmt::format("in {:.1f} % of {} frames on it", 100 * count.share(), count.all),
-                expected, count.share() <= kMostBadFrames, reason);
+  if (!why_no_forces.empty()) return NotJudged(check.name, expected, why_no_forces);
+  int all = 0;
+  int bad = 0;
+  int worst = dynamics.settled_begin;
+  for (int k = dynamics.settled_begin; k < dynamics.settled_end; ++k) {
+    if (!counts(k)) continue;
+    ++all;
+    if (!(figure(k) > check.most)) continue;
+    if (++bad == 1 || figure(k) > figure(worst)) worst = k;
+  }
+  if (all < kLeastOnGround * dynamics.rate) {
+    return NotJudged(
+        check.name, expected,
+        fmt::format("{:.2f} s {}, the recording's ends left out; at least {:g} s are needed",
+                    all / dynamics.rate, check.frames, kLeastOnGround));
+  }
+  const double share = static_cast<double>(bad) / all;
+  return Judged(check.name,
+                fmt::format("in {:.1f} % of {} frames {}", 100 * share, all, check.frames),
+                expected, share <= kMostBadFrames,
+                fmt::format("{}; worst at {:.2f} s, {:.3g} {}", check.reason, dynamics.time(worst),
+                            figure(worst), check.unit));
 }
 
 void AddGroundChecks(const MotionDynamics& dynamics, const std::string& why_no_forces,
                      std::vector<DynamicsCheck>* checks) {
   const Eigen::Matrix3Xd forces = dynamics.residual_force / dynamics.body_weight();
-  checks->push_back(CheckOnGround(dynamics, "ground pulls", "the body would have to be held down",
-                                  why_no_forces,
-                                  [&](int k) { return forces(2, k) < -kForceTolerance; }));
-  checks->push_back(
-      CheckOnGround(dynamics, "feet would slide",
-                    fmt::format("friction of more than {:g} times the vertical force is asked for",
-                                kMostFriction),
-                    why_no_forces, [&](int k) {
-                      return forces.col(k).head<2>().norm() >
-                             kMostFriction * std::max(0.0, forces(2, k)) + kForceTolerance;
-                    }));
-  checks->push_back(CheckOnGround(
-      dynamics, "body would tip over",
-      fmt::format("the force acts more than {:.0f} mm outside of what touches the ground",
-                  1000 * kMostOutsideSupport),
-      why_no_forces, [&](int k) { return dynamics.outside_support[k] > kMostOutsideSupport; }));
+  const auto add = [&](const FrameCheck& check, const auto& counts, const auto& figure) {
+    checks->push_back(CheckFrames(dynamics, check, why_no_forces, counts, figure));
+  };
+  const auto on_ground = [&](int k) { return IsOnGround(dynamics, k); };
+  add({"ground pulls", "on the ground", "the body would have to be held down", "body weights",
+       kForceTolerance},
+      on_ground, [&](int k) { return -forces(2, k); });
+  add({"feet would slide", "on the ground",
+       fmt::format("friction of more than {:g} times the vertical force is asked for",
+                   kMostFriction),
+       "body weights more than that", kForceTolerance},
+      on_ground, [&](int k) {
+        return forces.col(k).head<2>().norm() - kMostFriction * std::max(0.0, forces(2, k));
+      });
+  add({"body would tip over", "on the ground",
+       fmt::format("the force acts more than {:.0f} mm outside of what touches the ground",
+                   1000 * kMostOutsideSupport),
+       "mm", 1000 * kMostOutsideSupport},
+      on_ground, [&](int k) { return 1000 * dynamics.outside_support[k]; });
+  add(
+      {"carried beside the ground", "that carry",
+       fmt::format("the body's lowest point is more than {:.0f} mm above or below the ground: it "
+                   "stands in the air, or not all on one level",
+                   1000 * kMostUneven),
+       "mm", 1000 * kMostUneven},
+      [&](int k) { return forces(2, k) > kCarryingForce; },
+      [&](int k) { return 1000 * std::abs(dynamics.contact_heights.col(k).minCoeff()); });
 }
 
 // Standard deviation of the acceleration that a parabola has from noise of its points. Errors of
@@ -123,10 +148,14 @@ double FallError(const BallisticPhase& flight) {
   return (flight.acceleration - Eigen::Vector3d(0, 0, -kGravity)).norm();
 }
 
+// Two standard deviations of its noise excuse no error that is larger still: a flight that does
+// not fall in a parabola at all has much of both.
 Judgement JudgeFall(const BallisticPhase& flight, double rate) {
   const double most = kMostFallError * kGravity;
-  if (2 * FallDeviation(flight, rate) > most) return Judgement::kNotJudged;
-  return FallError(flight) <= most ? Judgement::kPlausible : Judgement::kImplausible;
+  const double noise = 2 * FallDeviation(flight, rate);
+  if (FallError(flight) > most + noise) return Judgement::kImplausible;
+  const bool is_plausible = FallError(flight) <= most && noise <= most;
+  return is_plausible ? Judgement::kPlausible : Judgement::kNotJudged;
 }
 
 // Where the segments' shares nearly cancel, little is left that could be constant: between the two
@@ -179,8 +208,17 @@ DynamicsCheck CheckFall(const MotionDynamics& dynamics) {
   if (check.judgement == Judgement::kImplausible) {
     check.reason = "nothing touches the ground, but the centre of mass does not fall freely";
   } else if (check.judgement == Judgement::kNotJudged) {
-    check.reason = fmt::format("the flight is too short: noise alone makes ± {:.2f} m/s²",
+    check.reason = fmt::format("the noise of the flight's points leaves ± {:.2f} m/s² open",
                                2 * FallDeviation(flight, dynamics.rate));
+  }
+  const std::vector<BallisticPhase>& flights = dynamics.ballistic_phases;
+  const auto open = std::count_if(flights.begin(), flights.end(), [&](const BallisticPhase& f) {
+    return judge(f) == Judgement::kNotJudged;
+  });
+  if (open > 0 && flights.size() > 1) {
+    if (!check.reason.empty()) check.reason += "; ";
+    check.reason += fmt::format("{} of {} flights not judged, as noise leaves their fall open",
+                                open, flights.size());
   }
   return check;
 }
@@ -206,6 +244,12 @@ DynamicsCheck CheckMomentum(const MotionDynamics& dynamics) {
   return check;
 }
 
+std::string WhyNoFlight(const DynamicsOptions& options) {
+  return fmt::format(
+      "there is no flight: all points of the body higher than {:.0f} mm for {:g} s or more",
+      1000 * options.contact_height, options.shortest_flight);
+}
+
 void AddFlightChecks(const MotionDynamics& dynamics, const std::string& why_no_forces,
                      std::vector<DynamicsCheck>* checks) {
   const bool flies = !dynamics.ballistic_phases.empty();
@@ -214,7 +258,7 @@ void AddFlightChecks(const MotionDynamics& dynamics, const std::string& why_no_f
     checks->push_back(CheckMomentum(dynamics));
     return;
   }
-  const std::string reason = flies ? why_no_forces : "the body never leaves the ground";
+  const std::string reason = flies ? why_no_forces : WhyNoFlight(dynamics.options);
   checks->push_back(NotJudged("fall in flight", fmt::format("-{:g} m/s²", kGravity), reason));
   checks->push_back(NotJudged("angular momentum in flight", "constant", reason));
 }
@@ -269,11 +313,15 @@ void TakeFreeJoints(const KinematicModel& model, const MotionDynamics& dynamics,
   const Eigen::MatrixXi loaded = ContactsBelow(model, dynamics) * dynamics.contacts;
   judged->torques = (loaded.array() > 0).select(kNaN, dynamics.joint_torques);
   judged->powers = (loaded.array() > 0).select(kNaN, dynamics.joint_power);
+  for (Eigen::MatrixXd* values : {&judged->torques, &judged->powers}) {
+    values->leftCols(dynamics.settled_begin).setConstant(kNaN);
+    values->rightCols(dynamics.num_frames() - dynamics.settled_end).setConstant(kNaN);
+  }
   judged->peaks.reserve(dynamics.joint_names.size());
   for (Eigen::Index j = 0; j < loaded.rows(); ++j) {
     const auto [torque, torque_frame] = Peak(judged->torques, j);
     const auto [power, power_frame] = Peak(judged->powers, j);
-    const auto free = static_cast<double>((loaded.row(j).array() == 0).count());
+    const auto free = static_cast<double>(judged->torques.row(j).array().isFinite().count());
     judged->peaks.push_back({dynamics.joint_names[j], torque, dynamics.time(torque_frame), power,
                              dynamics.time(power_frame), free / dynamics.num_frames()});
   }
@@ -299,7 +347,7 @@ const char* Name(Judgement judgement) {
 
 Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics) {
   Plausibility judged;
-  judged.differentiation = WhyNoForces(dynamics.differentiation);
+  judged.differentiation = WhyNoForces(dynamics);
   if (judged.differentiation.empty()) TakeFreeJoints(model, dynamics, &judged);
   judged.checks = {CheckKinematics(dynamics), CheckMeanForce(dynamics)};
   AddGroundChecks(dynamics, judged.differentiation, &judged.checks);

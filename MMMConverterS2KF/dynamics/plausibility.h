@@ -17,10 +17,14 @@ inline constexpr double kForceTolerance = 0.1;          ///< of a frame's force,
 inline constexpr double kMostFriction = 1.0;            ///< horizontal over vertical force
 inline constexpr double kMostOutsideSupport = 0.1;      ///< of the centre of pressure [m]
 inline constexpr double kMostBadFrames = 0.1;           ///< share of the frames on the ground
+inline constexpr double kCarryingForce = 0.5;           ///< vertical, in body weights
+inline constexpr double kMostUneven = 0.1;              ///< of what carries, above or below it [m]
+inline constexpr double kLeastOnGround = 0.5;           ///< [s]; with less nothing is judged
 inline constexpr double kMostFallError = 0.1;           ///< in flight, relative to gravity
 inline constexpr double kMostMomentumVariation = 0.15;  ///< in flight, relative
 inline constexpr double kMostTorque = 5;   ///< of a joint [N m] for each kg of the body
-inline constexpr double kNoiseForce = 10;  ///< body weights that only noise has, differentiated
+inline constexpr double kMostNoise = 0.1;  ///< of a frame's force, rms, in body weights
+inline constexpr double kNoiseForce = 10;  ///< body weights that no body has, but jumps of a motion
 
 enum class Judgement { kPlausible, kImplausible, kNotJudged };
 const char* Name(Judgement judgement);  ///< "plausible", "implausible", "not judged"
@@ -31,12 +35,12 @@ struct DynamicsCheck {
   std::string measured;
   std::string expected;
   Judgement judgement = Judgement::kNotJudged;
-  std::string reason;  ///< why it is implausible or not judged; else empty
+  std::string reason;  ///< why it is implausible or not judged, or what is left out; may be empty
 };
 
-/// What a joint does at most over the frames in which nothing below it touches the ground. Where
-/// something does, the ground's force goes through the joint, and the motion does not tell how
-/// much: NaN where that is in all frames.
+/// What a joint does at most over the settled frames in which nothing below it touches the ground.
+/// Where something does, the ground's force goes through the joint, and the motion does not tell
+/// how much: NaN where that is in all frames.
 struct JointPeak {
   std::string joint;
   double torque = 0;       ///< |.| [N m]
@@ -51,8 +55,9 @@ struct Plausibility {
   Judgement judgement = Judgement::kNotJudged;  ///< implausible where one check is
   std::string differentiation;   ///< why forces and torques can't be judged; empty: they can
   std::vector<JointPeak> peaks;  ///< of all joints, the largest torque first; empty as said above
-  Eigen::MatrixXd torques;       ///< joints x frames [N m]; NaN where the ground's force is in it
-  Eigen::MatrixXd powers;        ///< joints x frames [W]; the same
+  /// Joints x frames [N m]; NaN where the ground's force is in it, and where it is not settled.
+  Eigen::MatrixXd torques;
+  Eigen::MatrixXd powers;  ///< joints x frames [W]; the same
 };
 
 /// model: that of the dynamics.

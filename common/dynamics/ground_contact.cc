@@ -98,26 +98,27 @@ struct LowestPoints {
 };
 
 LowestPoints FindLowestPoints(const KinematicModel& model, const std::vector<ContactBody>& bodies,
-                              const PoseTrajectory& motion) {
+                              const PoseTrajectory& measured, const PoseTrajectory& smooth) {
   const auto num_bodies = static_cast<Index>(bodies.size());
-  LowestPoints lowest{Eigen::MatrixXd(num_bodies, motion.num_frames()),
-                      Eigen::MatrixXd(num_bodies, motion.num_frames())};
+  const int frames = measured.num_frames();
+  LowestPoints lowest{Eigen::MatrixXd(num_bodies, frames), Eigen::MatrixXd(num_bodies, frames)};
   std::vector<std::vector<Index>> candidates;
   candidates.reserve(bodies.size());
   for (const ContactBody& body : bodies) candidates.push_back(PointsOf(body, model));
 
-  Eigen::Matrix3Xd before = Points(model, motion.postures[0]);
-  Eigen::Matrix3Xd points = before;
-  for (int k = 0; k < motion.num_frames(); ++k) {
-    const int next = std::min(k + 1, motion.num_frames() - 1);
-    const Eigen::Matrix3Xd after = Points(model, motion.postures[next]);
-    const double seconds = (next - std::max(k - 1, 0)) / motion.rate;
+  Eigen::Matrix3Xd before = Points(model, smooth.postures[0]);
+  Eigen::Matrix3Xd now = before;
+  for (int k = 0; k < frames; ++k) {
+    const int next = std::min(k + 1, frames - 1);
+    const Eigen::Matrix3Xd after = Points(model, smooth.postures[next]);
+    const Eigen::Matrix3Xd points = Points(model, measured.postures[k]);
+    const double seconds = (next - std::max(k - 1, 0)) / measured.rate;
     for (Index b = 0; b < num_bodies; ++b) {
       const Index point = Lowest(candidates[b], points);
       lowest.heights(b, k) = points(2, point);
       lowest.speeds(b, k) = (after.col(point) - before.col(point)).norm() / seconds;
     }
-    before = std::exchange(points, after);
+    before = std::exchange(now, after);
   }
   return lowest;
 }
@@ -176,8 +177,9 @@ std::vector<ContactBody> ContactBodies(const KinematicModel& model) {
 }
 
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
-                                const PoseTrajectory& motion, double height, double speed) {
-  const LowestPoints lowest = FindLowestPoints(model, bodies, motion);
+                                const PoseTrajectory& measured, const PoseTrajectory& smooth,
+                                double height, double speed) {
+  const LowestPoints lowest = FindLowestPoints(model, bodies, measured, smooth);
   GroundContact contact;
   contact.ground_height = GroundHeight(lowest, speed);
   contact.heights = lowest.heights.array() - contact.ground_height;

@@ -28,10 +28,12 @@ struct GroundContact {
   Eigen::MatrixXi touches;   ///< bodies x frames: 1 where that is low and slow, else 0
 };
 
-/// Low is at most `height` [m] above the ground, slow at most `speed` [m/s]. The motion names all
-/// joints of the model; z is up.
+/// Low is at most `height` [m] above the ground, slow at most `speed` [m/s]. Both motions name all
+/// joints of the model; z is up. Heights are those of `measured`, as a low-pass lifts a foot before
+/// it leaves the ground; speeds those of `smooth`, as differences are mostly noise.
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
-                                const PoseTrajectory& motion, double height, double speed);
+                                const PoseTrajectory& measured, const PoseTrajectory& smooth,
+                                double height, double speed);
 
 /// How far the centre of pressure lies outside of the convex hull of the bodies that touch, seen
 /// from above; one entry a frame [m], 0 within, NaN where nothing touches or a centre is NaN.

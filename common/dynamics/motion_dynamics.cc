@@ -99,12 +99,28 @@ Differentiation MakeDifferentiable(double cutoff, PoseTrajectory* motion) {
   return result;
 }
 
-/// Root mean square deviation from the mean, and largest length.
-void Summarize(const Matrix3Xd& force, double weight, double* rms, double* peak) {
+/// Root mean square deviation from the mean.
+double Rms(const Matrix3Xd& force) {
   const Vector3d mean = force.rowwise().mean();
-  *rms = std::sqrt((force.colwise() - mean).squaredNorm() / static_cast<double>(force.cols())) /
-         weight;
-  *peak = force.colwise().norm().maxCoeff() / weight;
+  return std::sqrt((force.colwise() - mean).squaredNorm() / static_cast<double>(force.cols()));
+}
+
+/// Leaves frames [begin, end).
+void Cut(int begin, int end, PoseTrajectory* motion) {
+  motion->first_time = motion->time(begin);
+  motion->postures = {motion->postures.begin() + begin, motion->postures.begin() + end};
+  motion->standard_deviations.resize(0, 0);
+  for (MatrixXd* derivatives : {&motion->velocities, &motion->accelerations}) {
+    if (derivatives->size() == 0) continue;
+    *derivatives = MatrixXd(derivatives->middleCols(begin, end - begin));
+  }
+}
+
+/// Frames at each end of the whole motion whose accelerations nothing beyond them holds.
+int UnsettledFrames(const Differentiation& differentiation, double rate) {
+  if (differentiation.source == DerivativeSource::kMotion) return 0;
+  if (differentiation.cutoff <= 0) return 1;
+  return static_cast<int>(std::ceil(rate / differentiation.cutoff));
 }
 
 /// The force that moves the centre of mass as its second differences say; without the end frames.
@@ -114,6 +130,38 @@ Matrix3Xd RawForce(const Matrix3Xd& com, double rate, double mass) {
       mass * rate * rate * (com.rightCols(n) - 2 * com.middleCols(1, n) + com.leftCols(n));
   force.row(2).array() += mass * kGravity;
   return force;
+}
+
+/// See Differentiation::noise_force_rms; here in newtons.
+double NoiseForce(const Differentiation& differentiation, const Matrix3Xd& com, double rate,
+                  double mass) {
+  if (differentiation.source == DerivativeSource::kMotion) return 0;
+  const bool is_smooth = differentiation.cutoff > 0;
+  const double cutoff =
+      is_smooth ? differentiation.cutoff : std::min(DynamicsOptions().cutoff, LargestCutoff(rate));
+  const Matrix3Xd smooth = LowPassed(com.transpose(), rate, cutoff).transpose();
+  const double above = Rms(RawForce(com, rate, mass) - RawForce(smooth, rate, mass));
+  // Second differences pass the power (2 sin(pi f / rate))^4 of the frequency f, 6 in the mean.
+  const double below =
+      std::sqrt(16.0 / 30) * std::pow(std::acos(-1.0), 2) * std::pow(cutoff / rate, 2.5);
+  return above * (is_smooth ? std::min(1.0, below) : 1);
+}
+
+/// Sets the figures of Differentiation.
+void SummarizeForces(const Matrix3Xd& measured_com, MotionDynamics* result) {
+  Differentiation& differentiation = result->differentiation;
+  const bool all = result->settled_begin == result->settled_end;
+  const int begin = all ? 0 : result->settled_begin;
+  const int frames = all ? result->num_frames() : result->settled_end - begin;
+  const double weight = result->body_weight();
+  const Matrix3Xd force = result->residual_force.middleCols(begin, frames);
+  const Matrix3Xd raw_force = RawForce(measured_com, result->rate, result->mass);
+  differentiation.force_rms = Rms(force) / weight;
+  differentiation.force_peak = force.colwise().norm().maxCoeff() / weight;
+  differentiation.raw_force_rms = Rms(raw_force) / weight;
+  differentiation.raw_force_peak = raw_force.colwise().norm().maxCoeff() / weight;
+  differentiation.noise_force_rms =
+      NoiseForce(differentiation, measured_com, result->rate, result->mass) / weight;
 }
 
 void Compare(const KinematicModel& model, const WholeBodyState& simbody, const Posture& posture,
@@ -170,6 +218,22 @@ void SetFrame(int k, const WholeBodyMotion& body, const PoseTrajectory& motion,
   result->residual_moment.col(k) = root_moment - from_root.cross(force);
 }
 
+/// Of the whole motion; leaves frames [begin, begin + frames).
+GroundContact FindContacts(const KinematicModel& model, const PoseTrajectory& measured,
+                           const PoseTrajectory& smooth, int begin, int frames,
+                           MotionDynamics* result) {
+  result->contact_bodies = ContactBodies(model);
+  GroundContact contact =
+      FindGroundContact(model, result->contact_bodies, measured, smooth,
+                        result->options.contact_height, result->options.contact_speed);
+  contact.heights = MatrixXd(contact.heights.middleCols(begin, frames));
+  contact.touches = Eigen::MatrixXi(contact.touches.middleCols(begin, frames));
+  result->ground_height = contact.ground_height;
+  result->contact_heights = contact.heights;
+  result->contacts = contact.touches;
+  return contact;
+}
+
 /// Where on the plane z = ground the force would act without a moment about x and y.
 Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
   Eigen::Matrix2Xd centers(2, dynamics.num_frames());
@@ -191,8 +255,11 @@ Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
 
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
                                      const DynamicsOptions& options) {
-  if (motion.num_frames() < kLeastFrames) {
-    throw Error("the motion has " + std::to_string(motion.num_frames()) + " frames; at least " +
+  const int all_frames = motion.num_frames();
+  const int begin = std::clamp(options.first_frame, 0, all_frames);
+  const int frames = std::clamp(options.end_frame, begin, all_frames) - begin;
+  if (frames < kLeastFrames) {
+    throw Error("the motion has " + std::to_string(frames) + " frames; at least " +
                 std::to_string(kLeastFrames) + " are needed for accelerations");
   }
   MotionDynamics result;
@@ -201,17 +268,24 @@ MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTraj
     throw Error("model '" + model.name() + "' has no mass, so it has no dynamics");
   }
   PoseTrajectory measured = WithAllJoints(model, motion);
+  result.options = options;
   result.rate = measured.rate;
-  result.first_time = measured.first_time;
   result.joint_names = measured.joint_names;
   result.frames_with_held_joints = HoldUnknownAngles(&measured);
   PoseTrajectory smooth = measured;
   result.differentiation = MakeDifferentiable(options.cutoff, &smooth);
+  const int unsettled = UnsettledFrames(result.differentiation, result.rate);
+  result.settled_begin = std::clamp(unsettled - begin, 0, frames);
+  result.settled_end = std::clamp(all_frames - unsettled - begin, result.settled_begin, frames);
+  const GroundContact contact = FindContacts(model, measured, smooth, begin, frames, &result);
+  Cut(begin, begin + frames, &measured);
+  Cut(begin, begin + frames, &smooth);
+  result.first_time = measured.first_time;
 
   const SimbodyModel simbody(model);
-  Matrix3Xd measured_com(3, motion.num_frames());
-  Resize(motion.num_frames(), model.num_joints(), &result);
-  for (int k = 0; k < motion.num_frames(); ++k) {
+  Matrix3Xd measured_com(3, frames);
+  Resize(frames, model.num_joints(), &result);
+  for (int k = 0; k < frames; ++k) {
     const WholeBodyState state = simbody.At(measured.postures[k]);
     Compare(model, state, measured.postures[k], &result.kinematics);
     measured_com.col(k) = state.center_of_mass;
@@ -220,18 +294,7 @@ MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTraj
         simbody.Moving(smooth.postures[k], smooth.velocities.col(k), smooth.accelerations.col(k)),
         smooth, &result);
   }
-  Differentiation& differentiation = result.differentiation;
-  Summarize(RawForce(measured_com, result.rate, result.mass), result.body_weight(),
-            &differentiation.raw_force_rms, &differentiation.raw_force_peak);
-  Summarize(result.residual_force, result.body_weight(), &differentiation.force_rms,
-            &differentiation.force_peak);
-
-  result.contact_bodies = ContactBodies(model);
-  const GroundContact contact = FindGroundContact(model, result.contact_bodies, measured,
-                                                  options.contact_height, options.contact_speed);
-  result.ground_height = contact.ground_height;
-  result.contact_heights = contact.heights;
-  result.contacts = contact.touches;
+  SummarizeForces(measured_com, &result);
   result.center_of_pressure = CentersOfPressure(result);
   result.outside_support = DistanceOutsideSupport(model, result.contact_bodies, smooth, contact,
                                                   result.center_of_pressure);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct DynamicsOptions {
   double contact_height = 0.04;  ///< touches the ground: a point at most so high above it [m] ...
   double contact_speed = 0.8;    ///< ... and at most so fast [m/s]
   double shortest_flight = 0.1;  ///< ballistic phases that last less are left out [s]
+  /// Frames [first_frame, end_frame) are examined; low-pass and ground are of the whole motion.
+  int first_frame = 0;
+  int end_frame = std::numeric_limits<int>::max();
 };
 
 /// Where velocities and accelerations come from.
@@ -28,7 +32,8 @@ enum class DerivativeSource {
   kLowPassed  ///< differences of the motion after a low-pass; without one if cutoff is 0
 };
 
-/// What differentiation does. The residual force's rms deviation from its mean, in body weights.
+/// What differentiation does. The residual force's rms deviation from its mean, in body weights;
+/// without the frames that are not settled, where there are others.
 struct Differentiation {
   DerivativeSource source = DerivativeSource::kMotion;
   double cutoff = 0;            ///< that was used [Hz]; 0: none
@@ -37,6 +42,9 @@ struct Differentiation {
   double force_rms = 0;         ///< of the derivatives that were used
   double raw_force_peak = 0;    ///< largest |force| in body weights
   double force_peak = 0;
+  /// What noise has of it (rms): what the low-pass takes away, times what white noise of positions
+  /// has below the cut-off. Without a low-pass: all above the default cut-off. 0 of kMotion.
+  double noise_force_rms = 0;
 };
 
 /// Frames [begin, end) in which no part of the body is near the ground.
@@ -68,13 +76,18 @@ struct KinematicsAgreement {
 };
 
 /// What a motion asks of the body, by inverse dynamics without external forces: whatever the ground
-/// does appears as a residual at the root. One column (entry) a frame; vectors in W.
+/// does appears as a residual at the root. One column (entry) an examined frame; vectors in W.
 struct MotionDynamics {
   double rate = 0;                       ///< [Hz]
   double first_time = 0;                 ///< [s]
   double mass = 0;                       ///< [kg]
   std::vector<std::string> joint_names;  ///< of the model, in its order
   int frames_with_held_joints = 0;       ///< where an angle was unknown: that of the nearest frame
+  DynamicsOptions options;               ///< that were used
+  /// Frames [settled_begin, settled_end) are at least a period of the low-pass away from the whole
+  /// motion's ends, where nothing beyond holds the accelerations; equal where there is none.
+  int settled_begin = 0;
+  int settled_end = 0;
 
   Differentiation differentiation;
   KinematicsAgreement kinematics;
@@ -113,7 +126,7 @@ struct MotionDynamics {
 
 /// The model is scaled, with masses. z is up. Joints that the motion does not name are 0.
 /// @throws Error where the model has no mass, an impossible inertia or lacks a joint of the motion,
-///         or the motion has fewer than five frames.
+///         or fewer than five frames are examined.
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
                                      const DynamicsOptions& options = {});
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "common/io/mmm_model.h"
 #include "common/io/mmm_motion.h"
+#include "common/math/rotation.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "tests/cli/program.h"
@@ -76,6 +78,12 @@ PoseTrajectory Jump(double gravity) {
   });
 }
 
+// Characters, not bytes.
+long Width(const std::string& line) {
+  return std::count_if(line.begin(), line.end(),
+                       [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; });
+}
+
 std::string LastLine(const std::string& text) {
   return text.substr(text.find_last_of('\n', text.size() - 2) + 1);
 }
@@ -96,7 +104,7 @@ TEST(CheckDynamics, StandingIsPlausible) {
     EXPECT_EQ(run.exit_code, 0) << run.out;
     EXPECT_EQ(run.err, "");
     EXPECT_EQ(LastLine(run.out), file +
-                                     " is plausible: a body can move like that (6 of 8 checks, "
+                                     " is plausible: a body can move like that (7 of 9 checks, "
                                      "2 not judged).\n");
     const Json json = Json::parse(ReadText(summary));
     // MMM files have 1e-7 m; differentiated twice over 0.01 s and low-passed that is below 1e-3
@@ -107,6 +115,12 @@ TEST(CheckDynamics, StandingIsPlausible) {
     EXPECT_NEAR(json["forces"]["body_weight_n"].get<double>(), kMass * 9.81, 1e-2);
     EXPECT_LT(json["kinematics"]["marker_distance_m"].get<double>(), 1e-9);
     EXPECT_TRUE(json["flights"].empty());
+    EXPECT_THAT(Check(json, "fall in flight")["reason"].get<std::string>(),
+                HasSubstr("higher than 40 mm for 0.1 s or more"));
+    EXPECT_NEAR(json["forces"]["largest_residual_force_body_weights"].get<double>(), 1, 1e-4);
+    const double moment = json["forces"]["largest_residual_root_moment_nm"];
+    EXPECT_NEAR(json["forces"]["largest_residual_root_moment_body_weight_metres"].get<double>(),
+                moment / (kMass * 9.81), 1e-5 * moment);
     for (const Json& contact : json["contacts"]) {
       const auto body = contact["body"].get<std::string>();
       EXPECT_EQ(contact["share"], body.find("foot") == std::string::npos ? 0 : 1) << body;
@@ -137,10 +151,55 @@ TEST(CheckDynamics, FreeFallIsMeasuredAndSlowFallIsImplausible) {
   }
 }
 
+// Rises and sinks twice without ground below it: the worse it fits a parabola, the larger that
+// one's noise, which is no excuse.
+TEST(CheckDynamics, AFlightThatIsNoParabolaIsImplausible) {
+  constexpr double kSeconds = 0.6;
+  const PoseTrajectory motion = Standing(160, [](int k) {
+    const double phase = std::acos(-1.0) * (k - 50) / kRate / kSeconds;
+    return k < 50 || k > 110 ? 0 : 0.3 * std::sin(phase) + 0.12 * std::sin(3 * phase);
+  });
+  const std::string summary = TestFolder() + "/s.json";
+  const auto run =
+      RunProgram({"check-dynamics", WriteMotion(motion, "hover"), "--summary", summary});
+  EXPECT_EQ(run.exit_code, 1);
+  const Json json = Json::parse(ReadText(summary));
+  EXPECT_EQ(json["flights"].size(), 1);
+  EXPECT_EQ(Check(json, "fall in flight")["verdict"], "implausible") << run.out;
+}
+
+// For longer than on the ground, so that the air is the ground and there is no flight.
+TEST(CheckDynamics, StandingInTheAirIsImplausible) {
+  const PoseTrajectory motion = Standing(300, [](int k) {
+    return 0.15 * (1 - std::cos(std::acos(-1.0) * std::clamp((k - 100) / 50.0, 0.0, 1.0)));
+  });
+  const auto run = RunProgram({"check-dynamics", WriteMotion(motion, "hover")});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(LastLine(run.out), HasSubstr("is implausible: carried beside the ground ("));
+  EXPECT_THAT(run.out, HasSubstr("it stands in the air, or not all on one level; worst at"));
+}
+
+TEST(CheckDynamics, TippingOverIsSaidInMillimetres) {
+  PoseTrajectory motion = Standing(100, [](int) { return 0.0; });
+  for (Posture& q : motion.postures) q.orientation = Exp({0.4, 0, 0}) * q.orientation;
+  const std::string summary = TestFolder() + "/s.json";
+  const auto run =
+      RunProgram({"check-dynamics", WriteMotion(motion, "lean"), "--summary", summary});
+  EXPECT_EQ(run.exit_code, 1);
+  const Json json = Json::parse(ReadText(summary));
+  EXPECT_THAT(Check(json, "body would tip over")["reason"].get<std::string>(),
+              ::testing::MatchesRegex(".*outside of what touches.*; worst at 0... s, ... mm"));
+}
+
+TEST(CheckDynamics, HelpFitsATerminal) {
+  std::istringstream lines(RunProgram({"check-dynamics", "--help"}).out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(Width(line), 100) << line;
+}
+
 TEST(CheckDynamics, NoiseIsNotPrintedAsTorque) {
-  // 4 x 3 mm / (0.01 s)² = 120 m/s²: 12 body weights up and down.
+  // 4 x 0.5 mm / (0.01 s)² = 20 m/s²: 2 body weights up and down, of which 6 Hz leave little.
   const std::string file =
-      WriteMotion(Standing(100, [](int k) { return k % 2 == 0 ? 0.006 : 0.0; }), "noise");
+      WriteMotion(Standing(100, [](int k) { return k % 2 == 0 ? 0.001 : 0.0; }), "noise");
   const auto raw = RunProgram({"check-dynamics", file, "--low-pass", "0"});
   EXPECT_EQ(raw.exit_code, 0);
   EXPECT_THAT(raw.out, AllOf(HasSubstr("torques     not shown: accelerations are noise"),
@@ -160,6 +219,8 @@ TEST(CheckDynamics, TakesFramesPersonAndModel) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(ReadText(summary));
   EXPECT_EQ(json["input"]["frames"], 40);
+  EXPECT_THAT(Check(json, "ground pulls")["reason"].get<std::string>(),
+              HasSubstr("0.40 s on the ground, the recording's ends left out; at least 0.5 s"));
   EXPECT_EQ(json["input"]["first_frame"], 20);
   EXPECT_EQ(json["mass_kg"], 50);
   EXPECT_EQ(json["input"]["person"]["mass_source"], "given");
@@ -199,7 +260,18 @@ TEST(CheckDynamics, BadInputIsOneLine) {
   const std::string no_height =
       Replaced(stand, "<Height>" + std::string("1.8") + "</Height>", "<!-- none -->");
   ASSERT_NE(mass, std::string::npos);
+  PoseTrajectory rigid = Standing(9, [](int) { return 0.0; });
+  rigid.joint_names.clear();
+  for (Posture& posture : rigid.postures) posture.joint_angles.resize(0);
   const std::vector<BadMotion> cases = {
+      {ReadText(WriteMotion(rigid, "knife")),
+       {"--motion", "knife"},
+       "motion \"knife\" is that of a rigid object"},
+      {"PathFileType\t4\t(X/Y/Z)\tx.trc\n", {}, "is a TRC recording, which has markers only"},
+      {"\x02\x50\x01", {}, "is a C3D recording, which has markers only; convert it first"},
+      {Replaced(no_height, model, "../robot.urdf"),
+       {},
+       "names the model ../robot.urdf, which is not there"},
       {"<MMM version=\"2.0\"><Motion name=\"m\"/></MMM>", {}, "has no motion with joint angles"},
       {one, {}, "frame"},
       {stand, {"--frames", "20:30"}, "has no frame of the motion's 9"},
@@ -259,6 +331,13 @@ TEST(CheckDynamics, WalkingCarriesTheBodyWeight) {
   EXPECT_LT(force["max"].get<double>(), 1.5);
   EXPECT_GT(force["min"].get<double>(), 0.5);
   EXPECT_TRUE(json["flights"].empty());
+  // The recording's ends hold no derivatives: one period of 6 Hz.
+  const double end = (json["input"]["frames"].get<int>() - 1) / kRate;
+  for (const Json& joint : json["joints"]) {
+    if (joint["torque_nm"].is_null()) continue;
+    EXPECT_GE(joint["torque_s"].get<double>(), 1.0 / 6) << joint;
+    EXPECT_LE(joint["torque_s"].get<double>(), end - 1.0 / 6) << joint;
+  }
   EXPECT_THAT(ReadText(page), AllOf(HasSubstr("<title>walking_medium01_motion395.xml</title>"),
                                     HasSubstr("class=\"series\""), Not(HasSubstr("<link"))));
 }

@@ -30,6 +30,7 @@ MotionDynamics HostileDynamics() {
   MotionDynamics dynamics;
   dynamics.rate = 100;
   dynamics.mass = 1;
+  dynamics.settled_end = kFrames;
   dynamics.joint_names = {kHostileText};
   for (Eigen::Matrix3Xd* vectors :
        {&dynamics.com, &dynamics.com_velocity, &dynamics.com_acceleration,

@@ -65,7 +65,8 @@ TEST(GroundContact, TouchingIsLowAndSlow) {
     q.position = {k < 60 ? 0.0 : 2 * (std::min(k, 75) - 60) / 50.0, 0, k < 80 ? 0.9 : 1.1};
     motion.postures.push_back(q);
   }
-  const GroundContact contact = FindGroundContact(model, ContactBodies(model), motion, 0.04, 0.8);
+  const GroundContact contact =
+      FindGroundContact(model, ContactBodies(model), motion, motion, 0.04, 0.8);
   EXPECT_NEAR(contact.ground_height, 0.7, 1e-12);
   EXPECT_EQ(contact.touches(0, 30), 1);
   EXPECT_EQ(contact.touches(0, 70), 0);

@@ -67,6 +67,27 @@ TEST(MotionDynamics, AThrownBodyFallsWithG) {
               0.02 * dynamics.body_weight());
 }
 
+TEST(MotionDynamics, FramesAreDifferentiatedWithThoseBesideThem) {
+  const KinematicModel model = testing::Brick();
+  const PoseTrajectory motion = ThrownBrick(model);
+  const MotionDynamics whole = ComputeMotionDynamics(model, motion);
+  DynamicsOptions options;
+  options.first_frame = 90;
+  options.end_frame = 240;
+  const MotionDynamics part = ComputeMotionDynamics(model, motion, options);
+  ASSERT_EQ(part.num_frames(), 150);
+  EXPECT_DOUBLE_EQ(part.time(0), whole.time(90));
+  EXPECT_EQ(part.residual_force, whole.residual_force.middleCols(90, 150));
+  EXPECT_EQ(part.residual_moment, whole.residual_moment.middleCols(90, 150));
+  EXPECT_EQ(part.contacts, whole.contacts.middleCols(90, 150));
+  EXPECT_EQ(part.ballistic_phases.at(0).begin, whole.ballistic_phases.at(0).begin - 90);
+  // A period of 6 Hz: 16.7 frames at the recording's own ends.
+  EXPECT_EQ(whole.settled_begin, 17);
+  EXPECT_EQ(whole.settled_end, 233);
+  EXPECT_EQ(part.settled_begin, 0);
+  EXPECT_EQ(part.settled_end, 143);
+}
+
 TEST(MotionDynamics, GivenDerivativesAreUsedAsTheyAre) {
   const KinematicModel model = testing::Chain(3);
   const SimbodyModel simbody(model);
@@ -119,9 +140,14 @@ TEST(MotionDynamics, TellsWhatDifferentiationDoesToNoise) {
   EXPECT_NEAR(noisy.raw_force_rms, 2.5,
               0.4);  // of 100 frames: a tenth, by correlation somewhat more
   EXPECT_LT(noisy.force_rms, 0.02 * noisy.raw_force_rms);  // (12/100)^2.5, what 6 Hz leave of it
+  // The estimate of what noise makes: all that is left after 6 Hz, as the body stands. White noise
+  // of 100 frames has few periods of it: to a factor of two.
+  EXPECT_GT(noisy.noise_force_rms, 0.5 * noisy.force_rms);
+  EXPECT_LT(noisy.noise_force_rms, 2 * noisy.force_rms);
   DynamicsOptions raw;
   raw.cutoff = 0;
   const Differentiation unfiltered = ComputeMotionDynamics(model, motion, raw).differentiation;
+  EXPECT_NEAR(unfiltered.noise_force_rms, noisy.raw_force_rms, 0.05 * noisy.raw_force_rms);
   EXPECT_NEAR(unfiltered.force_rms, noisy.raw_force_rms,
               0.05 * noisy.raw_force_rms);  // 2 end frames
 }
