@@ -70,6 +70,7 @@ struct FrameCheck {
   std::string frames;  // that count
   std::string reason;
   std::string unit;
+  int digits;  // behind the point
   double most;
 };
 
@@ -98,8 +99,8 @@ DynamicsCheck CheckFrames(const MotionDynamics& dynamics, const FrameCheck& chec
   return Judged(check.name,
                 fmt::format("in {:.1f} % of {} frames {}", 100 * share, all, check.frames),
                 expected, share <= kMostBadFrames,
-                fmt::format("{}; worst at {:.2f} s, {:.3g} {}", check.reason, dynamics.time(worst),
-                            figure(worst), check.unit));
+                fmt::format("{}; worst at {:.2f} s, {:.{}f} {}", check.reason, dynamics.time(worst),
+                            figure(worst), check.digits, check.unit));
 }
 
 void AddGroundChecks(const MotionDynamics& dynamics, const std::string& why_no_forces,
@@ -109,27 +110,27 @@ void AddGroundChecks(const MotionDynamics& dynamics, const std::string& why_no_f
     checks->push_back(CheckFrames(dynamics, check, why_no_forces, counts, figure));
   };
   const auto on_ground = [&](int k) { return IsOnGround(dynamics, k); };
-  add({"ground pulls", "on the ground", "the body would have to be held down", "body weights",
+  add({"ground pulls", "on the ground", "the body would have to be held down", "body weights", 2,
        kForceTolerance},
       on_ground, [&](int k) { return -forces(2, k); });
   add({"feet would slide", "on the ground",
        fmt::format("friction of more than {:g} times the vertical force is asked for",
                    kMostFriction),
-       "body weights more than that", kForceTolerance},
+       "body weights more than that", 2, kForceTolerance},
       on_ground, [&](int k) {
         return forces.col(k).head<2>().norm() - kMostFriction * std::max(0.0, forces(2, k));
       });
   add({"body would tip over", "on the ground",
        fmt::format("the force acts more than {:.0f} mm outside of what touches the ground",
                    1000 * kMostOutsideSupport),
-       "mm", 1000 * kMostOutsideSupport},
+       "mm", 0, 1000 * kMostOutsideSupport},
       on_ground, [&](int k) { return 1000 * dynamics.outside_support[k]; });
   add(
       {"carried beside the ground", "that carry",
        fmt::format("the body's lowest point is more than {:.0f} mm above or below the ground: it "
                    "stands in the air, or not all on one level",
                    1000 * kMostUneven),
-       "mm", 1000 * kMostUneven},
+       "mm", 0, 1000 * kMostUneven},
       [&](int k) { return forces(2, k) > kCarryingForce; },
       [&](int k) { return 1000 * std::abs(dynamics.contact_heights.col(k).minCoeff()); });
 }
