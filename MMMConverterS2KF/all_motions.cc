@@ -19,11 +19,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-ConversionRequest RequestFor(const ConversionRequest& request, const Recording& recording,
+ConversionRequest RequestFor(const ConversionRequest& request, Recording recording,
                              const std::shared_ptr<const ConverterChoice>& choice) {
   ConversionRequest own = request;
   own.input.reading.motion = recording.motion;
-  own.input.recording = std::make_shared<const Recording>(recording);
+  own.input.recording = std::make_shared<const Recording>(std::move(recording));
   own.choice = choice;
   own.motion_name.clear();
   own.is_one_of_all = true;
@@ -54,21 +54,52 @@ MotionOutcome ConvertOne(const ConversionRequest& request,
   return outcome;
 }
 
-// Names are what tells motions and the files of models apart.
+// Names are what tells motions that are written apart.
 void CheckNames(const std::vector<Recording>& recordings) {
   std::set<std::string> names;
   for (const Recording& recording : recordings) {
-    if (names.insert(recording.motion).second) continue;
+    const bool has_markers = recording.markers.num_labels() > 0;
+    if (!has_markers || names.insert(recording.motion).second) continue;
     throw Error(
         fmt::format("{}: has two motions \"{}\"; motions to convert need names of their own",
                     recording.file, recording.motion));
   }
 }
 
+// Fails what takes the model of a motion before it, as "a b" does of "a_b".
+void CheckModelIsOwn(std::set<std::string>* models, MotionOutcome* outcome) {
+  if (!outcome->report || !outcome->report->object) return;
+  const ConversionReport& report = *outcome->report;
+  if (!report.object->has_motions_name || models->insert(report.input.model_file).second) return;
+  outcome->failure = fmt::format(
+      "{}: is the model of a motion before this one; give them names that differ in letters and "
+      "digits",
+      report.input.model_file);
+  outcome->report.reset();
+}
+
+std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
+  std::vector<const ConversionReport*> reports;
+  for (const MotionOutcome& outcome : all.motions) {
+    if (outcome.report) reports.push_back(&*outcome.report);
+  }
+  return reports;
+}
+
+std::string WhyNone(const AllMotions& all) {
+  std::string reasons;
+  for (const MotionOutcome& outcome : all.motions) {
+    if (!outcome.failure.empty()) {
+      reasons += fmt::format("\n{}: {}", outcome.name, outcome.failure);
+    }
+  }
+  return reasons.empty() ? ": none has markers" : reasons;
+}
+
 std::string DescribeModel(const ConversionReport& report) {
   if (report.object) {
     std::string text = "object, model " + report.object->source;
-    if (!report.object->text.empty()) {
+    if (report.object->is_built()) {
       text += fmt::format(" ({:.2f} mm from the markers): {}", 1e3 * report.object->distance,
                           report.input.model_file);
     }
@@ -78,7 +109,7 @@ std::string DescribeModel(const ConversionReport& report) {
 }
 
 std::string DescribeOutcome(const MotionOutcome& outcome) {
-  if (!outcome.failure.empty()) return "not converted: " + outcome.failure;
+  if (!outcome.failure.empty()) return "not converted";
   if (!outcome.report) return "has no markers; left as it is";
   const ConversionReport& report = *outcome.report;
   const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
@@ -91,39 +122,27 @@ std::string DescribeOutcome(const MotionOutcome& outcome) {
 
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress) {
-  const std::vector<Recording> recordings =
-      ReadAllMotions(request.input.file, request.input.reading);
+  AllMotions all;
+  std::vector<Recording> recordings =
+      ReadAllMotions(request.input.file, request.input.reading, &all.warnings);
   const auto choice = std::make_shared<const ConverterChoice>(ChooseConverter(request.converter));
   CheckNames(recordings);
-  AllMotions all;
-  std::set<std::string> new_models;
-  std::string failures;
-  bool is_any_converted = false;
-  for (const Recording& recording : recordings) {
+  ConversionRequest of_each = request;
+  of_each.input.model = ReadModel(request.input).model;
+  std::set<std::string> models;
+  for (Recording& recording : recordings) {
     CheckFormat(request, *choice, recording);
-    MotionOutcome outcome = ConvertOne(RequestFor(request, recording, choice), progress);
-    if (outcome.report) {
-      const ConversionReport& report = *outcome.report;
-      const bool is_built = report.object && !report.object->text.empty();
-      if (is_built && !new_models.insert(report.input.model_file).second) {
-        outcome.failure = report.input.model_file +
-                          ": is the model of a motion before this one; "
-                          "give them names that differ in letters and digits";
-        outcome.report.reset();
-      } else {
-        all.output = report.output;
-        is_any_converted = true;
-      }
-    }
-    if (!outcome.failure.empty()) {
-      failures += fmt::format("\n{}: {}", outcome.name, outcome.failure);
-    }
+    MotionOutcome outcome = ConvertOne(RequestFor(of_each, std::move(recording), choice), progress);
+    CheckModelIsOwn(&models, &outcome);
     all.motions.push_back(std::move(outcome));
   }
-  if (!is_any_converted) {
-    throw Error(fmt::format("{}: no motion could be converted{}", request.input.file,
-                            failures.empty() ? ": none has markers" : failures));
+  const std::vector<const ConversionReport*> reports = ReportsOf(all);
+  if (reports.empty()) {
+    throw Error(
+        fmt::format("{}: no motion could be converted{}", request.input.file, WhyNone(all)));
   }
+  CheckOutputs(request, reports);
+  all.output = reports.front()->output;
   return all;
 }
 

@@ -18,13 +18,15 @@ struct MotionOutcome {
 };
 
 struct AllMotions {
+  std::vector<std::string> warnings;   ///< of the file as a whole; the others are in reports
   std::vector<MotionOutcome> motions;  ///< in the file's order
   std::string output;
 };
 
 /// Converts every motion with markers of an MMM 2.0 file, each by itself: what fails has its reason
 /// and does not end the others. Writes nothing. progress as of RunConversion, for each motion.
-/// @throws Error where the request fits one motion only, or all motions fail.
+/// @throws Error where the request fits one motion only, an output is a file that is read, or all
+/// motions fail.
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress);
 

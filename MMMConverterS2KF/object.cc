@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -13,8 +14,10 @@
 
 #include "common/convert/marker_set.h"
 #include "common/fit/rigid_shape.h"
+#include "common/io/file_content.h"
 #include "common/io/mmm_model.h"
 #include "common/io/mmm_object_model.h"
+#include "common/motion/marker_residuals.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
 
@@ -40,7 +43,8 @@ bool IsPersonsRecording(const Input& input, const ConverterConfig& config) {
   const auto is_known = [&](const std::vector<MarkerPair>& pairs) {
     return CountKnown(pairs, recording.markers, *input.reference) >= kFewestMarkers;
   };
-  if (is_known(config.marker_pairs)) return true;
+  if (is_known(config.marker_pairs) || is_known(OwnMarkerSet(*input.reference).pairs)) return true;
+  if (const auto own = ReadOwnMarkerSet(config); own && is_known(own->pairs)) return true;
   const std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
   return std::any_of(sets.begin(), sets.end(),
                      [&](const MarkerSet& set) { return is_known(set.pairs); });
@@ -48,6 +52,13 @@ bool IsPersonsRecording(const Input& input, const ConverterConfig& config) {
 
 // Of a motion; any text may be its name.
 std::string FileNameOf(const std::string& motion) {
+  constexpr std::size_t kLongest = 200;  // systems allow 255 bytes
+  if (motion.size() > kLongest) {
+    throw Error(
+        fmt::format("the motion's name has {} bytes; a model is called as its motion, and may have "
+                    "{}: give the motion a shorter name",
+                    motion.size(), kLongest));
+  }
   std::string name = motion.empty() ? "object" : motion;
   for (char& c : name) {
     const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ||
@@ -81,29 +92,54 @@ std::vector<MarkerPair> OwnPairs(const KinematicModel& model) {
   return pairs;
 }
 
-bool HasMarkers(const KinematicModel& model, const Input& input, const ConverterConfig& config) {
-  const MarkerSequence& markers = input.recording.markers;
-  return CountKnown(OwnPairs(model), markers, model) >= kFewestMarkers ||
-         CountKnown(config.marker_pairs, markers, model) >= kFewestMarkers;
+// Which labels are the model's markers: by the configuration where that knows three of them, else
+// by their names. Empty: by neither.
+std::vector<MarkerPair> PairsOfObject(const KinematicModel& model, const Input& input,
+                                      const ConverterConfig& config) {
+  MarkerSet set;
+  if (const auto own = ReadOwnMarkerSet(config)) {
+    set = *own;
+  } else {
+    set.pairs = config.marker_pairs;
+  }
+  for (const std::vector<MarkerPair>& pairs : {PairsInModel(set, model), OwnPairs(model)}) {
+    if (CountKnown(pairs, input.recording.markers, model) >= kFewestMarkers) return pairs;
+  }
+  return {};
 }
 
-// The file that the motion names, if it is there and has markers to track.
+// Why the model can't be the object's; empty: it can.
+std::string WhyNotItsModel(const LoadedModel& model, const Input& input,
+                           const ConverterConfig& config) {
+  if (model.model.num_joints() > 0) {
+    return fmt::format("it has {} joints", model.model.num_joints());
+  }
+  if (!PairsOfObject(model.model, input, config).empty()) return "";
+  return fmt::format("it has fewer than three of the motion's markers ({})",
+                     fmt::join(input.recording.markers.labels(), ", "));
+}
+
+// The file that the motion names, if it is there and can be tracked.
 bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input* input) {
   const Recording& recording = input->recording;
   if (recording.model_path.empty()) return false;
   const std::string file =
       (fs::path(recording.file).parent_path() / recording.model_path).lexically_normal().string();
   if (!IsFile(file)) return false;
-  LoadedModel model = ReadModelFile(file);
-  if (!HasMarkers(model.model, *input, config)) {
-    input->warnings.push_back(
-        fmt::format("{}: the model of the motion {} has fewer than three of its markers ({}); one "
-                    "is built from these",
-                    file, name, fmt::join(recording.markers.labels(), ", ")));
-    return false;
+  std::string reason;
+  try {
+    LoadedModel model = ReadModelFile(file);
+    reason = WhyNotItsModel(model, *input, config);
+    if (reason.empty()) {
+      UseModel(file, std::move(model), input);
+      return true;
+    }
+  } catch (const Error& error) {
+    reason = error.what();
   }
-  UseModel(file, std::move(model), input);
-  return true;
+  input->warnings.push_back(
+      fmt::format("{}, the model that the motion {} names, is not used: {}", file, name, reason));
+  return false;
 }
 
 KinematicModel ModelOf(const std::string& name, const RigidShape& shape,
@@ -124,26 +160,42 @@ void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape, Inp
   const std::vector<std::string>& labels = input->recording.markers.labels();
   for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
     if (std::count(shape.labels.begin(), shape.labels.end(), i) > 0) continue;
-    input->warnings.push_back(
-        fmt::format("motion {}: marker {} is never seen with three others whose places are known, "
-                    "and is left out of the model",
-                    name, labels[i]));
+    input->warnings.push_back(fmt::format(
+        "motion {}: marker {} is left out of the model: it could not be placed by three "
+        "others",
+        name, labels[i]));
   }
 }
 
+constexpr std::string_view kBuilt = "Built from the markers of the motion";
+
+// Only what an earlier run has built is replaced.
+void CheckIsBuilt(const std::string& file) {
+  constexpr std::size_t kStart = 1000;  // bytes; the comment is in front
+  std::error_code failure;
+  if (!fs::exists(file, failure)) return;
+  if (IsFile(file) && ReadFileStart(file, kStart).find(kBuilt) != std::string::npos) return;
+  throw Error(
+      fmt::format("{}: was not built by this program, and would be replaced by a model that is; "
+                  "give a folder for these (--object-models DIR)",
+                  file));
+}
+
 ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input) {
+  CheckIsBuilt(file);
   const Recording& recording = input->recording;
   const RigidShape shape = EstimateRigidShape(recording.markers);
   WarnOfUnplacedMarkers(name, shape, input);
   ObjectModel built;
+  built.has_motions_name = true;
   built.source = fmt::format("built from {} frames", shape.frames);
   built.distance = shape.distance;
   built.text = FormatObjectModel(
       ModelOf(name, shape, recording),
-      fmt::format("Built from the markers of the motion {} of {}: {} frames, {:.2f} mm from the "
-                  "markers (rms). Origin: mean of the markers. Axes: those of the world in the "
-                  "first of the frames that show most markers.",
-                  name, fs::path(recording.file).filename().string(), shape.frames,
+      fmt::format("{} {} of {}: {} frames, {:.2f} mm from the markers (rms). Origin: mean of the "
+                  "markers. Axes: those of the world in the first of the frames that show most "
+                  "markers.",
+                  kBuilt, name, fs::path(recording.file).filename().string(), shape.frames,
                   1e3 * shape.distance));
   MmmModel model = ParseMmmModel(built.text, file);
   UseModel(file, {std::move(model.model), true, {}, std::move(model.warnings)}, input);
@@ -156,17 +208,22 @@ ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& confi
     const std::string file = (fs::path(request.models) / file_name).string();
     if (IsFile(file)) {
       LoadedModel model = ReadModelFile(file);
-      if (!HasMarkers(model.model, *input, config)) {
-        throw Error(fmt::format(
-            "{}: has fewer than three of the motion's markers ({}); take it out of the folder to "
-            "have one built from them",
-            file, fmt::join(input->recording.markers.labels(), ", ")));
+      const std::string reason = WhyNotItsModel(model, *input, config);
+      if (!reason.empty()) {
+        throw Error(fmt::format("{}: {}; take it out of the folder to have one built from them",
+                                file, reason));
       }
       UseModel(file, std::move(model), input);
-      return {"in " + request.models, "", 0};
+      return {"in " + request.models, "", 0, true};
     }
   }
-  if (UseNamedModel(request.name, config, input)) return {"named by the motion", "", 0};
+  if (UseNamedModel(request.name, config, input)) return {"named by the motion", "", 0, false};
+  if (request.new_models.empty()) {
+    throw Error(
+        fmt::format("{}: the motion {} is of a rigid object without a model, and there is no "
+                    "folder for one that is built (convert --object-models DIR)",
+                    input->recording.file, request.name));
+  }
   return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input);
 }
 
@@ -176,10 +233,18 @@ void AdaptToObject(const Input& input, ConverterConfig* config) {
   config->subject_file.clear();
   config->joints.clear();
   config->joint_set = "auto";
-  const auto set = ReadOwnMarkerSet(*config);
-  const std::vector<MarkerPair>& pairs = set ? set->pairs : config->marker_pairs;
-  if (CountKnown(pairs, input.recording.markers, *input.reference) > 0) return;
-  config->marker_pairs = OwnPairs(*input.reference);
+  const std::vector<MarkerPair> pairs = PairsOfObject(*input.reference, input, *config);
+  config->marker_pairs = pairs.empty() ? OwnPairs(*input.reference) : pairs;
+}
+
+// Of the markers that are tracked, in the model [m].
+Eigen::Matrix3Xd PlacesOf(const Input& input, const MarkerMapping& mapping) {
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(mapping.assignments.size()));
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const MarkerAssignment& assignment = mapping.assignments[static_cast<std::size_t>(i)];
+    places.col(i) = input.reference->markers()[assignment.marker].p_SM;
+  }
+  return places;
 }
 
 }  // namespace
@@ -194,9 +259,10 @@ std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input
                               input->model_file, joints));
     }
     if (joints > 0) return std::nullopt;
-    object = ObjectModel{"given", "", 0};
+    object = ObjectModel{"given", "", 0, false};
   } else {
-    if (!request.is_object && IsPersonsRecording(*input, *config)) return std::nullopt;
+    const bool is_person = request.is_person || IsPersonsRecording(*input, *config);
+    if (!request.is_object && is_person) return std::nullopt;
     object = FindModel(request, *config, input);
   }
   AdaptToObject(*input, config);
@@ -205,22 +271,45 @@ std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input
 
 void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping) {
   if (input.reference->num_joints() > 0) return;
-  const int count = static_cast<int>(mapping.assignments.size());
-  Eigen::Matrix3Xd places(3, count);
+  const auto count = static_cast<int>(mapping.assignments.size());
   std::vector<std::string> names;
   names.reserve(mapping.assignments.size());
-  for (int i = 0; i < count; ++i) {
-    const ModelMarker& marker = input.reference->markers()[mapping.assignments[i].marker];
-    places.col(i) = marker.p_SM;
-    names.push_back(marker.name);
+  for (const MarkerAssignment& assignment : mapping.assignments) {
+    names.push_back(input.reference->markers()[assignment.marker].name);
   }
   constexpr double kOnALine = 1e-4;  // [m], what a marker system may resolve
-  if (count >= kFewestMarkers && DistanceFromLine(places) > kOnALine) return;
+  if (count >= kFewestMarkers && DistanceFromLine(PlacesOf(input, mapping)) > kOnALine) return;
   throw Error(
       fmt::format("{}: the markers that the recording has ({}) {}; the pose of a rigid object "
                   "needs three that do not stand on a line",
                   input.model_file, fmt::join(names, ", "),
                   count < kFewestMarkers ? "are too few" : "stand on a line"));
+}
+
+std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
+                                     const Eigen::MatrixXd& residuals) {
+  constexpr double kHardlyTold = 0.05;  // [rad]
+  const Eigen::Matrix3Xd places = PlacesOf(input, mapping);
+  const Eigen::Vector3d mean = places.rowwise().mean();
+  const double radius =
+      (places.colwise() - mean).norm() / std::sqrt(static_cast<double>(places.cols()));
+  const double beside_line = DistanceFromLine(places);
+  const double distance = SummarizeResiduals(residuals).mean;
+  if (distance > kMostStray * radius) {
+    return {
+        fmt::format("{}: the markers are {:.1f} mm from this model, whose radius is {:.0f} mm "
+                    "(both on average); is it this object's?",
+                    input.model_file, 1e3 * distance, 1e3 * radius)};
+  }
+  if (distance > kHardlyTold * beside_line) {
+    return {
+        fmt::format("{}: the markers are {:.1f} mm (root mean square) beside a line, and {:.1f} "
+                    "mm from their places on average: turns about that line are hardly known, "
+                    "to about {:.0f} degrees",
+                    input.model_file, 1e3 * beside_line, 1e3 * distance,
+                    distance / beside_line * 180 / EIGEN_PI)};
+  }
+  return {};
 }
 
 }  // namespace mmm_converter

@@ -22,16 +22,13 @@ void CheckIsNoInput(const std::string& output, const std::vector<std::string>& i
   }
 }
 
-void CheckCanBeWritten(const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs) {
-    std::error_code failure;
-    if (output.empty() || fs::is_other(output, failure)) continue;
-    if (fs::is_directory(output, failure)) throw WriteError(output, EISDIR);
-    const fs::path file = fs::weakly_canonical(fs::absolute(output), failure);
-    const std::string folder =
-        (failure ? fs::absolute(output) : file).parent_path().string() + "/.";
-    if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(output, errno);
-  }
+void CheckCanBeWritten(const std::string& output) {
+  std::error_code failure;
+  if (output.empty() || fs::is_other(output, failure)) return;
+  if (fs::is_directory(output, failure)) throw WriteError(output, EISDIR);
+  const fs::path file = fs::weakly_canonical(fs::absolute(output), failure);
+  const std::string folder = (failure ? fs::absolute(output) : file).parent_path().string() + "/.";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(output, errno);
 }
 
 void CheckAreDifferentFiles(const std::vector<std::string>& outputs) {

@@ -11,9 +11,9 @@ namespace mmm_converter {
 void CheckIsNoInput(const std::string& output, const std::vector<std::string>& inputs);
 
 /// Before the work whose result they hold: whether the system would let them be written, as far as
-/// can be told. Empty paths are left out.
+/// can be told. An empty path can.
 /// @throws WriteError
-void CheckCanBeWritten(const std::vector<std::string>& outputs);
+void CheckCanBeWritten(const std::string& output);
 
 /// Before they are written; empty paths, devices and pipes are left out.
 /// @throws Error where two are the same file.

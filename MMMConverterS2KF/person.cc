@@ -129,6 +129,11 @@ KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel&
 
 }  // namespace
 
+bool IsGiven(const PersonRequest& request) {
+  return !request.processor_file.empty() || !request.subject_file.empty() || request.height ||
+         request.mass || request.hand_length;
+}
+
 std::string WhyUnscaled(const ConverterConfig& config) {
   return "the model is not scaled (it is a URDF, or " + config.file + " has <Model name=\"None\">)";
 }

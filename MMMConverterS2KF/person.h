@@ -22,6 +22,9 @@ struct PersonRequest {
   std::optional<double> height, mass, hand_length;
 };
 
+/// Whether anything is.
+bool IsGiven(const PersonRequest& request);
+
 /// A number of the person, and where it is from.
 struct PersonValue {
   double value = 0;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "MMMConverterS2KF/motion_output.h"
@@ -37,26 +38,27 @@ void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
 }
 
 // Models that are built go into the folder given, else into one beside the output.
+std::string FolderOfNewModels(const ConversionRequest& request, const ConversionReport& report) {
+  std::error_code failure;
+  if (!request.object_models.empty()) return request.object_models;
+  if (!request.builds_models || std::filesystem::is_other(report.output, failure)) return "";
+  return std::filesystem::path(report.output).replace_extension().string() + "_objects";
+}
+
 void TakeObject(const ConversionRequest& request, ConversionReport* report) {
   ObjectRequest object;
   object.is_object = request.is_object;
+  object.is_person =
+      !request.is_one_of_all && (IsGiven(request.input.person) || request.self_calibrate);
   object.name = report->motion_name;
   object.models = request.object_models;
-  object.new_models = request.object_models;
-  if (object.new_models.empty()) {
-    object.new_models =
-        std::filesystem::path(report->output).replace_extension().string() + "_objects";
-  }
+  object.new_models = FolderOfNewModels(request, *report);
   object.has_model_given = !request.input.model_file.empty() && !request.is_one_of_all;
   const std::size_t known = report->input.warnings.size();
   report->object = TakeObject(object, &report->input, &report->converter.config);
   AddWarnings({report->input.warnings.begin() + static_cast<std::ptrdiff_t>(known),
                report->input.warnings.end()},
               report);
-  if (!report->object || !request.self_calibrate) return;
-  AddWarnings(
-      {"the motion " + report->motion_name + " is of a rigid object; --self-calibrate is left out"},
-      report);
 }
 
 // Configurations know how far markers stray from a model of a person. On an object nothing moves
@@ -67,29 +69,6 @@ void TrustMarkersOfObject(MarkerMapping* mapping) {
   for (MarkerAssignment& assignment : mapping->assignments) {
     assignment.noise_scale *= kNoiseOfObjects;
   }
-}
-
-void CheckOutputs(const ConversionRequest& request, const ConversionReport& report) {
-  if (!request.subject_output.empty() && !report.person.subject) {
-    throw Error("--subject-out " + request.subject_output + ": a rigid object is no subject");
-  }
-  if (!request.model_output.empty() && !report.person.subject) {
-    throw Error(
-        fmt::format("--model-out {}: no subject is known whose model that would be; use "
-                    "--self-calibrate or --subject-file",
-                    request.model_output));
-  }
-  const std::vector<std::string> inputs = {
-      request.input.file, report.input.model_file, request.input.person.processor_file,
-      report.person.subject_file, report.converter.config.file};
-  std::vector<std::string> outputs = {request.subject_output, request.model_output,
-                                      request.exports.csv, request.exports.trc,
-                                      request.exports.mot};
-  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
-  for (const std::string& output : outputs) CheckIsNoInput(output, inputs);
-  outputs.push_back(report.output);
-  CheckAreDifferentFiles(outputs);
-  CheckCanBeWritten(outputs);
 }
 
 void WritePerson(const ConversionReport& report) {
@@ -103,7 +82,70 @@ void WritePerson(const ConversionReport& report) {
   }
 }
 
+void CheckHasSubject(const ConversionRequest& request, const ConversionReport& report) {
+  if (report.person.subject) return;
+  if (!request.subject_output.empty()) {
+    throw Error("--subject-out " + request.subject_output + ": a rigid object is no subject");
+  }
+  if (!request.model_output.empty()) {
+    throw Error(
+        fmt::format("--model-out {}: no subject is known whose model that would be; use "
+                    "--self-calibrate or --subject-file",
+                    request.model_output));
+  }
+}
+
+std::vector<std::string> OutputsBesideMotion(const ConversionRequest& request,
+                                             const std::vector<const ConversionReport*>& reports) {
+  std::vector<std::string> outputs = {request.subject_output, request.model_output,
+                                      request.exports.csv, request.exports.trc,
+                                      request.exports.mot};
+  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
+  for (const ConversionReport* report : reports) {
+    if (report->object && report->object->is_built()) outputs.push_back(report->input.model_file);
+  }
+  return outputs;
+}
+
+// Beside the recording, which the motion may replace.
+std::vector<std::string> Inputs(const ConversionRequest& request,
+                                const std::vector<const ConversionReport*>& reports) {
+  std::vector<std::string> inputs = {ModelFile(request.input), request.input.person.processor_file,
+                                     request.input.person.subject_file, request.input.marker_set};
+  for (const ConversionReport* report : reports) {
+    inputs.push_back(report->person.subject_file);
+    inputs.push_back(report->converter.config.file);
+    if (!report->object || !report->object->is_built()) inputs.push_back(report->input.model_file);
+  }
+  return inputs;
+}
+
+// The folder of a model that is built is made for it.
+std::string FirstToWrite(const std::string& output,
+                         const std::vector<const ConversionReport*>& reports) {
+  const std::string folder = std::filesystem::path(output).parent_path().string();
+  std::error_code failure;
+  const bool is_new = !folder.empty() && !std::filesystem::exists(folder, failure);
+  const auto is_model = [&](const ConversionReport* report) {
+    return report->object && report->object->is_built() && report->input.model_file == output;
+  };
+  return is_new && std::any_of(reports.begin(), reports.end(), is_model) ? folder : output;
+}
+
 }  // namespace
+
+void CheckOutputs(const ConversionRequest& request,
+                  const std::vector<const ConversionReport*>& reports) {
+  std::vector<std::string> inputs = Inputs(request, reports);
+  const std::string& motion = reports.front()->output;
+  CheckIsNoInput(motion, inputs);
+  inputs.push_back(request.input.file);
+  std::vector<std::string> outputs = OutputsBesideMotion(request, reports);
+  for (const std::string& output : outputs) CheckIsNoInput(output, inputs);
+  outputs.push_back(motion);
+  CheckAreDifferentFiles(outputs);
+  for (const std::string& output : outputs) CheckCanBeWritten(FirstToWrite(output, reports));
+}
 
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<bool(int, int)>& progress) {
@@ -136,7 +178,8 @@ ConversionReport RunConversion(const ConversionRequest& request,
                     &report.warnings));
 
   if (request.self_calibrate && !report.object) SelfCalibrate(config, &report);
-  CheckOutputs(request, report);
+  CheckHasSubject(request, report);
+  if (!request.is_one_of_all) CheckOutputs(request, {&report});
   report.subject_output = request.subject_output;
   report.model_output = request.model_output;
 
@@ -145,14 +188,17 @@ ConversionReport RunConversion(const ConversionRequest& request,
   report.result = converter->Convert(markers, *report.model, assignments, [&](int done) {
     return !progress || progress(done, markers.num_frames());
   });
+  if (report.object) {
+    AddWarnings(JudgeObject(report.input, report.mapping, report.result.residuals), &report);
+  }
   return report;
 }
 
 void WriteObjectModel(const ConversionReport& report) {
-  if (!report.object || report.object->text.empty()) return;
+  if (!report.object || !report.object->is_built()) return;
   std::error_code failure;  // writing says what is wrong
-  std::filesystem::create_directories(std::filesystem::path(report.input.model_file).parent_path(),
-                                      failure);
+  std::filesystem::create_directory(std::filesystem::path(report.input.model_file).parent_path(),
+                                    failure);
   WriteFileAtomically(report.input.model_file, report.object->text);
 }
 

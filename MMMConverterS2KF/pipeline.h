@@ -33,6 +33,7 @@ struct ConversionRequest {
   ExportFiles exports;                    ///< for other programs
   std::vector<std::string> more_outputs;  ///< that the caller writes
   bool is_object = false;                 ///< of a rigid object, whatever the file says
+  bool builds_models = true;              ///< of objects that have none; else these are an Error
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
   bool is_one_of_all = false;  ///< of the file's motions; the model named is that of persons
@@ -60,6 +61,11 @@ struct ConversionReport {
 /// @throws Error
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<bool(int, int)>& progress);
+
+/// Before anything is written, of one motion or of all.
+/// @throws Error where an output is a file that is read, two are the same, or one can't be written.
+void CheckOutputs(const ConversionRequest& request,
+                  const std::vector<const ConversionReport*>& reports);
 
 /// Writes the model of an object, where that is new. @throws Error
 void WriteObjectModel(const ConversionReport& report);

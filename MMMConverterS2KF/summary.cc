@@ -78,6 +78,7 @@ Json DescribeInput(const ConversionReport& report) {
 }
 
 Json DescribePerson(const ConversionReport& report) {
+  if (report.object) return nullptr;
   Json person = {{"height_m", Number(report.person.height.value)},
                  {"height_source", report.person.height.source},
                  {"mass_kg", Number(report.person.mass.value)},
@@ -212,11 +213,9 @@ std::string DescribeSubjectOutput(const ConversionReport& report) {
   return text + ". The subject's model: " + report.model_output + "\n";
 }
 
-bool IsModelBuilt(const ConversionReport& report) { return !report.object->text.empty(); }
-
 std::string DescribeObject(const ConversionReport& report) {
   std::string text = "object     rigid, model " + report.object->source;
-  if (IsModelBuilt(report)) {
+  if (report.object->is_built()) {
     text +=
         fmt::format(", {:.2f} mm from the markers (rms)", kMillimetres * report.object->distance);
   }
@@ -225,10 +224,11 @@ std::string DescribeObject(const ConversionReport& report) {
 
 Json ObjectJson(const ConversionReport& report) {
   if (!report.object) return nullptr;
-  return {{"model_source", report.object->source},
-          {"model_is_new", IsModelBuilt(report)},
-          {"shape_distance_mm",
-           IsModelBuilt(report) ? Number(kMillimetres * report.object->distance) : Json(nullptr)}};
+  return {
+      {"model_source", report.object->source},
+      {"model_is_new", report.object->is_built()},
+      {"shape_distance_mm",
+       report.object->is_built() ? Number(kMillimetres * report.object->distance) : Json(nullptr)}};
 }
 
 Json SubjectJson(const ConversionReport& report) {

@@ -8,6 +8,7 @@ namespace mmm_converter {
 
 ConversionReport ConvertEntry(const BatchEntry& entry, const BatchFolder& folder,
                               ConversionRequest* request, const std::function<bool()>& goes_on) {
+  request->builds_models = false;  // several recordings of an object need the same
   request->output = folder.Full(MotionPath(entry.id));
   const auto path_of = [&](const std::string& format) {
     return entry.exports.contains(format) ? folder.Full(ExportPath(format, entry.id)) : "";

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <set>
 
 #include "MMMConverterS2KF/all_motions.h"
 #include "MMMConverterS2KF/command_line.h"
@@ -145,11 +144,11 @@ void CheckFitsAllMotions(const Arguments& arguments) {
 }
 
 void LogWarnings(const AllMotions& all) {
-  std::set<std::string> known;
+  for (const std::string& warning : all.warnings) LogWarning(warning);
   for (const MotionOutcome& outcome : all.motions) {
     if (!outcome.report) continue;
     for (const std::string& warning : outcome.report->warnings) {
-      if (known.insert(warning).second) LogWarning(warning);
+      LogWarning(fmt::format("motion {}: {}", outcome.name, warning));
     }
   }
 }

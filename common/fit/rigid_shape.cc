@@ -7,7 +7,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 
 #include "common/math/statistics.h"
 #include "common/support/error.h"
@@ -27,8 +29,13 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFewest = 3;  // markers of a pose
 
-// Frames that are looked at; more make the shape hardly better.
+// Frames that are looked at; more make the shape hardly better. A marker that few of them show gets
+// this many of its own.
 constexpr int kMostFrames = 1000;
+constexpr int kFewestFrames = 20;
+
+// Markers whose distance from a marker is looked at; more say hardly more of a frame.
+constexpr int kMostPartners = 20;
 
 // A frame whose distances between markers differ by more than this many times what is usual is
 // left out; so are points off a line by less than as much. What no system resolves is the least.
@@ -37,11 +44,11 @@ constexpr double kResolution = 1e-5;  // [m]
 // Points are on a line where they are nearer to it than this share of their extent.
 constexpr double kThinnest = 1e-3;
 
-// Markers that stray from their shape by more than this share of its radius are no rigid body.
-constexpr double kMostStray = 0.1;
-
 constexpr int kMostIterations = 200;
 constexpr double kConverged = 1e-9;  // [m]
+
+// Models are refused beyond.
+constexpr double kFarthestMarker = 10;  // [m]
 
 bool IsPoint(const Ref<const Vector3d>& p) { return p.allFinite(); }
 
@@ -82,44 +89,78 @@ class ShapeEstimator {
   RigidShape Estimate() {
     const int start = FindStart();
     shape_ = frames_[start].colwise() - MeanPoint(frames_[start]);
-    for (int i = 0; i < kMostIterations && Improve() > kConverged; ++i) {
+    while (Improve().adds_markers) {
+    }
+    for (int i = 0; i < kMostIterations && Improve().farthest > kConverged; ++i) {
     }
     return Finish(start);
   }
 
  private:
-  void TakeFrames() {
+  struct Step {
+    bool adds_markers = false;  // whose places were not known
+    double farthest = 0;        // that a known place moved [m]
+  };
+
+  // Frames that repeat the one before say nothing more.
+  std::vector<int> FindUsableFrames() const {
     std::vector<int> usable;
     int most = 0;
     for (int k = 0; k < recording_.num_frames(); ++k) {
       const int seen = CountPoints(recording_.frame(k));
       most = std::max(most, seen);
-      if (seen >= kFewest) usable.push_back(k);
+      if (seen < kFewest) continue;
+      const bool is_repeated =
+          !usable.empty() && IsSame(recording_.frame(usable.back()), recording_.frame(k));
+      if (!is_repeated) usable.push_back(k);
     }
-    if (usable.empty()) {
-      throw Error(
-          fmt::format("no frame shows three of the {} markers ({}) together, at most {}; the pose "
-                      "of a rigid object needs three",
-                      recording_.num_labels(), fmt::join(recording_.labels(), ", "), most));
-    }
-    const std::size_t count = std::min<std::size_t>(usable.size(), kMostFrames);
-    frames_.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      frames_.emplace_back(recording_.frame(usable[i * usable.size() / count]));
-    }
+    if (!usable.empty()) return usable;
+    throw Error(
+        fmt::format("the pose of a rigid object needs three markers that are seen together; "
+                    "the recording has {} ({}), at most {} in a frame",
+                    recording_.num_labels(), NamesOfMarkers(), most));
   }
 
-  // Median over the frames of each distance between two markers; NaN: never seen together.
+  static bool IsSame(const Ref<const Matrix3Xd>& a, const Ref<const Matrix3Xd>& b) {
+    for (Index i = 0; i < a.cols(); ++i) {
+      if (IsPoint(a.col(i)) != IsPoint(b.col(i))) return false;
+      if (IsPoint(a.col(i)) && a.col(i) != b.col(i)) return false;
+    }
+    return true;
+  }
+
+  void TakeFrames() {
+    const std::vector<int> usable = FindUsableFrames();
+    std::set<int> chosen = Spread(usable, kMostFrames);
+    for (int i = 0; i < recording_.num_labels(); ++i) {
+      const auto is_seen = [&](int k) { return IsPoint(recording_.frame(k).col(i)); };
+      if (std::count_if(chosen.begin(), chosen.end(), is_seen) >= kFewestFrames) continue;
+      std::vector<int> own;
+      std::copy_if(usable.begin(), usable.end(), std::back_inserter(own), is_seen);
+      chosen.merge(Spread(own, kFewestFrames));
+    }
+    frames_.reserve(chosen.size());
+    for (const int k : chosen) frames_.emplace_back(recording_.frame(k));
+  }
+
+  static std::set<int> Spread(const std::vector<int>& frames, std::size_t most) {
+    std::set<int> spread;
+    const std::size_t count = std::min(frames.size(), most);
+    for (std::size_t i = 0; i < count; ++i) spread.insert(frames[i * frames.size() / count]);
+    return spread;
+  }
+
+  // Of each marker and those after it: the median over the frames; NaN: never seen together.
   Eigen::MatrixXd UsualDistances() const {
     const int labels = recording_.num_labels();
-    Eigen::MatrixXd usual = Eigen::MatrixXd::Constant(labels, labels, kNaN);
+    Eigen::MatrixXd usual = Eigen::MatrixXd::Constant(kMostPartners, labels, kNaN);
     std::vector<double> distances(frames_.size());
     for (int i = 0; i < labels; ++i) {
-      for (int j = 0; j < i; ++j) {
+      for (int p = 0; p < std::min(kMostPartners, labels - 1 - i); ++p) {
         for (std::size_t k = 0; k < frames_.size(); ++k) {
-          distances[k] = (frames_[k].col(i) - frames_[k].col(j)).norm();
+          distances[k] = (frames_[k].col(i) - frames_[k].col(i + 1 + p)).norm();
         }
-        usual(i, j) = Median(distances);
+        usual(p, i) = Median(distances);
       }
     }
     return usual;
@@ -131,8 +172,9 @@ class ShapeEstimator {
     for (std::size_t k = 0; k < frames_.size(); ++k) {
       const Matrix3Xd& frame = frames_[k];
       for (Index i = 0; i < frame.cols(); ++i) {
-        for (Index j = 0; j < i; ++j) {
-          const double strain = std::abs((frame.col(i) - frame.col(j)).norm() - usual(i, j));
+        for (Index p = 0; p < std::min<Index>(kMostPartners, frame.cols() - 1 - i); ++p) {
+          const double distance = (frame.col(i) - frame.col(i + 1 + p)).norm();
+          const double strain = std::abs(distance - usual(p, i));
           if (std::isfinite(strain)) strains[k] = std::max(strains[k], strain);
         }
       }
@@ -172,7 +214,7 @@ class ShapeEstimator {
       const Vector3d extents = PrincipalExtents(frame);
       return extents[1] > kBesideALine * extents[0];
     });
-    const std::string names = fmt::format("{}", fmt::join(recording_.labels(), ", "));
+    const std::string names = NamesOfMarkers();
     if (is_line) {
       throw Error(
           fmt::format("the markers ({}) stand on a line, to within {:.2g} mm: turns about it can't "
@@ -183,6 +225,15 @@ class ShapeEstimator {
         fmt::format("the markers ({}) are no rigid object: in most frames distances between them "
                     "differ by {:.2g} mm or more from their medians",
                     names, 1e3 * tolerance_ / kUnusual));
+  }
+
+  std::string NamesOfMarkers() const {
+    constexpr int kMostNames = 10;
+    const std::vector<std::string>& labels = recording_.labels();
+    const std::size_t count = std::min<std::size_t>(labels.size(), kMostNames);
+    const std::vector<std::string> first(labels.begin(),
+                                         labels.begin() + static_cast<std::ptrdiff_t>(count));
+    return fmt::format("{}{}", fmt::join(first, ", "), count < labels.size() ? ", ..." : "");
   }
 
   // What a frame shows of the markers whose places are known.
@@ -202,8 +253,8 @@ class ShapeEstimator {
     return FitRigidPose(places, known, VectorXd::Ones(places.cols()));
   }
 
-  // Each place becomes the mean of where the frames have it; how far the farthest moved [m].
-  double Improve() {
+  // Each place becomes the mean of where the frames have it.
+  Step Improve() {
     Matrix3Xd sum = Matrix3Xd::Zero(3, shape_.cols());
     VectorXd count = VectorXd::Zero(shape_.cols());
     for (const Matrix3Xd& frame : frames_) {
@@ -216,15 +267,18 @@ class ShapeEstimator {
         count[i] += 1;
       }
     }
-    double moved = 0;
+    Step step;
     for (Index i = 0; i < shape_.cols(); ++i) {
       if (count[i] == 0) continue;
       const Vector3d place = sum.col(i) / count[i];
-      const double step = (place - shape_.col(i)).norm();
-      moved = std::max(moved, std::isfinite(step) ? step : 1.0);  // a new one: go on
+      if (IsPoint(shape_.col(i))) {
+        step.farthest = std::max(step.farthest, (place - shape_.col(i)).norm());
+      } else {
+        step.adds_markers = true;
+      }
       shape_.col(i) = place;
     }
-    return moved;
+    return step;
   }
 
   RigidShape Finish(int start) {
@@ -256,6 +310,12 @@ class ShapeEstimator {
       if (IsPoint(shape_.col(i))) result.labels.push_back(i);
     }
     result.p_OM = shape_(Eigen::all, result.labels);
+    const double farthest = result.p_OM.colwise().norm().maxCoeff();
+    if (farthest > kFarthestMarker) {
+      throw Error(
+          fmt::format("the markers ({}) stand up to {:.1f} m from their mean, more than {} m",
+                      NamesOfMarkers(), farthest, kFarthestMarker));
+    }
     return result;
   }
 

@@ -21,6 +21,10 @@ Eigen::Isometry3d FitRigidPose(const Eigen::Ref<const Eigen::Matrix3Xd>& p_OM,
 /// the root mean square [m]. 0 for fewer than three.
 double DistanceFromLine(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
 
+/// Markers that stray from their places by more than this share of the shape's root mean square
+/// radius are no rigid body.
+inline constexpr double kMostStray = 0.1;
+
 /// How the markers of a rigid object stand to each other.
 struct RigidShape {
   std::vector<int> labels;  ///< of the recording, by index; those whose place is known
@@ -32,8 +36,9 @@ struct RigidShape {
 };
 
 /// The shape by which all markers of a recording move as one rigid body: generalised Procrustes
-/// analysis over frames that show three or more, spread evenly over the recording. Markers need not
-/// be seen together as long as others link them. Frames whose distances between markers differ from
+/// analysis over at most 1000 frames that show three or more, spread evenly over the recording, and
+/// 20 for each marker that these hardly show. Markers need not be seen together as long as others
+/// link them. Frames whose distances between markers differ from
 /// the usual ones (the medians over the recording), such as those with swapped labels, do not
 /// count.
 /// @throws Error where there are fewer than three markers, no frame shows three of them, they stand

@@ -236,8 +236,8 @@ Recording ReadRecording(const std::string& path, const ReadRecordingOptions& opt
   return recording;
 }
 
-std::vector<Recording> ReadAllMotions(const std::string& path,
-                                      const ReadRecordingOptions& options) {
+std::vector<Recording> ReadAllMotions(const std::string& path, const ReadRecordingOptions& options,
+                                      std::vector<std::string>* warnings) {
   if (!LooksLikeMmmMotion(ReadFileStart(path, kMostBytesBeforeTheRoot))) {
     throw Error(
         fmt::format("{}: is not an MMM motion file; only these have several motions", path));
@@ -248,10 +248,7 @@ std::vector<Recording> ReadAllMotions(const std::string& path,
   for (MmmMotion& motion : mmm.motions) {
     recordings.push_back(TakeMotion(mmm, options, path, &motion));
   }
-  if (!recordings.empty()) {
-    std::vector<std::string>& warnings = recordings.front().warnings;
-    warnings.insert(warnings.begin(), mmm.warnings.begin(), mmm.warnings.end());
-  }
+  *warnings = mmm.warnings;
   return recordings;
 }
 

@@ -53,8 +53,9 @@ struct Recording {
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options);
 
 /// All motions of an MMM motion file, in its order; those without markers have no labels.
-/// options.motion does not count. Warnings of the file are the first one's.
+/// options.motion does not count. warnings: what there is to say of the file as a whole.
 /// @throws Error as ReadRecording, and for a file of another format.
-std::vector<Recording> ReadAllMotions(const std::string& path, const ReadRecordingOptions& options);
+std::vector<Recording> ReadAllMotions(const std::string& path, const ReadRecordingOptions& options,
+                                      std::vector<std::string>* warnings);
 
 }  // namespace mmm_converter

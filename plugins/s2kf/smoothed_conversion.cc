@@ -21,10 +21,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Going backwards from a posture that was found later goes on while it is no farther from the
-// markers than this share beyond the track, and ends where neither the root's orientation nor a
-// joint angle differs by more [rad].
+// markers than this share beyond the track, and ends where the root and all joint angles differ by
+// less.
 constexpr double kNoFarther = 1.02;
-constexpr double kSameAngle = 0.02;
+constexpr double kSameAngle = 0.02;  // [rad]
+constexpr double kSamePlace = 0.01;  // [m]
 
 // The pass backwards is linear about the filter's track. Where that does not hold, its postures
 // leave the markers, and it starts anew from the filter's: farther than so many times its distance
@@ -34,7 +35,8 @@ constexpr double kMuchFartherDistance = 0.01;
 
 bool IsSamePosture(const Posture& a, const Posture& b) {
   const auto apart = (a.joint_angles - b.joint_angles).array().abs();
-  return a.orientation.angularDistance(b.orientation) < kSameAngle && (apart < kSameAngle).all();
+  return (a.position - b.position).norm() < kSamePlace &&
+         a.orientation.angularDistance(b.orientation) < kSameAngle && (apart < kSameAngle).all();
 }
 
 double SecondsSince(Clock::time_point start) {

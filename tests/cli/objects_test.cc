@@ -26,6 +26,7 @@ using testing::Deviation;
 using testing::DeviationOf;
 using testing::FindMotion;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::PosesOf;
 using testing::ReadText;
 using testing::RunProgram;
@@ -251,9 +252,10 @@ TEST(Objects, AMotionThatFailsIsNamedAndTheOthersAreConverted) {
   const std::string output = TestFolder() + "/out.xml";
   const auto run = RunProgram({"convert", input, "--motion", "all", "-o", output});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("motion rod: the markers (rod_0, rod_1, rod_2, rod_3) stand "
-                                       "on a line"),
-                             HasSubstr("motion pair: no frame shows three of the 2 markers")));
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("motion rod: the markers (rod_0, rod_1, rod_2, rod_3) stand "
+                              "on a line"),
+                    HasSubstr("motion pair: the pose of a rigid object needs three markers")));
   const MmmMotionFile file = ReadMmmMotionFile(output);
   EXPECT_EQ(FindMotion(file, "box").trajectory.num_frames(), 60);
   EXPECT_EQ(FindMotion(file, "rod").trajectory.num_frames(), 0);
@@ -262,8 +264,91 @@ TEST(Objects, AMotionThatFailsIsNamedAndTheOthersAreConverted) {
   const auto none =
       RunProgram({"convert", hopeless, "--motion", "all", "-o", TestFolder() + "/none.xml"});
   EXPECT_EQ(none.exit_code, 1);
-  EXPECT_THAT(none.err, HasSubstr("no motion could be converted\npair: no frame shows three"));
+  EXPECT_THAT(none.err, HasSubstr("no motion could be converted\npair: the pose of a rigid"));
   EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/none.xml"));
+}
+
+// Exit code 1 with the message, and what was there stays as it was.
+void ExpectKept(const std::vector<std::string>& arguments, const std::string& kept,
+                const std::string& message) {
+  const std::string before = ReadText(kept);
+  const auto run = RunProgram(arguments);
+  EXPECT_EQ(run.exit_code, 1) << message;
+  EXPECT_THAT(run.err, HasSubstr(message));
+  EXPECT_EQ(ReadText(kept), before);
+}
+
+TEST(Objects, NothingThatIsReadAndNoModelOfOthersIsReplaced) {
+  const std::string recording = WriteRecording(ObjectMotion("box", kBox));
+  std::filesystem::create_directory(TestFolder() + "/a_objects");
+  const std::string as_model = TestFolder() + "/a_objects/box.xml";
+  std::filesystem::copy_file(recording, as_model);
+  for (const char* motion : {"box", "all"}) {
+    ExpectKept({"convert", as_model, "--motion", motion, "-o", TestFolder() + "/a.xml"}, as_model,
+               "was not built by this program");
+  }
+  EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/a.xml"));
+
+  const std::string models = TestFolder() + "/models";
+  const std::vector<std::string> call = {
+      "convert",         recording, "--motion", "all",
+      "--object-models", models,    "-o",       TestFolder() + "/b.xml"};
+  ASSERT_EQ(RunProgram(call).exit_code, 0);
+  const auto with = [&](const std::string& option, const std::string& file) {
+    std::vector<std::string> longer = call;
+    longer.insert(longer.end(), {option, file});
+    return longer;
+  };
+  ExpectKept(with("--summary", models + "/box.xml"), models + "/box.xml", "is read");
+  ExpectKept(with("--report", recording), recording, "is read");
+  ExpectKept({"convert", recording, "--motion", "all", "--object-models", models, "-o",
+              models + "/box.xml"},
+             models + "/box.xml", "is read");
+}
+
+TEST(Objects, MotionsWhoseModelsWouldHaveOneNameAreToldApart) {
+  const std::string recording =
+      WriteRecording(ObjectMotion("a/b", kBox) + ObjectMotion("a b", kBox));
+  for (int run = 0; run < 2; ++run) {  // building the model, and using it again
+    const auto both = RunProgram({"convert", recording, "--motion", "all", "--object-models",
+                                  TestFolder() + "/models", "-o", TestFolder() + "/out.xml"});
+    EXPECT_EQ(both.exit_code, 1);
+    EXPECT_THAT(both.err, HasSubstr("motion a b: " + TestFolder() +
+                                    "/models/a_b.xml: is the model "
+                                    "of a motion before this one"));
+  }
+}
+
+TEST(Objects, NamedModelsThatDoNotFitAreWarnedOf) {
+  ObjectOptions options;
+  options.model_path = "named.xml";
+  const std::string recording = WriteRecording(ObjectMotion("box", kBox, options));
+  for (const char* model :
+       {"<Robot", "<Robot Type=\"m\" RootNode=\"r\"><RobotNode name=\"r\"/></Robot>"}) {
+    WriteText(TestFolder() + "/named.xml", model);
+    const auto run =
+        RunProgram({"convert", recording, "--motion", "box", "-o", TestFolder() + "/out.xml"});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.err, HasSubstr("named.xml, the model that the motion box names, is not used"));
+    EXPECT_THAT(run.out, HasSubstr("built from 60 frames"));
+  }
+}
+
+TEST(Objects, AModelOfAnotherObjectIsToldByItsDistance) {
+  const std::string models = TestFolder() + "/models";
+  const auto convert = [&](const Matrix3Xd& body) {
+    return RunProgram({"convert", WriteRecording(ObjectMotion("box", body)), "--motion", "box",
+                       "--object-models", models, "-o", TestFolder() + "/out.xml"});
+  };
+  EXPECT_THAT(convert(kBox).err, Not(HasSubstr("is it this object's?")));
+  EXPECT_THAT(convert(2 * kBox).err, HasSubstr("is it this object's?"));
+}
+
+TEST(Objects, APersonIsOneWhereTheUserSaysSo) {
+  const auto run = RunProgram({"convert", WriteRecording(ObjectMotion("box", kBox)), "--motion",
+                               "box", "--height", "1.8", "-o", TestFolder() + "/out.xml"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("knows three"));
 }
 
 TEST(Objects, WhatFitsOneMotionOnlyIsRefused) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/cli/pose_deviation.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/SVD>
 #include <cmath>
+#include <stdexcept>
 
 namespace mmm_converter::testing {
 
@@ -45,7 +44,7 @@ std::vector<Isometry3d> PosesOf(const MmmMotion& motion) {
 
 const MmmMotion& FindMotion(const MmmMotionFile& file, const std::string& name) {
   const MmmMotion* motion = file.Find(name);
-  EXPECT_NE(motion, nullptr) << name;
+  if (motion == nullptr) throw std::runtime_error("there is no motion " + name);
   return *motion;
 }
 

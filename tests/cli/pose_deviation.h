@@ -20,7 +20,7 @@ Deviation DeviationOf(const std::vector<Eigen::Isometry3d>& ours,
 
 std::vector<Eigen::Isometry3d> PosesOf(const MmmMotion& motion);
 
-/// The motion of that name; the test fails where there is none.
+/// The motion of that name. @throws std::runtime_error where there is none.
 const MmmMotion& FindMotion(const MmmMotionFile& file, const std::string& name);
 
 }  // namespace mmm_converter::testing
