@@ -37,7 +37,7 @@ std::string TakeBoolean(const std::string& value, bool* flag) {
 
 std::string TakeExport(const std::string& format, const std::string& value, BatchEntry* entry) {
   bool is_wanted = false;
-  const std::string expected = TakeBoolean(value, &is_wanted);
+  std::string expected = TakeBoolean(value, &is_wanted);
   if (is_wanted) {
     entry->exports.insert(format);
   } else {
