@@ -42,7 +42,8 @@ Examples
 
 Environment
   MMM_CONVERTER_PLUGIN_PATH  folders with more converter plugins, separated by colons
-  MMM_CONVERTER_DATA         folder of models, marker sets and configurations, instead of the shipped
+  MMM_CONVERTER_DATA         folder of models, marker sets and configurations, instead of what is
+                             shipped
   MMM_CONVERTER_INSTRUCTION_SET  baseline, avx2 or avx512, instead of the best that there is
 
 Exit codes: 0 done, 1 input or conversion failed, 2 not understood

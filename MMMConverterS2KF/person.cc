@@ -2,7 +2,9 @@
 #include "MMMConverterS2KF/person.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -10,6 +12,7 @@
 #include "common/fit/height_estimate.h"
 #include "common/io/processor_config.h"
 #include "common/io/subject_file.h"
+#include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -127,6 +130,30 @@ KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel&
   return reference;
 }
 
+/// No marker tells the angle of some tracked joints.
+void WarnOfFreeJoints(const KinematicModel& model, const ConverterConfig& config,
+                      const std::vector<MarkerAssignment>& assignments,
+                      std::vector<std::string>* warnings) {
+  constexpr std::size_t kShown = 5;
+  std::vector<int> markers;
+  markers.reserve(assignments.size());
+  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
+  const MarkerKinematics kinematics(model, ResolveJoints(config, model), markers);
+  std::vector<std::string> names;
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    bool is_moving = false;
+    for (int m = 0; m < kinematics.num_markers(); ++m) is_moving |= kinematics.Moves(j, m);
+    if (!is_moving) names.push_back(model.joint(kinematics.joints()[j]).name);
+  }
+  if (names.empty()) return;
+  const std::size_t count = names.size();
+  names.resize(std::min(count, kShown));
+  warnings->push_back(fmt::format(
+      "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
+      "known: {}{}",
+      count, kinematics.num_joints(), fmt::join(names, ", "), count > kShown ? ", ..." : ""));
+}
+
 }  // namespace
 
 bool IsGiven(const PersonRequest& request) {
@@ -135,7 +162,9 @@ bool IsGiven(const PersonRequest& request) {
 }
 
 std::string WhyUnscaled(const ConverterConfig& config) {
-  return "the model is not scaled (it is a URDF, or " + config.file + " has <Model name=\"None\">)";
+  const std::string why = "the model is not scaled (it is a URDF";
+  if (config.file.empty()) return why + ")";
+  return why + ", or " + config.file + " has <Model name=\"None\">)";
 }
 
 WinterScaling ToWinterScaling(const Person& person) {
@@ -147,6 +176,7 @@ KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel&
                              const std::vector<MarkerAssignment>& assignments, Person* person,
                              std::vector<std::string>* warnings) {
   if (config.model_processor == "None") {
+    WarnOfFreeJoints(reference, config, assignments, warnings);
     return LeaveUnscaled(request, reference, config, person, warnings);
   }
   const auto estimate = [&] { return Estimate(reference, recording, config, assignments); };

@@ -53,8 +53,8 @@ const std::vector<OptionGroup> kOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF batch MANIFEST -o FOLDER [options]
-Converts the recordings of a manifest (XML; print-config batch shows all that it may say). What can't
-be converted fails alone. A run that was ended, however, is taken up again with --resume.
+Converts the recordings of a manifest (XML; print-config batch shows all that it may say). What
+can't be converted fails alone. A run that was ended, however, is taken up again with --resume.
 
 {}FOLDER has motions/ID.xml, and as asked for reports/, csv/ and subjects/; journal.jsonl, a line for
 each recording that has ended; results.jsonl and results.csv; index.html, the worst first. Exit code

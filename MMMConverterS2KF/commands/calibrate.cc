@@ -37,10 +37,11 @@ const std::vector<OptionGroup> kOwnOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF calibrate RECORDING... [options]
-Estimates who the person is beyond height and mass: the lengths of the segments and where the markers
-sit. Any motions of the person do; the more the joints move, the better. Markers must not have been
-put on anew between the recordings, nor before those that are converted with the result. What the
-recordings do not determine stays where the model has it. convert --subject-file takes the result.
+Estimates who the person is beyond height and mass: the lengths of the segments and where the
+markers sit. Any motions of the person do; the more the joints move, the better. Markers must not
+have been put on anew between the recordings, nor before those that are converted with the result.
+What the recordings do not determine stays where the model has it. convert --subject-file takes the
+result.
 
 {}The options frames, subject, motion, unit, rate and up may be there once for all recordings, or once
 for each in their order.

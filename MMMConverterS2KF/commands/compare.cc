@@ -47,9 +47,9 @@ Distances are between measured and model markers, hidden ones included, over the
 that all configurations use. The optimum is the least-squares posture of each frame on its own. A
 frame is good up to 1.2 optimum + 2 mm, lost beyond 2 optimum + 20 mm.
 
-{}The options truth, subject, motion, height, mass, person, subject-file and up may be there once for all recordings,
-or once for each in their order. Exit code 1 where a pair failed; the
-others are compared all the same.
+{}The options truth, subject, motion, height, mass, person, subject-file and up may be there once for
+all recordings, or once for each in their order. Exit code 1 where a pair failed; the others are
+compared all the same.
 
 Examples
   MMMConverterS2KF compare walk.c3d run.c3d --height 1.75 --report comparison.html

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 
 #include "MMMConverterS2KF/command_line.h"
@@ -38,9 +39,11 @@ MARKER_..._marker, simple shapes. convert --model takes it as it takes any URDF.
   MMMConverterS2KF export-urdf --subject-file anna.xml -o anna.urdf
 )";
 
-std::string Describe(const KinematicModel& model, const Person& person) {
-  return fmt::format("{} of a person of {:.6g} m and {:.6g} kg{}", model.name(),
-                     person.height.value, person.mass.value,
+/// Of the model by its file: its own name need not say anything.
+std::string Describe(const std::string& model_file, const Person& person) {
+  return fmt::format("{} as a person of {:.6g} m and {:.6g} kg{}",
+                     std::filesystem::path(model_file).filename().string(), person.height.value,
+                     person.mass.value,
                      person.subject ? ", the subject " + person.subject->name : "");
 }
 
@@ -68,12 +71,13 @@ int RunExportUrdf(const std::vector<std::string>& words) {
   Person person;
   const KinematicModel model =
       ScaleToKnownPerson(request.person, *input.reference, config, &person, &input.warnings);
-  const UrdfText urdf = FormatUrdf(model, Describe(model, person));
+  const UrdfText urdf = FormatUrdf(model, Describe(input.model_file, person));
   input.warnings.insert(input.warnings.end(), urdf.warnings.begin(), urdf.warnings.end());
   for (const std::string& warning : input.warnings) LogWarning(warning);
+  if (!urdf.renamed.empty()) LogInfo(urdf.renamed);
   WriteFileAtomically(*output, urdf.xml);
   std::cout << fmt::format("{}: {}; {} links, {} joints that turn, {} markers, {:.6g} kg\n",
-                           *output, Describe(model, person), model.segments().size(),
+                           *output, Describe(input.model_file, person), model.segments().size(),
                            model.num_joints(), model.markers().size(), model.total_mass());
   return 0;
 }

@@ -152,8 +152,9 @@ Description DescribeModel(const std::string& file) {
                {"warnings", parsed.warnings}};
   for (int j = 0; j < model.num_joints(); ++j) {
     const Segment& joint = model.joint(j);
-    description.text +=
-        fmt::format("  {:<24} {:9.6f} to {:9.6f} rad\n", joint.name, joint.lower, joint.upper);
+    description.text += IsEndless(joint) ? fmt::format("  {:<24} without limits\n", joint.name)
+                                         : fmt::format("  {:<24} {:9.6f} to {:9.6f} rad\n",
+                                                       joint.name, joint.lower, joint.upper);
     json["joints"].push_back(
         {{"name", joint.name}, {"lower_rad", joint.lower}, {"upper_rad", joint.upper}});
   }

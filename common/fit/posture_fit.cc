@@ -19,6 +19,13 @@ VectorXd NaturalAngles(const MarkerKinematics& kinematics) {
       .cwiseMin(kinematics.upper());
 }
 
+void RestEndlessJoints(const MarkerKinematics& kinematics, const VectorXd& angles,
+                       VectorXd* natural) {
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    if (kinematics.IsEndless(j)) (*natural)[j] = angles[j];
+  }
+}
+
 PostureFit::PostureFit(const MarkerKinematics& kinematics)
     : kinematics_(kinematics),
       natural_(NaturalAngles(kinematics)),
@@ -30,6 +37,7 @@ PostureFit::PostureFit(const MarkerKinematics& kinematics)
 PostureFit::Result PostureFit::Evaluate(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
                                         const PostureFitOptions& options, const Posture& posture) {
   start_ = posture.joint_angles;
+  RestEndlessJoints(kinematics_, start_, &natural_);
   return ComputeCost(z, noise_scale, options, posture);
 }
 

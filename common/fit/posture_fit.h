@@ -13,6 +13,10 @@ namespace mmm_converter {
 /// marker determines.
 Eigen::VectorXd NaturalAngles(const MarkerKinematics& kinematics);
 
+/// A joint without limits rests wherever it is: its natural angle becomes that of `angles`.
+void RestEndlessJoints(const MarkerKinematics& kinematics, const Eigen::VectorXd& angles,
+                       Eigen::VectorXd* natural);
+
 struct PostureFitOptions {
   int max_iterations = 30;
   /// Converged where an accepted step lowers the cost by less than this share of it.
@@ -28,6 +32,7 @@ struct PostureFitOptions {
 /// Levenberg-Marquardt fit of a posture to marker positions, inside the joint limits:
 ///   min over q   sum_m rho(|z_m - p_m(q)|^2) / s_m^2 + w^2 sum_j (theta_j - natural_j)^2
 ///               + v^2 sum_j (theta_j - start_j)^2,  l <= theta <= u,
+/// natural_j being start_j where a joint has no limits,
 /// with steps that end on a limit rather than beyond it. Postures hold the tracked
 /// joints of `kinematics`. No allocation after construction.
 class PostureFit {
@@ -51,6 +56,7 @@ class PostureFit {
                   const PostureFitOptions& options, const Posture& posture);
 
   const MarkerKinematics& kinematics() const { return kinematics_; }
+  /// Those of joints without limits are where the last Evaluate or Solve started.
   const Eigen::VectorXd& natural_angles() const { return natural_; }
 
  private:

@@ -20,6 +20,7 @@ double Uniform(std::mt19937* random) { return (*random)() * (1.0 / 4294967296.0)
 
 constexpr double kRandomShare = 0.8;  // of a joint's range
 constexpr double kLeastGain = 0.01;
+constexpr double kTurn = 2 * EIGEN_PI;  // [rad]
 
 }  // namespace
 
@@ -44,6 +45,14 @@ void PostureSearch::FitRigid(const Ref<const Matrix3Xd>& z, Posture* posture) {
   posture->position = X_WS.translation();
 }
 
+void PostureSearch::Unwind(const VectorXd& reference, Posture* posture) const {
+  for (int j = 0; j < kinematics_.num_joints(); ++j) {
+    if (!kinematics_.IsEndless(j)) continue;
+    const double turned = posture->joint_angles[j] - reference[j];
+    posture->joint_angles[j] = reference[j] + std::remainder(turned, kTurn);
+  }
+}
+
 void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* posture) {
   kinematics_.ComputeMarkers(posture->position, posture->orientation.toRotationMatrix(),
                              posture->joint_angles, &at_);
@@ -59,8 +68,9 @@ void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* postur
   while (marker + 1 < kinematics_.num_markers() && (draw -= distance_[marker]) > 0) ++marker;
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
     if (!kinematics_.Moves(j, marker)) continue;
-    const double lower = kinematics_.lower()[j];
-    const double upper = kinematics_.upper()[j];
+    const bool is_endless = kinematics_.IsEndless(j);
+    const double lower = is_endless ? -0.5 * kTurn : kinematics_.lower()[j];
+    const double upper = is_endless ? 0.5 * kTurn : kinematics_.upper()[j];
     posture->joint_angles[j] =
         0.5 * (lower + upper) + (Uniform(&random_) - 0.5) * kRandomShare * (upper - lower);
   }
@@ -77,6 +87,7 @@ bool PostureSearch::Improve(const Ref<const Matrix3Xd>& z, const VectorXd& noise
   RandomizeLimb(z, &trial_);
   const PostureFit::Result after = fit_.Solve(z, noise_scale, options, &trial_);
   if (!(after.cost < (1 - kLeastGain) * before.cost)) return false;
+  Unwind(posture->joint_angles, &trial_);
   *posture = trial_;
   return true;
 }
@@ -86,12 +97,16 @@ PostureFit::Result PostureSearch::Assemble(const Ref<const Matrix3Xd>& z,
                                            const PostureFitOptions& options, int attempts,
                                            Posture* posture) {
   random_.seed(1);
-  posture->joint_angles = fit_.natural_angles();
+  posture->joint_angles.setZero(kinematics_.num_joints());
+  posture->joint_angles =
+      posture->joint_angles.cwiseMax(kinematics_.lower()).cwiseMin(kinematics_.upper());
   FitRigid(z, posture);
   fit_.Solve(z, noise_scale, options, posture);
   for (int i = 0; i < attempts; ++i) Improve(z, noise_scale, options, posture);
   PostureFitOptions polish = options;
   polish.tolerance *= 0.01;
+  trial_.joint_angles.setZero();
+  Unwind(trial_.joint_angles, posture);
   return fit_.Solve(z, noise_scale, polish, posture);
 }
 

@@ -3,6 +3,7 @@
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Eigenvalues>
@@ -131,6 +132,8 @@ class DocumentBuilder {
   void ReadOrigin(const urdf::Joint& source, UrdfJoint* joint);
   void ReadAxis(const urdf::Joint& source, UrdfJoint* joint);
   void ReadLimits(const urdf::Joint& source, UrdfJoint* joint);
+  void CheckLimits(const XmlElement& element, const UrdfJoint& joint);
+  void CheckMimic(const UrdfJoint& joint);
   void LinkChild(int joint);
 
   const XmlElement& robot_;
@@ -223,6 +226,29 @@ void DocumentBuilder::ReadLimits(const urdf::Joint& source, UrdfJoint* joint) {
        joint->name, joint->lower, joint->upper);
 }
 
+/// What a revolute joint does not say of its range counts as 0.
+void DocumentBuilder::CheckLimits(const XmlElement& element, const UrdfJoint& joint) {
+  const XmlElement* limit = element.FindChild("limit");
+  if (joint.type != UrdfJointType::kRevolute || limit == nullptr) return;
+  std::vector<const char*> missing;
+  for (const char* attribute : {"lower", "upper"}) {
+    if (limit->FindAttribute(attribute) == nullptr) missing.push_back(attribute);
+  }
+  if (missing.empty()) return;
+  diagnostics_.AddWarning(
+      limit->line, fmt::format("joint '{}': <limit> has no {}, which URDF takes for 0", joint.name,
+                               fmt::join(missing, " and no ")));
+}
+
+void DocumentBuilder::CheckMimic(const UrdfJoint& joint) {
+  if (joint.mimicked == joint.name) {
+    Fail(joint.line, "joint '{}': mimics itself", joint.name);
+  } else if (!model_.getJoint(joint.mimicked)) {
+    Fail(joint.line, "joint '{}': mimics joint '{}', which does not exist", joint.name,
+         joint.mimicked);
+  }
+}
+
 void DocumentBuilder::AddJoint(const XmlElement& element) {
   static const std::map<int, UrdfJointType> kTypes = {
       {urdf::Joint::FIXED, UrdfJointType::kFixed},
@@ -243,9 +269,11 @@ void DocumentBuilder::AddJoint(const XmlElement& element) {
   ReadOrigin(source, &joint);
   ReadAxis(source, &joint);
   ReadLimits(source, &joint);
+  CheckLimits(element, joint);
   if (source.mimic) {
     joint.mimicked = source.mimic->joint_name;
     joint.mimic_offset = source.mimic->offset;
+    CheckMimic(joint);
   }
   document_.joints.push_back(std::move(joint));
 }

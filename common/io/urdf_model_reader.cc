@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -16,7 +17,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr std::string_view kMarkerSuffix = "_marker";
-constexpr double kTurn = 2 * EIGEN_PI;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWidestRange = 4 * EIGEN_PI;  // [rad]; beyond it a limit limits nothing
 
 class ModelBuilder {
@@ -31,6 +32,7 @@ class ModelBuilder {
   bool IsMarker(const UrdfLink& link) const;
   void AddSegment(int link);
   void AddMarkers();
+  const UrdfJoint* FindMimic(int link) const;
   void SetJoint(const UrdfJoint& joint, Segment* segment);
   void SetRange(const UrdfJoint& joint, Segment* segment);
   void HoldAt(const UrdfJoint& joint, double value, Segment* segment);
@@ -43,7 +45,8 @@ class ModelBuilder {
   std::vector<int> segment_;     ///< of links; -1: none
   ModelDescription description_;
   std::map<std::string, std::string> segment_of_link_;
-  std::vector<std::string> endless_, mimics_, slides_, stiff_;  ///< joints
+  std::map<std::string, std::vector<std::string>> lost_;  ///< markers below each mimic joint
+  std::vector<std::string> mimics_, slides_, stiff_;      ///< joints
 };
 
 bool ModelBuilder::IsMarker(const UrdfLink& link) const {
@@ -88,9 +91,8 @@ void ModelBuilder::SetRange(const UrdfJoint& joint, Segment* segment) {
   segment->upper = joint.upper;
   if (joint.type == UrdfJointType::kContinuous ||
       (joint.lower < -kWidestRange && joint.upper > kWidestRange)) {
-    segment->lower = -kTurn;
-    segment->upper = kTurn;
-    endless_.push_back(joint.name);
+    segment->lower = -kInfinity;
+    segment->upper = kInfinity;
   } else if (joint.lower < -kWidestRange || joint.upper > kWidestRange) {
     diagnostics_.AddError(joint.line, fmt::format("joint '{}': its limits {:.6g} to {:.6g} are not "
                                                   "in radian",
@@ -138,12 +140,26 @@ void ModelBuilder::AddSegment(int link) {
   segment_of_link_[source.name] = segment.name;
 }
 
+/// The mimic joint nearest above a link; nullptr: there is none.
+const UrdfJoint* ModelBuilder::FindMimic(int link) const {
+  for (int joint = document_.links[link].parent_joint; joint >= 0;
+       joint = document_.links[document_.joints[joint].parent].parent_joint) {
+    if (!document_.joints[joint].mimicked.empty()) return &document_.joints[joint];
+  }
+  return nullptr;
+}
+
 void ModelBuilder::AddMarkers() {
   for (std::size_t i = 0; i < document_.links.size(); ++i) {
     const UrdfLink& link = document_.links[i];
     if (!IsMarker(link)) continue;
+    std::string label = link.name.substr(0, link.name.size() - kMarkerSuffix.size());
+    if (const UrdfJoint* mimic = FindMimic(static_cast<int>(i))) {
+      lost_[mimic->name].push_back(std::move(label));
+      continue;
+    }
     ModelMarker& marker = description_.markers.emplace_back();
-    marker.name = link.name.substr(0, link.name.size() - kMarkerSuffix.size());
+    marker.name = std::move(label);
     marker.segment = segment_[i];
     if (!is_marker_[i]) continue;
     const UrdfJoint& joint = document_.joints[link.parent_joint];
@@ -168,8 +184,12 @@ UrdfModel ModelBuilder::Build() {
   }
   AddMarkers();
   diagnostics_.ThrowIfErrors();
-  WarnOf(endless_, "(continuous): tracked from -2 pi to 2 pi");
   WarnOf(mimics_, "(mimic): held at the offset, the coupling is not tracked");
+  for (const auto& [joint, markers] : lost_) {
+    diagnostics_.AddWarning(0, fmt::format("below joint {} (mimic) {} not used: {}", joint,
+                                           markers.size() == 1 ? "a marker is" : "markers are",
+                                           fmt::join(markers, ", ")));
+  }
   WarnOf(slides_, "(prismatic): held, sliding is not tracked");
   WarnOf(stiff_, "(revolute with equal limits): does not turn");
   return {KinematicModel(std::move(description_)), std::move(segment_of_link_),

@@ -19,9 +19,10 @@ struct UrdfModel {
 
 /// Reads a URDF (urdfdom). Its root floats. Fixed links called `<label>_marker` are markers
 /// `label`; they stay segments only where they have a mass or children. Continuous joints, and
-/// revolute ones that turn further, are tracked from -2 pi to 2 pi. KinematicModel couples no
-/// joints and slides none: mimic joints are held at their offset, prismatic joints at 0 or at their
-/// limit nearest to it. A warning names each of these.
+/// revolute ones whose limits are wider than 4 pi to both sides, have none. KinematicModel couples
+/// no joints and slides none: mimic joints are held at their offset, prismatic joints at 0 or at
+/// their limit nearest to it. A warning names each of these. Markers below a mimic joint, which
+/// would pull all else towards where it is held, are left out, with a warning too.
 /// @throws Error as ParseUrdf, and for planar and floating joints.
 UrdfModel ReadUrdfModel(const std::string& path);
 

@@ -75,6 +75,13 @@ std::string Cylinder(const Eigen::Vector3d& p) {
                                kThickness * length, length));
 }
 
+/// Nothing for a joint without end.
+std::string Limits(const Segment& joint) {
+  return IsEndless(joint)
+             ? ""
+             : fmt::format("lower=\"{}\" upper=\"{}\" ", Exact(joint.lower), Exact(joint.upper));
+}
+
 class UrdfWriter {
  public:
   UrdfWriter(const KinematicModel& model, std::string comment)
@@ -170,16 +177,15 @@ void UrdfWriter::AppendLink(std::size_t index) {
 void UrdfWriter::AppendJoint(std::size_t index) {
   const Segment& segment = model_.segments()[index];
   const bool turns = segment.joint >= 0;
+  const char* type = IsEndless(segment) ? "continuous" : turns ? "revolute" : "fixed";
   urdf_.xml += fmt::format(
       "  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n"
       "    {}\n",
-      joints_[index], turns ? "revolute" : "fixed", links_[segment.parent], links_[index],
-      Origin(segment.X_PF));
+      joints_[index], type, links_[segment.parent], links_[index], Origin(segment.X_PF));
   if (turns) {
-    urdf_.xml += fmt::format(
-        "    <axis xyz=\"{}\"/>\n"
-        "    <limit lower=\"{}\" upper=\"{}\" effort=\"{:g}\" velocity=\"{:g}\"/>\n",
-        Exact(segment.axis), Exact(segment.lower), Exact(segment.upper), kEffort, kVelocity);
+    urdf_.xml +=
+        fmt::format("    <axis xyz=\"{}\"/>\n    <limit {}effort=\"{:g}\" velocity=\"{:g}\"/>\n",
+                    Exact(segment.axis), Limits(segment), kEffort, kVelocity);
   }
   urdf_.xml += "  </joint>\n";
 }
@@ -203,9 +209,8 @@ UrdfText UrdfWriter::Write() {
   for (const ModelMarker& marker : model_.markers()) AppendMarker(marker);
   urdf_.xml += "</robot>\n";
   if (!renamed_.empty()) {
-    urdf_.warnings.push_back(
-        fmt::format("names of their own of letters, digits and underscores were needed: {}",
-                    fmt::join(renamed_, ", ")));
+    urdf_.renamed = fmt::format("names of letters, digits and underscores were needed: {}",
+                                fmt::join(renamed_, ", "));
   }
   return std::move(urdf_);
 }

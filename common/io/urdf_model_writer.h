@@ -10,7 +10,8 @@ namespace mmm_converter {
 
 struct UrdfText {
   std::string xml;
-  std::vector<std::string> warnings;  ///< what simulators may refuse, and names that were changed
+  std::vector<std::string> warnings;  ///< what simulators may refuse
+  std::string renamed;                ///< which names were changed; empty: none
 };
 
 /// The model as a URDF that ReadUrdfModel reads back with the same kinematics, limits, masses and

@@ -20,8 +20,8 @@ bool IsJoint(const Segment& segment) {
 
 bool IsFinite(const Segment& s) {
   return s.X_PF.matrix().allFinite() && s.axis.allFinite() && s.p_SB.allFinite() &&
-         s.inertia.allFinite() && std::isfinite(s.mass) && std::isfinite(s.lower) &&
-         std::isfinite(s.upper);
+         s.inertia.allFinite() && std::isfinite(s.mass) &&
+         ((std::isfinite(s.lower) && std::isfinite(s.upper)) || IsEndless(s));
 }
 
 void CheckSegment(const Segment& s, int num_segments) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,14 +20,20 @@ struct Segment {
   Eigen::Isometry3d X_PF = Eigen::Isometry3d::Identity();  ///< [m]
   JointType type = JointType::kFixed;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector in F
-  double lower = 0;                                 ///< [rad], prismatic [m]
-  double upper = 0;                                 ///< [rad], prismatic [m]
+  double lower = 0;  ///< [rad], prismatic [m]; -infinity to infinity: turns without end
+  double upper = 0;  ///< [rad], prismatic [m]
   int joint =
       -1;  ///< index into joint angles; -1: q is always 0 (fixed, prismatic, lower == upper)
   double mass = 0;                                    ///< [kg]
   Eigen::Vector3d p_SB = Eigen::Vector3d::Zero();     ///< centre of mass in S [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the CoM, in S axes [kg m^2]
 };
+
+/// Turns as far as it likes.
+inline bool IsEndless(const Segment& segment) {
+  return segment.type == JointType::kRevolute && std::isinf(segment.lower) &&
+         std::isinf(segment.upper);
+}
 
 /// A virtual marker fixed to a segment (Simox: position sensor).
 struct ModelMarker {
@@ -47,9 +54,8 @@ struct ModelDescription {
 /// Segments are ordered so that a parent comes before its children; segment 0 is the floating root.
 class KinematicModel {
  public:
-  /// @throws Error where the segments are not one tree, names repeat, limits are crossed or not
-  /// finite,
-  ///         or a number is not finite.
+  /// @throws Error where the segments are not one tree, names repeat, limits are crossed or a
+  ///         number is not finite.
   explicit KinematicModel(ModelDescription description);
 
   const std::string& name() const { return name_; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "common/math/instruction_set.h"
@@ -46,6 +47,8 @@ class MarkerKinematics {
   const std::vector<int>& markers() const { return markers_; }
   const Eigen::VectorXd& lower() const { return lower_; }  ///< [rad], tracked joints
   const Eigen::VectorXd& upper() const { return upper_; }  ///< [rad], tracked joints
+  /// Of a tracked joint: turns as far as it likes.
+  bool IsEndless(int joint) const { return std::isinf(upper_[joint]); }
 
   MarkerBatch MakeBatch(int num_samples) const;
   MarkerJacobian MakeJacobian() const;

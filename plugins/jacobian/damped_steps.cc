@@ -21,6 +21,7 @@ double DampedSteps::Step(const Ref<const Matrix3Xd>& z, const VectorXd& noise_sc
                          const DampedStepOptions& options, Posture* posture) {
   // Curvature [1] that keeps the root where no marker is seen.
   constexpr double kLeastCurvature = 1e-9;
+  RestEndlessJoints(kinematics_, posture->joint_angles, &natural_);
   equations_.Place(*posture);
   equations_.Linearize(z, noise_scale, options.cost.robust_distance);
   const int joints = kinematics_.num_joints();

@@ -45,7 +45,7 @@ void Mirror(int j, Belief* belief) {
 
 void Fold(const JointLimitTransform& transform, Belief* belief) {
   for (int j = 0; j < belief->parameters.size(); ++j) {
-    if (transform.Fold(&belief->parameters[j])) Mirror(j, belief);
+    if (transform.Fold(j, &belief->parameters[j])) Mirror(j, belief);
   }
 }
 

@@ -16,14 +16,19 @@ constexpr double kPi = std::numbers::pi;
 
 JointLimitTransform::JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
                                          const Eigen::VectorXd& upper)
-    : function_(function), half_range_(0.5 * (upper - lower)), middle_(0.5 * (upper + lower)) {}
+    : function_(function),
+      is_endless_(lower.array().isInf() && upper.array().isInf()),
+      half_range_(is_endless_.select(2 * kPi, 0.5 * (upper - lower))),
+      middle_(is_endless_.select(0, 0.5 * (upper + lower))) {}
 
 double JointLimitTransform::Angle(int joint, double parameter) const {
+  if (is_endless_[joint]) return half_range_[joint] * parameter;
   const double f = function_ == LimitFunction::kSine ? std::sin(parameter) : std::tanh(parameter);
   return half_range_[joint] * f + middle_[joint];
 }
 
 double JointLimitTransform::Slope(int joint, double parameter) const {
+  if (is_endless_[joint]) return half_range_[joint];
   if (function_ == LimitFunction::kSine) return half_range_[joint] * std::cos(parameter);
   const double f = std::tanh(parameter);
   return half_range_[joint] * (1 - f * f);
@@ -31,13 +36,16 @@ double JointLimitTransform::Slope(int joint, double parameter) const {
 
 double JointLimitTransform::Parameter(int joint, double angle) const {
   const double f = (angle - middle_[joint]) / half_range_[joint];
+  if (is_endless_[joint]) return f;
   if (function_ == LimitFunction::kSine)
     return std::asin(std::clamp(f, -kLargestSine, kLargestSine));
   return std::atanh(std::clamp(f, -kLargestTanh, kLargestTanh));
 }
 
 double JointLimitTransform::AngleDeviation(int joint, double mean, double deviation) const {
-  if (function_ == LimitFunction::kTanh) return std::abs(Slope(joint, mean)) * deviation;
+  if (is_endless_[joint] || function_ == LimitFunction::kTanh) {
+    return std::abs(Slope(joint, mean)) * deviation;
+  }
   // X ~ N(m, v): Var[sin X] = d (2 - d)/2 - d (1 - d) sin^2 m with d = 1 - e^-v.
   const double d = -std::expm1(-deviation * deviation);
   const double sine = std::sin(mean);
@@ -45,8 +53,9 @@ double JointLimitTransform::AngleDeviation(int joint, double mean, double deviat
   return half_range_[joint] * std::sqrt(std::max(variance, 0.0));
 }
 
-bool JointLimitTransform::Fold(double* parameter) const {
-  if (function_ != LimitFunction::kSine || std::abs(*parameter) <= kPi / 2) return false;
+bool JointLimitTransform::Fold(int joint, double* parameter) const {
+  if (is_endless_[joint] || function_ != LimitFunction::kSine || std::abs(*parameter) <= kPi / 2)
+    return false;
   *parameter = std::remainder(*parameter, 2 * kPi);
   if (std::abs(*parameter) <= kPi / 2) return false;
   *parameter = (*parameter > 0 ? kPi : -kPi) - *parameter;

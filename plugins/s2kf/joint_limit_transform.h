@@ -10,14 +10,16 @@ enum class LimitFunction { kSine, kTanh };
 /// Maps unbounded joint parameters Theta to joint angles inside their limits,
 ///   theta = (u - l)/2 f(Theta) + (l + u)/2,   f = sin (Steinbring et al., eq. for the joints) or
 ///   tanh.
+/// Without limits (-infinity to infinity) theta = 2 pi Theta: Theta counts turns.
 class JointLimitTransform {
  public:
   JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
                       const Eigen::VectorXd& upper);
 
   LimitFunction function() const { return function_; }
-  const Eigen::VectorXd& half_range() const { return half_range_; }  ///< (u - l)/2 [rad]
-  const Eigen::VectorXd& middle() const { return middle_; }          ///< (l + u)/2 [rad]
+  bool is_endless(int joint) const { return is_endless_[joint]; }    ///< without limits
+  const Eigen::VectorXd& half_range() const { return half_range_; }  ///< (u - l)/2, or 2 pi [rad]
+  const Eigen::VectorXd& middle() const { return middle_; }          ///< (l + u)/2, or 0 [rad]
 
   double Angle(int joint, double parameter) const;  ///< theta [rad]
   double Slope(int joint, double parameter) const;  ///< d theta / d Theta [rad]
@@ -32,10 +34,11 @@ class JointLimitTransform {
 
   /// The sine maps Theta, pi - Theta and Theta + 2 pi to the same angle. Brings Theta into
   /// [-pi/2, pi/2]; true where its sign has turned, as with pi - Theta.
-  bool Fold(double* parameter) const;
+  bool Fold(int joint, double* parameter) const;
 
  private:
   LimitFunction function_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_endless_;
   Eigen::VectorXd half_range_;
   Eigen::VectorXd middle_;
 };

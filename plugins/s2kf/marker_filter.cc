@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr unsigned kRotationSeed = 1;
 // A frame is linearised again while the samples leave more of the marker variance unexplained than
 // this share of the measurement noise.
@@ -47,7 +48,9 @@ MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransf
   model.velocity_decay = settings.velocity_decay;
   model.natural.resize(natural_angles.size());
   for (Eigen::Index j = 0; j < natural_angles.size(); ++j) {
-    model.natural[j] = transform.Parameter(static_cast<int>(j), natural_angles[j]);
+    const int joint = static_cast<int>(j);
+    model.natural[j] =
+        transform.is_endless(joint) ? kNaN : transform.Parameter(joint, natural_angles[j]);
   }
   return model;
 }

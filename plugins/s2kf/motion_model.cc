@@ -140,7 +140,8 @@ void MotionModel::Predict(double dt, RootParameters root, Belief* belief) const 
   }
   const Matrix2d& F = step.F.parameters;
   for (Eigen::Index j = 0; j < belief->parameters.size(); ++j) {
-    const double reference = natural.size() > 0 ? natural[j] : 0;
+    double reference = natural.size() > 0 ? natural[j] : 0;
+    if (std::isnan(reference)) reference = belief->parameters[j];
     const double x = belief->parameters[j] - reference;
     belief->parameters[j] = reference + F(0, 0) * x;
     if (!velocity) continue;

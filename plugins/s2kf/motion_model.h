@@ -46,7 +46,7 @@ struct MotionModel {
   bool velocity = false;
   ProcessNoise noise;           ///< of the state; with velocity of the rate
   double natural_spread = 0;    ///< of Theta [1]; 0: no way back
-  Eigen::VectorXd natural;      ///< Theta of the natural posture
+  Eigen::VectorXd natural;      ///< Theta of the natural posture; NaN: of this joint, any
   double velocity_decay = 0.2;  ///< [s]
 
   /// x+ = natural + F (x - natural) + w, w ~ N(0, Q).

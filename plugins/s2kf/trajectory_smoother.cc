@@ -80,7 +80,7 @@ void TrajectorySmoother::Unfold(const Belief& filtered) {
   for (int j = 0; j < filtered.parameters.size(); ++j) {
     const double before = filtered.parameters[j];
     double after = before;
-    const bool mirrored = transform_.Fold(&after);
+    const bool mirrored = transform_.Fold(j, &after);
     double& smoothed = smoothed_.parameters[j];
     if (mirrored) {
       smoothed = before + after - smoothed;

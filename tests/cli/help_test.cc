@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "common/math/instruction_set.h"
 #include "tests/cli/program.h"
@@ -35,6 +37,20 @@ TEST(Help, EveryCommandHasOneWithExamples) {
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
                                HasSubstr("Examples")));
     EXPECT_EQ(run.err, "");
+  }
+}
+
+int Columns(const std::string& line) {
+  return static_cast<int>(std::count_if(line.begin(), line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // UTF-8: not a letter's further byte
+  }));
+}
+
+TEST(Help, NoLineIsWiderThan100Columns) {
+  for (const char* command : {"help", "batch", "calibrate", "check-dynamics", "compare", "convert",
+                              "evaluate", "export-urdf", "info", "print-config", "report"}) {
+    std::istringstream help(RunProgram({command, "--help"}).out);
+    for (std::string line; std::getline(help, line);) EXPECT_LE(Columns(line), 100) << line;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -51,8 +52,8 @@ PoseTrajectory Swing(const KinematicModel& model) {
     for (int j = 0; j < model.num_joints(); ++j) {
       const Segment& joint = model.joint(j);
       const double range = std::min(joint.upper - joint.lower, 2.0);
-      q.joint_angles[j] =
-          0.5 * (joint.lower + joint.upper) + 0.3 * range * std::sin((2 + 0.1 * j) * t + j);
+      const double middle = IsEndless(joint) ? 0 : 0.5 * (joint.lower + joint.upper);
+      q.joint_angles[j] = middle + 0.3 * range * std::sin((2 + 0.1 * j) * t + j);
     }
   }
   return motion;
@@ -71,7 +72,7 @@ double LargestError(const PoseTrajectory& truth, const std::string& motion_file)
   EXPECT_EQ(found.joint_names, truth.joint_names);
   EXPECT_EQ(found.num_frames(), truth.num_frames());
   double largest = 0;
-  for (int k = kFrames / 2; k < kFrames; ++k) {
+  for (int k = truth.num_frames() / 2; k < truth.num_frames(); ++k) {
     largest = std::max(
         largest,
         (found.postures[k].joint_angles - truth.postures[k].joint_angles).cwiseAbs().maxCoeff());
@@ -106,8 +107,7 @@ TEST(Urdf, KnownAnglesOfARobotAreRecovered) {
     const auto run = RunProgram({"convert", recording, "--model", Humanoid(), "-c", config, "-o",
                                  output, "--report", TestFolder() + "/o.html"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.err, AllOf(HasSubstr("forearm_roll (continuous)"), HasSubstr("(mimic)"),
-                               HasSubstr("joint lift (prismatic)")));
+    EXPECT_THAT(run.err, AllOf(HasSubstr("(mimic)"), HasSubstr("joint lift (prismatic)")));
     EXPECT_THAT(run.out, HasSubstr("model is not scaled"));
     const double tolerance = config == "s2kf_default" ? kFilteredAngle : kFittedAngle;
     EXPECT_LT(LargestError(truth, output), tolerance) << config;
@@ -118,6 +118,67 @@ TEST(Urdf, KnownAnglesOfARobotAreRecovered) {
   const auto shown = RunProgram(
       {"report", recording, output, "--model", Humanoid(), "-o", TestFolder() + "/r.html"});
   EXPECT_EQ(shown.exit_code, 0) << shown.err;
+}
+
+/// An arm on a box whose hand, the last link, turns without end.
+std::string Arm() {
+  const auto joint = [](const std::string& name, const std::string& type, const std::string& links,
+                        const std::string& xyz, const std::string& more) {
+    return "<joint name='" + name + "' type='" + type + "'>" + links + "<origin xyz='" + xyz +
+           "'/>" + more + "</joint>";
+  };
+  const auto between = [](const std::string& parent, const std::string& child) {
+    return "<parent link='" + parent + "'/><child link='" + child + "'/>";
+  };
+  const std::string limit = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
+  std::string urdf =
+      "<robot name='arm'><link name='box'/><link name='upper'/><link name='fore'/><link "
+      "name='hand'/>" +
+      joint("shoulder", "revolute", between("box", "upper"), "0 0 0.5",
+            "<axis xyz='0 1 0'/>" + limit) +
+      joint("elbow", "revolute", between("upper", "fore"), "0.3 0 0",
+            "<axis xyz='0 1 0'/>" + limit) +
+      joint("wrist", "continuous", between("fore", "hand"), "0.3 0 0", "<axis xyz='1 0 0'/>");
+  const std::vector<std::array<std::string, 3>> markers = {
+      {"A", "box", "0.2 0.2 0"},    {"B", "box", "-0.2 0.2 0"},   {"C", "box", "0 -0.2 0.3"},
+      {"D", "upper", "0.1 0 0.05"}, {"E", "upper", "0.2 0.05 0"}, {"F", "fore", "0.1 0 0.05"},
+      {"G", "fore", "0.2 -0.05 0"}, {"H", "hand", "0.05 0.1 0"},  {"I", "hand", "0.05 -0.1 0"},
+      {"J", "hand", "0.1 0 0.1"}};
+  for (const auto& [label, link, xyz] : markers) {
+    urdf += "<link name='" + label + "_marker'/>" +
+            joint(label, "fixed", between(link, label + "_marker"), xyz, "");
+  }
+  return urdf + "</robot>";
+}
+
+// The filter expects joints to stay; one that turns is behind by what a frame brings, 0.025 rad,
+// times the share of it that the frame's markers do not yet make up for, below 1.
+constexpr double kTurningAngle = 0.05;
+
+TEST(Urdf, ContinuousJointsTurnOnAndOn) {
+  const std::string urdf = TestFolder() + "/arm.urdf";
+  WriteText(urdf, Arm());
+  const KinematicModel arm = ReadUrdfModel(urdf).model;
+  PoseTrajectory truth;
+  truth.rate = 100;
+  truth.joint_names = {"shoulder", "elbow", "wrist"};
+  truth.postures.resize(500);
+  for (int k = 0; k < truth.num_frames(); ++k) {
+    const double t = k / truth.rate;
+    truth.postures[k].joint_angles = Eigen::Vector3d(0.3 * std::sin(t), 0.5, 2.5 * t);
+  }
+  const std::string recording = WriteRecording(arm, truth);
+  for (const char* config : {"s2kf_default", "s2kf_offline", "jacobian_least_squares"}) {
+    const std::string output = TestFolder() + "/o.xml";
+    const auto run =
+        RunProgram({"convert", recording, "--model", urdf, "-c", config, "-o", output});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    // The first 20 frames are in doubt; exact markers then always find a better posture.
+    const char* anew =
+        std::string(config) == "s2kf_default" ? ", 19 taken up anew" : ", 0 taken up anew";
+    EXPECT_THAT(run.out, HasSubstr(anew)) << config;
+    EXPECT_LT(LargestError(truth, output), kTurningAngle) << config;
+  }
 }
 
 TEST(Urdf, MarkerSetsPlaceMarkers) {
@@ -191,7 +252,7 @@ TEST(Urdf, RobotsAreNotScaled) {
   EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF, "));
   run = RunProgram({"export-urdf", "--model", Humanoid(), "-o", TestFolder() + "/again.urdf"});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF, "));
+  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF)"));
 }
 
 TEST(Urdf, InfoDescribesIt) {
@@ -223,8 +284,9 @@ TEST(ExportUrdf, WritesTheScaledModelThatCheckUrdfAccepts) {
   const std::string urdf = TestFolder() + "/anna.urdf";
   const auto run = RunProgram({"export-urdf", "--height", "1.75", "--mass", "70", "-o", urdf});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("MMM of a person of 1.75 m and 70 kg; "));
-  EXPECT_THAT(run.err, HasSubstr("\"Hand L Root\" as Hand_L_Root"));
+  EXPECT_THAT(run.out, HasSubstr("mmm.xml as a person of 1.75 m and 70 kg; "));
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("\"Hand L Root\" as Hand_L_Root"), Not(HasSubstr("arning"))));
   ExpectSameMarkers(ScaleWinter(Reference(), {1.75, 70, std::nullopt}), urdf);
   // An own file of what is exported is converted as any robot, by KIT's labels.
   const auto converted =

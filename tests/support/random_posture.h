@@ -16,7 +16,9 @@ inline Posture RandomPosture(const KinematicModel& model, SeededRandom& random) 
   posture.joint_angles.resize(model.num_joints());
   for (int i = 0; i < model.num_joints(); ++i) {
     const Segment& joint = model.joint(i);
-    posture.joint_angles[i] = joint.lower + (joint.upper - joint.lower) * random.Uniform();
+    const double lower = IsEndless(joint) ? -10 : joint.lower;
+    const double upper = IsEndless(joint) ? 10 : joint.upper;
+    posture.joint_angles[i] = lower + (upper - lower) * random.Uniform();
   }
   return posture;
 }

@@ -131,7 +131,8 @@ class Plots {
     };
     const lines = [];
     const grey = themeColour("muted");
-    for (const limit of [joint.lower, joint.upper]) {
+    const limits = [joint.lower, joint.upper].filter((limit) => limit !== null);
+    for (const limit of limits) {
       lines.push({name: null, colour: grey, dash: [8, 4], width: 1, values: () => kDegrees * limit});
     }
     const truth = trial.truth ? series(trial.truth, "angles") : null;
@@ -146,8 +147,9 @@ class Plots {
       hasBand = hasBand || Boolean(deviation);
       lines.push(line);
     }
-    byId("joint-caption").textContent = `Limits ${formatNumber(kDegrees * joint.lower, 0)}° and ` +
-      `${formatNumber(kDegrees * joint.upper, 0)}° (dashed)` +
+    const degrees = limits.map((limit) => `${formatNumber(kDegrees * limit, 0)}°`);
+    byId("joint-caption").textContent =
+      (degrees.length > 0 ? `Limits ${degrees.join(" and ")} (dashed)` : "Turns without limits") +
       (hasBand ? "; the band is ±2 standard deviations, as the converter states them" : "") +
       (truth ? "; the broad line is the true angle" : "") + ".";
     return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,

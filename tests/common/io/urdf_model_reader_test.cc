@@ -9,6 +9,7 @@
 #include "common/io/file_content.h"
 #include "common/io/model_file.h"
 #include "common/io/urdf_document.h"
+#include "common/io/urdf_model_writer.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
@@ -100,12 +101,9 @@ TEST(UrdfModel, HumanoidIsRead) {
   EXPECT_EQ(read.model.markers().size(), 47u);
   EXPECT_NEAR(read.model.total_mass(), 59.8, 1e-12);  // rounding of a sum
   EXPECT_EQ(read.model.joint(read.model.FindJoint("left_knee")).upper, 2.4);
-  EXPECT_THAT(
-      read.warnings,
-      ElementsAre(AllOf(HasSubstr("humanoid.urdf: joints left_forearm_roll, right_forearm_roll"),
-                        HasSubstr("-2 pi to 2 pi")),
-                  AllOf(HasSubstr("left_finger_follower"), HasSubstr("mimic")),
-                  AllOf(HasSubstr("joint lift"), HasSubstr("prismatic"))));
+  EXPECT_THAT(read.warnings,
+              ElementsAre(AllOf(HasSubstr("left_finger_follower"), HasSubstr("mimic")),
+                          AllOf(HasSubstr("joint lift"), HasSubstr("prismatic"))));
 }
 
 TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
@@ -120,18 +118,45 @@ TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
   EXPECT_EQ(held("prismatic", limit + "lower='-1' upper='1'/>").translation().z(), 0);
   const Eigen::Isometry3d X = held("revolute", limit + "lower='0.5' upper='0.5'/>");
   EXPECT_NEAR(Eigen::AngleAxisd(X.linear()).angle(), 0.5, kRounding);
-  const Eigen::Isometry3d Y = held("continuous", "<mimic joint='k' multiplier='2' offset='0.3'/>");
-  EXPECT_NEAR(Eigen::AngleAxisd(Y.linear()).angle(), 0.3, kRounding);
 }
 
-TEST(UrdfModel, EndlessJointsTurnTwice) {
+TEST(UrdfModel, MimicJointsAreHeldAndMarkersBelowThemLeftOut) {
+  const UrdfModel read = ParseUrdfModel(
+      Robot("<link name='a'/><link name='b'/><link name='c'/><link name='L_marker'/><link "
+            "name='M_marker'/>" +
+            Joint("k", "continuous", "a", "b") +
+            Joint("j", "continuous", "b", "c", "<mimic joint='k' multiplier='2' offset='0.3'/>") +
+            Joint("l", "fixed", "b", "L_marker") + Joint("m", "fixed", "c", "M_marker")),
+      "r.urdf");
+  ASSERT_EQ(read.model.num_joints(), 1);
+  const Segment& held = read.model.segments()[read.model.FindSegment("j")];
+  EXPECT_NEAR(Eigen::AngleAxisd(held.X_PF.linear()).angle(), 0.3, kRounding);
+  ASSERT_EQ(read.model.markers().size(), 1u);
+  EXPECT_EQ(read.model.markers()[0].name, "L");
+  EXPECT_THAT(read.warnings,
+              ElementsAre(HasSubstr("joint j (mimic): held"),
+                          HasSubstr("below joint j (mimic) a marker is not used: M")));
+}
+
+TEST(UrdfModel, MissingLimitsCountAsZero) {
+  const UrdfModel read =
+      ParseUrdfModel(Hinge("revolute", "<limit effort='1' velocity='1'/>"), "r.urdf");
+  EXPECT_THAT(read.warnings,
+              ElementsAre(HasSubstr("r.urdf:3: joint 'j': <limit> has no lower and no upper, which "
+                                    "URDF takes for 0"),
+                          HasSubstr("joint j (revolute with equal limits)")));
+}
+
+TEST(UrdfModel, EndlessJointsHaveNoLimits) {
   for (const std::string& urdf :
        {Hinge("continuous", ""),
         Hinge("revolute", "<limit lower='-1e16' upper='1e16' effort='1' velocity='1'/>")}) {
     const UrdfModel read = ParseUrdfModel(urdf, "r.urdf");
-    EXPECT_DOUBLE_EQ(read.model.joint(0).lower, -2 * EIGEN_PI);
-    EXPECT_DOUBLE_EQ(read.model.joint(0).upper, 2 * EIGEN_PI);
-    EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("joint j (continuous)")));
+    EXPECT_TRUE(IsEndless(read.model.joint(0)));
+    EXPECT_THAT(read.warnings, IsEmpty());
+    const std::string again = FormatUrdf(read.model, "").xml;
+    EXPECT_THAT(again, HasSubstr("type=\"continuous\""));
+    EXPECT_TRUE(IsEndless(ParseUrdfModel(again, "again.urdf").model.joint(0)));
   }
 }
 
@@ -190,6 +215,9 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
       {Robot("<link name='a'/><link name='a'/>"), "not unique"},
       {Hinge("floating", ""), "r.urdf:3: joint 'j': floating joints are not supported"},
       {Hinge("planar", ""), "r.urdf:3: joint 'j': planar joints are not supported"},
+      {Hinge("continuous", "<mimic joint='j'/>"), "r.urdf:3: joint 'j': mimics itself"},
+      {Hinge("continuous", "<mimic joint='k'/>"),
+       "r.urdf:3: joint 'j': mimics joint 'k', which does not exist"},
       {Hinge("ball", ""), "[j] has no known type [ball]"},
       {Hinge("revolute", ""), "Joint [j] is of type REVOLUTE but it does not specify limits"},
       {Hinge("revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"),

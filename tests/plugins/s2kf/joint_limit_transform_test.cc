@@ -54,7 +54,7 @@ TEST(JointLimitTransformFoldTest, KeepsTheAngleAndTellsWhereItsSlopeTurns) {
   const JointLimitTransform transform = MakeTransform(LimitFunction::kSine);
   for (const double parameter : {0.3, 1.9, -2.5, 4.0, 7.1, -11.0}) {
     double folded = parameter;
-    const double sign = transform.Fold(&folded) ? -1 : 1;
+    const double sign = transform.Fold(0, &folded) ? -1 : 1;
     EXPECT_LE(std::abs(folded), kPi / 2);
     EXPECT_NEAR(transform.Angle(0, folded), transform.Angle(0, parameter), 1e-13);
     EXPECT_NEAR(transform.Slope(0, folded), sign * transform.Slope(0, parameter), 1e-13);
