@@ -65,10 +65,9 @@ TEST(Batch, ConvertsTheSampleLikeConvert) {
                 .exit_code,
             0);
   EXPECT_EQ(ReadText(Out() + "/motions/gym/first.xml"), ReadText(single));
-  for (const std::string format : {"csv", "trc", "mot"}) {
-    EXPECT_EQ(ReadText(Out() + "/" + format + "/gym/first." + format),
-              ReadText(TestFolder() + "/first." + format));
-  }
+  EXPECT_EQ(ReadText(Out() + "/csv/gym/first.csv"), ReadText(TestFolder() + "/first.csv"));
+  EXPECT_EQ(ReadText(Out() + "/trc/gym/first.trc"), ReadText(TestFolder() + "/first.trc"));
+  EXPECT_EQ(ReadText(Out() + "/mot/gym/first.mot"), ReadText(TestFolder() + "/first.mot"));
   EXPECT_THAT(ReadText(Out() + "/reports/gym/first.html"), HasSubstr("<!DOCTYPE html>"));
   EXPECT_THAT(ReadText(Out() + "/index.html"),
               AllOf(HasSubstr("<!DOCTYPE html>"), HasSubstr("gym/first")));

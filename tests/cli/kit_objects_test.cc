@@ -34,12 +34,14 @@ using testing::TestFolder;
 // by frame [m]. Small where the poses move as the markers do.
 VectorXd Strains(const std::vector<Isometry3d>& poses, const MarkerSequence& markers) {
   std::vector<Matrix3Xd> places;
+  places.reserve(poses.size());
   for (int k = 0; k < markers.num_frames(); ++k) {
     places.emplace_back(poses[k].inverse() * Matrix3Xd(markers.frame(k)));
   }
   Matrix3Xd usual(3, markers.num_labels());
   for (int i = 0; i < usual.size(); ++i) {
     std::vector<double> values;
+    values.reserve(places.size());
     for (const Matrix3Xd& place : places) values.push_back(place.reshaped()[i]);
     usual.reshaped()[i] = Median(values);
   }

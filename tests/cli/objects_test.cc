@@ -157,6 +157,7 @@ TEST(Objects, OneThatStandsElsewhereFromAFrameOnIsFoundThere) {
     EXPECT_EQ(run.exit_code, 0) << config << run.err;
     const std::vector<Isometry3d> poses = PosesOf(FindMotion(ReadMmmMotionFile(output), "box"));
     std::vector<Isometry3d> truth;
+    truth.reserve(60);
     for (int k = 0; k < 60; ++k) truth.push_back(PoseAt(k, options));
     const Deviation deviation = DeviationOf(poses, truth);
     // Noise that is chosen from the recording takes the jump for motion, and is large.
