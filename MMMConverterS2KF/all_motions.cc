@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/motion_output.h"
+#include "MMMConverterS2KF/output_files.h"
 #include "MMMConverterS2KF/summary.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/error.h"
@@ -78,14 +79,6 @@ void CheckModelIsOwn(std::set<std::string>* models, MotionOutcome* outcome) {
   outcome->report.reset();
 }
 
-std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
-  std::vector<const ConversionReport*> reports;
-  for (const MotionOutcome& outcome : all.motions) {
-    if (outcome.report) reports.push_back(&*outcome.report);
-  }
-  return reports;
-}
-
 std::string WhyNone(const AllMotions& all) {
   std::string reasons;
   for (const MotionOutcome& outcome : all.motions) {
@@ -97,15 +90,11 @@ std::string WhyNone(const AllMotions& all) {
 }
 
 std::string DescribeModel(const ConversionReport& report) {
-  if (report.object) {
-    std::string text = "object, model " + report.object->source;
-    if (report.object->is_built()) {
-      text += fmt::format(" ({:.2f} mm from the markers): {}", 1e3 * report.object->distance,
-                          report.input.model_file);
-    }
-    return text;
+  if (!report.object) {
+    return fmt::format("{} joints", report.result.trajectory.joint_names.size());
   }
-  return fmt::format("{} joints", report.result.trajectory.joint_names.size());
+  const std::string file = report.object->is_built() ? ": " + report.input.model_file : "";
+  return "object, " + DescribeObjectModel(*report.object) + file;
 }
 
 std::string DescribeOutcome(const MotionOutcome& outcome) {
@@ -120,8 +109,18 @@ std::string DescribeOutcome(const MotionOutcome& outcome) {
 
 }  // namespace
 
+std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
+  std::vector<const ConversionReport*> reports;
+  for (const MotionOutcome& outcome : all.motions) {
+    if (outcome.report) reports.push_back(&*outcome.report);
+  }
+  return reports;
+}
+
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress) {
+  CheckCanBeWritten(request.output);
+  for (const std::string& output : request.more_outputs) CheckCanBeWritten(output);
   AllMotions all;
   std::vector<Recording> recordings =
       ReadAllMotions(request.input.file, request.input.reading, &all.warnings);

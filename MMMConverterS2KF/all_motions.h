@@ -30,6 +30,9 @@ struct AllMotions {
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress);
 
+/// Of the motions that were converted; they point into `all`.
+std::vector<const ConversionReport*> ReportsOf(const AllMotions& all);
+
 /// Writes the models of the objects, and one file with all motions.
 void WriteAllMotions(const ConversionRequest& request, AllMotions* all);
 

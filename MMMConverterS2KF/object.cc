@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include "common/motion/marker_residuals.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 
 namespace mmm_converter {
 namespace {
@@ -116,7 +116,7 @@ std::string WhyNotItsModel(const LoadedModel& model, const Input& input,
   }
   if (!PairsOfObject(model.model, input, config).empty()) return "";
   return fmt::format("it has fewer than three of the motion's markers ({})",
-                     fmt::join(input.recording.markers.labels(), ", "));
+                     FirstNames(input.recording.markers.labels()));
 }
 
 // The file that the motion names, if it is there and can be tracked.
@@ -269,6 +269,14 @@ std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input
   return object;
 }
 
+std::string DescribeObjectModel(const ObjectModel& object) {
+  std::string text = "model " + object.source;
+  if (object.is_built()) {
+    text += fmt::format(", {:.2f} mm from the markers (rms)", 1e3 * object.distance);
+  }
+  return text;
+}
+
 void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping) {
   if (input.reference->num_joints() > 0) return;
   const auto count = static_cast<int>(mapping.assignments.size());
@@ -290,9 +298,7 @@ std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& ma
                                      const Eigen::MatrixXd& residuals) {
   constexpr double kHardlyTold = 0.05;  // [rad]
   const Eigen::Matrix3Xd places = PlacesOf(input, mapping);
-  const Eigen::Vector3d mean = places.rowwise().mean();
-  const double radius =
-      (places.colwise() - mean).norm() / std::sqrt(static_cast<double>(places.cols()));
+  const double radius = RadiusOf(places);
   const double beside_line = DistanceFromLine(places);
   const double distance = SummarizeResiduals(residuals).mean;
   if (distance > kMostStray * radius) {

@@ -43,6 +43,9 @@ struct ObjectModel {
 std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
                                       ConverterConfig* config);
 
+/// Where it is from, and how near a built one is to its markers.
+std::string DescribeObjectModel(const ObjectModel& object);
+
 /// @throws Error where the mapped markers of an object do not determine its pose.
 void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping);
 

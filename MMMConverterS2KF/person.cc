@@ -2,9 +2,7 @@
 #include "MMMConverterS2KF/person.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -14,6 +12,7 @@
 #include "common/io/subject_file.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 
 namespace mmm_converter {
 namespace {
@@ -146,12 +145,10 @@ void WarnOfFreeJoints(const KinematicModel& model, const ConverterConfig& config
     if (!is_moving) names.push_back(model.joint(kinematics.joints()[j]).name);
   }
   if (names.empty()) return;
-  const std::size_t count = names.size();
-  names.resize(std::min(count, kShown));
   warnings->push_back(fmt::format(
       "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
-      "known: {}{}",
-      count, kinematics.num_joints(), fmt::join(names, ", "), count > kShown ? ", ..." : ""));
+      "known: {}",
+      names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
 }
 
 }  // namespace

@@ -213,15 +213,6 @@ std::string DescribeSubjectOutput(const ConversionReport& report) {
   return text + ". The subject's model: " + report.model_output + "\n";
 }
 
-std::string DescribeObject(const ConversionReport& report) {
-  std::string text = "object     rigid, model " + report.object->source;
-  if (report.object->is_built()) {
-    text +=
-        fmt::format(", {:.2f} mm from the markers (rms)", kMillimetres * report.object->distance);
-  }
-  return text + "\n";
-}
-
 Json ObjectJson(const ConversionReport& report) {
   if (!report.object) return nullptr;
   return {
@@ -255,7 +246,7 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
                       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
-  text += report.object ? DescribeObject(report)
+  text += report.object ? fmt::format("object     rigid, {}\n", DescribeObjectModel(*report.object))
                         : fmt::format("person     {}\n", DescribePersonShortly(report));
   text += DescribeSubject(report);
   text += fmt::format("model      {}, {} joints tracked\n", report.input.model_file,

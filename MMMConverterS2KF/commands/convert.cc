@@ -51,8 +51,8 @@ const std::vector<OptionGroup> kOwnOptions = {
      {{"object", "", "a rigid object was recorded, no person; MMM motions say so themselves", ""},
       {"object-models", "DIR",
        "models of rigid objects, DIR/MOTION.xml each; one that is missing is built from its "
-       "motion's "
-       "markers and written there; default: all are built, into OUTPUT without ending + _objects",
+       "motion's markers and written there; default: all are built, into OUTPUT without ending + "
+       "_objects",
        ""}}},
     {"General",
      {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
@@ -153,14 +153,6 @@ void LogWarnings(const AllMotions& all) {
   }
 }
 
-std::string FormatPage(const AllMotions& all) {
-  std::vector<const ConversionReport*> reports;
-  for (const MotionOutcome& outcome : all.motions) {
-    if (outcome.report) reports.push_back(&*outcome.report);
-  }
-  return FormatConversionPage(reports);
-}
-
 int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& request) {
   CheckFitsAllMotions(arguments);
   ProgressBar bar("frames");
@@ -174,7 +166,9 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatAllMotionsJson(all));
   }
-  if (const auto file = arguments.Get("report")) WriteFileAtomically(*file, FormatPage(all));
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatConversionPage(ReportsOf(all)));
+  }
   std::cout << FormatAllMotions(all);
   int failures = 0;
   for (const MotionOutcome& outcome : all.motions) {

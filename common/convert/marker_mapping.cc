@@ -12,21 +12,13 @@
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kNamesInMessages = 12;
-
 std::string BareLabel(const std::string& label) {
   return NormalizeLabel(label.substr(label.rfind(':') + 1));
-}
-
-std::string Names(const std::vector<std::string>& names) {
-  const std::size_t shown = std::min(names.size(), kNamesInMessages);
-  return fmt::format("{}{}",
-                     fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "),
-                     shown < names.size() ? ", ..." : "");
 }
 
 /// Index of the first label of each name.
@@ -61,7 +53,7 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
   std::transform(model.markers().begin(), model.markers().end(), markers.begin(),
                  [](const ModelMarker& marker) { return marker.name; });
   throw Error(fmt::format("marker mapping: not markers of model {}: {}; it has: {}", model.name(),
-                          Names(unknown), Names(markers)));
+                          FirstNames(unknown), FirstNames(markers)));
 }
 
 [[noreturn]] void ThrowNoMatch(const std::vector<MarkerPair>& pairs,
@@ -70,8 +62,8 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
   sources.reserve(pairs.size());
   for (const MarkerPair& pair : pairs) sources.push_back(pair.source);
   throw Error(fmt::format("no label of the recording is mapped: it has {}; the mapping has {}",
-                          recording.num_labels() == 0 ? "none" : Names(recording.labels()),
-                          sources.empty() ? "none" : Names(sources)));
+                          recording.num_labels() == 0 ? "none" : FirstNames(recording.labels()),
+                          sources.empty() ? "none" : FirstNames(sources)));
 }
 
 }  // namespace

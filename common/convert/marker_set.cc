@@ -244,14 +244,11 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
   std::vector<std::string> names;
   names.reserve(sets.size());
   for (const MarkerSet& set : sets) names.push_back(set.name);
-  std::vector<std::string> labels = recording.labels();
-  labels.resize(std::min<std::size_t>(labels.size(), 12));
   throw Error(fmt::format(
-      "no marker set ({}) knows three labels of the recording, which has {}{}; "
+      "no marker set ({}) knows three labels of the recording, which has {}; "
       "name links of the URDF <label>_marker, or say which labels stand for which markers "
       "and where these are: --marker-set FILE, or a configuration with a MarkerMapping",
-      fmt::join(names, ", "), fmt::join(labels, ", "),
-      labels.size() < recording.labels().size() ? ", ..." : ""));
+      fmt::join(names, ", "), FirstNames(recording.labels())));
 }
 
 }  // namespace mmm_converter

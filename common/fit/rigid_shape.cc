@@ -2,7 +2,6 @@
 #include "common/fit/rigid_shape.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "common/math/statistics.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 
 namespace mmm_converter {
 
@@ -118,7 +118,7 @@ class ShapeEstimator {
     throw Error(
         fmt::format("the pose of a rigid object needs three markers that are seen together; "
                     "the recording has {} ({}), at most {} in a frame",
-                    recording_.num_labels(), NamesOfMarkers(), most));
+                    recording_.num_labels(), FirstNames(recording_.labels()), most));
   }
 
   static bool IsSame(const Ref<const Matrix3Xd>& a, const Ref<const Matrix3Xd>& b) {
@@ -214,7 +214,7 @@ class ShapeEstimator {
       const Vector3d extents = PrincipalExtents(frame);
       return extents[1] > kBesideALine * extents[0];
     });
-    const std::string names = NamesOfMarkers();
+    const std::string names = FirstNames(recording_.labels());
     if (is_line) {
       throw Error(
           fmt::format("the markers ({}) stand on a line, to within {:.2g} mm: turns about it can't "
@@ -225,15 +225,6 @@ class ShapeEstimator {
         fmt::format("the markers ({}) are no rigid object: in most frames distances between them "
                     "differ by {:.2g} mm or more from their medians",
                     names, 1e3 * tolerance_ / kUnusual));
-  }
-
-  std::string NamesOfMarkers() const {
-    constexpr int kMostNames = 10;
-    const std::vector<std::string>& labels = recording_.labels();
-    const std::size_t count = std::min<std::size_t>(labels.size(), kMostNames);
-    const std::vector<std::string> first(labels.begin(),
-                                         labels.begin() + static_cast<std::ptrdiff_t>(count));
-    return fmt::format("{}{}", fmt::join(first, ", "), count < labels.size() ? ", ..." : "");
   }
 
   // What a frame shows of the markers whose places are known.
@@ -299,7 +290,7 @@ class ShapeEstimator {
       }
     }
     result.distance = std::sqrt(squares / points);
-    const double radius = PrincipalExtents(shape_).norm();
+    const double radius = RadiusOf(shape_);
     if (result.distance > kMostStray * radius) {
       throw Error(
           fmt::format("the {} markers are no rigid object: they stray {:.0f} mm from their best "
@@ -314,7 +305,7 @@ class ShapeEstimator {
     if (farthest > kFarthestMarker) {
       throw Error(
           fmt::format("the markers ({}) stand up to {:.1f} m from their mean, more than {} m",
-                      NamesOfMarkers(), farthest, kFarthestMarker));
+                      FirstNames(recording_.labels()), farthest, kFarthestMarker));
     }
     return result;
   }
@@ -354,6 +345,8 @@ Isometry3d FitRigidPose(const Ref<const Matrix3Xd>& p_OM, const Ref<const Matrix
   X.translation() = center_z - R * center_p;
   return X;
 }
+
+double RadiusOf(const Ref<const Matrix3Xd>& points) { return PrincipalExtents(points).norm(); }
 
 double DistanceFromLine(const Ref<const Matrix3Xd>& points) {
   return CountPoints(points) < kFewest ? 0 : PrincipalExtents(points).tail<2>().norm();

@@ -17,6 +17,10 @@ Eigen::Isometry3d FitRigidPose(const Eigen::Ref<const Eigen::Matrix3Xd>& p_OM,
                                const Eigen::Ref<const Eigen::Matrix3Xd>& z,
                                const Eigen::Ref<const Eigen::VectorXd>& weights);
 
+/// Distance of the finite ones of some points (3 x points, at least one finite) from their mean:
+/// the root mean square [m].
+double RadiusOf(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+
 /// Distance of the finite ones of some points (3 x points) from the line that is nearest to them:
 /// the root mean square [m]. 0 for fewer than three.
 double DistanceFromLine(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
