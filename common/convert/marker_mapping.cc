@@ -2,9 +2,7 @@
 #include "common/convert/marker_mapping.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
