@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <iostream>
 
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/version.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/version.h"
 #include "common/math/instruction_set.h"
 #include "common/support/suggestion.h"
 

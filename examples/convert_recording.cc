@@ -10,9 +10,9 @@
 
 #include "common/convert/marker_mapping.h"
 #include "common/convert/plugin_loader.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "common/model/model_scaling.h"
 #include "common/support/atomic_file.h"
 #include "common/support/data_directory.h"

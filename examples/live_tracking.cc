@@ -13,8 +13,8 @@
 
 #include "common/convert/marker_mapping.h"
 #include "common/convert/plugin_loader.h"
-#include "common/io/mmm_model.h"
-#include "common/io/recording.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/recording/recording.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "common/support/data_directory.h"

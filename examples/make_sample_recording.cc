@@ -9,9 +9,9 @@
 #include <iostream>
 #include <string>
 
-#include "common/io/c3d_writer.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"

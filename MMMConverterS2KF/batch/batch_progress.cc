@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/terminal/log.h"
 
 namespace mmm_converter {
 

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "MMMConverterS2KF/progress.h"
+#include "MMMConverterS2KF/terminal/progress.h"
 
 namespace mmm_converter {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "MMMConverterS2KF/summary.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
 
 namespace mmm_converter {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "MMMConverterS2KF/batch/manifest.h"
-#include "MMMConverterS2KF/pipeline.h"
+#include "MMMConverterS2KF/conversion/conversion.h"
 
 namespace mmm_converter {
 

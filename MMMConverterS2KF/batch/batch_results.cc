@@ -8,9 +8,9 @@
 #include "MMMConverterS2KF/batch/batch_result.h"
 #include "MMMConverterS2KF/batch/batch_run.h"
 #include "MMMConverterS2KF/batch/entry_conversion.h"
-#include "MMMConverterS2KF/batch/interruption.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
 #include "MMMConverterS2KF/report/batch_index.h"
+#include "MMMConverterS2KF/terminal/interruption.h"
 #include "common/support/atomic_file.h"
 #include "common/support/parallel.h"
 

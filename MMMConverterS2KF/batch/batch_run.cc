@@ -13,9 +13,9 @@
 #include "MMMConverterS2KF/batch/batch_outputs.h"
 #include "MMMConverterS2KF/batch/batch_result.h"
 #include "MMMConverterS2KF/batch/entry_conversion.h"
-#include "MMMConverterS2KF/batch/interruption.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
+#include "MMMConverterS2KF/terminal/interruption.h"
 
 namespace mmm_converter {
 namespace {

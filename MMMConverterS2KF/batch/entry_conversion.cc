@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/batch/entry_conversion.h"
 
-#include "MMMConverterS2KF/conversion_page.h"
+#include "MMMConverterS2KF/report/conversion_page.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/manifest_attributes.h"
-#include "common/io/file_content.h"
-#include "common/io/xml_document.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/xml/xml_document.h"
 #include "common/support/diagnostics.h"
 #include "common/support/suggestion.h"
 

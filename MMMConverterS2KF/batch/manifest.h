@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/pipeline.h"
+#include "MMMConverterS2KF/conversion/conversion.h"
 
 namespace mmm_converter {
 

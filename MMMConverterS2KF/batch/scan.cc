@@ -10,10 +10,10 @@
 #include <set>
 
 #include "MMMConverterS2KF/batch/subjects_table.h"
-#include "common/io/file_content.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/processor_config.h"
-#include "common/io/xml_text.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/mmm/processor_config.h"
+#include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 

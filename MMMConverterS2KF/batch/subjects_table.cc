@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/io/file_content.h"
+#include "common/io/bytes/file_content.h"
 #include "common/support/diagnostics.h"
 #include "common/support/error.h"
 #include "common/support/text.h"

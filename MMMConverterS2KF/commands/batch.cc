@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "MMMConverterS2KF/batch/batch_run.h"
-#include "MMMConverterS2KF/batch/interruption.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/batch/scan.h"
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/interruption.h"
+#include "MMMConverterS2KF/terminal/log.h"
 #include "common/support/machine.h"
 #include "common/support/text.h"
 

@@ -5,17 +5,17 @@
 #include <filesystem>
 #include <iostream>
 
-#include "MMMConverterS2KF/calibration.h"
-#include "MMMConverterS2KF/calibration_summary.h"
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/comparison_setup.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/output_files.h"
-#include "MMMConverterS2KF/progress.h"
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "MMMConverterS2KF/conversion/output_files.h"
+#include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/report.h"
-#include "common/io/mmm_model_subject.h"
-#include "common/io/subject_file.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
+#include "common/io/mmm/mmm_model_subject.h"
+#include "common/io/mmm/subject_file.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

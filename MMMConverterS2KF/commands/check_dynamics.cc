@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <iostream>
 
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/conversion/output_files.h"
 #include "MMMConverterS2KF/dynamics/dynamics_check.h"
-#include "MMMConverterS2KF/dynamics/dynamics_summary.h"
-#include "MMMConverterS2KF/input.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/output_files.h"
+#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/dynamics_page.h"
+#include "MMMConverterS2KF/report/dynamics_summary.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

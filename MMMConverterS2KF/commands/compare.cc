@@ -5,14 +5,14 @@
 #include <iostream>
 #include <limits>
 
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/comparison_output.h"
-#include "MMMConverterS2KF/comparison_setup.h"
-#include "MMMConverterS2KF/input.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/progress.h"
+#include "MMMConverterS2KF/commands/comparison_output.h"
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
 
 namespace mmm_converter {
 namespace {

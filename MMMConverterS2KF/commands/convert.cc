@@ -3,14 +3,14 @@
 
 #include <iostream>
 
-#include "MMMConverterS2KF/all_motions.h"
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion_page.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/pipeline.h"
-#include "MMMConverterS2KF/progress.h"
-#include "MMMConverterS2KF/summary.h"
+#include "MMMConverterS2KF/conversion/all_motions.h"
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/report/conversion_page.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <iostream>
 
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/input.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/output_files.h"
-#include "common/io/urdf_model_writer.h"
+#include "MMMConverterS2KF/conversion/output_files.h"
+#include "MMMConverterS2KF/input/input.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "common/io/urdf/urdf_model_writer.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

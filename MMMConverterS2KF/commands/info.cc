@@ -5,19 +5,19 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/commands/info_markers.h"
-#include "MMMConverterS2KF/log.h"
-#include "MMMConverterS2KF/version.h"
+#include "MMMConverterS2KF/report/info_markers.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/version.h"
 #include "common/convert/converter_config.h"
 #include "common/convert/plugin_loader.h"
-#include "common/io/file_content.h"
-#include "common/io/mmm_motion.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/io/model_file.h"
-#include "common/io/recording.h"
-#include "common/io/xml_document.h"
-#include "common/io/xml_text.h"
+#include "common/io/recording/recording.h"
+#include "common/io/xml/xml_document.h"
+#include "common/io/xml/xml_text.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 

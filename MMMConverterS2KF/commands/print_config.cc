@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "MMMConverterS2KF/batch/manifest.h"
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
 #include "common/convert/plugin_loader.h"
 
 namespace mmm_converter {

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <iostream>
 
-#include "MMMConverterS2KF/command_line.h"
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/comparison_output.h"
-#include "MMMConverterS2KF/comparison_setup.h"
-#include "MMMConverterS2KF/input.h"
-#include "MMMConverterS2KF/log.h"
+#include "MMMConverterS2KF/commands/comparison_output.h"
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
-#include "common/io/file_content.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "common/io/bytes/file_content.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "MMMConverterS2KF/comparison_setup.h"
-#include "common/io/file_content.h"
-#include "common/io/mmm_motion.h"
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/io/model_file.h"
-#include "common/io/trc_reader.h"
+#include "common/io/tables/trc_reader.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
 

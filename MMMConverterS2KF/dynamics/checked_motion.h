@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/input.h"
-#include "MMMConverterS2KF/person.h"
+#include "MMMConverterS2KF/input/input.h"
+#include "MMMConverterS2KF/input/person.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
 

@@ -3,7 +3,11 @@
 
 #include <utility>
 
+#include "common/support/error.h"
+
 namespace mmm_converter {
+
+#ifdef MMM_CONVERTER_HAS_DYNAMICS
 
 DynamicsReport CheckDynamics(const InputRequest& request, const DynamicsOptions& options) {
   CheckedMotion motion = ReadCheckedMotion(request);
@@ -14,5 +18,15 @@ DynamicsReport CheckDynamics(const InputRequest& request, const DynamicsOptions&
   Plausibility judged = JudgeDynamics(motion.model, dynamics);
   return {std::move(motion), std::move(dynamics), std::move(judged)};
 }
+
+#else
+
+DynamicsReport CheckDynamics(const InputRequest&, const DynamicsOptions&) {
+  throw Error(
+      "check-dynamics: this program was built without Simbody, which computes the forces; install "
+      "it (Debian: libsimbody-dev) and build again, without -DMMM_CONVERTER_DYNAMICS=OFF");
+}
+
+#endif
 
 }  // namespace mmm_converter

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "MMMConverterS2KF/dynamics/dynamics_summary.h"
-#include "MMMConverterS2KF/input.h"
+#include "MMMConverterS2KF/input/input.h"
+#include "MMMConverterS2KF/report/dynamics_summary.h"
 #include "common/dynamics/motion_dynamics.h"
 
 namespace mmm_converter {

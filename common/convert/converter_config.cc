@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "common/io/file_content.h"
+#include "common/io/bytes/file_content.h"
 #include "common/model/kinematic_model.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"

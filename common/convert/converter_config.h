@@ -8,7 +8,7 @@
 #include "common/convert/marker_mapping.h"
 #include "common/convert/marker_set.h"
 #include "common/convert/settings.h"
-#include "common/io/xml_document.h"
+#include "common/io/xml/xml_document.h"
 
 namespace mmm_converter {
 

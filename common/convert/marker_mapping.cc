@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "common/io/marker_labels.h"
+#include "common/io/recording/marker_labels.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/error.h"

@@ -11,8 +11,8 @@
 #include <map>
 #include <set>
 
-#include "common/io/marker_labels.h"
-#include "common/io/xml_document.h"
+#include "common/io/recording/marker_labels.h"
+#include "common/io/xml/xml_document.h"
 #include "common/model/kinematic_model.h"
 #include "common/support/diagnostics.h"
 #include "common/support/error.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/io/xml_document.h"
+#include "common/io/xml/xml_document.h"
 #include "common/support/diagnostics.h"
 
 namespace mmm_converter {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "common/io/model_file.h"
 
-#include "common/io/file_content.h"
-#include "common/io/mmm_model.h"
-#include "common/io/urdf_model_reader.h"
-#include "common/io/xml_text.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/urdf/urdf_model_reader.h"
+#include "common/io/xml/xml_text.h"
 
 namespace mmm_converter {
 namespace {

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "common/io/file_content.h"
+#include "common/io/bytes/file_content.h"
 #include "common/math/seeded_random.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"

@@ -7,11 +7,11 @@
 #include <numeric>
 #include <string>
 
-#include "common/io/c3d_reader.h"
-#include "common/io/c3d_writer.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
-#include "common/io/trajectory_csv.h"
+#include "common/io/c3d/c3d_reader.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
+#include "common/io/tables/trajectory_csv.h"
 #include "common/support/atomic_file.h"
 #include "tests/support/long_recording.h"
 

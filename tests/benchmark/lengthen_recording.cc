@@ -6,8 +6,8 @@
 #include <iostream>
 #include <string>
 
-#include "common/io/c3d_writer.h"
-#include "common/io/recording.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/recording/recording.h"
 #include "tests/support/long_recording.h"
 
 int main(int argc, char** argv) {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "common/io/c3d_writer.h"
+#include "common/io/c3d/c3d_writer.h"
 #include "common/motion/marker_sequence.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "common/io/c3d_writer.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
-#include "common/io/subject_file.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/io/recording/recording.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string>
 
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/math/rotation.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "common/io/c3d_writer.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "common/math/rotation.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"

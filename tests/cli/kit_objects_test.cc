@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/math/statistics.h"
 #include "tests/cli/pose_deviation.h"
 #include "tests/cli/program.h"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/math/rotation.h"
 #include "tests/cli/pose_deviation.h"
 #include "tests/cli/program.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_motion.h"
 
 namespace mmm_converter::testing {
 

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "common/io/c3d_writer.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "common/motion/occlusion.h"
 #include "tests/cli/program.h"
 

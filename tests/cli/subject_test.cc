@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "common/convert/marker_mapping.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
-#include "common/io/subject_file.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/io/recording/recording.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "tests/cli/program.h"

@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/io/c3d_writer.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/subject_file.h"
-#include "common/io/urdf_model_reader.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/io/urdf/urdf_model_reader.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "common/io/file_content.h"
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
 #include "common/model/model_scaling.h"

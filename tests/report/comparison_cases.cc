@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/report/comparison_cases.h"
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"

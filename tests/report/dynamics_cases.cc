@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "MMMConverterS2KF/dynamics/dynamics_summary.h"
 #include "MMMConverterS2KF/report/dynamics_page.h"
+#include "MMMConverterS2KF/report/dynamics_summary.h"
 #include "tests/report/comparison_cases.h"
 
 namespace mmm_converter::testing {

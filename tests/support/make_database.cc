@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "common/io/c3d_writer.h"
+#include "common/io/c3d/c3d_writer.h"
 #include "common/math/rotation.h"
 #include "common/math/seeded_random.h"
 #include "common/motion/marker_synthesis.h"

@@ -11,7 +11,7 @@
 #include "common/calibrate/segment_lengths.h"
 #include "common/convert/converter_config.h"
 #include "common/fit/posture_search.h"
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/math/rotation.h"
 #include "common/math/seeded_random.h"
 #include "common/model/forward_kinematics.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "common/io/subject_file.h"
+#include "common/io/mmm/subject_file.h"
 #include "common/support/error.h"
 #include "tests/support/stick_model.h"
 #include "tests/xml_config/xmllint.h"

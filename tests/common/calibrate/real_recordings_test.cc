@@ -6,7 +6,7 @@
 
 #include "common/calibrate/calibration.h"
 #include "common/convert/converter_config.h"
-#include "common/io/recording.h"
+#include "common/io/recording/recording.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "common/io/mmm_model.h"
-#include "common/io/recording.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/recording/recording.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
 

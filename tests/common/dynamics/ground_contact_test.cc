@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "tests/common/dynamics/test_bodies.h"
 #include "tests/support/shared_data.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/io/mmm_model.h"
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/math/rotation.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/synthetic_motion.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/dynamics/simbody_model.h"
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/math/rotation.h"
 #include "common/model/model_scaling.h"
 #include "tests/common/dynamics/test_bodies.h"

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "common/convert/converter_config.h"
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/model/kit_joints.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"

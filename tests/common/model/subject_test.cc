@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "common/support/error.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/math/rotation.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"

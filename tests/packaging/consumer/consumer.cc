@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "common/io/mmm_model.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"

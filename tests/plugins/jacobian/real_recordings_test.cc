@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"

@@ -9,8 +9,8 @@
 
 #include "common/calibrate/calibration.h"
 #include "common/convert/converter_config.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"

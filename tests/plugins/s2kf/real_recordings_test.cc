@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "common/convert/marker_set.h"
-#include "common/io/mmm_motion.h"
-#include "common/io/recording.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "tests/plugins/s2kf/tracking_run.h"

@@ -9,7 +9,7 @@
 
 #include "common/convert/converter_config.h"
 #include "common/fit/posture_fit.h"
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/math/rotation.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"

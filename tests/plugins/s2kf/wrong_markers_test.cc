@@ -6,7 +6,7 @@
 #include <optional>
 #include <tuple>
 
-#include "common/io/mmm_motion.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/commands/comparison_output.h"
+
+#include <filesystem>
+
+#include "MMMConverterS2KF/report/comparison_json.h"
+#include "MMMConverterS2KF/report/comparison_plot.h"
+#include "MMMConverterS2KF/report/comparison_table.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+
+OptionGroup ComparisonOutputOptions() {
+  return {"Output",
+          {{"json", "FILE", "all figures as JSON", ""},
+           {"csv", "FILE", "all figures as CSV", ""},
+           {"gnuplot", "FILE", "a gnuplot script with its data, which draws SVG figures", ""},
+           {"report", "FILE", "a page (HTML) with player and plots", ""}}};
+}
+
+void WriteComparison(const Arguments& arguments, const std::string& title,
+                     const Comparison& comparison) {
+  if (const auto file = arguments.Get("json")) {
+    WriteFileAtomically(*file, FormatComparisonJson(comparison));
+  }
+  if (const auto file = arguments.Get("csv")) {
+    WriteFileAtomically(*file, FormatComparisonCsv(comparison));
+  }
+  if (const auto file = arguments.Get("gnuplot")) {
+    const std::string stem = std::filesystem::path(*file).stem().string();
+    WriteFileAtomically(*file, FormatComparisonPlot(comparison, stem));
+  }
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatReport(title, {{title, "", &comparison}}));
+  }
+}
+
+}  // namespace mmm_converter

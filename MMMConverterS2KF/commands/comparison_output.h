@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/report/report.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "common/evaluate/comparison.h"
+
+namespace mmm_converter {
+
+/// The options for what a comparison is written to: --json, --csv, --gnuplot and --report.
+OptionGroup ComparisonOutputOptions();
+
+/// Writes the files asked for; options that a command does not have are not.
+/// @throws Error
+void WriteComparison(const Arguments& arguments, const std::string& title,
+                     const Comparison& comparison);
+
+}  // namespace mmm_converter

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "common/support/error.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameRate = 1e-3;  // relative
+
+template <typename Named>
+void NumberRepeatedNames(std::vector<Named>* items) {
+  std::map<std::string, int> count;
+  for (Named& item : *items) {
+    const int number = ++count[item.name];
+    if (number > 1) item.name += fmt::format(" ({})", number);
+  }
+}
+
+void TakeModel(const InputRequest& request, ConverterConfig config, Input* read, Trial* trial,
+               std::vector<std::string>* warnings) {
+  MatchModel(request, read, &config);
+  const Input& input = *read;
+  const MarkerSequence& markers = input.recording.markers;
+  std::string set;
+  const std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, markers, *input.reference, &set);
+  const MarkerMapping mapping = ResolveMarkerMapping(pairs, markers, *input.reference);
+  Person person;
+  trial->model = std::make_shared<KinematicModel>(
+      ScaleToPerson(request.person, *input.reference, input.recording, config, mapping.assignments,
+                    &person, warnings));
+  trial->subject = person.subject;
+}
+
+}  // namespace
+
+Contender MakeContender(const std::string& config) {
+  Contender contender;
+  contender.name = config.empty() ? "s2kf_default" : fs::path(config).stem().string();
+  try {
+    ConverterChoice choice = ChooseConverter({config, "", ""});
+    contender.config = std::move(choice.config);
+    contender.configuration = std::move(choice.text);
+    contender.plugin = std::move(choice.plugin);
+  } catch (const Error& error) {
+    contender.failure = error.what();
+  }
+  return contender;
+}
+
+Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
+                std::vector<std::string>* warnings) {
+  Trial trial;
+  trial.name = fs::path(request.file).filename().string();
+  try {
+    Input input = ReadInput(request);
+    warnings->insert(warnings->end(), input.warnings.begin(), input.warnings.end());
+    if (!truth_file.empty()) {
+      const MmmMotion truth = ReadPostures(truth_file, input.recording.motion);
+      trial.truth = AlignFrames(truth.trajectory, input.recording.markers, truth_file);
+      if (request.person.subject_file.empty()) {
+        if (!request.person.height) request.person.height = truth.height;
+        if (!request.person.mass) request.person.mass = truth.mass;
+      }
+    }
+    TakeModel(request, config, &input, &trial, warnings);
+    trial.markers = std::move(input.recording.markers);
+  } catch (const Error& error) {
+    trial.failure = error.what();
+  }
+  return trial;
+}
+
+void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders) {
+  NumberRepeatedNames(trials);
+  NumberRepeatedNames(contenders);
+}
+
+MmmMotion ReadPostures(const std::string& file, const std::string& preferred) {
+  MmmMotionFile content = ReadMmmMotionFile(file);
+  std::vector<MmmMotion*> candidates;
+  std::vector<std::string> names;
+  for (MmmMotion& motion : content.motions) {
+    const bool has_postures =
+        motion.trajectory.num_frames() > 0 && !motion.trajectory.joint_names.empty();
+    if (!has_postures) continue;
+    if (motion.name == preferred) return std::move(motion);
+    candidates.push_back(&motion);
+    names.push_back(motion.name);
+  }
+  if (candidates.empty()) {
+    throw Error(fmt::format("{}: has no motion with joint angles; convert it first", file));
+  }
+  if (candidates.size() > 1) {
+    throw Error(
+        fmt::format("{}: has several motions with joint angles ({}); choose one with "
+                    "--motion",
+                    file, JoinNames(names)));
+  }
+  return std::move(*candidates.front());
+}
+
+PoseTrajectory AlignFrames(const PoseTrajectory& trajectory, const MarkerSequence& markers,
+                           const std::string& file) {
+  if (std::abs(trajectory.rate - markers.rate()) > kSameRate * markers.rate()) {
+    throw Error(fmt::format("{}: has {:g} frames a second, the recording {:g}; they must be equal",
+                            file, trajectory.rate, markers.rate()));
+  }
+  const auto first = std::lround((markers.first_time() - trajectory.first_time) * trajectory.rate);
+  if (first < 0 || first + markers.num_frames() > trajectory.num_frames()) {
+    throw Error(fmt::format(
+        "{}: has postures from {:.3f} s to {:.3f} s, the recording is from {:.3f} s to {:.3f} s; "
+        "use --frames for the part that both have",
+        file, trajectory.first_time, trajectory.time(trajectory.num_frames() - 1),
+        markers.first_time(), markers.time(markers.num_frames() - 1)));
+  }
+  PoseTrajectory part = trajectory;
+  part.first_time = markers.first_time();
+  part.postures.assign(trajectory.postures.begin() + first,
+                       trajectory.postures.begin() + first + markers.num_frames());
+  if (part.standard_deviations.size() > 0) {
+    part.standard_deviations =
+        Eigen::MatrixXd(trajectory.standard_deviations.middleCols(first, markers.num_frames()));
+  }
+  for (int k = 0; k < part.num_frames(); ++k) {
+    if (part.postures[k].joint_angles.allFinite()) continue;
+    throw Error(fmt::format("{}: has no joint angles at {:.3f} s", file, part.time(k)));
+  }
+  return part;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/input/converter_choice.h"
+#include "MMMConverterS2KF/input/input.h"
+#include "common/evaluate/comparison.h"
+#include "common/io/mmm/mmm_motion.h"
+
+namespace mmm_converter {
+
+// What can't be read becomes a trial or contender with its failure: the others still run.
+
+/// config: an empty one (the shipped one of the S2KFConverter), a file, or the name of a shipped
+/// one.
+Contender MakeContender(const std::string& config);
+
+/// A recording; its person's height is estimated with the markers and joints of `config` where
+/// nothing tells it. truth_file: MMM motion that the markers were made from; may be empty.
+Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
+                std::vector<std::string>* warnings);
+
+/// Names that are there several times get a number.
+void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders);
+
+/// The motion of a file that has postures: the named one, or else the only one, or the one named as
+/// `preferred`.
+/// @throws Error listing the motions where that does not decide it, and where angles are missing.
+MmmMotion ReadPostures(const std::string& file, const std::string& preferred);
+
+/// Frames of `trajectory` at the times of `markers`.
+/// @throws Error naming `file` where rates differ or frames are not covered.
+PoseTrajectory AlignFrames(const PoseTrajectory& trajectory, const MarkerSequence& markers,
+                           const std::string& file);
+
+}  // namespace mmm_converter

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/conversion/conversion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "MMMConverterS2KF/conversion/motion_output.h"
+#include "MMMConverterS2KF/conversion/output_files.h"
+#include "common/io/mmm/mmm_model_subject.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+void AddWarnings(const std::vector<std::string>& more, ConversionReport* report) {
+  report->warnings.insert(report->warnings.end(), more.begin(), more.end());
+}
+
+// The person as the recording itself shows them.
+void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
+  if (config.model_processor == "None") {
+    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
+  }
+  const Recording& recording = report->input.recording;
+  const std::string file = std::filesystem::path(recording.file).filename().string();
+  const KinematicModel& scaled = *report->model;
+  report->calibration = CalibratePerson(scaled, ResolveJoints(config, scaled),
+                                        {{file, &recording.markers, report->mapping.assignments}},
+                                        report->person, SubjectName(report->input));
+  AddWarnings(report->calibration->warnings, report);
+  report->person.subject = std::make_shared<Subject>(report->calibration->subject);
+  report->model =
+      std::make_shared<KinematicModel>(FitToSubject(scaled, report->calibration->subject));
+}
+
+// Models that are built go into the folder given, else into one beside the output.
+std::string FolderOfNewModels(const ConversionRequest& request, const ConversionReport& report) {
+  std::error_code failure;
+  if (!request.object_models.empty()) return request.object_models;
+  if (!request.builds_models || std::filesystem::is_other(report.output, failure)) return "";
+  return std::filesystem::path(report.output).replace_extension().string() + "_objects";
+}
+
+void TakeObject(const ConversionRequest& request, ConversionReport* report) {
+  ObjectRequest object;
+  object.is_object = request.is_object;
+  object.is_person =
+      !request.is_one_of_all && (IsGiven(request.input.person) || request.self_calibrate);
+  object.name = report->motion_name;
+  object.models = request.object_models;
+  object.new_models = FolderOfNewModels(request, *report);
+  object.has_model_given = !request.input.model_file.empty() && !request.is_one_of_all;
+  const std::size_t known = report->input.warnings.size();
+  report->object = TakeObject(object, &report->input, &report->converter.config);
+  AddWarnings({report->input.warnings.begin() + static_cast<std::ptrdiff_t>(known),
+               report->input.warnings.end()},
+              report);
+}
+
+// Configurations know how far markers stray from a model of a person. On an object nothing moves
+// under them: with a tenth of that, KIT's recordings of objects have innovations of the size that
+// the filter expects (NIS over its degrees of freedom 0.2 to 1.3; with all of it, 0.01).
+void TrustMarkersOfObject(MarkerMapping* mapping) {
+  constexpr double kNoiseOfObjects = 0.1;
+  for (MarkerAssignment& assignment : mapping->assignments) {
+    assignment.noise_scale *= kNoiseOfObjects;
+  }
+}
+
+void WritePerson(const ConversionReport& report) {
+  if (!report.subject_output.empty()) {
+    WriteFileAtomically(report.subject_output,
+                        FormatSubject(*report.person.subject, SubjectProgram()));
+  }
+  if (!report.model_output.empty()) {
+    WriteFileAtomically(report.model_output,
+                        ReadModelForSubject(report.input.model_file, *report.person.subject));
+  }
+}
+
+void CheckHasSubject(const ConversionRequest& request, const ConversionReport& report) {
+  if (report.person.subject) return;
+  if (!request.subject_output.empty()) {
+    throw Error("--subject-out " + request.subject_output + ": a rigid object is no subject");
+  }
+  if (!request.model_output.empty()) {
+    throw Error(
+        fmt::format("--model-out {}: no subject is known whose model that would be; use "
+                    "--self-calibrate or --subject-file",
+                    request.model_output));
+  }
+}
+
+std::vector<std::string> OutputsBesideMotion(const ConversionRequest& request,
+                                             const std::vector<const ConversionReport*>& reports) {
+  std::vector<std::string> outputs = {request.subject_output, request.model_output,
+                                      request.exports.csv, request.exports.trc,
+                                      request.exports.mot};
+  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
+  for (const ConversionReport* report : reports) {
+    if (report->object && report->object->is_built()) outputs.push_back(report->input.model_file);
+  }
+  return outputs;
+}
+
+// Beside the recording, which the motion may replace.
+std::vector<std::string> Inputs(const ConversionRequest& request,
+                                const std::vector<const ConversionReport*>& reports) {
+  std::vector<std::string> inputs = {ModelFile(request.input), request.input.person.processor_file,
+                                     request.input.person.subject_file, request.input.marker_set};
+  for (const ConversionReport* report : reports) {
+    inputs.push_back(report->person.subject_file);
+    inputs.push_back(report->converter.config.file);
+    if (!report->object || !report->object->is_built()) inputs.push_back(report->input.model_file);
+  }
+  return inputs;
+}
+
+// The folder of a model that is built is made for it.
+std::string FirstToWrite(const std::string& output,
+                         const std::vector<const ConversionReport*>& reports) {
+  const std::string folder = std::filesystem::path(output).parent_path().string();
+  std::error_code failure;
+  const bool is_new = !folder.empty() && !std::filesystem::exists(folder, failure);
+  const auto is_model = [&](const ConversionReport* report) {
+    return report->object && report->object->is_built() && report->input.model_file == output;
+  };
+  return is_new && std::any_of(reports.begin(), reports.end(), is_model) ? folder : output;
+}
+
+}  // namespace
+
+void CheckOutputs(const ConversionRequest& request,
+                  const std::vector<const ConversionReport*>& reports) {
+  std::vector<std::string> inputs = Inputs(request, reports);
+  const std::string& motion = reports.front()->output;
+  CheckIsNoInput(motion, inputs);
+  inputs.push_back(request.input.file);
+  std::vector<std::string> outputs = OutputsBesideMotion(request, reports);
+  for (const std::string& output : outputs) CheckIsNoInput(output, inputs);
+  outputs.push_back(motion);
+  CheckAreDifferentFiles(outputs);
+  for (const std::string& output : outputs) CheckCanBeWritten(FirstToWrite(output, reports));
+}
+
+ConversionReport RunConversion(const ConversionRequest& request,
+                               const std::function<bool(int, int)>& progress) {
+  ConversionReport report;
+  report.input = ReadInput(request.input);
+  AddWarnings(report.input.warnings, &report);
+  report.converter = request.choice ? *request.choice : ChooseConverter(request.converter);
+  AddWarnings(report.converter.config.warnings, &report);
+  ConverterConfig& config = report.converter.config;
+  MatchModel(request.input, &report.input, &config);
+  if (request.self_calibrate) config.subject_file.clear();
+  report.output_format =
+      request.output_format.empty() ? config.output_format : request.output_format;
+  report.output = ChooseOutput(request, report);
+  report.motion_name = ChooseMotionName(request, report.input.recording);
+
+  TakeObject(request, &report);
+  const KinematicModel& reference = *report.input.reference;
+  const MarkerSequence& markers = report.input.recording.markers;
+  const std::vector<MarkerPair> pairs =
+      ResolveMarkerPairs(config, markers, reference, &report.marker_set);
+  report.mapping = ResolveMarkerMapping(pairs, markers, reference);
+  AddWarnings(report.mapping.warnings, &report);
+  const std::vector<MarkerAssignment>& assignments = report.mapping.assignments;
+  CheckDeterminesPose(report.input, report.mapping);
+  if (report.object) TrustMarkersOfObject(&report.mapping);
+  const PersonRequest person = report.object ? PersonRequest() : request.input.person;
+  report.model = std::make_shared<KinematicModel>(
+      ScaleToPerson(person, reference, report.input.recording, config, assignments, &report.person,
+                    &report.warnings));
+
+  if (request.self_calibrate && !report.object) SelfCalibrate(config, &report);
+  CheckHasSubject(request, report);
+  if (!request.is_one_of_all) CheckOutputs(request, {&report});
+  report.subject_output = request.subject_output;
+  report.model_output = request.model_output;
+
+  const auto converter =
+      report.converter.plugin->factory().Create(*report.model, assignments, config);
+  report.result = converter->Convert(markers, *report.model, assignments, [&](int done) {
+    return !progress || progress(done, markers.num_frames());
+  });
+  if (report.object) {
+    AddWarnings(JudgeObject(report.input, report.mapping, report.result.residuals), &report);
+  }
+  return report;
+}
+
+void WriteObjectModel(const ConversionReport& report) {
+  if (!report.object || !report.object->is_built()) return;
+  std::error_code failure;  // writing says what is wrong
+  std::filesystem::create_directory(std::filesystem::path(report.input.model_file).parent_path(),
+                                    failure);
+  WriteFileAtomically(report.input.model_file, report.object->text);
+}
+
+void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
+  WriteObjectModel(*report);
+  WriteMotions(request, {report});
+  WritePerson(*report);
+  WriteExports(request.exports, *report);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/exports.h"
+#include "MMMConverterS2KF/conversion/object.h"
+#include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/input/converter_choice.h"
+#include "MMMConverterS2KF/input/input.h"
+#include "MMMConverterS2KF/input/person.h"
+#include "common/convert/marker_mapping.h"
+#include "common/convert/motion_converter.h"
+
+namespace mmm_converter {
+
+/// What the user asked for. Empty: a default.
+struct ConversionRequest {
+  InputRequest input;
+  ConverterRequest converter;
+  std::shared_ptr<const ConverterChoice> choice;  ///< for it, where that was made before
+  std::string output;                             ///< input stem + "_mmm.xml", beside the input
+  std::string output_format;              ///< "2.0" or "1.0"; empty: what the configuration says
+  std::string motion_name;                ///< to write
+  std::string model_path;                 ///< to write, as it is
+  bool self_calibrate = false;            ///< estimate the person from the recording itself
+  std::string subject_output;             ///< also write the estimated subject
+  std::string model_output;               ///< also write the subject's model
+  ExportFiles exports;                    ///< for other programs
+  std::vector<std::string> more_outputs;  ///< that the caller writes
+  bool is_object = false;                 ///< of a rigid object, whatever the file says
+  bool builds_models = true;              ///< of objects that have none; else these are an Error
+  /// Folder of the models of objects; those that it lacks are written there.
+  std::string object_models;
+  bool is_one_of_all = false;  ///< of the file's motions; the model named is that of persons
+};
+
+/// Everything that a summary tells.
+struct ConversionReport {
+  Input input;
+  ConverterChoice converter;
+  Person person;
+  std::optional<ObjectModel> object;             ///< what is tracked, where it is no person
+  std::shared_ptr<const KinematicModel> model;   ///< of the person
+  std::optional<CalibrationResult> calibration;  ///< of this recording
+  std::string marker_set;                        ///< empty: the configuration has its own list
+  MarkerMapping mapping;
+  ConversionResult result;
+  std::string output, output_format, motion_name;
+  std::string subject_output, model_output;  ///< empty: not written
+  std::vector<std::string> warnings;
+};
+
+/// Reads the recording, loads and scales the model, matches the markers, calibrates where asked to,
+/// and converts; writes nothing. progress(done, all): frames; may be empty; returning false ends it
+/// with an Error.
+/// @throws Error
+ConversionReport RunConversion(const ConversionRequest& request,
+                               const std::function<bool(int, int)>& progress);
+
+/// Before anything is written, of one motion or of all.
+/// @throws Error where an output is a file that is read, two are the same, or one can't be written.
+void CheckOutputs(const ConversionRequest& request,
+                  const std::vector<const ConversionReport*>& reports);
+
+/// Writes the model of an object, where that is new. @throws Error
+void WriteObjectModel(const ConversionReport& report);
+
+/// Writes the motion and what else is asked for.
+/// @throws Error; each file is then as it was before, or whole.
+void WriteConversion(const ConversionRequest& request, ConversionReport* report);
+
+}  // namespace mmm_converter

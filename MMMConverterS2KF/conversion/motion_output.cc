@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/conversion/motion_output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsMmm2(const Recording& recording) { return recording.format == "MMM 2.0"; }
+
+// The file's markers stay as they are if the motion is in the same coordinates.
+bool AreMarkersAsInFile(const Recording& recording) {
+  return recording.up_axis == UpAxis::kZ && recording.unit == "mm";
+}
+
+// The format has no place for a subject: players see the reference, scaled by height and mass.
+std::string DescribeSubject(const ConversionReport& report) {
+  if (!report.person.subject) return "";
+  const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
+  const std::string& file =
+      report.subject_output.empty() ? report.person.subject_file : report.subject_output;
+  return fmt::format(
+      "Root poses and joint angles are those of the subject {}{}, whose segment lengths and marker "
+      "places differ from this model scaled by height and mass{}",
+      report.person.subject->name, file.empty() ? "" : " (" + name(file) + ")",
+      report.model_output.empty() ? "" : "; the subject's model: " + name(report.model_output));
+}
+
+MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionReport& report) {
+  MmmMotionOutput output;
+  output.recording_name = fs::path(request.input.file).stem().string();
+  output.motion_name = report.motion_name;
+  output.model_path = !request.model_path.empty()
+                          ? request.model_path
+                          : ModelPathFor(report.input.model_file, report.output);
+  output.height = report.person.height.value;
+  output.mass = report.person.mass.value;
+  output.hand_length = report.person.hand_length;
+  output.comment = DescribeSubject(report);
+  output.trajectory = &report.result.trajectory;
+  output.markers = &report.input.recording.markers;
+  return output;
+}
+
+TextPieces Format(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  ConversionReport& first = *reports.front();
+  const Recording& recording = first.input.recording;
+  if (first.output_format == "2.0" && IsMmm2(recording)) {
+    std::vector<MmmMotionOutput> outputs;
+    outputs.reserve(reports.size());
+    for (const ConversionReport* report : reports) {
+      MmmMotionOutput output = DescribeMotion(request, *report);
+      output.motion_name = report->input.recording.motion;
+      if (AreMarkersAsInFile(report->input.recording)) output.markers = nullptr;
+      outputs.push_back(std::move(output));
+    }
+    return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
+  }
+  if (recording.num_motions > 1) {
+    first.warnings.push_back(
+        fmt::format("{}: has {} motions; the output has the converted one "
+                    "only (MMM 2.0 in and out keeps all)",
+                    request.input.file, recording.num_motions));
+  }
+  const MmmMotionOutput output = DescribeMotion(request, first);
+  return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
+}
+
+}  // namespace
+
+std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report) {
+  std::string output = request.output;
+  if (output.empty()) {
+    const fs::path input = request.input.file;
+    output = (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
+  }
+  std::error_code failure;
+  const bool keeps_all = IsMmm2(report.input.recording) && report.output_format != "1.0";
+  if (!keeps_all && fs::equivalent(output, request.input.file, failure)) {
+    throw Error(
+        fmt::format("{}: is the recording itself, which would be lost; give another file "
+                    "with -o",
+                    output));
+  }
+  return output;
+}
+
+std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording) {
+  if (!request.motion_name.empty()) return request.motion_name;
+  if (!recording.motion.empty()) return recording.motion;
+  if (!recording.subject.empty()) return recording.subject;
+  return fs::path(request.input.file).stem().string();
+}
+
+void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  WriteFileAtomically(reports.front()->output, Format(request, reports));
+}
+
+}  // namespace mmm_converter

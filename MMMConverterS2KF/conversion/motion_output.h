@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+
+namespace mmm_converter {
+
+/// Where the motion goes: request.output, or else the input's stem + "_mmm.xml" beside it.
+/// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
+std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report);
+
+/// What the motion is called: as asked for, else as in the recording, else as the file.
+std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording);
+
+/// Writes the results of one recording to their common output; several must be motions of an
+/// MMM 2.0 file that are written as such. Of an MMM 2.0 recording, all other motions and sensors
+/// are kept as they are.
+void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports);
+
+}  // namespace mmm_converter

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/conversion/object.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "common/convert/marker_set.h"
+#include "common/fit/rigid_shape.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_object_model.h"
+#include "common/motion/marker_residuals.h"
+#include "common/support/data_directory.h"
+#include "common/support/error.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFewestMarkers = 3;
+
+// How many labels the configuration or a set has for markers of the model.
+int CountKnown(const std::vector<MarkerPair>& pairs, const MarkerSequence& recording,
+               const KinematicModel& model) {
+  MarkerSet set;
+  set.pairs = pairs;
+  set.pairs = PairsInModel(set, model);
+  return CountMappedMarkers(set, recording);
+}
+
+bool IsPersonsRecording(const Input& input, const ConverterConfig& config) {
+  const Recording& recording = input.recording;
+  if (!recording.format.starts_with("MMM") || recording.is_of_person) return true;
+  const auto is_known = [&](const std::vector<MarkerPair>& pairs) {
+    return CountKnown(pairs, recording.markers, *input.reference) >= kFewestMarkers;
+  };
+  if (is_known(config.marker_pairs) || is_known(OwnMarkerSet(*input.reference).pairs)) return true;
+  if (const auto own = ReadOwnMarkerSet(config); own && is_known(own->pairs)) return true;
+  const std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
+  return std::any_of(sets.begin(), sets.end(),
+                     [&](const MarkerSet& set) { return is_known(set.pairs); });
+}
+
+// Of a motion; any text may be its name.
+std::string FileNameOf(const std::string& motion) {
+  constexpr std::size_t kLongest = 200;  // systems allow 255 bytes
+  if (motion.size() > kLongest) {
+    throw Error(
+        fmt::format("the motion's name has {} bytes; a model is called as its motion, and may have "
+                    "{}: give the motion a shorter name",
+                    motion.size(), kLongest));
+  }
+  std::string name = motion.empty() ? "object" : motion;
+  for (char& c : name) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ||
+                          c == '.' || static_cast<unsigned char>(c) >= 0x80;
+    if (!is_plain) c = '_';
+  }
+  return name + ".xml";
+}
+
+bool IsFile(const std::string& path) {
+  std::error_code failure;
+  return fs::is_regular_file(path, failure);
+}
+
+void UseModel(const std::string& file, LoadedModel model, Input* input) {
+  input->model = std::make_shared<const LoadedModel>(std::move(model));
+  const std::vector<std::string>& warnings = input->model->warnings;
+  input->warnings.insert(input->warnings.end(), warnings.begin(), warnings.end());
+  input->model_file = file;
+  input->reference = std::shared_ptr<const KinematicModel>(input->model, &input->model->model);
+}
+
+// Labels are the names of the model's markers, with or without MMM's prefix.
+std::vector<MarkerPair> OwnPairs(const KinematicModel& model) {
+  constexpr std::string_view kPrefix = "MARKER_";
+  std::vector<MarkerPair> pairs = OwnMarkerSet(model).pairs;
+  for (const ModelMarker& marker : model.markers()) {
+    if (!marker.name.starts_with(kPrefix)) continue;
+    pairs.push_back({marker.name.substr(kPrefix.size()), marker.name});
+  }
+  return pairs;
+}
+
+// Which labels are the model's markers: by the configuration where that knows three of them, else
+// by their names. Empty: by neither.
+std::vector<MarkerPair> PairsOfObject(const KinematicModel& model, const Input& input,
+                                      const ConverterConfig& config) {
+  MarkerSet set;
+  if (const auto own = ReadOwnMarkerSet(config)) {
+    set = *own;
+  } else {
+    set.pairs = config.marker_pairs;
+  }
+  for (const std::vector<MarkerPair>& pairs : {PairsInModel(set, model), OwnPairs(model)}) {
+    if (CountKnown(pairs, input.recording.markers, model) >= kFewestMarkers) return pairs;
+  }
+  return {};
+}
+
+// Why the model can't be the object's; empty: it can.
+std::string WhyNotItsModel(const LoadedModel& model, const Input& input,
+                           const ConverterConfig& config) {
+  if (model.model.num_joints() > 0) {
+    return fmt::format("it has {} joints", model.model.num_joints());
+  }
+  if (!PairsOfObject(model.model, input, config).empty()) return "";
+  return fmt::format("it has fewer than three of the motion's markers ({})",
+                     FirstNames(input.recording.markers.labels()));
+}
+
+// The file that the motion names, if it is there and can be tracked.
+bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input* input) {
+  const Recording& recording = input->recording;
+  if (recording.model_path.empty()) return false;
+  const std::string file =
+      (fs::path(recording.file).parent_path() / recording.model_path).lexically_normal().string();
+  if (!IsFile(file)) return false;
+  std::string reason;
+  try {
+    LoadedModel model = ReadModelFile(file);
+    reason = WhyNotItsModel(model, *input, config);
+    if (reason.empty()) {
+      UseModel(file, std::move(model), input);
+      return true;
+    }
+  } catch (const Error& error) {
+    reason = error.what();
+  }
+  input->warnings.push_back(
+      fmt::format("{}, the model that the motion {} names, is not used: {}", file, name, reason));
+  return false;
+}
+
+KinematicModel ModelOf(const std::string& name, const RigidShape& shape,
+                       const Recording& recording) {
+  ModelDescription description;
+  description.name = name;
+  Segment root;
+  root.name = "root_joint";
+  description.segments.push_back(root);
+  for (std::size_t i = 0; i < shape.labels.size(); ++i) {
+    description.markers.push_back(
+        {recording.markers.labels()[shape.labels[i]], 0, shape.p_OM.col(static_cast<int>(i))});
+  }
+  return KinematicModel(description);
+}
+
+void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape, Input* input) {
+  const std::vector<std::string>& labels = input->recording.markers.labels();
+  for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
+    if (std::count(shape.labels.begin(), shape.labels.end(), i) > 0) continue;
+    input->warnings.push_back(fmt::format(
+        "motion {}: marker {} is left out of the model: it could not be placed by three "
+        "others",
+        name, labels[i]));
+  }
+}
+
+constexpr std::string_view kBuilt = "Built from the markers of the motion";
+
+// Only what an earlier run has built is replaced.
+void CheckIsBuilt(const std::string& file) {
+  constexpr std::size_t kStart = 1000;  // bytes; the comment is in front
+  std::error_code failure;
+  if (!fs::exists(file, failure)) return;
+  if (IsFile(file) && ReadFileStart(file, kStart).find(kBuilt) != std::string::npos) return;
+  throw Error(
+      fmt::format("{}: was not built by this program, and would be replaced by a model that is; "
+                  "give a folder for these (--object-models DIR)",
+                  file));
+}
+
+ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input) {
+  CheckIsBuilt(file);
+  const Recording& recording = input->recording;
+  const RigidShape shape = EstimateRigidShape(recording.markers);
+  WarnOfUnplacedMarkers(name, shape, input);
+  ObjectModel built;
+  built.has_motions_name = true;
+  built.source = fmt::format("built from {} frames", shape.frames);
+  built.distance = shape.distance;
+  built.text = FormatObjectModel(
+      ModelOf(name, shape, recording),
+      fmt::format("{} {} of {}: {} frames, {:.2f} mm from the markers (rms). Origin: mean of the "
+                  "markers. Axes: those of the world in the first of the frames that show most "
+                  "markers.",
+                  kBuilt, name, fs::path(recording.file).filename().string(), shape.frames,
+                  1e3 * shape.distance));
+  MmmModel model = ParseMmmModel(built.text, file);
+  UseModel(file, {std::move(model.model), true, {}, std::move(model.warnings)}, input);
+  return built;
+}
+
+ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& config, Input* input) {
+  const std::string file_name = FileNameOf(request.name);
+  if (!request.models.empty()) {
+    const std::string file = (fs::path(request.models) / file_name).string();
+    if (IsFile(file)) {
+      LoadedModel model = ReadModelFile(file);
+      const std::string reason = WhyNotItsModel(model, *input, config);
+      if (!reason.empty()) {
+        throw Error(fmt::format("{}: {}; take it out of the folder to have one built from them",
+                                file, reason));
+      }
+      UseModel(file, std::move(model), input);
+      return {"in " + request.models, "", 0, true};
+    }
+  }
+  if (UseNamedModel(request.name, config, input)) return {"named by the motion", "", 0, false};
+  if (request.new_models.empty()) {
+    throw Error(
+        fmt::format("{}: the motion {} is of a rigid object without a model, and there is no "
+                    "folder for one that is built (convert --object-models DIR)",
+                    input->recording.file, request.name));
+  }
+  return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input);
+}
+
+// A configuration is written for persons.
+void AdaptToObject(const Input& input, ConverterConfig* config) {
+  config->model_processor = "None";
+  config->subject_file.clear();
+  config->joints.clear();
+  config->joint_set = "auto";
+  const std::vector<MarkerPair> pairs = PairsOfObject(*input.reference, input, *config);
+  config->marker_pairs = pairs.empty() ? OwnPairs(*input.reference) : pairs;
+}
+
+// Of the markers that are tracked, in the model [m].
+Eigen::Matrix3Xd PlacesOf(const Input& input, const MarkerMapping& mapping) {
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(mapping.assignments.size()));
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const MarkerAssignment& assignment = mapping.assignments[static_cast<std::size_t>(i)];
+    places.col(i) = input.reference->markers()[assignment.marker].p_SM;
+  }
+  return places;
+}
+
+}  // namespace
+
+std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
+                                      ConverterConfig* config) {
+  std::optional<ObjectModel> object;
+  if (request.has_model_given) {
+    const int joints = input->reference->num_joints();
+    if (joints > 0 && request.is_object) {
+      throw Error(fmt::format("{}: --object: the model has {} joints; give one without, or none",
+                              input->model_file, joints));
+    }
+    if (joints > 0) return std::nullopt;
+    object = ObjectModel{"given", "", 0, false};
+  } else {
+    const bool is_person = request.is_person || IsPersonsRecording(*input, *config);
+    if (!request.is_object && is_person) return std::nullopt;
+    object = FindModel(request, *config, input);
+  }
+  AdaptToObject(*input, config);
+  return object;
+}
+
+std::string DescribeObjectModel(const ObjectModel& object) {
+  std::string text = "model " + object.source;
+  if (object.is_built()) {
+    text += fmt::format(", {:.2f} mm from the markers (rms)", 1e3 * object.distance);
+  }
+  return text;
+}
+
+void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping) {
+  if (input.reference->num_joints() > 0) return;
+  const auto count = static_cast<int>(mapping.assignments.size());
+  std::vector<std::string> names;
+  names.reserve(mapping.assignments.size());
+  for (const MarkerAssignment& assignment : mapping.assignments) {
+    names.push_back(input.reference->markers()[assignment.marker].name);
+  }
+  constexpr double kOnALine = 1e-4;  // [m], what a marker system may resolve
+  if (count >= kFewestMarkers && DistanceFromLine(PlacesOf(input, mapping)) > kOnALine) return;
+  throw Error(
+      fmt::format("{}: the markers that the recording has ({}) {}; the pose of a rigid object "
+                  "needs three that do not stand on a line",
+                  input.model_file, fmt::join(names, ", "),
+                  count < kFewestMarkers ? "are too few" : "stand on a line"));
+}
+
+std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
+                                     const Eigen::MatrixXd& residuals) {
+  constexpr double kHardlyTold = 0.05;  // [rad]
+  const Eigen::Matrix3Xd places = PlacesOf(input, mapping);
+  const double radius = RadiusOf(places);
+  const double beside_line = DistanceFromLine(places);
+  const double distance = SummarizeResiduals(residuals).mean;
+  if (distance > kMostStray * radius) {
+    return {
+        fmt::format("{}: the markers are {:.1f} mm from this model, whose radius is {:.0f} mm "
+                    "(both on average); is it this object's?",
+                    input.model_file, 1e3 * distance, 1e3 * radius)};
+  }
+  if (distance > kHardlyTold * beside_line) {
+    return {
+        fmt::format("{}: the markers are {:.1f} mm (root mean square) beside a line, and {:.1f} "
+                    "mm from their places on average: turns about that line are hardly known, "
+                    "to about {:.0f} degrees",
+                    input.model_file, 1e3 * beside_line, 1e3 * distance,
+                    distance / beside_line * 180 / EIGEN_PI)};
+  }
+  return {};
+}
+
+}  // namespace mmm_converter

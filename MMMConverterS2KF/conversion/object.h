@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/input/input.h"
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_mapping.h"
+
+namespace mmm_converter {
+
+/// Whether a recording is an object's, and where its model may be.
+struct ObjectRequest {
+  bool is_object = false;  ///< the user says so
+  bool is_person = false;  ///< the user says so
+  std::string name;        ///< of the motion
+  /// Folder of models, each called as its motion + ".xml"; empty: there is none yet.
+  std::string models;
+  /// Folder for models that are built from markers; empty: none may be built.
+  std::string new_models;
+  bool has_model_given = false;  ///< the input's reference model is one that the user named
+};
+
+/// Where the model of a rigid object is from.
+struct ObjectModel {
+  std::string source;   ///< "given", "named by the motion", "in MODELS", "built from N frames"
+  std::string text;     ///< of the file to write at Input::model_file; empty: that is there already
+  double distance = 0;  ///< of the markers from a built shape, root mean square [m]
+  bool has_motions_name = false;  ///< the file is called as the motion: no other motion may have it
+  bool is_built() const { return !text.empty(); }
+};
+
+/// The recorded thing, where it is an object rather than a person: the user says so; the model
+/// given has no joints; or none is given and the recording is an MMM motion that states neither a
+/// height nor joints, with labels that no marker set of persons knows. Its model then becomes the
+/// input's: the one given, else the one of its name in request.models, else the file that the
+/// motion names if that is there and can be tracked, else one that is built from the markers
+/// (EstimateRigidShape). What the configuration says of persons (scaling, subject, joints, a
+/// mapping to other markers) is taken out of it.
+/// @throws Error
+std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
+                                      ConverterConfig* config);
+
+/// Where it is from, and how near a built one is to its markers.
+std::string DescribeObjectModel(const ObjectModel& object);
+
+/// @throws Error where the mapped markers of an object do not determine its pose.
+void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping);
+
+/// What a user should know of the track of an object: that the markers are far from the model, as
+/// those of another object would be, or that they hardly tell turns about the line that they are
+/// nearly on. residuals: markers x frames [m].
+std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
+                                     const Eigen::MatrixXd& residuals);
+
+}  // namespace mmm_converter

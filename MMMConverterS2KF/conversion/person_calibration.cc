@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/conversion/person_calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/io/mmm/subject_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameHeight = 1e-6;  // [m]; files have at least 6 digits
+
+std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
+
+// What is said of several recordings is said once.
+void Append(const std::vector<std::string>& more, std::vector<std::string>* all) {
+  for (const std::string& text : more) {
+    if (std::find(all->begin(), all->end(), text) == all->end()) all->push_back(text);
+  }
+}
+
+CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
+                         std::vector<std::string>* warnings) {
+  CalibrationInput one;
+  one.input = ReadInput(request);
+  MatchModel(request, &one.input, matched);
+  const ConverterConfig& config = *matched;
+  if (config.model_processor == "None") {
+    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
+  }
+  const MarkerSequence& markers = one.input.recording.markers;
+  const KinematicModel& reference = *one.input.reference;
+  const std::vector<MarkerPair> pairs =
+      ResolveMarkerPairs(config, markers, reference, &one.marker_set);
+  one.mapping = ResolveMarkerMapping(pairs, markers, reference);
+  Append(one.input.warnings, warnings);
+  Append(one.mapping.warnings, warnings);
+  return one;
+}
+
+// Files that know the height must know the same.
+void CheckOnePerson(const CalibrationRequest& request,
+                    const std::vector<CalibrationInput>& recordings) {
+  if (request.inputs.front().person.height) return;
+  const CalibrationInput* first = nullptr;
+  for (const CalibrationInput& one : recordings) {
+    const auto& height = one.input.recording.height;
+    if (!height) continue;
+    if (first == nullptr) first = &one;
+    const double other = *first->input.recording.height;
+    if (std::abs(*height - other) < kSameHeight) continue;
+    throw Error(
+        fmt::format("{} is of a person of {:g} m, {} of {:g} m; calibrate with recordings "
+                    "of one person, or say with --height which is right",
+                    one.input.recording.file, *height, first->input.recording.file, other));
+  }
+}
+
+}  // namespace
+
+std::string SubjectProgram() { return "MMMConverterS2KF " MMM_CONVERTER_VERSION; }
+
+std::string SubjectName(const Input& input) {
+  const Recording& recording = input.recording;
+  if (!recording.subject.empty()) return recording.subject;
+  if (!recording.motion.empty()) return recording.motion;
+  return fs::path(recording.file).stem().string();
+}
+
+CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
+                                  const std::vector<CalibrationRecording>& recordings,
+                                  const Person& person, const std::string& name) {
+  CalibrationResult result = CalibrateSubject(scaled, joints, recordings, CalibrationOptions());
+  result.subject.name = name;
+  result.subject.model = scaled.name();
+  result.subject.height = person.height.value;
+  result.subject.mass = person.mass.value;
+  result.subject.hand_length = person.hand_length;
+  const std::string file = FormatSubject(result.subject, SubjectProgram());
+  result.subject = ParseSubject(file, "the estimated subject", scaled);
+  return result;
+}
+
+CalibrationReport RunCalibration(const CalibrationRequest& request,
+                                 const std::function<void(int, int)>& progress) {
+  CalibrationReport report;
+  ConverterConfig config = ChooseConverter(request.converter).config;
+  Append(config.warnings, &report.warnings);
+  config.subject_file.clear();  // it is what is estimated
+  const int num_inputs = static_cast<int>(request.inputs.size());
+  report.recordings.reserve(request.inputs.size());
+  for (int i = 0; i < num_inputs; ++i) {
+    if (progress) progress(i, num_inputs);
+    report.recordings.push_back(ReadOne(request.inputs[i], &config, &report.warnings));
+  }
+  CheckOnePerson(request, report.recordings);
+  const Input& first = report.recordings.front().input;
+  const KinematicModel scaled = ScaleToPerson(
+      request.inputs.front().person, *first.reference, first.recording, config,
+      report.recordings.front().mapping.assignments, &report.person, &report.warnings);
+  std::vector<CalibrationRecording> recordings;
+  recordings.reserve(report.recordings.size());
+  for (const CalibrationInput& one : report.recordings) {
+    recordings.push_back({FileName(one.input.recording.file), &one.input.recording.markers,
+                          one.mapping.assignments});
+  }
+  report.result = CalibratePerson(scaled, ResolveJoints(config, scaled), recordings, report.person,
+                                  request.name.empty() ? SubjectName(first) : request.name);
+  Append(report.result.warnings, &report.warnings);
+  report.person.subject = std::make_shared<Subject>(report.result.subject);
+  report.model = std::make_shared<KinematicModel>(FitToSubject(scaled, report.result.subject));
+  return report;
+}
+
+}  // namespace mmm_converter

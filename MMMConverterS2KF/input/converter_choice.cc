@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/input/converter_choice.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "common/io/bytes/file_content.h"
+#include "common/support/data_directory.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDefaultConverter = "S2KFConverter";
+constexpr const char* kDefaultConfig = "s2kf_default";
+
+std::string ShippedConfig(const std::string& name) {
+  return DataDirectory() + "/converters/" + name + ".xml";
+}
+
+// A file, or the shipped configuration of that name.
+std::string FindConfig(const std::string& config) {
+  const std::string shipped = ShippedConfig(config);
+  return !fs::exists(config) && fs::exists(shipped) ? shipped : config;
+}
+
+// The configuration given, or else the shipped one of the default converter.
+std::optional<std::string> ConfigFile(const ConverterRequest& request,
+                                      const std::string& converter) {
+  if (!request.config.empty()) return FindConfig(request.config);
+  if (converter.empty() || converter == kDefaultConverter) return ShippedConfig(kDefaultConfig);
+  return std::nullopt;
+}
+
+void ReadConfig(const ConverterRequest& request, const std::string& converter,
+                ConverterChoice* choice) {
+  ConverterConfig& config = choice->config;
+  if (const auto file = ConfigFile(request, converter)) {
+    config = ReadConverterConfig(*file);
+    choice->text = ReadFileContent(*file);
+  } else {
+    config.file = "defaults of " + converter;
+  }
+  if (config.type.empty()) config.type = converter.empty() ? kDefaultConverter : converter;
+  if (!converter.empty() && config.type != converter) {
+    throw Error(
+        fmt::format("{}: is a configuration for {}, not for {}; use --converter {}, or print "
+                    "a configuration with print-config {}",
+                    config.file, config.type, converter, config.type, converter));
+  }
+}
+
+}  // namespace
+
+ConverterChoice ChooseConverter(const ConverterRequest& request) {
+  ConverterChoice choice;
+  std::string converter = request.converter;
+  if (!request.plugin_file.empty()) {
+    choice.plugin = std::make_shared<LoadedPlugin>(request.plugin_file);
+    const std::string name = choice.plugin->factory().name();
+    if (!converter.empty() && converter != name) {
+      throw Error(
+          fmt::format("{}: has the converter {}, not {}", request.plugin_file, name, converter));
+    }
+    converter = name;
+  }
+  ReadConfig(request, converter, &choice);
+  if (!choice.plugin) {
+    choice.plugin = std::make_shared<LoadedPlugin>(LoadPluginByName(choice.config.type));
+  }
+  if (choice.text.empty()) choice.text = choice.plugin->factory().config_template();
+  return choice;
+}
+
+}  // namespace mmm_converter

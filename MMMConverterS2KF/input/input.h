@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/input/person.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "common/convert/converter_config.h"
+#include "common/io/model_file.h"
+#include "common/io/recording/recording.h"
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+/// A recording and its person, as the user names them. Empty: a default.
+struct InputRequest {
+  std::string file;
+  ReadRecordingOptions reading;
+  std::shared_ptr<const Recording> recording;  ///< of that file, where it has been read before
+  std::optional<int> first_frame;              ///< counted from 0
+  std::optional<int> end_frame;                ///< the frame behind the last
+  std::string model_file;                      ///< reference model, or a URDF
+  std::shared_ptr<const LoadedModel> model;    ///< of that file, where it has been read before
+  std::string marker_set;                      ///< file or name; comes before the configuration's
+  PersonRequest person;
+};
+
+struct Input {
+  Recording recording;  ///< the frames asked for
+  int first_frame = 0;  ///< of them, counted from 0
+  std::string model_file;
+  std::shared_ptr<const LoadedModel> model;         ///< of that file
+  std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
+  std::vector<std::string> warnings;
+};
+
+/// The file of the reference model.
+std::string ModelFile(const InputRequest& request);
+
+/// The model only; no recording.
+/// @throws Error
+Input ReadModel(const InputRequest& request);
+
+/// @throws Error
+Input ReadInput(const InputRequest& request);
+
+/// The request's marker set instead of the configuration's, where it names one.
+void TakeMarkerSet(const InputRequest& request, ConverterConfig* config);
+
+/// Brings model and configuration together: TakeMarkerSet; the reference gets the markers that the
+/// configuration's marker set places; a model that is not of a person of 1 m is not scaled.
+/// @throws Error as ReadMarkerSet and PlaceMarkers.
+void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config);
+
+/// The options of an InputRequest, for every command that reads recordings.
+const std::vector<OptionGroup>& InputOptions();
+
+/// "A:B": frames A to B-1, counted from 0; either may be left out.
+/// @throws UsageError
+void ParseFrames(const std::string& text, InputRequest* request);
+
+/// @throws UsageError
+InputRequest MakeInputRequest(const Arguments& arguments, const std::string& file);
+
+}  // namespace mmm_converter

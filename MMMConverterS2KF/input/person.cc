@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/input/person.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "common/convert/converter_config.h"
+#include "common/fit/height_estimate.h"
+#include "common/io/mmm/processor_config.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/model/marker_kinematics.h"
+#include "common/support/error.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kAssumedMass = 70;  // [kg]
+constexpr const char* kAssumed = "assumed";
+
+// The first source that has a value.
+std::optional<PersonValue> Choose(const std::optional<double>& given,
+                                  const std::optional<double>& in_processor_file,
+                                  const std::string& processor_file,
+                                  const std::optional<double>& in_recording) {
+  if (given) return PersonValue{*given, "given"};
+  if (in_processor_file) return PersonValue{*in_processor_file, processor_file};
+  if (in_recording) return PersonValue{*in_recording, "from the recording's file"};
+  return std::nullopt;
+}
+
+PersonValue Estimate(const KinematicModel& reference, const Recording& recording,
+                     const ConverterConfig& config,
+                     const std::vector<MarkerAssignment>& assignments) {
+  std::vector<int> markers;
+  std::vector<int> labels;
+  for (const MarkerAssignment& assignment : assignments) {
+    markers.push_back(assignment.marker);
+    labels.push_back(assignment.label);
+  }
+  const HeightEstimate estimate = EstimateHeight(reference, ResolveJoints(config, reference),
+                                                 markers, labels, recording.markers);
+  return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
+}
+
+// Files have at least 6 digits of a metre or a kilogram.
+bool AreEqual(double a, double b) { return std::abs(a - b) < 1e-6; }
+
+// A number that the user gives must be the subject's.
+void CheckLength(const char* what, const std::optional<double>& given, std::optional<double> own,
+                 const std::string& file) {
+  if (!given || (own && AreEqual(*given, *own))) return;
+  throw Error(
+      fmt::format("{}: is calibrated for {} {}, not for {:g} m: its segment scales are relative to "
+                  "it; leave the {} out, or calibrate anew with it",
+                  file, what, own ? fmt::format("{:g} m", *own) : "by the height", *given, what));
+}
+
+// Another mass changes no length.
+void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
+                 const Recording& recording, Person* person, std::vector<std::string>* warnings) {
+  const Subject& subject = *person->subject;
+  const std::string& file = person->subject_file;
+  const auto height = request.height ? request.height : processor.height;
+  const auto hand_length = request.hand_length ? request.hand_length : processor.hand_length;
+  CheckLength("height", height, subject.height, file);
+  CheckLength("hand length", hand_length, subject.hand_length, file);
+  person->height = {subject.height, file};
+  person->mass = {subject.mass, file};
+  person->hand_length = subject.hand_length;
+  const auto mass = Choose(request.mass, processor.mass, request.processor_file, std::nullopt);
+  if (mass && !AreEqual(mass->value, subject.mass)) {
+    warnings->push_back(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
+                                    subject.mass, mass->value, mass->source));
+    person->mass = *mass;
+  }
+  if (recording.height && !AreEqual(*recording.height, subject.height)) {
+    warnings->push_back(
+        fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
+                    "same person?",
+                    file, *recording.height, subject.height));
+  }
+}
+
+// Height, mass and hand length from where they are known, else estimated and assumed.
+void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
+                 const Recording& recording, Person* person) {
+  const std::string& file = request.processor_file;
+  const auto height = Choose(request.height, processor.height, file, recording.height);
+  const auto mass = Choose(request.mass, processor.mass, file, recording.mass);
+  const auto hand_length =
+      Choose(request.hand_length, processor.hand_length, file, recording.hand_length);
+  person->height = height.value_or(PersonValue());
+  person->mass = mass ? *mass : PersonValue{kAssumedMass, kAssumed};
+  if (hand_length) person->hand_length = hand_length->value;
+}
+
+KinematicModel Scale(const PersonRequest& request, const KinematicModel& reference,
+                     const Recording& recording, const ConverterConfig& config,
+                     const std::function<PersonValue()>& estimate_height, Person* person,
+                     std::vector<std::string>* warnings) {
+  ProcessorConfig processor;
+  if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
+  person->subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
+  if (!person->subject_file.empty()) {
+    person->subject = std::make_shared<Subject>(ReadSubject(person->subject_file, reference));
+    TakeSubject(request, processor, recording, person, warnings);
+    return FitToSubject(ScaleWinter(reference, ToWinterScaling(*person)), *person->subject);
+  }
+  TakeNumbers(request, processor, recording, person);
+  if (person->height.source.empty()) person->height = estimate_height();
+  return ScaleWinter(reference, ToWinterScaling(*person));
+}
+
+KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel& reference,
+                             const ConverterConfig& config, Person* person,
+                             std::vector<std::string>* warnings) {
+  if (!request.subject_file.empty()) {
+    throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
+                            WhyUnscaled(config), request.subject_file));
+  }
+  if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
+    warnings->push_back(WhyUnscaled(config) + "; height, mass and hand length are left out");
+  }
+  person->height = {0, "model is not scaled"};
+  person->mass = person->height;
+  return reference;
+}
+
+/// No marker tells the angle of some tracked joints.
+void WarnOfFreeJoints(const KinematicModel& model, const ConverterConfig& config,
+                      const std::vector<MarkerAssignment>& assignments,
+                      std::vector<std::string>* warnings) {
+  constexpr std::size_t kShown = 5;
+  std::vector<int> markers;
+  markers.reserve(assignments.size());
+  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
+  const MarkerKinematics kinematics(model, ResolveJoints(config, model), markers);
+  std::vector<std::string> names;
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    bool is_moving = false;
+    for (int m = 0; m < kinematics.num_markers(); ++m) is_moving |= kinematics.Moves(j, m);
+    if (!is_moving) names.push_back(model.joint(kinematics.joints()[j]).name);
+  }
+  if (names.empty()) return;
+  warnings->push_back(fmt::format(
+      "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
+      "known: {}",
+      names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
+}
+
+}  // namespace
+
+bool IsGiven(const PersonRequest& request) {
+  return !request.processor_file.empty() || !request.subject_file.empty() || request.height ||
+         request.mass || request.hand_length;
+}
+
+std::string WhyUnscaled(const ConverterConfig& config) {
+  const std::string why = "the model is not scaled (it is a URDF";
+  if (config.file.empty()) return why + ")";
+  return why + ", or " + config.file + " has <Model name=\"None\">)";
+}
+
+WinterScaling ToWinterScaling(const Person& person) {
+  return {person.height.value, person.mass.value, person.hand_length};
+}
+
+KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
+                             const Recording& recording, const ConverterConfig& config,
+                             const std::vector<MarkerAssignment>& assignments, Person* person,
+                             std::vector<std::string>* warnings) {
+  if (config.model_processor == "None") {
+    WarnOfFreeJoints(reference, config, assignments, warnings);
+    return LeaveUnscaled(request, reference, config, person, warnings);
+  }
+  const auto estimate = [&] { return Estimate(reference, recording, config, assignments); };
+  return Scale(request, reference, recording, config, estimate, person, warnings);
+}
+
+KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                                  const ConverterConfig& config, Person* person,
+                                  std::vector<std::string>* warnings) {
+  constexpr const char* kUnknown =
+      "how tall and heavy is the person? Give --height and --mass, --person or --subject-file";
+  if (config.model_processor == "None") throw Error(WhyUnscaled(config));
+  const auto fail = []() -> PersonValue { throw Error(kUnknown); };
+  KinematicModel model = Scale(request, reference, Recording(), config, fail, person, warnings);
+  if (person->mass.source == kAssumed) throw Error(kUnknown);
+  return model;
+}
+
+}  // namespace mmm_converter

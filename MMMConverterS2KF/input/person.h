@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_mapping.h"
+#include "common/io/recording/recording.h"
+#include "common/model/kinematic_model.h"
+#include "common/model/model_scaling.h"
+#include "common/model/subject.h"
+
+namespace mmm_converter {
+
+/// What the user says of the recorded person. Empty: a default.
+struct PersonRequest {
+  std::string processor_file;  ///< ModelProcessorConfig
+  std::string subject_file;    ///< comes before the configuration's
+  std::optional<double> height, mass, hand_length;
+};
+
+/// Whether anything is.
+bool IsGiven(const PersonRequest& request);
+
+/// A number of the person, and where it is from.
+struct PersonValue {
+  double value = 0;
+  std::string source;  ///< "given", a file, "assumed", "estimated from the recording"
+};
+
+struct Person {
+  PersonValue height, mass;
+  std::optional<double> hand_length;
+  std::shared_ptr<const Subject> subject;  ///< null: height and mass are all that is known
+  std::string subject_file;                ///< empty: none
+};
+
+/// For messages: which file has it that the model is not scaled.
+std::string WhyUnscaled(const ConverterConfig& config);
+
+/// What Winter's scaling takes of a person.
+WinterScaling ToWinterScaling(const Person& person);
+
+/// The model of the recorded person: the reference scaled by height and mass, or as it is where the
+/// configuration says so (<Model name="None">; MatchModel); fitted to the subject where the request
+/// or the configuration names one. Height, mass and hand length are the subject's, or else are
+/// taken from the request, the processor file, or the recording, in this order; then the height is
+/// estimated from the assigned markers and the mass assumed. Says in person what was taken and from
+/// where.
+/// @throws Error; also where the user gives another height or hand length than the subject's, which
+///         its segment scales are relative to.
+KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
+                             const Recording& recording, const ConverterConfig& config,
+                             const std::vector<MarkerAssignment>& assignments, Person* person,
+                             std::vector<std::string>* warnings);
+
+/// As ScaleToPerson without a recording: nothing is estimated or assumed.
+/// @throws Error; also where height or mass are not known, or the model is not scaled.
+KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                                  const ConverterConfig& config, Person* person,
+                                  std::vector<std::string>* warnings);
+
+}  // namespace mmm_converter

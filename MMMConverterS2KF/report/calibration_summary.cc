@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/report/calibration_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/subject_json.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMillimetres = 1000;   // in a metre
+constexpr double kPercent = 100;        // in 1
+constexpr double kChanged = 0.01;       // of a scale, to be told
+constexpr double kUndetermined = 0.5;   // observability: more is assumed than measured
+constexpr std::size_t kNamesShown = 6;  // in a line
+constexpr std::size_t kLineStart = 11;  // width of a line's name
+
+struct Named {
+  double size = 0;  ///< what the list is sorted by
+  std::string text;
+};
+
+// The largest first, and how many more there are.
+std::string JoinLargest(std::vector<Named> items, const char* none) {
+  if (items.empty()) return none;
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Named& a, const Named& b) { return a.size > b.size; });
+  std::vector<std::string> texts;
+  texts.reserve(kNamesShown + 1);
+  for (std::size_t i = 0; i < std::min(items.size(), kNamesShown); ++i) {
+    texts.push_back(items[i].text);
+  }
+  if (items.size() > kNamesShown) {
+    texts.push_back(fmt::format("{} more", items.size() - kNamesShown));
+  }
+  return JoinNames(texts, ", ");
+}
+
+bool IsUndetermined(double deviation, double prior) {
+  return prior > 0 && Observability(deviation, prior) < kUndetermined;
+}
+
+std::string ChangedSegments(const Subject& subject) {
+  std::vector<Named> changed;
+  for (const SegmentScale& scale : subject.scales) {
+    const double change = scale.scale - 1;
+    if (std::abs(change) < kChanged) continue;
+    changed.push_back(
+        {std::abs(change), fmt::format("{} {:+.1f} ± {:.1f} %", scale.segment, kPercent * change,
+                                       kPercent * scale.standard_deviation)});
+  }
+  return JoinLargest(std::move(changed), "none by more than 1 %");
+}
+
+std::string MovedMarkers(const Subject& subject) {
+  std::vector<Named> moved;
+  moved.reserve(subject.offsets.size());
+  for (const MarkerOffset& offset : subject.offsets) {
+    const double distance = offset.offset.norm();
+    moved.push_back(
+        {distance, fmt::format("{} {:.0f} ± {:.0f} mm", offset.marker, kMillimetres * distance,
+                               kMillimetres * Deviation(offset))});
+  }
+  return JoinLargest(std::move(moved), "none");
+}
+
+std::string UndeterminedNames(const Subject& subject) {
+  std::vector<Named> names;
+  for (const SegmentScale& scale : subject.scales) {
+    if (!IsUndetermined(scale.standard_deviation, scale.prior_deviation)) continue;
+    names.push_back({scale.standard_deviation / scale.prior_deviation, scale.segment});
+  }
+  for (const MarkerOffset& offset : subject.offsets) {
+    if (!IsUndetermined(Deviation(offset), offset.prior_deviation)) continue;
+    names.push_back({Deviation(offset) / offset.prior_deviation, offset.marker});
+  }
+  return JoinLargest(std::move(names), "nothing");
+}
+
+double MeanOffset(const Subject& subject) {
+  double sum = 0;
+  for (const MarkerOffset& offset : subject.offsets) sum += offset.offset.norm();
+  return subject.offsets.empty() ? 0 : sum / static_cast<double>(subject.offsets.size());
+}
+
+int FramesTaken(const Subject& subject, const std::string& file) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  for (const SubjectSource& source : subject.sources) {
+    if (source.recording == name) return source.frames;
+  }
+  return 0;
+}
+
+std::string Line(const std::string& name, const std::string& text) {
+  return fmt::format("{:<{}}{}\n", name, kLineStart, text);
+}
+
+}  // namespace
+
+std::string FormatSubjectSummary(const Subject& subject) {
+  return Line("segments", ChangedSegments(subject)) +
+         Line("offsets", fmt::format("mean {:.1f} mm; largest: {}",
+                                     kMillimetres * MeanOffset(subject), MovedMarkers(subject))) +
+         Line("unknown",
+              UndeterminedNames(subject) + " (half or more of it is what was assumed beforehand)");
+}
+
+std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file) {
+  const CalibrationResult& result = report.result;
+  std::string text;
+  for (const CalibrationInput& one : report.recordings) {
+    const MarkerSequence& markers = one.input.recording.markers;
+    const int used = FramesTaken(result.subject, one.input.recording.file);
+    text += Line("recording",
+                 fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file,
+                             used, markers.num_frames(), one.mapping.assignments.size(),
+                             one.marker_set.empty() ? "" : ", marker set " + one.marker_set));
+  }
+  text += Line("person", fmt::format("\"{}\", {:.3g} m ({}), {:.4g} kg ({})", result.subject.name,
+                                     report.person.height.value, report.person.height.source,
+                                     report.person.mass.value, report.person.mass.source));
+  text += Line("model", report.recordings.front().input.model_file);
+  text += Line("distance",
+               fmt::format("mean {:.1f} mm before, {:.1f} after, over {} frames; {} iterations",
+                           kMillimetres * result.distance_before,
+                           kMillimetres * result.distance_after, result.frames, result.iterations));
+  text += FormatSubjectSummary(result.subject);
+  return text + fmt::format(
+                    "{} has the person: with it, the best postures leave {:.1f} mm to the markers "
+                    "where the scaled model leaves {:.1f}.\n",
+                    file, kMillimetres * result.distance_after,
+                    kMillimetres * result.distance_before);
+}
+
+std::string FormatCalibrationJson(const CalibrationReport& report, const std::string& file) {
+  const CalibrationResult& result = report.result;
+  Json recordings = Json::array();
+  for (const CalibrationInput& one : report.recordings) {
+    recordings.push_back({{"file", one.input.recording.file},
+                          {"frames", one.input.recording.markers.num_frames()},
+                          {"first_frame", one.input.first_frame},
+                          {"markers", one.mapping.assignments.size()},
+                          {"marker_set", one.marker_set},
+                          {"ignored", one.mapping.ignored_labels},
+                          {"absent", one.mapping.absent_markers}});
+  }
+  const Json json = {{"program", SubjectProgram()},
+                     {"output", file},
+                     {"recordings", recordings},
+                     {"model", report.recordings.front().input.model_file},
+                     {"height_source", report.person.height.source},
+                     {"mass_source", report.person.mass.source},
+                     {"calibration", Json::parse(FormatCalibrationFigures(result))},
+                     {"subject", Json::parse(FormatSubjectJson(result.subject))},
+                     {"warnings", report.warnings}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string FormatCalibrationFigures(const CalibrationResult& result) {
+  const Json json = {{"frames", result.frames},
+                     {"iterations", result.iterations},
+                     {"distance_before_mm", kMillimetres * result.distance_before},
+                     {"distance_after_mm", kMillimetres * result.distance_after}};
+  return json.dump();
+}
+
+}  // namespace mmm_converter

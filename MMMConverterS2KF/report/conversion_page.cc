@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/report/conversion_page.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "MMMConverterS2KF/report/report.h"
+
+namespace mmm_converter {
+namespace {
+
+// What a page says of the calibration; empty: there was none.
+std::string DescribeCalibration(const ConversionReport& report) {
+  if (!report.calibration) return "";
+  return fmt::format(
+      "The person \"{}\" was calibrated on {} frames of this recording: the best postures leave "
+      "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
+      report.person.subject->name, report.calibration->frames,
+      1e3 * report.calibration->distance_after, 1e3 * report.calibration->distance_before);
+}
+
+Comparison MakeComparison(const ConversionReport& report) {
+  Trial trial;
+  trial.name = std::filesystem::path(report.input.recording.file).filename().string();
+  trial.markers = report.input.recording.markers;
+  trial.model = report.model;
+  trial.subject = report.person.subject;
+  Contender contender;
+  contender.name = std::filesystem::path(report.converter.config.file).stem().string();
+  contender.configuration = report.converter.text;
+  contender.config = report.converter.config;
+  return CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
+}
+
+}  // namespace
+
+std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports) {
+  std::vector<Comparison> comparisons;
+  std::vector<ReportSection> sections;
+  comparisons.reserve(reports.size());
+  sections.reserve(reports.size());
+  for (const ConversionReport* report : reports) {
+    comparisons.push_back(MakeComparison(*report));
+    sections.push_back({report->motion_name, DescribeCalibration(*report), &comparisons.back()});
+  }
+  const std::string title =
+      reports.size() == 1
+          ? reports.front()->motion_name
+          : std::filesystem::path(reports.front()->input.recording.file).filename().string();
+  return FormatReport(title, sections);
+}
+
+}  // namespace mmm_converter

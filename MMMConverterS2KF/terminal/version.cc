@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/terminal/version.h"
+
+#include <fmt/core.h>
+
+#include <vector>
+
+#include "common/math/instruction_set.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+
+std::string VersionText() {
+  std::vector<std::string> names;
+  for (const InstructionSet set : SupportedInstructionSets()) names.push_back(ToString(set));
+  return fmt::format(
+      "MMMConverterS2KF " MMM_CONVERTER_VERSION
+      "\ninstruction set {} (this processor has {}; MMM_CONVERTER_INSTRUCTION_SET chooses)\n",
+      ToString(ActiveInstructionSet()), JoinNames(names, " and "));
+}
+
+}  // namespace mmm_converter

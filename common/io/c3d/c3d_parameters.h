@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/io/c3d/c3d_numbers.h"
+
+namespace mmm_converter {
+
+/// A parameter of a C3D file. Its data are a part of the bytes that it was parsed from.
+struct C3dParameter {
+  std::string group;  ///< upper case, trimmed; empty: the file does not define the group
+  std::string name;   ///< upper case, trimmed
+  int type = 0;       ///< -1 text, 1 byte, 2 word, 4 float
+  std::vector<int> dimensions;
+  std::span<const unsigned char> data;  ///< at most what dimensions ask for
+  C3dProcessor processor = C3dProcessor::kIntel;
+
+  std::size_t size() const;                               ///< numbers that are there
+  std::optional<double> Number(std::size_t index) const;  ///< words unsigned
+  std::vector<std::string> Texts() const;  ///< trimmed; empty for a parameter of numbers
+  std::string Text() const;                ///< the first text, or empty
+};
+
+/// The parameters of a C3D file, as far as they can be made out.
+class C3dParameters {
+ public:
+  /// section: from the first byte of the parameter section to where it ends at the latest (data or
+  /// end of file). Never reads beyond; whatever is broken is left out and named in warnings.
+  C3dParameters(std::span<const unsigned char> section, C3dProcessor processor,
+                std::vector<std::string>* warnings);
+
+  /// Names in upper case. nullptr: there is none. The first of equal ones.
+  const C3dParameter* Find(std::string_view group, std::string_view name) const;
+  std::optional<double> Number(std::string_view group, std::string_view name) const;
+  std::string Text(std::string_view group, std::string_view name) const;
+  /// Texts of NAME, NAME2, NAME3, ... as one list.
+  std::vector<std::string> TextList(std::string_view group, const std::string& name) const;
+
+  std::size_t end() const { return end_; }  ///< byte of the section behind the last record
+
+ private:
+  std::vector<C3dParameter> parameters_;
+  std::size_t end_ = 0;
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <unordered_set>
+
+#include "common/io/mmm/mmm_measurements.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/mmm/motion_timeline.h"
+#include "common/io/xml/long_xml.h"
+#include "common/io/xml/xml_text.h"
+#include "common/math/rotation.h"
+#include "common/support/diagnostics.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kMetresPerCentimetre = 1e-2;
+
+/// Numbers that the motions of a file may take in memory: several times what its text can hold, so
+/// that gaps and rare markers have room, and a few bytes can't ask for gigabytes.
+class Budget {
+ public:
+  Budget(std::size_t content_bytes, Diagnostics* diagnostics)
+      : left_(2e6 + 8.0 * static_cast<double>(content_bytes)), diagnostics_(*diagnostics) {}
+
+  /// True, or an error, if each frame takes so many numbers.
+  bool Take(const TimeGrid& grid, std::size_t numbers_per_frame, int line) {
+    const auto frames = static_cast<double>(grid.num_frames());
+    const double numbers =
+        frames * static_cast<double>(std::max<std::size_t>(numbers_per_frame, 1));
+    if (numbers <= left_ && frames <= std::numeric_limits<int>::max()) {
+      left_ -= numbers;
+      return true;
+    }
+    diagnostics_.AddError(
+        line,
+        fmt::format("{} measurements from {} s on span {:.6g} frames at {:.6g} Hz, more than "
+                    "such a file can need; are its timesteps in seconds and free of outliers?",
+                    grid.frames.size(), grid.first_time, frames, grid.rate));
+    return false;
+  }
+
+ private:
+  double left_;
+  Diagnostics& diagnostics_;
+};
+
+void WarnIfUneven(const TimeGrid& grid, int line, Diagnostics* diagnostics) {
+  if (grid.even) return;
+  diagnostics->AddWarning(
+      line, fmt::format("timesteps are uneven; frames are taken as {:.6g} s apart", 1 / grid.rate));
+}
+
+std::optional<double> ReadPositive(const XmlElement& parent, const char* name, double unit,
+                                   Diagnostics* diagnostics) {
+  const XmlElement* element = parent.FindChild(name);
+  if (element == nullptr) return std::nullopt;
+  const std::optional<double> number = ParseDouble(element->text);
+  if (number && *number > 0 && std::isfinite(*number)) return *number * unit;
+  diagnostics->AddError(element->line, fmt::format("<{}>: found \"{}\", expected a positive number",
+                                                   name, element->text));
+  return std::nullopt;
+}
+
+void ReadModel(const XmlElement& element, MmmMotion* motion, Diagnostics* diagnostics) {
+  const XmlElement* config = element.FindChild("ModelProcessorConfig");
+  if (const XmlElement* model = element.FindChild("Model")) {
+    if (const std::string* path = model->FindAttribute("path")) motion->model_path = *path;
+    if (const XmlElement* path = model->FindChild("File")) motion->model_path = path->text;
+    if (const XmlElement* inner = model->FindChild("ModelProcessorConfig")) config = inner;
+  }
+  if (config == nullptr) return;
+  motion->height = ReadPositive(*config, "Height", 1, diagnostics);
+  motion->mass = ReadPositive(*config, "Mass", 1, diagnostics);
+  motion->hand_length = ReadPositive(*config, "HandLength", kMetresPerCentimetre, diagnostics);
+}
+
+/// Sets position and orientation at every frame time; between poses the shorter way is turned.
+void FillRoot(const TimedRows& poses, const std::vector<double>& frame_times, double hold,
+              PoseTrajectory* trajectory) {
+  const Eigen::MatrixXd values = Resample(poses, frame_times, hold);
+  std::size_t next = 0;  // the first pose at or after the frame
+  for (std::size_t k = 0; k < frame_times.size(); ++k) {
+    while (next < poses.times.size() && poses.times[next] < frame_times[k]) ++next;
+    Posture& posture = trajectory->postures[k];
+    posture.position = values.col(static_cast<Eigen::Index>(k)).head<3>();
+    const auto rotation = [&](std::size_t i) {
+      return Eigen::Quaterniond(RotationFromRpy(Eigen::Vector3d::Map(poses.row(i) + 3)));
+    };
+    if (next == poses.times.size() || poses.times[next] == frame_times[k]) {
+      posture.orientation = rotation(std::min(next, poses.times.size() - 1));
+    } else {
+      const double before = poses.times[next - 1];
+      const double share = (frame_times[k] - before) / (poses.times[next] - before);
+      posture.orientation = rotation(next - 1).slerp(share, rotation(next));
+    }
+  }
+}
+
+/// Appends the joints that no earlier sensor has.
+void AddJoints(const JointRows& joints, const std::vector<double>& frame_times, double hold,
+               int line, std::unordered_set<std::string>* known, PoseTrajectory* trajectory,
+               Diagnostics* diagnostics) {
+  const Eigen::MatrixXd values = Resample(joints.rows, frame_times, hold);
+  std::vector<int> added;
+  for (int i = 0; i < values.rows(); ++i) {
+    if (known->insert(joints.names[i]).second) {
+      added.push_back(i);
+      trajectory->joint_names.push_back(joints.names[i]);
+    } else {
+      diagnostics->AddWarning(line, fmt::format("joint {} is in two Kinematic sensors; the first "
+                                                "one counts",
+                                                joints.names[i]));
+    }
+  }
+  for (std::size_t k = 0; k < frame_times.size(); ++k) {
+    Eigen::VectorXd& angles = trajectory->postures[k].joint_angles;
+    const Eigen::Index old_size = angles.size();
+    angles.conservativeResize(old_size + static_cast<Eigen::Index>(added.size()));
+    angles.tail(angles.size() - old_size) = values(added, static_cast<Eigen::Index>(k));
+  }
+  if (!values.allFinite()) {
+    diagnostics->AddWarning(
+        line, "the trajectory has joint angles that are NaN, or outside of their sensor's time");
+  }
+}
+
+void BuildTrajectory(const TimedRows& poses, const std::vector<JointRows>& joints,
+                     const TimedRows& centers_of_mass, int line, MmmMotion* motion, Budget* budget,
+                     Diagnostics* diagnostics) {
+  const TimedRows* base = &poses;
+  std::size_t num_joints = 0;
+  for (const JointRows& sensor : joints) {
+    if (base->times.empty()) base = &sensor.rows;
+    num_joints += sensor.names.size();
+  }
+  if (base->times.empty()) return;
+  const TimeGrid grid = FitTimeGrid(base->times);
+  if (!budget->Take(grid, 7 + num_joints, line)) return;
+  WarnIfUneven(grid, line, diagnostics);
+
+  PoseTrajectory& trajectory = motion->trajectory;
+  trajectory.rate = grid.rate;
+  trajectory.first_time = grid.first_time;
+  trajectory.postures.resize(static_cast<std::size_t>(grid.num_frames()));
+  const std::vector<double> frame_times = FrameTimes(grid, base->times);
+  const double hold = 0.501 / grid.rate;  // half a step and rounding
+  if (poses.times.empty()) {
+    diagnostics->AddWarning(line, "there are joint angles but no ModelPose; the root stays at 0");
+  } else {
+    FillRoot(poses, frame_times, hold, &trajectory);
+  }
+  std::unordered_set<std::string> known;
+  for (const JointRows& sensor : joints) {
+    if (sensor.rows.times.empty()) continue;
+    AddJoints(sensor, frame_times, hold, line, &known, &trajectory, diagnostics);
+  }
+  if (!centers_of_mass.times.empty()) {
+    motion->center_of_mass = Resample(centers_of_mass, frame_times, hold);
+  }
+}
+
+void BuildMarkers(const MarkerRows& rows, int line, MmmMotion* motion, Budget* budget,
+                  Diagnostics* diagnostics) {
+  if (rows.labels.empty()) return;
+  std::vector<double> times = rows.times;
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const TimeGrid grid = FitTimeGrid(times);
+  if (!budget->Take(grid, 3 * rows.labels.size(), line)) return;
+  WarnIfUneven(grid, line, diagnostics);
+  std::vector<int> order(rows.labels.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return rows.labels[a] < rows.labels[b]; });
+  std::vector<std::string> labels;
+  std::vector<int> place(order.size());
+  for (const int label : order) {
+    place[label] = static_cast<int>(labels.size());
+    labels.push_back(rows.labels[label]);
+  }
+  motion->markers = MarkerSequence(std::move(labels), static_cast<int>(grid.num_frames()),
+                                   grid.rate, grid.first_time);
+  std::vector<int> frame_of;  // each measurement
+  for (const double time : rows.times) {
+    const auto i = std::lower_bound(times.begin(), times.end(), time) - times.begin();
+    frame_of.push_back(static_cast<int>(grid.frames[i]));
+  }
+  for (const MarkerRows::Sighting& sighting : rows.sightings) {
+    auto p_WM = motion->markers.frame(frame_of[sighting.measurement]).col(place[sighting.label]);
+    if (!IsSeen(p_WM)) p_WM = sighting.p_WM;
+  }
+}
+
+void ReadSensors(LongXml& xml, const XmlElement& sensors, MmmMotion* motion, Budget* budget,
+                 Diagnostics* diagnostics) {
+  TimedRows poses;
+  std::vector<JointRows> joints;
+  MarkerRows markers;
+  for (const XmlElement* sensor : sensors.FindChildren("Sensor")) {
+    const std::string* type = sensor->FindAttribute("type");
+    if (type == nullptr) {
+      diagnostics->AddError(sensor->line, "<Sensor> has no type");
+    } else if (EqualIgnoringCase(*type, "ModelPose")) {
+      TimedRows found = ReadPoseSensor(xml, *sensor, diagnostics);
+      if (poses.times.empty()) {
+        poses = std::move(found);
+      } else {
+        diagnostics->AddWarning(sensor->line, "a second ModelPose sensor is not used");
+      }
+    } else if (EqualIgnoringCase(*type, "Kinematic")) {
+      joints.push_back(ReadKinematicSensor(xml, *sensor, diagnostics));
+    } else if (EqualIgnoringCase(*type, "MoCapMarker")) {
+      ReadMarkerSensor(xml, *sensor, &markers, diagnostics);
+    }
+  }
+  BuildTrajectory(poses, joints, {}, sensors.line, motion, budget, diagnostics);
+  BuildMarkers(markers, sensors.line, motion, budget, diagnostics);
+}
+
+MmmMotion ReadMotion(LongXml& xml, const XmlElement& element, Budget* budget,
+                     Diagnostics* diagnostics) {
+  MmmMotion motion;
+  if (const std::string* name = element.FindAttribute("name")) motion.name = *name;
+  if (const std::string* type = element.FindAttribute("type")) motion.type = *type;
+  ReadModel(element, &motion, diagnostics);
+  if (const XmlElement* sensors = element.FindChild("Sensors")) {
+    ReadSensors(xml, *sensors, &motion, budget, diagnostics);
+  }
+  if (const XmlElement* frames = element.FindChild("MotionFrames")) {
+    const LegacyFrames legacy = ReadLegacyFrames(xml, element, diagnostics);
+    BuildTrajectory(legacy.poses, {legacy.joints}, legacy.centers_of_mass, frames->line, &motion,
+                    budget, diagnostics);
+  }
+  return motion;
+}
+
+MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file) {
+  constexpr int kHighestLevel = 3;  // MMM / Motion / MotionFrames / MotionFrame
+  LongXml xml(content, file, {std::begin(kManyElements), std::end(kManyElements)}, kHighestLevel);
+  const XmlElement& root = xml.root();
+  Diagnostics diagnostics(file);
+  if (!root.Is("MMM")) {
+    diagnostics.AddError(root.line,
+                         fmt::format("the root is <{}>; an MMM motion has <MMM>{}", root.name,
+                                     root.Is("Robot") ? " (this is a model)" : ""));
+    diagnostics.ThrowIfErrors();
+  }
+  MmmMotionFile result;
+  result.version = "1.0";
+  if (const std::string* name = root.FindAttribute("name")) result.name = *name;
+  if (const std::string* version = root.FindAttribute("version")) {
+    if (version->starts_with('2')) result.version = "2.0";
+  }
+  Budget budget(content.size, &diagnostics);
+  for (const XmlElement* element : root.FindChildren("Motion")) {
+    if (element->FindChild("Sensors") != nullptr) result.version = "2.0";
+    result.motions.push_back(ReadMotion(xml, *element, &budget, &diagnostics));
+  }
+  xml.CheckTheRest();
+  if (result.motions.empty()) diagnostics.AddError(root.line, "there is no <Motion>");
+  diagnostics.ThrowIfErrors();
+  result.warnings = diagnostics.warnings();
+  return result;
+}
+
+}  // namespace
+
+const MmmMotion* MmmMotionFile::Find(std::string_view motion_name) const {
+  const auto found = std::find_if(motions.begin(), motions.end(),
+                                  [&](const MmmMotion& m) { return m.name == motion_name; });
+  return found == motions.end() ? nullptr : &*found;
+}
+
+bool LooksLikeMmmMotion(std::string_view content) {
+  return EqualIgnoringCase(RootName(content), "MMM");
+}
+
+MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file) {
+  return ReadMotions(BytesOf(content), file);
+}
+
+MmmMotionFile ReadMmmMotionFile(const std::string& path, std::size_t max_bytes) {
+  return ReadMotions(BytesOfFile(path, max_bytes), path);
+}
+
+}  // namespace mmm_converter

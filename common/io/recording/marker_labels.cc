@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/recording/marker_labels.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kMarkersOfAPerson = 8;  // of a common set; objects have fewer, by other names
+
+/// Names worn on both sides; "l" or "r" comes before.
+constexpr std::pair<std::string_view, BodyRegion> kSided[] = {
+    {"fhd", BodyRegion::kHead},      {"bhd", BodyRegion::kHead},
+    {"sho", BodyRegion::kShoulders}, {"bak", BodyRegion::kElsewhere},
+    {"bac", BodyRegion::kElsewhere}, {"upa", BodyRegion::kElsewhere},
+    {"ael", BodyRegion::kElsewhere}, {"aol", BodyRegion::kElsewhere},
+    {"elb", BodyRegion::kElsewhere}, {"fra", BodyRegion::kElsewhere},
+    {"frm", BodyRegion::kElsewhere}, {"wra", BodyRegion::kElsewhere},
+    {"wrb", BodyRegion::kElsewhere}, {"wts", BodyRegion::kElsewhere},
+    {"wps", BodyRegion::kElsewhere}, {"hts", BodyRegion::kElsewhere},
+    {"hps", BodyRegion::kElsewhere}, {"ifd", BodyRegion::kElsewhere},
+    {"ifp", BodyRegion::kElsewhere}, {"fin", BodyRegion::kElsewhere},
+    {"asi", BodyRegion::kPelvis},    {"psi", BodyRegion::kPelvis},
+    {"fwt", BodyRegion::kPelvis},    {"bwt", BodyRegion::kPelvis},
+    {"hip", BodyRegion::kElsewhere}, {"thi", BodyRegion::kElsewhere},
+    {"kne", BodyRegion::kElsewhere}, {"tip", BodyRegion::kElsewhere},
+    {"tib", BodyRegion::kElsewhere}, {"shn", BodyRegion::kElsewhere},
+    {"ank", BodyRegion::kFeet},      {"hee", BodyRegion::kFeet},
+    {"toe", BodyRegion::kFeet},      {"mt1", BodyRegion::kFeet},
+    {"mt2", BodyRegion::kFeet},      {"mt5", BodyRegion::kFeet},
+    {"cal", BodyRegion::kFeet}};
+
+constexpr std::pair<std::string_view, BodyRegion> kMiddle[] = {
+    {"c7", BodyRegion::kShoulders},   {"clav", BodyRegion::kShoulders},
+    {"strn", BodyRegion::kElsewhere}, {"t10", BodyRegion::kElsewhere},
+    {"l3", BodyRegion::kElsewhere},   {"sacr", BodyRegion::kPelvis}};
+
+/// A label, taken apart.
+struct Label {
+  int index = 0;
+  std::string prefix;
+  std::string name;
+};
+
+Label TakeApart(int index, std::string_view label, const std::vector<std::string>& prefixes) {
+  const auto part = [&](std::size_t at) {
+    return Label{index, std::string(Trim(label.substr(0, at))),
+                 std::string(Trim(label.substr(at + 1)))};
+  };
+  const std::size_t colon = label.rfind(':');
+  if (colon != std::string_view::npos) return part(colon);
+  const std::size_t bar = label.find('_');
+  if (bar != std::string_view::npos && bar > 0) {
+    const std::string_view prefix = label.substr(0, bar);
+    const bool declared = std::any_of(prefixes.begin(), prefixes.end(), [&](const auto& p) {
+      return p == prefix || p == label.substr(0, bar + 1);
+    });
+    if (declared || FindBodyRegion(label.substr(bar + 1))) return part(bar);
+  }
+  return {index, "", std::string(Trim(label))};
+}
+
+/// Labels of bone axes: four points, all with the same name but for the last letter.
+std::set<std::string> BoneAxes(const std::vector<std::string>& labels) {
+  const std::set<std::string> all(labels.begin(), labels.end());
+  std::set<std::string> axes;
+  for (const std::string& label : labels) {
+    if (label.size() < 3 || label.back() != 'O') continue;
+    const std::string bone = label.substr(0, label.size() - 1);
+    if (!all.contains(bone + 'A') || !all.contains(bone + 'L') || !all.contains(bone + 'P')) {
+      continue;
+    }
+    for (const char axis : {'O', 'A', 'L', 'P'}) axes.insert(bone + axis);
+  }
+  return axes;
+}
+
+/// What is left when everything that is no marker is gone.
+std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
+                               const std::vector<std::string>& outputs,
+                               const std::vector<std::string>& prefixes,
+                               std::vector<std::string>* warnings) {
+  const std::set<std::string> no_markers(outputs.begin(), outputs.end());
+  const std::set<std::string> axes = BoneAxes(labels);
+  std::vector<Label> markers;
+  int unlabelled = 0;
+  int computed = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    Label label = TakeApart(static_cast<int>(i), labels[i], prefixes);
+    if (label.name.empty() || label.name.starts_with('*')) {
+      ++unlabelled;
+    } else if (axes.contains(labels[i]) || no_markers.contains(labels[i])) {
+      ++computed;
+      if (FindBodyRegion(label.name)) {
+        warnings->push_back(
+            fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
+      }
+    } else {
+      markers.push_back(std::move(label));
+    }
+  }
+  if (unlabelled > 0) warnings->push_back(fmt::format("{} unlabelled points left out", unlabelled));
+  if (computed > 0) {
+    warnings->push_back(
+        fmt::format("{} computed points (angles, forces, bone axes, ...) left out", computed));
+  }
+  return markers;
+}
+
+/// One subject, or the labels without prefix.
+struct Group {
+  std::string prefix;
+  std::vector<Label> labels;
+  bool IsPerson() const {
+    return kMarkersOfAPerson <= std::count_if(labels.begin(), labels.end(), [](const Label& label) {
+             return FindBodyRegion(label.name).has_value();
+           });
+  }
+};
+
+std::vector<Group> GroupByPrefix(std::vector<Label> labels) {
+  std::vector<Group> groups;
+  for (Label& label : labels) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.prefix == label.prefix; });
+    if (group == groups.end()) group = groups.insert(groups.end(), Group{label.prefix, {}});
+    group->labels.push_back(std::move(label));
+  }
+  return groups;
+}
+
+std::string NameOf(const Group& group) {
+  return group.prefix.empty() ? "(labels without prefix)" : group.prefix;
+}
+
+std::string Names(const std::vector<Group>& groups) {
+  std::vector<std::string> names(groups.size());
+  std::transform(groups.begin(), groups.end(), names.begin(), NameOf);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// All groups as one, where no name would be there twice.
+std::optional<Group> Merge(const std::vector<Group>& groups) {
+  Group merged;
+  std::set<std::string> names;
+  for (const Group& group : groups) {
+    for (const Label& label : group.labels) {
+      if (!names.insert(NormalizeLabel(label.name)).second) return std::nullopt;
+      merged.labels.push_back(label);
+    }
+  }
+  return merged;
+}
+
+Group ChooseGroup(const std::vector<Group>& groups, const std::string& subject,
+                  const std::string& file) {
+  if (!subject.empty()) {
+    const std::string wanted(
+        Trim(subject.ends_with(':') ? subject.substr(0, subject.size() - 1) : subject));
+    for (const Group& group : groups) {
+      if (!group.prefix.empty() && EqualIgnoringCase(group.prefix, wanted)) return group;
+    }
+    throw Error(fmt::format("{}: there is no subject {}; the file has: {}", file, subject,
+                            groups.empty() ? "none" : Names(groups)));
+  }
+  if (groups.empty()) return {};
+  if (groups.size() == 1) return groups.front();
+  std::vector<Group> persons;
+  std::copy_if(groups.begin(), groups.end(), std::back_inserter(persons),
+               [](const Group& group) { return group.IsPerson(); });
+  if (persons.size() == 1) return persons.front();
+  if (persons.empty()) {
+    if (auto merged = Merge(groups)) return *merged;
+  }
+  throw Error(fmt::format("{}: there are several subjects: {}; choose one of them (--subject NAME)",
+                          file, Names(persons.empty() ? groups : persons)));
+}
+
+}  // namespace
+
+std::string NormalizeLabel(std::string_view label) {
+  std::string normalized;
+  for (const char c : ToLower(label)) {
+    const bool punctuation = c >= 0 && !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9');
+    if (!punctuation) normalized.push_back(c);
+  }
+  return normalized;
+}
+
+std::optional<BodyRegion> FindBodyRegion(std::string_view label) {
+  const std::string name = NormalizeLabel(label);
+  for (const auto& [middle, region] : kMiddle) {
+    if (name == middle) return region;
+  }
+  if (name.size() != 4 || (name[0] != 'l' && name[0] != 'r')) return std::nullopt;
+  for (const auto& [sided, region] : kSided) {
+    if (name.compare(1, 3, sided) == 0) return region;
+  }
+  return std::nullopt;
+}
+
+LabelSelection SelectLabels(const std::vector<std::string>& labels,
+                            const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& label_prefixes,
+                            const std::string& subject, const std::string& file) {
+  LabelSelection selection;
+  const std::vector<Group> groups =
+      GroupByPrefix(KeepMarkers(labels, outputs, label_prefixes, &selection.warnings));
+  const Group chosen = ChooseGroup(groups, subject, file);
+  selection.subject = chosen.prefix;
+  std::vector<Group> others;
+  std::size_t num_markers = 0;
+  for (const Group& group : groups) {
+    num_markers += group.labels.size();
+    if (!group.prefix.empty()) selection.subjects.push_back(group.prefix);
+    if (group.prefix != chosen.prefix) others.push_back(group);
+  }
+  if (chosen.labels.size() < num_markers) {
+    selection.warnings.push_back(fmt::format("markers left out: those of {}", Names(others)));
+  }
+  for (const Label& label : chosen.labels) {
+    selection.indices.push_back(label.index);
+    selection.labels.push_back(label.name);
+  }
+  return selection;
+}
+
+}  // namespace mmm_converter

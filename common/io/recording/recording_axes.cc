@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/recording/recording_axes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "common/io/recording/marker_labels.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kMaxSampledFrames = 500;
+constexpr std::pair<const char*, double> kUnits[] = {
+    {"mm", 0.001}, {"m", 1}, {"cm", 0.01}, {"in", 0.0254}};
+
+/// Frames spread evenly over the trial.
+std::vector<int> SampleFrames(const MarkerSequence& markers) {
+  const int count = std::min(markers.num_frames(), kMaxSampledFrames);
+  std::vector<int> frames(count);
+  for (int i = 0; i < count; ++i) {
+    frames[i] = static_cast<int>(static_cast<long>(i) * markers.num_frames() / count);
+  }
+  return frames;
+}
+
+double Quantile(std::vector<double> values, double q) {
+  const auto at = values.begin() + std::lround(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+struct Box {
+  Eigen::Array3d low = Eigen::Array3d::Constant(INFINITY);
+  Eigen::Array3d high = Eigen::Array3d::Constant(-INFINITY);
+  int seen = 0;
+};
+
+Box BoxOf(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
+  Box box;
+  for (int i = 0; i < frame.cols(); ++i) {
+    if (!IsSeen(frame.col(i))) continue;
+    box.low = box.low.min(frame.col(i).array());
+    box.high = box.high.max(frame.col(i).array());
+    ++box.seen;
+  }
+  return box;
+}
+
+/// Median over frames of the diagonal of the box around all markers [file units]; 0: no frame has
+/// three.
+double SizeOf(const MarkerSequence& markers) {
+  std::vector<double> sizes;
+  for (const int k : SampleFrames(markers)) {
+    const Box box = BoxOf(markers.frame(k));
+    if (box.seen >= 3) sizes.push_back((box.high - box.low).matrix().norm());
+  }
+  return sizes.empty() ? 0 : Quantile(std::move(sizes), 0.5);
+}
+
+std::vector<int> LabelsIn(const MarkerSequence& markers, BodyRegion region) {
+  std::vector<int> found;
+  for (int i = 0; i < markers.num_labels(); ++i) {
+    if (FindBodyRegion(markers.labels()[i]) == region) found.push_back(i);
+  }
+  return found;
+}
+
+std::optional<UnitDecision> UnitFromText(const std::string& text) {
+  const std::string name = NormalizeLabel(text);
+  const auto unit = [](int i) {
+    return UnitDecision{kUnits[i].first, kUnits[i].second, false, ""};
+  };
+  if (name == "mm" || name.starts_with("millim")) return unit(0);
+  if (name == "m" || name.starts_with("mete") || name.starts_with("metr")) return unit(1);
+  if (name == "cm" || name.starts_with("centim")) return unit(2);
+  if (name == "in" || name.starts_with("inch")) return unit(3);
+  return std::nullopt;
+}
+
+/// Mean of the seen ones; NaN if none is.
+Eigen::Vector3d Mean(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std::vector<int>& of) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int seen = 0;
+  for (const int i : of) {
+    if (!IsSeen(frame.col(i))) continue;
+    sum += frame.col(i);
+    ++seen;
+  }
+  return sum / seen;
+}
+
+/// From low to high markers in each sampled frame, from the best pair of regions that is there.
+std::vector<Eigen::Vector3d> BodyAxes(const MarkerSequence& markers) {
+  constexpr std::pair<BodyRegion, BodyRegion> kHighLow[] = {
+      {BodyRegion::kHead, BodyRegion::kFeet},
+      {BodyRegion::kShoulders, BodyRegion::kFeet},
+      {BodyRegion::kHead, BodyRegion::kPelvis},
+      {BodyRegion::kShoulders, BodyRegion::kPelvis},
+      {BodyRegion::kPelvis, BodyRegion::kFeet}};
+  const std::vector<int> frames = SampleFrames(markers);
+  std::vector<Eigen::Vector3d> best;
+  for (const auto& [high, low] : kHighLow) {
+    std::vector<Eigen::Vector3d> axes;
+    const std::vector<int> high_labels = LabelsIn(markers, high);
+    const std::vector<int> low_labels = LabelsIn(markers, low);
+    for (const int k : frames) {
+      const Eigen::Vector3d d =
+          Mean(markers.frame(k), high_labels) - Mean(markers.frame(k), low_labels);
+      if (d.allFinite()) axes.push_back(d);
+    }
+    if (2 * axes.size() >= frames.size() && !axes.empty()) return axes;
+    if (axes.size() > best.size()) best = std::move(axes);
+  }
+  return best;
+}
+
+/// Along one axis: do the highest markers move less than the lowest, so that the ground is there?
+bool GroundIsAtTheHighEnd(const MarkerSequence& markers, int axis) {
+  std::vector<double> low;
+  std::vector<double> high;
+  for (const int k : SampleFrames(markers)) {
+    const Box box = BoxOf(markers.frame(k));
+    if (2 * box.seen < markers.num_labels()) continue;
+    low.push_back(box.low[axis]);
+    high.push_back(box.high[axis]);
+  }
+  if (low.empty()) return false;
+  const double low_range = Quantile(low, 0.9) - Quantile(low, 0.1);
+  const double high_range = Quantile(high, 0.9) - Quantile(high, 0.1);
+  return high_range < 0.5 * low_range;
+}
+
+}  // namespace
+
+UnitDecision ParseUnit(const std::string& text) {
+  if (auto unit = UnitFromText(text)) return *unit;
+  throw Error(fmt::format("unknown unit \"{}\"; use mm, cm, m or in", text));
+}
+
+UnitDecision DecideUnit(const MarkerSequence& markers, const std::string& said) {
+  const double size = SizeOf(markers);
+  const int known = static_cast<int>(
+      std::count_if(markers.labels().begin(), markers.labels().end(),
+                    [](const std::string& label) { return FindBodyRegion(label).has_value(); }));
+  const bool person = known >= 8;
+  const auto plausible = [&](double metres) {
+    return person ? size * metres >= 0.5 && size * metres <= 3
+                  : size * metres >= 0.02 && size * metres <= 10;
+  };
+  std::optional<UnitDecision> unit = UnitFromText(said);
+  if (unit && (size == 0 || plausible(unit->metres))) return *unit;
+  const std::string claim =
+      unit ? fmt::format("the file says {}", said)
+           : fmt::format("the file gives no unit that is known (\"{}\")", said);
+  for (const auto& [name, metres] : kUnits) {
+    if (name == std::string("in") || !plausible(metres)) continue;
+    if (unit && !person) continue;
+    return {name, metres, true,
+            fmt::format("{}; read as {}, so that the markers span {:.2f} m", claim, name,
+                        size * metres)};
+  }
+  UnitDecision kept = unit.value_or(UnitDecision{});
+  kept.guessed = !unit;
+  kept.warning = fmt::format("{}; read as {}, the markers span {:.3g} m: check the unit", claim,
+                             kept.unit, size * kept.metres);
+  return kept;
+}
+
+UpAxisDecision DecideUpAxis(const MarkerSequence& markers) {
+  UpAxisDecision decision;
+  const std::vector<Eigen::Vector3d> axes = BodyAxes(markers);
+  if (axes.empty()) {
+    decision.warning = "no labels that tell head from feet; z is taken as up";
+    return decision;
+  }
+  std::array<double, 3> lengths{};
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> along(axes.size());
+    std::transform(axes.begin(), axes.end(), along.begin(),
+                   [i](const Eigen::Vector3d& d) { return std::abs(d[i]); });
+    lengths[i] = Quantile(std::move(along), 0.5);
+  }
+  const int axis =
+      static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+  std::array<double, 3> sorted = lengths;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted[2] < 1.3 * sorted[1]) {
+    decision.warning = "the markers do not tell which axis is up; z is taken";
+    return decision;
+  }
+  const auto upright = std::count_if(axes.begin(), axes.end(),
+                                     [axis](const Eigen::Vector3d& d) { return d[axis] > 0; });
+  const double share = static_cast<double>(upright) / static_cast<double>(axes.size());
+  // Now this way, now that way up: the ground decides.
+  const bool mixed = share > 0.02 && share < 0.98;
+  const bool down = mixed ? GroundIsAtTheHighEnd(markers, axis) : share < 0.5;
+  decision.axis = static_cast<UpAxis>(axis + (down ? 3 : 0));
+  decision.decided = true;
+  return decision;
+}
+
+Eigen::Matrix3d RotationToZUp(UpAxis axis) {
+  Eigen::Matrix3d rotation;
+  switch (axis) {
+    case UpAxis::kX:
+      rotation << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+      break;
+    case UpAxis::kY:
+      rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+      break;
+    case UpAxis::kZ:
+      rotation.setIdentity();
+      break;
+    case UpAxis::kMinusX:
+      rotation << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+      break;
+    case UpAxis::kMinusY:
+      rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+      break;
+    case UpAxis::kMinusZ:
+      rotation << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+      break;
+  }
+  return rotation;
+}
+
+void ToMetresAndZUp(double metres, UpAxis axis, MarkerSequence* markers) {
+  if (metres == 1 && axis == UpAxis::kZ) return;
+  if (axis == UpAxis::kZ) {
+    for (int k = 0; k < markers->num_frames(); ++k) markers->frame(k) *= metres;
+    return;
+  }
+  const Eigen::Matrix3d rotation = RotationToZUp(axis);
+  Eigen::Matrix3Xd turned(3, markers->num_labels());
+  for (int k = 0; k < markers->num_frames(); ++k) {
+    turned.noalias() = metres * rotation * markers->frame(k);
+    markers->frame(k) = turned;
+  }
+}
+
+}  // namespace mmm_converter

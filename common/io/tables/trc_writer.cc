@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/tables/trc_writer.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <optional>
+
+#include "common/io/recording/recording_axes.h"
+#include "common/io/tables/column_names.h"
+#include "common/io/xml/xml_text.h"
+#include "common/model/marker_kinematics.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+// Nanoseconds, 0.1 micrometres, as in the motion files.
+constexpr int kTimeDecimals = 9;
+constexpr int kLengthDecimals = 4;
+
+/// Where the model has its markers, frame by frame.
+class ModelMarkers {
+ public:
+  explicit ModelMarkers(const TrcOutput& output)
+      : trajectory_(*output.trajectory), kinematics_(MakeKinematics(output)) {
+    at_ = kinematics_.MakeJacobian();
+  }
+
+  const Eigen::Matrix3Xd& At(int k) {
+    const Posture& q = trajectory_.postures[k];
+    kinematics_.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at_);
+    return at_.p_WM;
+  }
+
+ private:
+  static MarkerKinematics MakeKinematics(const TrcOutput& output) {
+    std::vector<int> joints;
+    joints.reserve(output.trajectory->joint_names.size());
+    for (const std::string& name : output.trajectory->joint_names) {
+      joints.push_back(output.model->FindJoint(name));
+      if (joints.back() < 0) {
+        throw Error(fmt::format("model {} has no joint {}", output.model->name(), name));
+      }
+    }
+    std::vector<int> markers;
+    markers.reserve(output.model_markers.size());
+    for (const TrcModelMarker& one : output.model_markers) markers.push_back(one.marker);
+    return MarkerKinematics(*output.model, joints, markers);
+  }
+
+  const PoseTrajectory& trajectory_;
+  MarkerKinematics kinematics_;
+  MarkerJacobian at_;
+};
+
+std::vector<std::string> Labels(const TrcOutput& output) {
+  std::vector<std::string> labels = output.measured->labels();
+  labels.reserve(labels.size() + output.model_markers.size());
+  for (const TrcModelMarker& one : output.model_markers) {
+    labels.push_back(output.measured->labels()[one.label] + "_model");
+  }
+  return ColumnNames(labels);
+}
+
+void AppendHeader(const TrcOutput& output, std::string* out) {
+  const std::vector<std::string> labels = Labels(output);
+  const int frames = output.measured->num_frames();
+  std::string rate;
+  AppendDecimal(output.measured->rate(), kTimeDecimals, &rate);
+  *out += fmt::format(
+      "PathFileType\t4\t(X/Y/Z)\t{}\n"
+      "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
+      "OrigNumFrames\n"
+      "{}\t{}\t{}\t{}\tmm\t{}\t{}\t{}\n"
+      "Frame#\tTime\t",
+      OneWord(output.file_name), rate, rate, frames, labels.size(), rate, output.first_frame,
+      frames);
+  for (const std::string& label : labels) *out += label + "\t\t\t";
+  *out += "\n\t\t";
+  for (std::size_t i = 1; i <= labels.size(); ++i) *out += fmt::format("X{0}\tY{0}\tZ{0}\t", i);
+  *out += "\n\n";
+}
+
+void AppendPoints(const Eigen::Ref<const Eigen::Matrix3Xd>& p_WM, std::string* out) {
+  static const Eigen::Matrix3d rotation = RotationToZUp(UpAxis::kY).transpose();
+  for (Eigen::Index i = 0; i < p_WM.cols(); ++i) {
+    if (!IsSeen(p_WM.col(i))) {
+      *out += "\t\t\t";
+      continue;
+    }
+    const Eigen::Vector3d p = kMillimetres * (rotation * p_WM.col(i));
+    for (const double coordinate : p) {
+      AppendDecimal(coordinate, kLengthDecimals, out);
+      *out += '\t';
+    }
+  }
+}
+
+}  // namespace
+
+TextPieces FormatTrc(const TrcOutput& output) {
+  return [output](const TextSink& sink) {
+    const MarkerSequence& measured = *output.measured;
+    std::optional<ModelMarkers> model;
+    if (!output.model_markers.empty()) {
+      assert(output.trajectory->num_frames() == measured.num_frames());
+      model.emplace(output);
+    }
+    PieceWriter pieces(sink);
+    AppendHeader(output, pieces.text());
+    for (int k = 0; k < measured.num_frames(); ++k) {
+      *pieces.text() += fmt::format("{}\t", output.first_frame + k);
+      AppendDecimal(measured.time(k), kTimeDecimals, pieces.text());
+      *pieces.text() += '\t';
+      AppendPoints(measured.frame(k), pieces.text());
+      if (model) AppendPoints(model->At(k), pieces.text());
+      *pieces.text() += '\n';
+      pieces.EndPart();
+    }
+    pieces.Flush();
+  };
+}
+
+}  // namespace mmm_converter

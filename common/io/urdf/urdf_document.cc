@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/urdf/urdf_document.h"
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "common/io/xml/xml_document.h"
+#include "common/io/xml/xml_text.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+// What no robot has; larger numbers are of another unit.
+constexpr double kLongestOffset = 100;   // [m]
+constexpr double kLargestMass = 1e6;     // [kg]
+constexpr double kLargestInertia = 1e9;  // [kg m^2]
+
+/// What urdfdom would print, for as long as it lives.
+class CapturedLog : public console_bridge::OutputHandler {
+ public:
+  CapturedLog() : previous_(console_bridge::getOutputHandler()) {
+    console_bridge::useOutputHandler(this);
+  }
+  ~CapturedLog() override { console_bridge::useOutputHandler(previous_); }
+  CapturedLog(const CapturedLog&) = delete;
+  CapturedLog& operator=(const CapturedLog&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
+           int /*line*/) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_.push_back(text);
+  }
+  const std::vector<std::string>& errors() const { return errors_; }
+
+ private:
+  console_bridge::OutputHandler* previous_;
+  std::vector<std::string> errors_;
+};
+
+/// Appends an element with all below it. Blanks around and line breaks in values, which urdfdom
+/// takes for parts of numbers, become spaces.
+void AppendElement(const XmlElement& element, std::string* xml) {
+  *xml += "<" + element.name;
+  for (const auto& [key, value] : element.attributes) {
+    *xml += fmt::format(" {}=\"{}\"", key, EscapeXml(Trim(value)));
+  }
+  *xml += ">" + EscapeXml(element.text);
+  for (const XmlElement& child : element.children) AppendElement(child, xml);
+  *xml += "</" + element.name + ">";
+}
+
+/// Of the URDF what a tree of joints and masses is made of: damaged shapes do no harm, and
+/// urdfdom sees only XML of a depth that is known to be small.
+XmlElement Essence(const XmlElement& robot) {
+  XmlElement essence;
+  essence.name = robot.name;
+  for (const char* attribute : {"name", "version"}) {
+    const std::string* value = robot.FindAttribute(attribute);
+    if (value != nullptr) essence.attributes.emplace_back(attribute, *value);
+  }
+  for (const XmlElement& element : robot.children) {
+    if (element.name != "link" && element.name != "joint") continue;
+    XmlElement& kept = essence.children.emplace_back(element);
+    if (element.name != "link") continue;
+    std::erase_if(kept.children, [](const XmlElement& part) { return part.name != "inertial"; });
+  }
+  return essence;
+}
+
+urdf::ModelInterfaceSharedPtr ParseWithUrdfdom(const XmlElement& robot, const std::string& file) {
+  std::string xml = "<?xml version=\"1.0\"?>";
+  AppendElement(robot, &xml);
+  static std::mutex mutex;  // there is one log for all threads
+  const std::scoped_lock lock(mutex);
+  const CapturedLog log;
+  std::string reason;
+  try {
+    if (auto model = urdf::parseURDF(xml)) return model;
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  std::vector<std::string> reasons = log.errors();
+  if (!reason.empty()) reasons.push_back(reason);
+  throw Error(fmt::format("{}: urdfdom can't read it: {}", file, fmt::join(reasons, "; ")));
+}
+
+Eigen::Vector3d ToEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Eigen::Isometry3d ToEigen(const urdf::Pose& pose) {
+  Eigen::Quaterniond q;
+  pose.rotation.getQuaternion(q.x(), q.y(), q.z(), q.w());
+  return Eigen::Translation3d(ToEigen(pose.position)) * q.normalized();
+}
+
+std::string NameOf(const XmlElement& element) {
+  for (const auto& [key, value] : element.attributes) {
+    if (key == "name") return std::string(Trim(value));
+  }
+  return "";
+}
+
+bool IsWithin(const Eigen::Vector3d& offset) { return offset.stableNorm() <= kLongestOffset; }
+
+class DocumentBuilder {
+ public:
+  DocumentBuilder(const XmlElement& robot, const urdf::ModelInterface& model,
+                  Diagnostics* diagnostics)
+      : robot_(robot), model_(model), diagnostics_(*diagnostics) {}
+
+  UrdfDocument Build();
+
+ private:
+  template <typename... Args>
+  void Fail(int line, fmt::format_string<Args...> text, Args&&... args) {
+    diagnostics_.AddError(line, fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  [[noreturn]] void FailToFind(const XmlElement& element);
+  void AddLink(const XmlElement& element);
+  void ReadInertial(const urdf::Inertial& inertial, UrdfLink* link);
+  void CheckInertia(const UrdfLink& link);
+  void AddJoint(const XmlElement& element);
+  void ReadOrigin(const urdf::Joint& source, UrdfJoint* joint);
+  void ReadAxis(const urdf::Joint& source, UrdfJoint* joint);
+  void ReadLimits(const urdf::Joint& source, UrdfJoint* joint);
+  void CheckLimits(const XmlElement& element, const UrdfJoint& joint);
+  void CheckMimic(const UrdfJoint& joint);
+  void LinkChild(int joint);
+
+  const XmlElement& robot_;
+  const urdf::ModelInterface& model_;
+  Diagnostics& diagnostics_;
+  UrdfDocument document_;
+  std::map<std::string, int> link_indices_;
+};
+
+void DocumentBuilder::FailToFind(const XmlElement& element) {
+  throw Error(fmt::format("{}:{}: <{} name=\"{}\">: use a name of letters, digits and underscores",
+                          diagnostics_.file(), element.line, element.name, NameOf(element)));
+}
+
+void DocumentBuilder::AddLink(const XmlElement& element) {
+  const auto source = model_.getLink(NameOf(element));
+  if (!source || source->name.empty()) FailToFind(element);
+  link_indices_[source->name] = static_cast<int>(document_.links.size());
+  UrdfLink& link = document_.links.emplace_back();
+  link.name = source->name;
+  link.line = element.line;
+  if (source->inertial) ReadInertial(*source->inertial, &link);
+}
+
+void DocumentBuilder::ReadInertial(const urdf::Inertial& inertial, UrdfLink* link) {
+  const Eigen::Isometry3d X_LB = ToEigen(inertial.origin);
+  Eigen::Matrix3d I;
+  I << inertial.ixx, inertial.ixy, inertial.ixz,  //
+      inertial.ixy, inertial.iyy, inertial.iyz,   //
+      inertial.ixz, inertial.iyz, inertial.izz;
+  if (!(inertial.mass >= 0 && inertial.mass <= kLargestMass)) {
+    Fail(link->line, "link '{}': its mass of {:.6g} kg is outside 0 to {:g} kg", link->name,
+         inertial.mass, kLargestMass);
+  } else if (!IsWithin(X_LB.translation())) {
+    Fail(link->line, "link '{}': its centre of mass is more than {} m away; URDF is in metres",
+         link->name, kLongestOffset);
+  } else if (!(I.cwiseAbs().maxCoeff() <= kLargestInertia)) {
+    Fail(link->line, "link '{}': its inertia has a number above {:g} kg m^2", link->name,
+         kLargestInertia);
+  } else {
+    link->mass = inertial.mass;
+    link->p_LB = X_LB.translation();
+    const Eigen::Matrix3d R = X_LB.linear();
+    const Eigen::Matrix3d turned = R * I * R.transpose();
+    link->inertia = 0.5 * (turned + turned.transpose());
+    CheckInertia(*link);
+  }
+}
+
+void DocumentBuilder::CheckInertia(const UrdfLink& link) {
+  const Eigen::Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(link.inertia, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  const double rounding = 1e-6 * moments.cwiseAbs().maxCoeff();  // files have 6 digits
+  if (moments[0] >= -rounding && moments[2] <= moments[0] + moments[1] + rounding) return;
+  diagnostics_.AddWarning(
+      link.line, fmt::format("link '{}': no body has its inertia; each of the three principal "
+                             "moments must be at most the sum of the other two ({:.4g}, {:.4g} and "
+                             "{:.4g} kg m^2)",
+                             link.name, moments[0], moments[1], moments[2]));
+}
+
+void DocumentBuilder::ReadOrigin(const urdf::Joint& source, UrdfJoint* joint) {
+  joint->X_PF = ToEigen(source.parent_to_joint_origin_transform);
+  if (IsWithin(joint->X_PF.translation())) return;
+  Fail(joint->line, "joint '{}': its origin is more than {} m away; URDF is in metres", joint->name,
+       kLongestOffset);
+}
+
+void DocumentBuilder::ReadAxis(const urdf::Joint& source, UrdfJoint* joint) {
+  const bool has_axis = joint->type == UrdfJointType::kRevolute ||
+                        joint->type == UrdfJointType::kContinuous ||
+                        joint->type == UrdfJointType::kPrismatic;
+  if (!has_axis) return;
+  const Eigen::Vector3d axis = ToEigen(source.axis);
+  const double length = axis.stableNorm();
+  if (length > 1e-6 && std::isfinite(length)) {
+    joint->axis = axis / length;
+  } else {
+    Fail(joint->line, "joint '{}': its <axis> has no direction", joint->name);
+  }
+}
+
+void DocumentBuilder::ReadLimits(const urdf::Joint& source, UrdfJoint* joint) {
+  if (!source.limits) return;
+  joint->lower = source.limits->lower;
+  joint->upper = source.limits->upper;
+  if (joint->lower <= joint->upper) return;
+  Fail(joint->line, "joint '{}': its limits are crossed: lower=\"{:g}\" is above upper=\"{:g}\"",
+       joint->name, joint->lower, joint->upper);
+}
+
+/// What a revolute joint does not say of its range counts as 0.
+void DocumentBuilder::CheckLimits(const XmlElement& element, const UrdfJoint& joint) {
+  const XmlElement* limit = element.FindChild("limit");
+  if (joint.type != UrdfJointType::kRevolute || limit == nullptr) return;
+  std::vector<const char*> missing;
+  for (const char* attribute : {"lower", "upper"}) {
+    if (limit->FindAttribute(attribute) == nullptr) missing.push_back(attribute);
+  }
+  if (missing.empty()) return;
+  diagnostics_.AddWarning(
+      limit->line, fmt::format("joint '{}': <limit> has no {}, which URDF takes for 0", joint.name,
+                               fmt::join(missing, " and no ")));
+}
+
+void DocumentBuilder::CheckMimic(const UrdfJoint& joint) {
+  if (joint.mimicked == joint.name) {
+    Fail(joint.line, "joint '{}': mimics itself", joint.name);
+  } else if (!model_.getJoint(joint.mimicked)) {
+    Fail(joint.line, "joint '{}': mimics joint '{}', which does not exist", joint.name,
+         joint.mimicked);
+  }
+}
+
+void DocumentBuilder::AddJoint(const XmlElement& element) {
+  static const std::map<int, UrdfJointType> kTypes = {
+      {urdf::Joint::FIXED, UrdfJointType::kFixed},
+      {urdf::Joint::REVOLUTE, UrdfJointType::kRevolute},
+      {urdf::Joint::CONTINUOUS, UrdfJointType::kContinuous},
+      {urdf::Joint::PRISMATIC, UrdfJointType::kPrismatic},
+      {urdf::Joint::FLOATING, UrdfJointType::kFloating},
+      {urdf::Joint::PLANAR, UrdfJointType::kPlanar}};
+  const auto found = model_.getJoint(NameOf(element));
+  if (!found || found->name.empty()) FailToFind(element);
+  const urdf::Joint& source = *found;
+  UrdfJoint joint;
+  joint.name = source.name;
+  joint.line = element.line;
+  joint.type = kTypes.at(source.type);
+  joint.parent = link_indices_.at(source.parent_link_name);
+  joint.child = link_indices_.at(source.child_link_name);
+  ReadOrigin(source, &joint);
+  ReadAxis(source, &joint);
+  ReadLimits(source, &joint);
+  CheckLimits(element, joint);
+  if (source.mimic) {
+    joint.mimicked = source.mimic->joint_name;
+    joint.mimic_offset = source.mimic->offset;
+    CheckMimic(joint);
+  }
+  document_.joints.push_back(std::move(joint));
+}
+
+void DocumentBuilder::LinkChild(int joint) {
+  const UrdfJoint& added = document_.joints[joint];
+  UrdfLink& child = document_.links[added.child];
+  if (child.parent_joint >= 0) {
+    Fail(added.line, "link '{}' is the child of both the joints '{}' and '{}'", child.name,
+         document_.joints[child.parent_joint].name, added.name);
+  }
+  child.parent_joint = joint;
+}
+
+UrdfDocument DocumentBuilder::Build() {
+  document_.name = model_.getName();
+  for (const XmlElement* link : robot_.FindChildren("link")) AddLink(*link);
+  for (const XmlElement* joint : robot_.FindChildren("joint")) AddJoint(*joint);
+  const int num_joints = static_cast<int>(document_.joints.size());
+  for (int joint = 0; joint < num_joints; ++joint) LinkChild(joint);
+  diagnostics_.ThrowIfErrors();
+  document_.root = link_indices_.at(model_.getRoot()->name);
+  return std::move(document_);
+}
+
+void CheckIsUrdf(const XmlElement& robot, const std::string& file) {
+  if (robot.name != "robot") {
+    throw Error(fmt::format("{}:{}: not a URDF: expected <robot>, found <{}>", file, robot.line,
+                            robot.name));
+  }
+  for (const XmlElement& element : robot.children) {
+    if (!element.name.starts_with("xacro:")) continue;
+    throw Error(fmt::format("{}:{}: <{}>: is xacro, of which a URDF is made; run xacro on it first",
+                            file, element.line, element.name));
+  }
+  const std::size_t num_links = robot.FindChildren("link").size();
+  if (num_links > kMaxUrdfLinks) {
+    throw Error(fmt::format("{}: has {} links, more than the {} that are read at most", file,
+                            num_links, kMaxUrdfLinks));
+  }
+}
+
+std::string LinkOf(const XmlElement& joint, const char* end) {
+  const XmlElement* element = joint.FindChild(end);
+  const std::string* name = element == nullptr ? nullptr : element->FindAttribute("link");
+  return name == nullptr ? std::string() : std::string(Trim(*name));
+}
+
+/// urdfdom leaks links that carry each other.
+void CheckHasNoCircle(const XmlElement& robot, const std::string& file) {
+  std::multimap<std::string, std::string> children;
+  std::map<std::string, int> num_parents;
+  for (const XmlElement* joint : robot.FindChildren("joint")) {
+    const std::string parent = LinkOf(*joint, "parent");
+    const std::string child = LinkOf(*joint, "child");
+    if (parent.empty() || child.empty()) continue;
+    children.emplace(parent, child);
+    ++num_parents[child];
+  }
+  std::vector<std::string> free;
+  for (const auto& [parent, unused] : children) {
+    if (!num_parents.contains(parent)) free.push_back(parent);
+  }
+  while (!free.empty()) {
+    const std::string link = std::move(free.back());
+    free.pop_back();
+    for (auto [child, end] = children.equal_range(link); child != end; ++child) {
+      if (--num_parents[child->second] == 0) free.push_back(child->second);
+    }
+    children.erase(link);
+  }
+  if (children.empty()) return;
+  for (const XmlElement* joint : robot.FindChildren("joint")) {
+    if (!children.contains(LinkOf(*joint, "parent"))) continue;
+    throw Error(fmt::format("{}:{}: link '{}' hangs in a circle of joints", file, joint->line,
+                            LinkOf(*joint, "parent")));
+  }
+}
+
+}  // namespace
+
+UrdfDocument ParseUrdf(std::string_view content, Diagnostics* diagnostics) {
+  const XmlElement file = ParseXml(content, diagnostics->file());
+  CheckIsUrdf(file, diagnostics->file());
+  CheckHasNoCircle(file, diagnostics->file());
+  const XmlElement robot = Essence(file);
+  const auto model = ParseWithUrdfdom(robot, diagnostics->file());
+  return DocumentBuilder(robot, *model, diagnostics).Build();
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/xml/xml_document.h"
+
+#include <fmt/core.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+std::string Explain(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element is closed by another name, or never closed";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is not of the form name=\"value\"";
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "there is no element";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deeply";
+    default:
+      return tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID());
+  }
+}
+
+XmlElement Convert(const tinyxml2::XMLElement& source, int first_line) {
+  XmlElement element;
+  element.name = source.Name();
+  element.line = first_line - 1 + source.GetLineNum();
+  for (const auto* a = source.FirstAttribute(); a != nullptr; a = a->Next()) {
+    element.attributes.emplace_back(a->Name(), a->Value());
+  }
+  for (const auto* node = source.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (const auto* child = node->ToElement()) {
+      element.children.push_back(Convert(*child, first_line));
+    } else if (const auto* text = node->ToText()) {
+      element.text += text->Value();
+    }
+  }
+  element.text = Trim(element.text);
+  return element;
+}
+
+void Parse(std::string_view content, const std::string& file, int first_line,
+           tinyxml2::XMLDocument* document) {
+  document->Parse(content.data(), content.size());
+  if (!document->Error()) return;
+  throw Error(fmt::format("{}:{}: not well-formed XML: {}", file,
+                          first_line - 1 + document->ErrorLineNum(), Explain(*document)));
+}
+
+}  // namespace
+
+bool XmlElement::Is(std::string_view other_name) const {
+  return EqualIgnoringCase(name, other_name);
+}
+
+const XmlElement* XmlElement::FindChild(std::string_view child_name) const {
+  for (const XmlElement& child : children) {
+    if (child.Is(child_name)) return &child;
+  }
+  return nullptr;
+}
+
+std::vector<const XmlElement*> XmlElement::FindChildren(std::string_view child_name) const {
+  std::vector<const XmlElement*> found;
+  for (const XmlElement& child : children) {
+    if (child.Is(child_name)) found.push_back(&child);
+  }
+  return found;
+}
+
+const std::string* XmlElement::FindAttribute(std::string_view attribute_name) const {
+  for (const auto& [key, value] : attributes) {
+    if (EqualIgnoringCase(key, attribute_name)) return &value;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> XmlElement::AttributesBeside(const std::vector<std::string>& names) const {
+  std::vector<std::string> others;
+  for (const auto& [key, value] : attributes) {
+    if (key.starts_with("xmlns") || key.starts_with("xsi:")) continue;
+    if (std::find(names.begin(), names.end(), key) == names.end()) others.push_back(key);
+  }
+  return others;
+}
+
+XmlElement ParseXml(std::string_view content, const std::string& file) {
+  tinyxml2::XMLDocument document;
+  Parse(content, file, 1, &document);
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (root == nullptr) {
+    throw Error(fmt::format("{}:1: not well-formed XML: there is no element", file));
+  }
+  if (const auto* second = root->NextSiblingElement()) {
+    throw Error(fmt::format("{}:{}: not well-formed XML: <{}> is a second root beside <{}>", file,
+                            second->GetLineNum(), second->Name(), root->Name()));
+  }
+  return Convert(*root, 1);
+}
+
+void ParseXmlElements(std::string_view content, const std::string& file, int first_line,
+                      const std::function<void(const XmlElement&)>& visit) {
+  tinyxml2::XMLDocument document;
+  Parse(content, file, first_line, &document);
+  if (!visit) return;
+  for (const auto* element = document.FirstChildElement(); element != nullptr;
+       element = element->NextSiblingElement()) {
+    visit(Convert(*element, first_line));
+  }
+}
+
+XmlElement ReadXmlFile(const std::string& path, std::size_t max_bytes) {
+  return ParseXml(ReadFileContent(path, max_bytes), path);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/c3d/c3d_parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "common/io/c3d/c3d_layout.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Bytes of a parameter section, Intel.
+class Section {
+ public:
+  /// offset -1: the right one.
+  Section& Group(int id, const std::string& name) {
+    return Record(-id, name, std::string(1, '\0'), -1);
+  }
+  Section& Texts(int group, const std::string& name, int width, const std::string& data,
+                 int offset = -1) {
+    const int count = static_cast<int>(data.size()) / width;
+    return Parameter(group, name, -1, {width, count}, data, offset);
+  }
+  Section& Word(int group, const std::string& name, std::initializer_list<int> words) {
+    std::string data;
+    for (const int word : words) {
+      data += static_cast<char>(word & 0xFF);
+      data += static_cast<char>(word >> 8);
+    }
+    return Parameter(group, name, 2, {static_cast<int>(words.size())}, data, -1);
+  }
+  Section& Float(int group, const std::string& name, float value) {
+    std::string data(4, '\0');
+    std::memcpy(data.data(), &value, 4);
+    return Parameter(group, name, 4, {}, data, -1);
+  }
+  Section& Parameter(int group, const std::string& name, int type,
+                     const std::vector<int>& dimensions, const std::string& data, int offset) {
+    std::string content(1, static_cast<char>(type));
+    content += static_cast<char>(dimensions.size());
+    for (const int size : dimensions) content += static_cast<char>(size);
+    return Record(group, name, content + data + std::string(1, '\0'), offset);
+  }
+  Section& Append(const std::string& bytes) {
+    bytes_ += bytes;
+    return *this;
+  }
+  C3dParameters Parse() {
+    warnings.clear();
+    return {std::span(reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size()),
+            C3dProcessor::kIntel, &warnings};
+  }
+
+  std::vector<std::string> warnings;
+
+ private:
+  Section& Record(int id, const std::string& name, const std::string& content, int offset) {
+    if (offset < 0) offset = static_cast<int>(content.size()) + 2;
+    bytes_ += static_cast<char>(name.size());
+    bytes_ += static_cast<char>(id);
+    bytes_ += name;
+    bytes_ += static_cast<char>(offset & 0xFF);
+    bytes_ += static_cast<char>(offset >> 8);
+    bytes_ += content;
+    return *this;
+  }
+  std::string bytes_ = std::string("\x01\x50\x01\x54", 4);
+};
+
+TEST(C3dParameters, FindsParametersThatComeBeforeTheirGroup) {
+  Section section;
+  section.Texts(7, "units ", 4, "mm  ").Group(7, "Point").Word(7, "FRAMES", {40000}).Append({0, 0});
+  const C3dParameters parameters = section.Parse();
+  EXPECT_EQ(parameters.Text("POINT", "UNITS"), "mm");
+  EXPECT_EQ(parameters.Number("POINT", "FRAMES"), 40000);  // words are unsigned
+  EXPECT_EQ(parameters.Number("POINT", "UNITS"), std::nullopt);
+  EXPECT_EQ(parameters.Find("ANALOG", "UNITS"), nullptr);
+  EXPECT_THAT(section.warnings, IsEmpty());
+}
+
+TEST(C3dParameters, ContinuesLabels) {
+  Section section;
+  section.Group(1, "POINT")
+      .Texts(1, "LABELS2", 3, "C  ")
+      .Texts(1, "LABELS", 3, std::string("A  B\0\0", 6));
+  EXPECT_THAT(section.Parse().TextList("POINT", "LABELS"), ElementsAre("A", "B", "C"));
+}
+
+TEST(C3dParameters, KeepsTheFirstOfEqualNames) {
+  Section section;
+  section.Group(1, "POINT").Word(1, "USED", {3}).Word(1, "USED", {4});
+  EXPECT_EQ(section.Parse().Number("POINT", "USED"), 3);
+  EXPECT_THAT(section.warnings, ElementsAre(HasSubstr("POINT:USED is there twice")));
+}
+
+TEST(C3dParameters, PassesWrongOffsetsAndSizes) {
+  for (const int offset : {1, 5, 7, 0x7FFF, 0xFFF8}) {  // into itself, far beyond, -8
+    Section section;
+    section.Group(1, "POINT").Texts(1, "UNITS", 4, "mm  ", offset).Word(1, "USED", {3});
+    const C3dParameters parameters = section.Parse();
+    EXPECT_EQ(parameters.Number("POINT", "USED"), 3) << offset;
+    EXPECT_EQ(parameters.Text("POINT", "UNITS"), "mm") << offset;
+    EXPECT_THAT(section.warnings, Contains(HasSubstr("UNITS: the offset"))) << offset;
+  }
+  Section longer;  // claims 4 texts, has 2: its offset is right
+  longer.Group(1, "POINT").Parameter(1, "LABELS", -1, {2, 4}, "A B ", 2 + 4 + 4 + 1);
+  longer.Word(1, "USED", {3});
+  const C3dParameters parameters = longer.Parse();
+  EXPECT_EQ(parameters.Number("POINT", "USED"), 3);
+  EXPECT_THAT(parameters.TextList("POINT", "LABELS"), Contains("B"));
+}
+
+TEST(C3dParameters, RefusesNonsense) {
+  Section huge;
+  huge.Group(1, "POINT")
+      .Parameter(1, "A", 4, std::vector<int>(7, 255), "abcd", -1)
+      .Word(1, "B", {1});
+  EXPECT_EQ(huge.Parse().Number("POINT", "B"), 1);
+  EXPECT_LE(huge.Parse().Find("POINT", "A")->size(), 2u);
+  Section type;
+  type.Group(1, "POINT").Parameter(1, "A", 9, {1}, "x", -1).Word(1, "B", {1});
+  EXPECT_EQ(type.Parse().Number("POINT", "B"), 1);
+  EXPECT_THAT(type.warnings, ElementsAre(HasSubstr("A can't be read")));
+  Section name;  // length -128
+  name.Word(1, "B", {1}).Append("\x80\x01" + std::string(200, 'x'));
+  EXPECT_EQ(name.Parse().Number("", "B"), 1);  // an orphan
+  for (const char* bytes : {"", "\x05",
+                            "\x05\x01"
+                            "AB",
+                            "\xFF\xFF"}) {
+    EXPECT_EQ(Section().Append(bytes).Parse().Find("POINT", "USED"), nullptr);
+  }
+}
+
+/// Frames of a file with a header of that many, one point, room for 100000 frames.
+int FramesOf(Section section, int header_frames) {
+  const C3dHeader header{.points = 1,
+                         .first_frame = 1,
+                         .last_frame = header_frames,
+                         .scale = -1,
+                         .data_block = 3,
+                         .rate = 100};
+  std::vector<std::string> warnings;
+  return ResolveC3dLayout(header, section.Parse(), C3dProcessor::kIntel, 512, 1, 1024 + 16 * 100000,
+                          &warnings)
+      .frames;
+}
+
+TEST(C3dLayout, CountsFrames) {
+  const Section point = Section().Group(1, "POINT").Group(2, "TRIAL");
+  const auto with = [&] { return Section(point); };
+  EXPECT_EQ(FramesOf(with(), 50), 50);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {0}), 50), 50);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {40000}), 50), 40000);
+  EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", 60), 50), 60);
+  EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", NAN), 50), 50);
+  EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", -3), 50), 50);
+  EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", 1e30F), 50), 50);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}), 65535), 65535);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", 70000), 65535),
+            70000);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", NAN), 65535), 65535);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", 4e9F), 65535),
+            100000);
+  EXPECT_EQ(FramesOf(with()
+                         .Word(1, "FRAMES", {65535})
+                         .Word(2, "ACTUAL_START_FIELD", {1, 0})
+                         .Word(2, "ACTUAL_END_FIELD", {4464, 1}),  // 65536 + 4464
+                     65535),
+            70000);
+  EXPECT_EQ(FramesOf(with()  // of a longer trial that this was taken from
+                         .Word(1, "FRAMES", {525})
+                         .Word(2, "ACTUAL_START_FIELD", {1, 0})
+                         .Word(2, "ACTUAL_END_FIELD", {5248, 0}),
+                     525),
+            525);
+}
+
+}  // namespace
+}  // namespace mmm_converter

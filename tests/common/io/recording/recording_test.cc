@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/recording/recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/recording/recording_axes.h"
+#include "common/support/error.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::mmm_converter::testing::SharedData;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string MessageOf(const std::string& path, const ReadRecordingOptions& options = {}) {
+  try {
+    ReadRecording(path, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string WriteTemp(const std::string& name, const std::string& content) {
+  std::string path = ::testing::TempDir() + name;
+  std::ofstream(path, std::ios::binary) << content;
+  return path;
+}
+
+Recording ReadSynthetic(const std::string& name, const ReadRecordingOptions& options = {}) {
+  return ReadRecording(SharedData("recordings/synthetic/" + name), options);
+}
+
+/// Largest distance between equal markers and frames; infinite where one of them is not seen.
+double LargestDistance(const MarkerSequence& a, const MarkerSequence& b) {
+  double largest = 0;
+  for (int k = 0; k < a.num_frames(); ++k) {
+    const double distance = (a.frame(k) - b.frame(k)).colwise().norm().maxCoeff();
+    if (!(distance <= largest)) largest = distance;
+  }
+  return largest;
+}
+
+TEST(Recording, IsInMetresAndZUpWhateverTheFileHas) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const Recording reference = ReadSynthetic("kit53_intel_float.c3d");
+  EXPECT_EQ(reference.format, "C3D");
+  EXPECT_EQ(reference.unit, "mm");
+  EXPECT_TRUE(reference.up_axis_was_decided);
+  EXPECT_EQ(reference.up_axis, UpAxis::kZ);
+  EXPECT_EQ(reference.subject, "");
+  EXPECT_THAT(reference.warnings, ElementsAre());
+  const Eigen::Vector3d c7 = reference.markers.frame(0).col(reference.markers.FindLabel("C7"));
+  EXPECT_TRUE(c7.isApprox(Eigen::Vector3d(0.114158, -0.251796, 1.39602), 1e-6));  // float
+
+  // Floats of other units round differently (1e-7 of 1.7 m); integers have steps of 0.05 mm.
+  for (const char* name :
+       {"kit53_metres.c3d", "kit53_cm.c3d", "kit53_dec_float.c3d", "kit53_mips_float.c3d"}) {
+    EXPECT_LT(LargestDistance(ReadSynthetic(name).markers, reference.markers), 5e-7) << name;
+  }
+  for (const char* name : {"kit53_intel_int.c3d", "kit53_dec_int.c3d", "kit53_mips_int.c3d"}) {
+    EXPECT_LT(LargestDistance(ReadSynthetic(name).markers, reference.markers), 5e-5) << name;
+  }
+}
+
+TEST(Recording, TurnsYUpToZUp) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const Recording reference = ReadSynthetic("kit53_intel_float.c3d");
+  const Recording turned = ReadSynthetic("kit53_yup_screen_X_Y.c3d");
+  EXPECT_EQ(turned.up_axis, UpAxis::kY);
+  EXPECT_TRUE(turned.up_axis_was_decided);
+  for (int k = 0; k < turned.markers.num_frames(); k += 20) {
+    for (int i = 0; i < turned.markers.num_labels(); ++i) {  // the file is (y, z, x)
+      const Eigen::Vector3d p = reference.markers.frame(k).col(i);
+      const Eigen::Vector3d q = turned.markers.frame(k).col(i);
+      EXPECT_LT((q - Eigen::Vector3d(p.y(), -p.x(), p.z())).norm(), 1e-12);
+    }
+  }
+  const Recording forced = ReadSynthetic("kit53_yup_screen_X_Y.c3d", {.up_axis = UpAxis::kZ});
+  EXPECT_FALSE(forced.up_axis_was_decided);
+  const Eigen::Vector3d p = reference.markers.frame(0).col(0);
+  EXPECT_LT((forced.markers.frame(0).col(0) - Eigen::Vector3d(p.y(), p.z(), p.x())).norm(), 1e-12);
+}
+
+TEST(Recording, RotatesProperlyFromEveryAxis) {
+  for (int i = 0; i < 6; ++i) {
+    const auto axis = static_cast<UpAxis>(i);
+    const Eigen::Matrix3d rotation = RotationToZUp(axis);
+    EXPECT_EQ(rotation.determinant(), 1);
+    const Eigen::Vector3d up = (i < 3 ? 1 : -1) * Eigen::Vector3d::Unit(i % 3);
+    EXPECT_EQ(rotation * up, Eigen::Vector3d::UnitZ()) << Name(axis);
+    EXPECT_EQ(ParseUpAxis(Name(axis)), axis);
+  }
+  EXPECT_EQ(ParseUpAxis(" Y"), UpAxis::kY);
+  EXPECT_THROW(ParseUpAxis("up"), Error);
+}
+
+/// A person, 100 frames, of which the last ones are upside down on the same ground.
+MarkerSequence Acrobat(int frames_upside_down, UpAxis file_axis) {
+  MarkerSequence markers({"LFHD", "RFHD", "LTOE", "RTOE", "LASI", "RASI"}, 100, 100, 0);
+  for (int k = 0; k < 100; ++k) {
+    const double stretch = 0.1 * std::sin(0.3 * k);  // what is not on the ground moves
+    const bool upside_down = k >= 100 - frames_upside_down;
+    const double head = upside_down ? 0.02 : 1.7 + stretch;
+    const double feet = upside_down ? 1.6 + stretch : 0.01;
+    markers.frame(k) << 0, 0.1, 0, 0.1, 0, 0.1, 0.2, 0.2, 0, 0, 0.1, 0.1, head, head, feet, feet,
+        0.9, 0.9;
+  }
+  const Eigen::Matrix3d to_file = RotationToZUp(file_axis).transpose();
+  for (int k = 0; k < 100; ++k) markers.frame(k) = (to_file * markers.frame(k)).eval();
+  return markers;
+}
+
+TEST(Recording, DecidesUpOverTheWholeTrial) {
+  for (int i = 0; i < 6; ++i) {
+    for (const int upside_down : {0, 30, 70, 90}) {
+      const auto axis = static_cast<UpAxis>(i);
+      const UpAxisDecision decision = DecideUpAxis(Acrobat(upside_down, axis));
+      EXPECT_TRUE(decision.decided);
+      EXPECT_EQ(decision.axis, axis) << Name(axis) << ", upside down " << upside_down << " %";
+    }
+  }
+}
+
+TEST(Recording, AssumesZUpWhereLabelsTellNothing) {
+  const MarkerSequence markers({"box1", "box2"}, 1, 100, 0);
+  const UpAxisDecision decision = DecideUpAxis(markers);
+  EXPECT_FALSE(decision.decided);
+  EXPECT_EQ(decision.axis, UpAxis::kZ);
+  EXPECT_THAT(decision.warning, HasSubstr("z is taken"));
+}
+
+TEST(Recording, ChecksTheUnit) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string path = ::testing::TempDir() + "metres_called_mm.c3d";
+  MarkerSequence markers = ReadSynthetic("kit53_intel_float.c3d").markers;
+  ToMetresAndZUp(0.001, UpAxis::kZ, &markers);  // a file that says mm, with metres inside
+  WriteC3d(path, markers);
+  const Recording guessed = ReadRecording(path, {});
+  EXPECT_EQ(guessed.unit, "m");
+  EXPECT_TRUE(guessed.unit_was_guessed);
+  EXPECT_THAT(guessed.warnings, Contains(HasSubstr("the file says mm; read as m")));
+  const Recording forced = ReadRecording(path, {.unit = "mm"});
+  EXPECT_FALSE(forced.unit_was_guessed);
+  EXPECT_NEAR(forced.markers.frame(0)(2, 0), 0.00139602, 1e-9);  // float
+  EXPECT_THAT(MessageOf(path, {.unit = "furlong"}), HasSubstr("use mm, cm, m or in"));
+  std::filesystem::remove(path);
+
+  EXPECT_EQ(DecideUnit(markers, "mete").unit, "m");
+  EXPECT_EQ(DecideUnit(Acrobat(0, UpAxis::kZ), "").unit, "m");
+  EXPECT_TRUE(DecideUnit(Acrobat(0, UpAxis::kZ), "238").guessed);
+}
+
+TEST(Recording, LetsTheUserChooseASubject) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string path = SharedData("recordings/synthetic/kit53_two_subjects_same_labels.c3d");
+  EXPECT_THAT(MessageOf(path), AllOf(HasSubstr("several subjects: A, B"), HasSubstr("--subject")));
+  ReadRecordingOptions options;
+  options.subject = "b";
+  const Recording b = ReadRecording(path, options);
+  EXPECT_EQ(b.subject, "B");
+  EXPECT_THAT(b.subjects, ElementsAre("A", "B"));
+  EXPECT_EQ(b.markers.num_labels(), 53);
+  const Recording reference = ReadSynthetic("kit53_intel_float.c3d");
+  EXPECT_EQ(b.markers.labels(), reference.markers.labels());
+  options.subject = "C";
+  EXPECT_THAT(MessageOf(path, options), HasSubstr("no subject C; the file has: A, B"));
+  const std::string serve =
+      SharedData("recordings/whole_body/kinematics_tennis_serve_2players.c3d");
+  EXPECT_THAT(MessageOf(serve), HasSubstr("Derrick, Viktor"));
+}
+
+TEST(Recording, TakesThePersonNotTheObject) {
+  std::vector<std::string> labels = {"Box:1", "Box:2", "Box:LKNE"};
+  for (const char* name : {"LFHD", "RFHD", "LTOE", "RTOE", "LASI", "RASI", "C7", "CLAV"}) {
+    labels.push_back(std::string("Anna:") + name);
+  }
+  MarkerSequence markers(labels, 2, 100, 0);
+  for (int k = 0; k < 2; ++k) markers.frame(k).setConstant(0.5);
+  const std::string path = ::testing::TempDir() + "anna_and_box.c3d";
+  WriteC3d(path, markers);
+  const Recording recording = ReadRecording(path, {});
+  EXPECT_EQ(recording.subject, "Anna");
+  EXPECT_EQ(recording.markers.num_labels(), 8);
+  EXPECT_THAT(recording.warnings, Contains(HasSubstr("those of Box")));
+  std::filesystem::remove(path);
+}
+
+TEST(Recording, LeavesOutWhatIsNoMarker) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const Recording gait =
+      ReadRecording(SharedData("recordings/whole_body/pycgm_movement_trial.c3d"), {});
+  EXPECT_EQ(gait.markers.num_labels(), 39);
+  EXPECT_EQ(gait.markers.FindLabel("LTIP"), -1);  // the tibia axis of Plug-in Gait
+  EXPECT_EQ(gait.markers.FindLabel("*115"), -1);
+  EXPECT_NE(gait.markers.FindLabel("LTIB"), -1);
+  EXPECT_EQ(gait.first_frame, 695);
+  EXPECT_THAT(gait.warnings, AllOf(Contains(HasSubstr("LTIP is a computed point")),
+                                   Contains(HasSubstr("unlabelled points left out"))));
+  // KIT's LTIP is a marker.
+  EXPECT_NE(ReadSynthetic("kit53_intel_float.c3d").markers.FindLabel("LTIP"), -1);
+}
+
+TEST(Recording, ReadsRealPeopleInPlausibleSize) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  struct {
+    const char* file;
+    const char* unit;
+    UpAxis up;
+    int labels;
+  } const expected[] = {{"whole_body/85_02.c3d", "mm", UpAxis::kZ, 41},
+                        {"whole_body/cmu_02_05.c3d", "mm", UpAxis::kZ, 41},
+                        {"whole_body/kinematics_tennis_serve.c3d", "m", UpAxis::kZ, 39},
+                        {"whole_body/pycgm_movement_trial.c3d", "mm", UpAxis::kZ, 39},
+                        {"kit_bimanual_c3d/Pour_1480.c3d", "mm", UpAxis::kZ, 53},
+                        {"conformance/opensim_walking2.c3d", "mm", UpAxis::kZ, 44},
+                        {"trc/motek_T.trc", "mm", UpAxis::kY, 41},
+                        {"trc/tennis_serve.trc", "m", UpAxis::kZ, 39}};
+  for (const auto& e : expected) {
+    SCOPED_TRACE(e.file);
+    const Recording recording = ReadRecording(SharedData(std::string("recordings/") + e.file), {});
+    EXPECT_EQ(recording.up_axis, e.up);
+    EXPECT_TRUE(recording.up_axis_was_decided);
+    EXPECT_EQ(recording.unit, e.unit);
+    EXPECT_FALSE(recording.unit_was_guessed);
+    EXPECT_EQ(recording.markers.num_labels(), e.labels);
+    double head = 0;
+    int seen = 0;
+    for (int k = 0; k < recording.markers.num_frames(); ++k) {
+      const Eigen::Vector3d p = recording.markers.frame(k).col(recording.markers.FindLabel("LFHD"));
+      if (!IsSeen(p)) continue;
+      head += p.z();
+      ++seen;
+    }
+    ASSERT_GT(seen, 0);
+    EXPECT_GT(head / seen, 0.7);  // of a standing or jumping adult, the floor at 0
+    EXPECT_LT(head / seen, 2.6);  // the Plug-in Gait trial has its origin below the floor
+  }
+}
+
+TEST(Recording, ReadsTheSameTrialFromC3dAndTrc) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const Recording c3d =
+      ReadRecording(SharedData("recordings/whole_body/kinematics_tennis_serve.c3d"), {});
+  const Recording trc = ReadRecording(SharedData("recordings/trc/tennis_serve.trc"), {});
+  EXPECT_EQ(trc.format, "TRC");
+  EXPECT_EQ(trc.subject, "Derrick");
+  ASSERT_EQ(trc.markers.labels(), c3d.markers.labels());
+  ASSERT_EQ(trc.markers.num_frames(), c3d.markers.num_frames());
+  EXPECT_LT(LargestDistance(trc.markers, c3d.markers),
+            1e-5);  // the TRC file has 5 decimals of a metre
+}
+
+TEST(Recording, ReadsMarkersOfMmmMotions) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string folder = SharedData("mmm/kit_bimanual_10hz/");
+  const std::string path = folder + "Pour_files_motions_2967_Pour1_cs_ms_0_20l_04.xml";
+  ReadRecordingOptions options;
+  options.motion = "true_1480";
+  const Recording mmm = ReadRecording(path, options);
+  const Recording c3d = ReadRecording(SharedData("recordings/kit_bimanual_c3d/Pour_1480.c3d"), {});
+  EXPECT_EQ(mmm.format, "MMM 2.0");
+  EXPECT_EQ(mmm.motion, "true_1480");
+  EXPECT_EQ(mmm.height, 1.79);
+  EXPECT_EQ(mmm.mass, 78);
+  ASSERT_TRUE(mmm.hand_length.has_value());
+  EXPECT_NEAR(*mmm.hand_length, 0.189, 1e-12);
+  ASSERT_EQ(mmm.markers.labels(), c3d.markers.labels());
+  ASSERT_EQ(mmm.markers.num_frames(), c3d.markers.num_frames());
+  EXPECT_LT(LargestDistance(mmm.markers, c3d.markers), 1e-6);  // floats of up to 1.5 m
+  options.motion = "nobody";
+  EXPECT_THAT(MessageOf(path, options),
+              AllOf(HasSubstr("no motion nobody"), HasSubstr("true_1480")));
+  const std::string wave = SharedData("mmm/motions_mmm2/wave_left01.xml");
+  EXPECT_THAT(MessageOf(wave), HasSubstr("no motion carries markers"));
+}
+
+TEST(Recording, SaysWhatIsWrongWithAFile) {
+  EXPECT_THAT(MessageOf("/no/such/file.c3d"), HasSubstr("no such file"));
+  EXPECT_THAT(MessageOf(::testing::TempDir()), HasSubstr("is a folder"));
+  EXPECT_THAT(MessageOf(WriteTemp("empty.c3d", "")), HasSubstr("the file is empty"));
+  EXPECT_THAT(MessageOf(WriteTemp("text.c3d", "hello\n")), HasSubstr("is text, but neither"));
+  EXPECT_THAT(
+      MessageOf(WriteTemp("lfs.c3d", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")),
+      HasSubstr("Git LFS pointer"));
+  EXPECT_THAT(MessageOf(WriteTemp("page.c3d", "<!DOCTYPE html><html></html>")),
+              HasSubstr("root <html>, not an MMM motion"));
+  EXPECT_THAT(MessageOf(WriteTemp("zeros.c3d", std::string(2000, '\0'))),
+              HasSubstr("not a C3D file"));
+  EXPECT_THAT(MessageOf(WriteTemp("packed.c3d", "\x1f\x8b\x08\x01")), HasSubstr("not a C3D file"));
+}
+
+}  // namespace
+}  // namespace mmm_converter

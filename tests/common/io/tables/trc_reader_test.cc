@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/tables/trc_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/io/bytes/file_content.h"
+#include "common/support/error.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const char kHeader[] =
+    "PathFileType\t4\t(X/Y/Z)\twalk.trc\n"
+    "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumF"
+    "rames\n"
+    "100\t100\t2\t2\tmm\t100\t1\t2\n";
+const char kLabels[] = "Frame#\tTime\tC7\t\t\tR Knee\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n";
+
+std::string MessageOf(const std::string& text) {
+  try {
+    ParseTrc(text, "walk.trc");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(TrcReader, ReadsAPlainFile) {
+  const TrcFile trc =
+      ParseTrc(std::string(kHeader) + kLabels +
+                   "\n1\t0.00\t1\t2\t3\t4\t5\t6\n2\t0.01\t7\t8\t9\t-1.5e1\t11\t12\n",
+               "walk.trc");
+  EXPECT_THAT(trc.markers.labels(), ElementsAre("C7", "R Knee"));
+  EXPECT_EQ(trc.markers.rate(), 100);
+  EXPECT_EQ(trc.unit, "mm");
+  EXPECT_EQ(trc.first_frame, 1);
+  ASSERT_EQ(trc.markers.num_frames(), 2);
+  EXPECT_EQ(trc.markers.frame(1).col(1), Eigen::Vector3d(-15, 11, 12));
+  EXPECT_THAT(trc.warnings, IsEmpty());
+}
+
+TEST(TrcReader, KeepsColumnsOfMissingMarkers) {
+  const TrcFile trc = ParseTrc(std::string(kHeader) + kLabels +
+                                   "5\t0.5\t\t\t\t4\t5\t6\n6\t0.51\tNaN\tNaN\tNaN\t \t \t \n"
+                                   "7\t0.52\t0\t0\t0\t4\t5\n8\t0.53\t9999999\t1\t1\t4\t5\t6\t\t\n",
+                               "walk.trc");
+  ASSERT_EQ(trc.markers.num_frames(), 4);
+  EXPECT_EQ(trc.first_frame, 5);
+  EXPECT_EQ(trc.markers.first_time(), 0.5);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_FALSE(IsSeen(trc.markers.frame(k).col(0))) << k;
+    EXPECT_EQ(IsSeen(trc.markers.frame(k).col(1)), k == 0 || k == 3) << k;
+  }
+  EXPECT_THAT(trc.warnings, ElementsAre(HasSubstr("NumFrames says 2, there are 4")));
+}
+
+TEST(TrcReader, UnderstandsWindowsLinesCommasAndDecimalCommas) {
+  std::string windows =
+      std::string(kHeader) + kLabels + "1\t0,00\t1,5\t2\t3\t4\t5\t6\n2\t0,01\t7\t8\t9\t1\t2\t3\n";
+  for (std::size_t at = 0; (at = windows.find('\n', at)) != std::string::npos; at += 2) {
+    windows.replace(at, 1, "\r\n");
+  }
+  EXPECT_EQ(ParseTrc(windows, "walk.trc").markers.frame(0)(0, 0), 1.5);
+  const TrcFile commas = ParseTrc(
+      "Frame#,Time,S:C7,,,S:T10,,\n,,X5,Y5,Z5,X6,Y6,Z6\n1,0,1,2,3,4,5,6\n2,0.02,1,2,3,4,5,6\n",
+      "walk.csv");
+  EXPECT_THAT(commas.markers.labels(), ElementsAre("S:C7", "S:T10"));
+  EXPECT_DOUBLE_EQ(commas.markers.rate(), 50);
+  EXPECT_EQ(commas.unit, "");
+}
+
+TEST(TrcReader, PrefersTheTimeColumnToAWrongRate) {
+  const TrcFile trc = ParseTrc(
+      std::string(kHeader) + kLabels + "1\t0.0\t1\t2\t3\t4\t5\t6\n2\t0.1\t7\t8\t9\t1\t2\t3\n",
+      "walk.trc");
+  EXPECT_DOUBLE_EQ(trc.markers.rate(), 10);
+  EXPECT_THAT(trc.warnings, Contains(HasSubstr("DataRate says 100 Hz")));
+}
+
+TEST(TrcReader, SaysWhatIsMissing) {
+  EXPECT_THAT(MessageOf(kHeader), HasSubstr("without the line Frame#"));
+  EXPECT_THAT(MessageOf(std::string(kHeader) + "Frame#\tTime\n1\t0\n"),
+              HasSubstr("without marker labels"));
+  EXPECT_THAT(MessageOf(std::string(kHeader) + kLabels), HasSubstr("without rows"));
+  EXPECT_THAT(MessageOf("Frame#\tTime\tA\n1\t0\t1\t2\t3\n"), HasSubstr("no frame rate"));
+}
+
+TEST(TrcReader, DoesNotAllocateForCellsThatAreNotThere) {
+  std::string text = "Frame#\tTime";
+  for (int i = 0; i < 20000; ++i) text += "\tM" + std::to_string(i) + "\t\t";
+  text += '\n';
+  for (int k = 0; k < 20000; ++k) text += "1\t" + std::to_string(k) + "\n";
+  EXPECT_THAT(MessageOf(text), HasSubstr("rows are too short"));
+}
+
+TEST(TrcReader, ReadsRealFiles) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string path = testing::SharedData("recordings/trc/motek_T.trc");
+  const TrcFile motek = ParseTrc(ReadFileContent(path), path);
+  EXPECT_EQ(motek.markers.num_labels(), 41);
+  EXPECT_EQ(motek.markers.num_frames(), 89);
+  EXPECT_EQ(motek.markers.rate(), 30);
+  EXPECT_EQ(motek.unit, "mm");
+  EXPECT_EQ(motek.markers.frame(0)(1, 0), 1639.63722);
+  const std::string serve_path = testing::SharedData("recordings/trc/tennis_serve.trc");
+  const TrcFile serve = ParseTrc(ReadFileContent(serve_path), serve_path);
+  EXPECT_EQ(serve.markers.num_labels(), 39);
+  EXPECT_EQ(serve.markers.num_frames(), 1092);
+  EXPECT_EQ(serve.markers.rate(), 50);
+  EXPECT_EQ(serve.unit, "m");
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/xml/xml_document.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string MessageOf(const std::string& xml) {
+  try {
+    ParseXml(xml, "walk.xml");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(XmlDocument, KeepsNamesAttributesTextChildrenAndLines) {
+  const XmlElement root = ParseXml(
+      "\xEF\xBB\xBF<?xml version='1.0'?>\n<!-- a comment -->\n<MMM version=\"2.0\">\n"
+      "  <Motion Name='a &amp; b'>  1 2 <!-- c --> 3\n</Motion>\n  <motion/>\n</MMM>\n",
+      "walk.xml");
+  EXPECT_EQ(root.name, "MMM");
+  EXPECT_EQ(root.line, 3);
+  ASSERT_EQ(root.children.size(), 2u);
+  EXPECT_EQ(root.FindChildren("MOTION").size(), 2u);
+  const XmlElement& motion = *root.FindChild("motion");
+  EXPECT_EQ(motion.line, 4);
+  ASSERT_NE(motion.FindAttribute("name"), nullptr);
+  EXPECT_EQ(*motion.FindAttribute("name"), "a & b");
+  EXPECT_EQ(motion.text, "1 2  3");
+  EXPECT_EQ(motion.FindAttribute("other"), nullptr);
+  EXPECT_EQ(root.FindChild("Sensors"), nullptr);
+}
+
+TEST(XmlDocument, SaysFileAndLineOfWhatIsWrong) {
+  EXPECT_THAT(MessageOf("<a>\n<b>\n</a>"),
+              HasSubstr("walk.xml:2: not well-formed XML: an element"));
+  EXPECT_THAT(MessageOf("<a>\n<b c=1/>\n</a>"), HasSubstr("walk.xml:2: not well-formed XML"));
+  EXPECT_THAT(MessageOf("<a/>\n<b/>"),
+              HasSubstr("walk.xml:2: not well-formed XML: <b> is a second"));
+  EXPECT_THAT(MessageOf("   "), HasSubstr("there is no element"));
+  EXPECT_THAT(MessageOf("just text"), HasSubstr("walk.xml:"));
+  EXPECT_THAT(MessageOf("<!-- nothing -->"), HasSubstr("there is no element"));
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_THAT(MessageOf(deep), HasSubstr("nested too deeply"));
+}
+
+TEST(XmlDocument, SaysWhatIsWrongWithAFile) {
+  const std::string folder = ::testing::TempDir();
+  EXPECT_THROW(ReadXmlFile(folder), Error);
+  EXPECT_THROW(ReadXmlFile(folder + "/no_such_file.xml"), Error);
+}
+
+}  // namespace
+}  // namespace mmm_converter
