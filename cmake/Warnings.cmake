@@ -4,8 +4,9 @@ function(mmm_converter_warnings target)
                                            -Woverloaded-virtual -Wcast-qual
                                            # 64-byte vectors never cross our library's border
                                            -Wno-psabi
-                                           # g++ 12 warns of std::string's own operator+ (GCC bug 105651)
-                                           -Wno-restrict)
+                                           # g++ 12 warns of what std::string does inside (GCC bugs 105651, 105329, 105762)
+                                           -Wno-restrict -Wno-array-bounds -Wno-stringop-overread
+                                           -Wno-stringop-overflow)
   if(MMM_CONVERTER_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
