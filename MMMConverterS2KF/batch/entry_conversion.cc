@@ -10,10 +10,9 @@ ConversionReport ConvertEntry(const BatchEntry& entry, const BatchFolder& folder
                               ConversionRequest* request, const std::function<bool()>& goes_on) {
   request->builds_models = false;  // several recordings of an object need the same
   request->output = folder.Full(MotionPath(entry.id));
-  const auto path_of = [&](const std::string& format) {
-    return entry.exports.contains(format) ? folder.Full(ExportPath(format, entry.id)) : "";
-  };
-  request->exports = {path_of("csv"), path_of("trc"), path_of("mot")};
+  for (const std::string& format : entry.exports) {
+    request->exports[format] = folder.Full(ExportPath(format, entry.id));
+  }
   if (request->self_calibrate) request->subject_output = folder.Full(SubjectPath(entry.id));
   return RunConversion(*request, [&](int, int) { return goes_on(); });
 }

@@ -67,10 +67,8 @@ std::string FindShipped(const std::string& value, const std::string& folder) {
 using Value = const std::string&;
 using Settings = BatchEntry*;
 
-}  // namespace
-
-const std::vector<ManifestAttribute>& ManifestAttributes() {
-  static const std::vector<ManifestAttribute> attributes = {
+std::vector<ManifestAttribute> MakeAttributes() {
+  std::vector<ManifestAttribute> attributes = {
       {"config", "the converter's configuration: a file, or the name of a shipped one",
        [](Value v, Value folder, Settings s) {
          s->request.converter.config = FindShipped(v, folder);
@@ -158,13 +156,20 @@ const std::vector<ManifestAttribute>& ManifestAttributes() {
        [](Value v, Value, Settings s) -> std::string {
          s->request.output_format = v;
          return v == "2.0" || v == "1.0" ? "" : "use 2.0 or 1.0";
-       }},
-      {"csv", "true: write postures and their standard deviations as CSV too",
-       [](Value v, Value, Settings s) { return TakeExport("csv", v, s); }},
-      {"trc", "true: write markers, measured and the model's, as TRC too",
-       [](Value v, Value, Settings s) { return TakeExport("trc", v, s); }},
-      {"mot", "true: write postures for OpenSim too",
-       [](Value v, Value, Settings s) { return TakeExport("mot", v, s); }}};
+       }}};
+  for (const Exporter& exporter : Exporters()) {
+    attributes.push_back({exporter.name, fmt::format("true: write {} too", exporter.what),
+                          [name = std::string(exporter.name)](Value v, Value, Settings s) {
+                            return TakeExport(name, v, s);
+                          }});
+  }
+  return attributes;
+}
+
+}  // namespace
+
+const std::vector<ManifestAttribute>& ManifestAttributes() {
+  static const std::vector<ManifestAttribute> attributes = MakeAttributes();
   return attributes;
 }
 

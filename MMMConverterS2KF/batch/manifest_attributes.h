@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,13 @@ namespace mmm_converter {
 
 /// An attribute that <Batch>, <Group> and <Recording> may have.
 struct ManifestAttribute {
-  const char* name;
-  const char* help;
+  std::string name;
+  std::string help;
   /// Takes a value over; folder: where relative files start. Returns what is allowed where the
   /// value is not, else nothing.
-  std::string (*apply)(const std::string& value, const std::string& folder, BatchEntry* settings);
+  std::function<std::string(const std::string& value, const std::string& folder,
+                            BatchEntry* settings)>
+      apply;
 };
 
 const std::vector<ManifestAttribute>& ManifestAttributes();

@@ -7,7 +7,6 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/comparison/comparison_setup.h"
-#include "MMMConverterS2KF/conversion/output_files.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/report.h"
@@ -87,6 +86,18 @@ std::string OutputFile(const Arguments& arguments) {
   return (input.parent_path() / (input.stem().string() + "_subject.xml")).string();
 }
 
+void CheckOutputs(const Arguments& arguments, const CalibrationRequest& request,
+                  const ConverterChoice& choice) {
+  OutputPlan plan;
+  for (const InputRequest& input : request.inputs) NameInputs(input, &plan);
+  NameInputs(choice, &plan);
+  plan.Write(OutputFile(arguments));
+  for (const char* output : {"model-out", "report", "summary"}) {
+    plan.Write(arguments.Get(output).value_or(""));
+  }
+  plan.Check();
+}
+
 // Each recording converted with the subject.
 std::string FormatCalibrationReport(const Arguments& arguments, const CalibrationReport& report) {
   std::vector<Trial> trials;
@@ -134,16 +145,16 @@ int RunCalibrate(const std::vector<std::string>& words) {
   StartLog(arguments.Get("log").value_or("info"));
   const CalibrationRequest request = MakeRequest(arguments);
   const std::string output = OutputFile(arguments);
-  CheckIsNoInput(output, arguments.positionals());
+  const ConverterChoice choice = ChooseConverter(request.converter);
+  CheckOutputs(arguments, request, choice);
   ProgressBar bar("recordings read");
   const CalibrationReport report =
-      RunCalibration(request, [&](int done, int all) { bar.Show(done, all); });
+      RunCalibration(request, choice.config, [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
   for (const std::string& warning : report.warnings) LogWarning(warning);
   const std::string& model_file = report.recordings.front().input.model_file;
   const Subject& subject = report.result.subject;
   if (const auto file = arguments.Get("model-out")) {
-    CheckIsNoInput(*file, {model_file});
     WriteFileAtomically(*file, ReadModelForSubject(model_file, subject));
   }
   WriteFileAtomically(output, FormatSubject(subject, SubjectProgram()));

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion/output_files.h"
 #include "MMMConverterS2KF/dynamics/dynamics_check.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/dynamics_page.h"
@@ -101,13 +101,7 @@ DynamicsOptions MakeOptions(const Arguments& arguments) {
 void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
   const std::string summary = arguments.Get("summary").value_or("");
   const std::string page = arguments.Get("report").value_or("");
-  CheckAreDifferentFiles({summary, page});
   const CheckedMotion& motion = report.motion;
-  for (const std::string& output : {summary, page}) {
-    if (output.empty()) continue;
-    CheckIsNoInput(output, {motion.file, motion.model_file, motion.person.subject_file,
-                            arguments.Get("person").value_or("")});
-  }
   const std::string json = FormatDynamicsJson(report);
   if (!summary.empty()) WriteFileAtomically(summary, json);
   if (page.empty()) return;
@@ -129,7 +123,15 @@ int RunCheckDynamics(const std::vector<std::string>& words) {
   }
   StartLog(arguments.Get("log").value_or("info"));
   const InputRequest request = MakeInputRequest(arguments, *arguments.positional());
-  const DynamicsReport report = CheckDynamics(request, MakeOptions(arguments));
+  const DynamicsOptions options = MakeOptions(arguments);
+  OutputPlan plan;
+  NameInputs(request, &plan);
+  for (const char* output : {"summary", "report"}) plan.Write(arguments.Get(output).value_or(""));
+  plan.Check();
+  CheckedMotion motion = ReadCheckedMotion(request);
+  plan.Read(motion.model_file);
+  plan.Check();
+  const DynamicsReport report = CheckDynamics(std::move(motion), options);
   for (const std::string& warning : report.motion.warnings) LogWarning(warning);
   WriteFiles(arguments, report);
   std::cout << FormatDynamicsSummary(report);

@@ -101,6 +101,19 @@ std::vector<Contender> MakeContenders(const Arguments& arguments) {
   return contenders;
 }
 
+void CheckOutputs(const Arguments& arguments, const std::vector<Contender>& contenders) {
+  OutputPlan plan;
+  for (const Contender& contender : contenders) NameInputs(contender, &plan);
+  const std::vector<std::string>& files = arguments.positionals();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
+    NameInputs(MakeInputRequest(own, files[i]), &plan);
+    plan.Read(own.Get("truth").value_or(""));
+  }
+  NameOutputs(arguments, &plan);
+  plan.Check();
+}
+
 std::vector<Trial> MakeTrials(const Arguments& arguments, const ConverterConfig& config) {
   std::vector<Trial> trials;
   std::vector<std::string> warnings;
@@ -132,6 +145,7 @@ int RunCompare(const std::vector<std::string>& words) {
   std::vector<Contender> contenders = MakeContenders(arguments);
   const InputRequest request = MakeInputRequest(arguments.ForPositional(0, kPerRecording), "");
   for (Contender& contender : contenders) TakeMarkerSet(request, &contender.config);
+  CheckOutputs(arguments, contenders);
   std::vector<Trial> trials = MakeTrials(arguments, contenders.front().config);
   MakeNamesUnique(&trials, &contenders);
   ProgressBar bar("runs");

@@ -18,6 +18,12 @@ OptionGroup ComparisonOutputOptions() {
            {"report", "FILE", "a page (HTML) with player and plots", ""}}};
 }
 
+void NameOutputs(const Arguments& arguments, OutputPlan* plan) {
+  for (const OptionSpec& option : ComparisonOutputOptions().options) {
+    plan->Write(arguments.Get(option.name).value_or(""));
+  }
+}
+
 void WriteComparison(const Arguments& arguments, const std::string& title,
                      const Comparison& comparison) {
   if (const auto file = arguments.Get("json")) {

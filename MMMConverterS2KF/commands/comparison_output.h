@@ -7,11 +7,15 @@
 #include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "common/evaluate/comparison.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 
 /// The options for what a comparison is written to: --json, --csv, --gnuplot and --report.
 OptionGroup ComparisonOutputOptions();
+
+/// Says in the plan which files WriteComparison will write.
+void NameOutputs(const Arguments& arguments, OutputPlan* plan);
 
 /// Writes the files asked for; options that a command does not have are not.
 /// @throws Error

@@ -6,6 +6,7 @@
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/conversion/all_motions.h"
 #include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
@@ -16,25 +17,17 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOwnOptions = {
-    {"Files",
-     {{"output,o", "FILE", "the motion; default: INPUT without its ending + _mmm.xml",
-       "outputMotion"},
-      {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
-      {"report", "FILE", "write a page (HTML) with player and plots", ""},
-      {"summary", "FILE", "write a summary as JSON", ""},
-      {"model-path", "PATH", "what the motion says of where its model is; default: relative to it",
-       ""}}},
-    {"Export",
-     {{"export-csv", "FILE",
-       "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
-       "postures are smoothed (-c s2kf_offline)",
-       ""},
-      {"export-trc", "FILE",
-       "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
-       "them (LABEL_model)",
-       ""},
-      {"export-mot", "FILE", "postures as OpenSim's motion, in metres and degrees with y up", ""}}},
+const OptionGroup kFileOptions = {
+    "Files",
+    {{"output,o", "FILE", "the motion; default: INPUT without its ending + _mmm.xml",
+      "outputMotion"},
+     {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
+     {"report", "FILE", "write a page (HTML) with player and plots", ""},
+     {"summary", "FILE", "write a summary as JSON", ""},
+     {"model-path", "PATH", "what the motion says of where its model is; default: relative to it",
+      ""}}};
+
+const std::vector<OptionGroup> kOtherOptions = {
     {"Converter",
      {{"config,c", "FILE", "configuration, or the name of a shipped one; default: s2kf_default",
        "converterConfigFile"},
@@ -82,9 +75,14 @@ Examples
 )";
 
 std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions.front()};
+  OptionGroup exports = {"Export", {}};
+  for (const Exporter& exporter : Exporters()) {
+    exports.options.push_back({OptionOf(exporter), "FILE", exporter.help, ""});
+  }
+  std::vector<OptionGroup> options = {kFileOptions};
   options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  options.insert(options.end(), kOwnOptions.begin() + 1, kOwnOptions.end());
+  options.push_back(std::move(exports));
+  options.insert(options.end(), kOtherOptions.begin(), kOtherOptions.end());
   return options;
 }
 
@@ -121,9 +119,9 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   if (!request.self_calibrate && !request.subject_output.empty()) {
     throw UsageError("convert: --subject-out needs --self-calibrate, which estimates the subject");
   }
-  request.exports = {arguments.Get("export-csv").value_or(""),
-                     arguments.Get("export-trc").value_or(""),
-                     arguments.Get("export-mot").value_or("")};
+  for (const Exporter& exporter : Exporters()) {
+    if (const auto file = arguments.Get(OptionOf(exporter))) request.exports[exporter.name] = *file;
+  }
   for (const char* option : {"summary", "report"}) {
     if (const auto file = arguments.Get(option)) request.more_outputs.push_back(*file);
   }
@@ -135,8 +133,9 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
 
 // What has a place for one motion only.
 void CheckFitsAllMotions(const Arguments& arguments) {
-  for (const char* option : {"object", "export-csv", "export-trc", "export-mot", "model-path",
-                             "subject-out", "model-out"}) {
+  std::vector<std::string> options = {"object", "model-path", "subject-out", "model-out"};
+  for (const Exporter& exporter : Exporters()) options.push_back(OptionOf(exporter));
+  for (const std::string& option : options) {
     if (!arguments.Has(option)) continue;
     throw UsageError(fmt::format(
         "convert: --{} is for one motion, not for --motion all; use --motion NAME", option));

@@ -62,6 +62,23 @@ std::vector<Trial> ReadOthers(const Arguments& arguments) {
   return trials;
 }
 
+std::string ScriptFile(const std::string& folder, const std::string& experiment) {
+  return fmt::format("{}/{}.gp", folder, experiment);
+}
+
+std::string FiguresFile(const std::string& folder) { return folder + "/evaluation.json"; }
+std::string PageFile(const std::string& folder) { return folder + "/report.html"; }
+
+void CheckOutputs(const Arguments& arguments, const std::string& folder) {
+  OutputPlan plan;
+  NameInputs(MakeInputRequest(arguments, ""), &plan);
+  for (const std::string& file : arguments.positionals()) plan.Read(file);
+  for (const std::string& name : ExperimentNames()) plan.WriteIntoFolder(ScriptFile(folder, name));
+  plan.WriteIntoFolder(FiguresFile(folder));
+  plan.WriteIntoFolder(PageFile(folder));
+  plan.Check();
+}
+
 void WriteFiles(const std::string& folder, const std::vector<Experiment>& experiments) {
   std::vector<ReportSection> sections;
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -69,11 +86,11 @@ void WriteFiles(const std::string& folder, const std::vector<Experiment>& experi
     const Comparison& comparison = experiment.comparison;
     sections.push_back({experiment.title, experiment.text, &comparison});
     json[experiment.name] = nlohmann::ordered_json::parse(FormatComparisonJson(comparison));
-    WriteFileAtomically(fmt::format("{}/{}.gp", folder, experiment.name),
+    WriteFileAtomically(ScriptFile(folder, experiment.name),
                         FormatComparisonPlot(comparison, experiment.name));
   }
-  WriteFileAtomically(folder + "/evaluation.json", json.dump(2) + "\n");
-  WriteFileAtomically(folder + "/report.html", FormatReport("Evaluation", sections));
+  WriteFileAtomically(FiguresFile(folder), json.dump(2) + "\n");
+  WriteFileAtomically(PageFile(folder), FormatReport("Evaluation", sections));
 }
 
 }  // namespace
@@ -86,6 +103,7 @@ int RunEvaluate(const std::vector<std::string>& words) {
   }
   StartLog(arguments.Get("log").value_or("info"));
   const std::string folder = arguments.Get("output").value_or("evaluation");
+  CheckOutputs(arguments, folder);
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw Error(fmt::format("{}: {}", folder, failure.message()));

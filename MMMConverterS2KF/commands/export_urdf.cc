@@ -5,7 +5,6 @@
 #include <iostream>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion/output_files.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
@@ -63,9 +62,11 @@ int RunExportUrdf(const std::vector<std::string>& words) {
   }
   StartLog(arguments.Get("log").value_or("info"));
   const InputRequest request = MakeInputRequest(arguments, "");
+  OutputPlan plan;
+  NameInputs(request, &plan);
+  plan.Write(*output);
+  plan.Check();
   Input input = ReadModel(request);
-  CheckIsNoInput(*output, {input.model_file, request.person.subject_file, request.marker_set,
-                           request.person.processor_file});
   ConverterConfig config;
   MatchModel(request, &input, &config);
   Person person;

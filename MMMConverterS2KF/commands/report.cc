@@ -112,9 +112,15 @@ int RunReport(const std::vector<std::string>& words) {
         "walk_mmm.xml");
   }
   StartLog(arguments.Get("log").value_or("info"));
+  const std::string output = OutputFile(arguments);
+  OutputPlan plan;
+  NameInputs(MakeInputRequest(arguments, ""), &plan);
+  for (const std::string& file : arguments.positionals()) plan.Read(file);
+  NameOutputs(arguments, &plan);
+  plan.Write(output);
+  plan.Check();
   const Comparison comparison = CompareSolutions(arguments);
   const std::string title = comparison.trials.front().name;
-  const std::string output = OutputFile(arguments);
   WriteComparison(arguments, title, comparison);
   WriteFileAtomically(output, FormatReport(title, {{title, "", &comparison}}));
   std::cout << FormatComparisonTable(comparison) << output << '\n';

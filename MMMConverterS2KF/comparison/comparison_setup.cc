@@ -58,6 +58,10 @@ Contender MakeContender(const std::string& config) {
   return contender;
 }
 
+void NameInputs(const Contender& contender, OutputPlan* plan) {
+  NameInputs(ConverterChoice{contender.config, "", contender.plugin}, plan);
+}
+
 Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
                 std::vector<std::string>* warnings) {
   Trial trial;

@@ -17,6 +17,9 @@ namespace mmm_converter {
 /// one.
 Contender MakeContender(const std::string& config);
 
+/// Says in the plan which files a contender is from.
+void NameInputs(const Contender& contender, OutputPlan* plan);
+
 /// A recording; its person's height is estimated with the markers and joints of `config` where
 /// nothing tells it. truth_file: MMM motion that the markers were made from; may be empty.
 Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,

@@ -22,6 +22,11 @@ constexpr int kSeed = 1;
 constexpr double kMillimetres = 1000;  // in a metre
 constexpr double kMilliseconds = 1000;
 
+constexpr const char* kComplete = "complete";
+constexpr const char* kOcclusion = "occlusion";
+constexpr const char* kRates = "rates";
+constexpr const char* kRecordings = "recordings";
+
 constexpr const char* kCompleteText =
     "A synthetic handstand, tracked by every converter with the paper's 50 markers and 40 joints. "
     "Markers sit 28 mm (rms per axis) beside the model's, as real ones do: no posture has less "
@@ -131,7 +136,7 @@ const ComparisonRow* FindRow(const std::vector<Experiment>& experiments, const s
 
 std::string DescribeHidden(const std::vector<Experiment>& experiments) {
   for (const Experiment& experiment : experiments) {
-    if (experiment.name != "occlusion") continue;
+    if (experiment.name != kOcclusion) continue;
     const CommonGround& ground = experiment.comparison.grounds.front();
     if (ground.mean_hidden.size() == 0) return "";
     return fmt::format("{:.0f} of {} at the end of the motion on average, {:.0f} at most",
@@ -144,6 +149,8 @@ std::string DescribeHidden(const std::vector<Experiment>& experiments) {
 
 }  // namespace
 
+std::vector<std::string> ExperimentNames() { return {kComplete, kOcclusion, kRates, kRecordings}; }
+
 std::vector<Experiment> Evaluate(
     const EvaluationRequest& request,
     const std::function<void(const std::string&, int, int)>& progress) {
@@ -154,7 +161,7 @@ std::vector<Experiment> Evaluate(
 
   ComparisonOptions complete;
   complete.jobs = 1;  // undisturbed times
-  stages.Add("complete", "All markers seen", kCompleteText, {handstand},
+  stages.Add(kComplete, "All markers seen", kCompleteText, {handstand},
              InPaperSetting(
                  ShippedContenders({"s2kf_default", "s2kf_paper", "ukf", "ekf", "jacobian_gradient",
                                     "jacobian_least_squares", "jacobian_pull"})),
@@ -164,17 +171,17 @@ std::vector<Experiment> Evaluate(
   occlusion.hiding.amount = 0.005;
   occlusion.runs = request.runs;
   occlusion.jobs = request.jobs;
-  stages.Add("occlusion", "Markers hidden at random, as in the paper", kOcclusionText, {handstand},
+  stages.Add(kOcclusion, "Markers hidden at random, as in the paper", kOcclusionText, {handstand},
              InPaperSetting(ShippedContenders(
                  {"s2kf_default", "s2kf_paper", "ekf", "jacobian_least_squares", "jacobian_pull"})),
              occlusion);
 
-  stages.Add("rates", "S2KF, UKF and EKF alone at falling frame rates", kRatesText,
+  stages.Add(kRates, "S2KF, UKF and EKF alone at falling frame rates", kRatesText,
              {handstand, MakeHandstandTrial(model, 10), MakeHandstandTrial(model, 20)},
              FiltersAlone(), complete);
 
   if (!request.others.empty()) {
-    stages.Add("recordings", "Recordings", "All markers as they were recorded.", request.others,
+    stages.Add(kRecordings, "Recordings", "All markers as they were recorded.", request.others,
                ShippedContenders({"s2kf_default", "ukf", "ekf", "jacobian_gradient",
                                   "jacobian_least_squares", "jacobian_pull"}),
                complete);
@@ -183,10 +190,10 @@ std::vector<Experiment> Evaluate(
 }
 
 std::string FormatPaperTable(const std::vector<Experiment>& experiments) {
-  const ComparisonRow* paper = FindRow(experiments, "complete", "s2kf_paper");
-  const ComparisonRow* here = FindRow(experiments, "complete", "s2kf_default");
-  const ComparisonRow* paper_hidden = FindRow(experiments, "occlusion", "s2kf_paper");
-  const ComparisonRow* here_hidden = FindRow(experiments, "occlusion", "s2kf_default");
+  const ComparisonRow* paper = FindRow(experiments, kComplete, "s2kf_paper");
+  const ComparisonRow* here = FindRow(experiments, kComplete, "s2kf_default");
+  const ComparisonRow* paper_hidden = FindRow(experiments, kOcclusion, "s2kf_paper");
+  const ComparisonRow* here_hidden = FindRow(experiments, kOcclusion, "s2kf_default");
   const auto cell = [](const ComparisonRow* row, auto value) {
     return row == nullptr ? std::string("failed") : fmt::format("{:.2f}", value(row->quality));
   };

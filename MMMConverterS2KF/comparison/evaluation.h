@@ -23,6 +23,9 @@ struct EvaluationRequest {
   std::vector<Trial> others;  ///< recordings that are compared beside the handstand
 };
 
+/// Of all experiments that there may be.
+std::vector<std::string> ExperimentNames();
+
 /// The evaluation of the paper [S15] on a synthetic handstand: complete data, occlusion, then the
 /// filters among themselves at falling frame rates. progress(title, done, all): runs.
 std::vector<Experiment> Evaluate(const EvaluationRequest& request,

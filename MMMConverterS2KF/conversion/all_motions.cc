@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
-#include "MMMConverterS2KF/conversion/output_files.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/error.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 namespace {
@@ -119,8 +119,10 @@ std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
 
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress) {
-  CheckCanBeWritten(request.output);
-  for (const std::string& output : request.more_outputs) CheckCanBeWritten(output);
+  OutputPlan outputs;
+  outputs.Write(request.output);
+  for (const std::string& output : request.more_outputs) outputs.Write(output);
+  outputs.Check();
   AllMotions all;
   std::vector<Recording> recordings =
       ReadAllMotions(request.input.file, request.input.reading, &all.warnings);

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
-#include "MMMConverterS2KF/conversion/output_files.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/support/atomic_file.h"
@@ -95,56 +94,27 @@ void CheckHasSubject(const ConversionRequest& request, const ConversionReport& r
   }
 }
 
-std::vector<std::string> OutputsBesideMotion(const ConversionRequest& request,
-                                             const std::vector<const ConversionReport*>& reports) {
-  std::vector<std::string> outputs = {request.subject_output, request.model_output,
-                                      request.exports.csv, request.exports.trc,
-                                      request.exports.mot};
-  outputs.insert(outputs.end(), request.more_outputs.begin(), request.more_outputs.end());
-  for (const ConversionReport* report : reports) {
-    if (report->object && report->object->is_built()) outputs.push_back(report->input.model_file);
-  }
-  return outputs;
-}
-
-// Beside the recording, which the motion may replace.
-std::vector<std::string> Inputs(const ConversionRequest& request,
-                                const std::vector<const ConversionReport*>& reports) {
-  std::vector<std::string> inputs = {ModelFile(request.input), request.input.person.processor_file,
-                                     request.input.person.subject_file, request.input.marker_set};
-  for (const ConversionReport* report : reports) {
-    inputs.push_back(report->person.subject_file);
-    inputs.push_back(report->converter.config.file);
-    if (!report->object || !report->object->is_built()) inputs.push_back(report->input.model_file);
-  }
-  return inputs;
-}
-
-// The folder of a model that is built is made for it.
-std::string FirstToWrite(const std::string& output,
-                         const std::vector<const ConversionReport*>& reports) {
-  const std::string folder = std::filesystem::path(output).parent_path().string();
-  std::error_code failure;
-  const bool is_new = !folder.empty() && !std::filesystem::exists(folder, failure);
-  const auto is_model = [&](const ConversionReport* report) {
-    return report->object && report->object->is_built() && report->input.model_file == output;
-  };
-  return is_new && std::any_of(reports.begin(), reports.end(), is_model) ? folder : output;
-}
-
 }  // namespace
 
 void CheckOutputs(const ConversionRequest& request,
                   const std::vector<const ConversionReport*>& reports) {
-  std::vector<std::string> inputs = Inputs(request, reports);
-  const std::string& motion = reports.front()->output;
-  CheckIsNoInput(motion, inputs);
-  inputs.push_back(request.input.file);
-  std::vector<std::string> outputs = OutputsBesideMotion(request, reports);
-  for (const std::string& output : outputs) CheckIsNoInput(output, inputs);
-  outputs.push_back(motion);
-  CheckAreDifferentFiles(outputs);
-  for (const std::string& output : outputs) CheckCanBeWritten(FirstToWrite(output, reports));
+  OutputPlan plan;
+  NameInputs(request.input, &plan);
+  for (const ConversionReport* report : reports) {
+    NameInputs(report->converter, &plan);
+    plan.Read(report->person.subject_file);
+    if (report->object && report->object->is_built()) {
+      plan.WriteIntoFolder(report->input.model_file);
+    } else {
+      plan.Read(report->input.model_file);
+    }
+  }
+  plan.Rewrite(reports.front()->output, request.input.file);
+  plan.Write(request.subject_output);
+  plan.Write(request.model_output);
+  for (const auto& [unused, file] : request.exports) plan.Write(file);
+  for (const std::string& file : request.more_outputs) plan.Write(file);
+  plan.Check();
 }
 
 ConversionReport RunConversion(const ConversionRequest& request,

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/exports.h"
+#include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/conversion/object.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "MMMConverterS2KF/input/converter_choice.h"

@@ -88,10 +88,9 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
   return result;
 }
 
-CalibrationReport RunCalibration(const CalibrationRequest& request,
+CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterConfig config,
                                  const std::function<void(int, int)>& progress) {
   CalibrationReport report;
-  ConverterConfig config = ChooseConverter(request.converter).config;
   Append(config.warnings, &report.warnings);
   config.subject_file.clear();  // it is what is estimated
   const int num_inputs = static_cast<int>(request.inputs.size());

@@ -38,9 +38,9 @@ struct CalibrationReport {
 };
 
 /// Reads the recordings, matches their markers, scales the model and estimates what is left.
-/// progress(done, all): recordings read.
+/// config: names markers and joints. progress(done, all): recordings read.
 /// @throws Error; where recordings tell too little, with what is missing.
-CalibrationReport RunCalibration(const CalibrationRequest& request,
+CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterConfig config,
                                  const std::function<void(int, int)>& progress);
 
 /// CalibrateSubject for a person whose height and mass are known: the result's subject is complete,

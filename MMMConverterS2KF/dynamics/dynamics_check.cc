@@ -9,8 +9,7 @@ namespace mmm_converter {
 
 #ifdef MMM_CONVERTER_HAS_DYNAMICS
 
-DynamicsReport CheckDynamics(const InputRequest& request, const DynamicsOptions& options) {
-  CheckedMotion motion = ReadCheckedMotion(request);
+DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& options) {
   DynamicsOptions of_frames = options;
   of_frames.first_frame = motion.begin;
   of_frames.end_frame = motion.end;
@@ -21,7 +20,7 @@ DynamicsReport CheckDynamics(const InputRequest& request, const DynamicsOptions&
 
 #else
 
-DynamicsReport CheckDynamics(const InputRequest&, const DynamicsOptions&) {
+DynamicsReport CheckDynamics(CheckedMotion, const DynamicsOptions&) {
   throw Error(
       "check-dynamics: this program was built without Simbody, which computes the forces; install "
       "it (Debian: libsimbody-dev) and build again, without -DMMM_CONVERTER_DYNAMICS=OFF");

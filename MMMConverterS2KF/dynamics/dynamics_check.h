@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "MMMConverterS2KF/input/input.h"
-#include "MMMConverterS2KF/report/dynamics_summary.h"
+#include "MMMConverterS2KF/dynamics/checked_motion.h"
+#include "MMMConverterS2KF/dynamics/plausibility.h"
 #include "common/dynamics/motion_dynamics.h"
 
 namespace mmm_converter {
 
-/// Reads a motion and judges its dynamics.
+/// What was checked, and what came out.
+struct DynamicsReport {
+  CheckedMotion motion;
+  MotionDynamics dynamics;
+  Plausibility plausibility;
+};
+
+/// Judges the dynamics of a motion.
 /// @throws Error; also where this program was built without Simbody.
-DynamicsReport CheckDynamics(const InputRequest& request, const DynamicsOptions& options);
+DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& options);
 
 }  // namespace mmm_converter

@@ -76,4 +76,12 @@ ConverterChoice ChooseConverter(const ConverterRequest& request) {
   return choice;
 }
 
+void NameInputs(const ConverterChoice& choice, OutputPlan* plan) {
+  const ConverterConfig& config = choice.config;
+  plan->Read(config.file);
+  plan->Read(config.subject_file);
+  plan->Read((fs::path(config.file).parent_path() / config.marker_set).string());
+  if (choice.plugin) plan->Read(choice.plugin->path());
+}
+
 }  // namespace mmm_converter

@@ -6,6 +6,7 @@
 
 #include "common/convert/converter_config.h"
 #include "common/convert/plugin_loader.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 
@@ -24,5 +25,8 @@ struct ConverterChoice {
 
 /// @throws Error where there is no such file or plugin, or they do not belong together.
 ConverterChoice ChooseConverter(const ConverterRequest& request);
+
+/// Says in the plan which files the choice is from, and which its configuration names.
+void NameInputs(const ConverterChoice& choice, OutputPlan* plan);
 
 }  // namespace mmm_converter

@@ -35,6 +35,14 @@ std::string ModelFile(const InputRequest& request) {
   return request.model_file.empty() ? DataFile(kDefaultModel) : request.model_file;
 }
 
+void NameInputs(const InputRequest& request, OutputPlan* plan) {
+  plan->Read(request.file);
+  plan->Read(ModelFile(request));
+  plan->Read(request.marker_set);
+  plan->Read(request.person.processor_file);
+  plan->Read(request.person.subject_file);
+}
+
 Input ReadModel(const InputRequest& request) {
   Input input;
   input.model_file = ModelFile(request);

@@ -12,6 +12,7 @@
 #include "common/io/model_file.h"
 #include "common/io/recording/recording.h"
 #include "common/model/kinematic_model.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 
@@ -36,6 +37,9 @@ struct Input {
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
   std::vector<std::string> warnings;
 };
+
+/// Says in the plan which files the request names.
+void NameInputs(const InputRequest& request, OutputPlan* plan);
 
 /// The file of the reference model.
 std::string ModelFile(const InputRequest& request);

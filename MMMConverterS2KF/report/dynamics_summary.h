@@ -3,18 +3,9 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/dynamics/checked_motion.h"
-#include "MMMConverterS2KF/dynamics/plausibility.h"
-#include "common/dynamics/motion_dynamics.h"
+#include "MMMConverterS2KF/dynamics/dynamics_check.h"
 
 namespace mmm_converter {
-
-/// What was checked, and what came out.
-struct DynamicsReport {
-  CheckedMotion motion;
-  MotionDynamics dynamics;
-  Plausibility plausibility;
-};
 
 /// Figures and checks, for people; the last line is one sentence.
 std::string FormatDynamicsSummary(const DynamicsReport& report);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/conversion/exporters.h"
+
+#include <filesystem>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "common/io/tables/mot_writer.h"
+#include "common/io/tables/trajectory_csv.h"
+#include "common/io/tables/trc_writer.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+void WriteCsv(const std::string& file, const ConversionReport& report) {
+  WriteFileAtomically(file, FormatTrajectoryCsv(report.result.trajectory));
+}
+
+void WriteTrc(const std::string& file, const ConversionReport& report) {
+  const Recording& recording = report.input.recording;
+  TrcOutput output;
+  output.file_name = std::filesystem::path(file).filename().string();
+  output.first_frame = recording.first_frame + report.input.first_frame;
+  output.measured = &recording.markers;
+  output.model_markers.reserve(report.mapping.assignments.size());
+  for (const MarkerAssignment& one : report.mapping.assignments) {
+    output.model_markers.push_back({one.label, one.marker});
+  }
+  output.model = report.model.get();
+  output.trajectory = &report.result.trajectory;
+  WriteFileAtomically(file, FormatTrc(output));
+}
+
+void WriteMot(const std::string& file, const ConversionReport& report) {
+  const std::string& root = report.model->segments().front().name;
+  WriteFileAtomically(file, FormatMot(report.result.trajectory, root));
+}
+
+}  // namespace
+
+const std::vector<Exporter>& Exporters() {
+  static const std::vector<Exporter> exporters = {
+      {"csv", "postures and their standard deviations as CSV",
+       "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
+       "postures are smoothed (-c s2kf_offline)",
+       WriteCsv},
+      {"trc", "markers, measured and the model's, as TRC",
+       "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
+       "them (LABEL_model)",
+       WriteTrc},
+      {"mot", "postures for OpenSim",
+       "postures as OpenSim's motion, in metres and degrees with y up", WriteMot}};
+  return exporters;
+}
+
+std::string OptionOf(const Exporter& exporter) { return std::string("export-") + exporter.name; }
+
+void WriteExports(const ExportFiles& files, const ConversionReport& report) {
+  for (const Exporter& exporter : Exporters()) {
+    const auto file = files.find(exporter.name);
+    if (file != files.end()) exporter.write(file->second, report);
+  }
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mmm_converter {
+
+struct ConversionReport;
+
+/// A format of a conversion's results for other programs. A row of Exporters() is all there is to
+/// add: the option
+/// --export-NAME, the attribute of batches, the checks of outputs and the help texts are made from
+/// it.
+struct Exporter {
+  const char* name;  ///< "csv": attribute and folder of a batch, and the ending of its files
+  const char* what;  ///< "postures as CSV", for the help of a batch
+  const char* help;  ///< of the option
+  /// @throws Error; the file is then as it was before.
+  void (*write)(const std::string& file, const ConversionReport& report);
+};
+
+const std::vector<Exporter>& Exporters();
+
+/// "export-csv"
+std::string OptionOf(const Exporter& exporter);
+
+/// Files that are asked for, by the exporter's name.
+using ExportFiles = std::map<std::string, std::string>;
+
+/// @throws Error; each file is then as it was before, or whole.
+void WriteExports(const ExportFiles& files, const ConversionReport& report);
+
+}  // namespace mmm_converter

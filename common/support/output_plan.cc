@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "common/support/output_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <set>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool AreSame(const std::string& a, const std::string& b) {
+  std::error_code failure;
+  return fs::equivalent(a, b, failure);
+}
+
+bool IsDevice(const std::string& file) {
+  std::error_code failure;
+  return fs::is_other(file, failure);
+}
+
+// The file that writing would make or replace; links are followed also where they lead to nothing
+// yet.
+fs::path Destination(const std::string& file) {
+  constexpr int kMostLinks = 40;  // as Linux has it
+  std::error_code failure;
+  fs::path path = fs::absolute(file);
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, failure); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, failure);
+  }
+  const fs::path canonical = fs::weakly_canonical(path, failure);
+  return failure ? path : canonical;
+}
+
+// The outermost of the file's folders that is not there, else the file.
+fs::path FirstToMake(fs::path file) {
+  std::error_code failure;
+  while (file.has_relative_path() && !fs::exists(file.parent_path(), failure)) {
+    file = file.parent_path();
+  }
+  return file;
+}
+
+// name: as the user has it.
+void CheckCanBeWritten(const fs::path& file, const std::string& name) {
+  std::error_code failure;
+  if (fs::is_directory(file, failure)) throw WriteError(name, EISDIR);
+  const std::string folder = file.parent_path().string() + "/.";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(name, errno);
+}
+
+}  // namespace
+
+void OutputPlan::Read(const std::string& file) {
+  if (!file.empty()) inputs_.push_back(file);
+}
+
+void OutputPlan::Write(const std::string& file) {
+  if (!file.empty()) outputs_.push_back({file, "", false});
+}
+
+void OutputPlan::WriteIntoFolder(const std::string& file) {
+  if (!file.empty()) outputs_.push_back({file, "", true});
+}
+
+void OutputPlan::Rewrite(const std::string& file, const std::string& input) {
+  if (!file.empty()) outputs_.push_back({file, input, false});
+}
+
+void OutputPlan::CheckIsNoInput(const Output& output) const {
+  for (const std::string& input : inputs_) {
+    if (!AreSame(output.file, input) || IsDevice(output.file)) continue;
+    if (!output.replaced.empty() && AreSame(output.replaced, input)) continue;
+    throw Error(fmt::format("{}: is read, and would be lost; give another file", output.file));
+  }
+}
+
+void OutputPlan::Check() const {
+  std::set<fs::path> files;
+  for (const Output& output : outputs_) CheckIsNoInput(output);
+  for (const Output& output : outputs_) {
+    if (IsDevice(output.file) || files.insert(Destination(output.file)).second) continue;
+    throw Error(fmt::format("{}: is to hold two outputs; give each its own file", output.file));
+  }
+  for (const Output& output : outputs_) {
+    if (IsDevice(output.file)) continue;
+    const fs::path file = Destination(output.file);
+    CheckCanBeWritten(output.makes_folder ? FirstToMake(file) : file, output.file);
+  }
+}
+
+}  // namespace mmm_converter
