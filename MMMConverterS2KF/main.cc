@@ -12,6 +12,7 @@
 #include "MMMConverterS2KF/terminal/version.h"
 #include "common/math/instruction_set.h"
 #include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

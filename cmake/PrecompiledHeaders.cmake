@@ -20,4 +20,8 @@ function(mmm_converter_use_headers target group)
   target_precompile_headers(${target} REUSE_FROM ${group})
   target_link_libraries(${target} PRIVATE fmt::fmt)
   target_compile_definitions(${target} PRIVATE EIGEN_STACK_ALLOCATION_LIMIT=1048576)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE)
+    target_compile_options(${target} PRIVATE -fPIC)  # as the group, instead of -fPIE
+  endif()
 endfunction()

@@ -6,14 +6,14 @@
 
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <string>
 
-#include "common/convert/marker_mapping.h"
 #include "common/convert/plugin_loader.h"
+#include "common/convert/tracking_setup.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording.h"
-#include "common/model/model_scaling.h"
 #include "common/support/atomic_file.h"
 #include "common/support/data_directory.h"
 
@@ -26,23 +26,20 @@ void Run(const std::string& input, double height, const std::string& output) {
   // The markers in metres, z up, NaN where a marker is not seen.
   const Recording recording = ReadRecording(input, {});
 
-  // The reference model is a person of 1 m and 1 kg; Winter's rule scales it to ours.
-  const std::string model_file = DataFile("models/mmm.xml");
-  const KinematicModel model = ScaleWinter(ReadMmmModel(model_file).model,
-                                           {.height = height, .mass = kMass, .hand_length = {}});
-
   // The plugin must outlive the converter. Its template is also its default configuration.
   const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");
   const ConverterConfig config =
       ParseConverterConfig(plugin.factory().config_template(), "default configuration");
 
-  // Labels are matched with the model's markers once; from here on there are only indices.
-  std::string set;
-  const MarkerMapping mapping = ResolveMarkerMapping(
-      ResolveMarkerPairs(config, recording.markers, model, &set), recording.markers, model);
-  const auto converter = plugin.factory().Create(model, mapping.assignments, config);
-  const ConversionResult result =
-      converter->Convert(recording.markers, model, mapping.assignments, {});
+  // The reference model is a person of 1 m and 1 kg; Winter's rule scales it to ours. Labels are
+  // matched with its markers once; from here on there are only indices.
+  const std::string model_file = DataFile("models/mmm.xml");
+  const auto reference = std::make_shared<const KinematicModel>(ReadMmmModel(model_file).model);
+  const TrackingSetup setup =
+      MakeTrackingSetup(LabelsOf(recording.markers, recording.file), reference, config,
+                        {.size = WinterScaling{height, kMass, {}}});
+  const auto converter = plugin.factory().Create(setup, config);
+  const ConversionResult result = converter->Convert(recording.markers, {});
 
   MmmMotionOutput motion;
   motion.motion_name = "converted";
@@ -54,8 +51,8 @@ void Run(const std::string& input, double height, const std::string& output) {
   WriteFileAtomically(output, FormatMmmMotion2(motion));
 
   const auto seen = result.residuals.array().isFinite();
-  std::cout << "marker set " << set << ", " << mapping.assignments.size() << " markers, "
-            << result.trajectory.num_frames() << " frames; mean marker distance "
+  std::cout << "marker set " << setup.marker_set << ", " << setup.assignments().size()
+            << " markers, " << result.trajectory.num_frames() << " frames; mean marker distance "
             << 1e3 * seen.select(result.residuals, 0).sum() / static_cast<double>(seen.count())
             << " mm\n";
 }

@@ -11,6 +11,7 @@
 #include "common/io/xml/xml_document.h"
 #include "common/support/diagnostics.h"
 #include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

@@ -69,9 +69,8 @@ int RunExportUrdf(const std::vector<std::string>& words) {
   Input input = ReadModel(request);
   ConverterConfig config;
   MatchModel(request, &input, &config);
-  Person person;
-  const KinematicModel model =
-      ScaleToKnownPerson(request.person, *input.reference, config, &person, &input.warnings);
+  const Person person = FindKnownPerson(request.person, *input.reference, config, &input.warnings);
+  const KinematicModel model = ScaleModel(*input.reference, ScalingOf(person, config));
   const UrdfText urdf = FormatUrdf(model, Describe(input.model_file, person));
   input.warnings.insert(input.warnings.end(), urdf.warnings.begin(), urdf.warnings.end());
   for (const std::string& warning : input.warnings) LogWarning(warning);

@@ -18,7 +18,6 @@
 #include "common/io/recording/recording.h"
 #include "common/io/xml/xml_document.h"
 #include "common/io/xml/xml_text.h"
-#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

@@ -78,13 +78,11 @@ Comparison CompareSolutions(const Arguments& arguments) {
   for (const std::string& warning : warnings) LogWarning(warning);
   ConverterConfig config;
   TakeMarkerSet(request, &config);
-  std::string set;
-  const std::vector<MarkerPair> pairs =
-      ResolveMarkerPairs(config, trial.markers, *trial.model, &set);
-  const MarkerMapping mapping = ResolveMarkerMapping(pairs, trial.markers, *trial.model);
+  const TrackingSetup setup =
+      MatchMarkers(LabelsOf(trial.markers, request.file), trial.model, config);
   Solutions solutions;
   for (std::size_t i = 1; i < files.size(); ++i) {
-    AddSolution(trial, mapping, files[i], std::move(motions[i - 1]), &solutions);
+    AddSolution(trial, setup.mapping, files[i], std::move(motions[i - 1]), &solutions);
   }
   std::vector<Trial> trials = {std::move(trial)};
   MakeNamesUnique(&trials, &solutions.contenders);

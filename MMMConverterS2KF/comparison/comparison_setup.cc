@@ -9,7 +9,7 @@
 #include <map>
 
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -31,14 +31,13 @@ void TakeModel(const InputRequest& request, ConverterConfig config, Input* read,
                std::vector<std::string>* warnings) {
   MatchModel(request, read, &config);
   const Input& input = *read;
-  const MarkerSequence& markers = input.recording.markers;
-  std::string set;
-  const std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, markers, *input.reference, &set);
-  const MarkerMapping mapping = ResolveMarkerMapping(pairs, markers, *input.reference);
-  Person person;
-  trial->model = std::make_shared<KinematicModel>(
-      ScaleToPerson(request.person, *input.reference, input.recording, config, mapping.assignments,
-                    &person, warnings));
+  const Recording& recording = input.recording;
+  TrackingSetup setup =
+      MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference, config);
+  warnings->insert(warnings->end(), setup.mapping.warnings.begin(), setup.mapping.warnings.end());
+  const Person person = FindPerson(request.person, setup, recording, config, warnings);
+  ScaleToPerson(ScalingOf(person, config), &setup);
+  trial->model = setup.model;
   trial->subject = person.subject;
 }
 

@@ -103,7 +103,7 @@ std::string DescribeOutcome(const MotionOutcome& outcome) {
   const ConversionReport& report = *outcome.report;
   const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
   return fmt::format("{} frames, {} markers, mean distance {:.1f} mm, max {:.1f}; {}",
-                     report.input.recording.markers.num_frames(), report.mapping.assignments.size(),
+                     report.input.recording.markers.num_frames(), report.setup.assignments().size(),
                      1e3 * distance.mean, 1e3 * distance.max, DescribeModel(report));
 }
 

@@ -26,14 +26,14 @@ void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
   }
   const Recording& recording = report->input.recording;
   const std::string file = std::filesystem::path(recording.file).filename().string();
-  const KinematicModel& scaled = *report->model;
-  report->calibration = CalibratePerson(scaled, ResolveJoints(config, scaled),
-                                        {{file, &recording.markers, report->mapping.assignments}},
-                                        report->person, SubjectName(report->input));
+  TrackingSetup& setup = report->setup;
+  report->calibration =
+      CalibratePerson(*setup.model, setup.joints, {{file, &recording.markers, setup.assignments()}},
+                      report->person, SubjectName(report->input));
   AddWarnings(report->calibration->warnings, report);
   report->person.subject = std::make_shared<Subject>(report->calibration->subject);
-  report->model =
-      std::make_shared<KinematicModel>(FitToSubject(scaled, report->calibration->subject));
+  setup.model =
+      std::make_shared<KinematicModel>(FitToSubject(*setup.model, report->calibration->subject));
 }
 
 // Models that are built go into the folder given, else into one beside the output.
@@ -133,19 +133,15 @@ ConversionReport RunConversion(const ConversionRequest& request,
   report.motion_name = ChooseMotionName(request, report.input.recording);
 
   TakeObject(request, &report);
-  const KinematicModel& reference = *report.input.reference;
-  const MarkerSequence& markers = report.input.recording.markers;
-  const std::vector<MarkerPair> pairs =
-      ResolveMarkerPairs(config, markers, reference, &report.marker_set);
-  report.mapping = ResolveMarkerMapping(pairs, markers, reference);
-  AddWarnings(report.mapping.warnings, &report);
-  const std::vector<MarkerAssignment>& assignments = report.mapping.assignments;
-  CheckDeterminesPose(report.input, report.mapping);
-  if (report.object) TrustMarkersOfObject(&report.mapping);
+  const Recording& recording = report.input.recording;
+  TrackingSetup& setup = report.setup;
+  setup = MatchMarkers(LabelsOf(recording.markers, recording.file), report.input.reference, config);
+  AddWarnings(setup.mapping.warnings, &report);
+  CheckDeterminesPose(report.input, setup.mapping);
+  if (report.object) TrustMarkersOfObject(&setup.mapping);
   const PersonRequest person = report.object ? PersonRequest() : request.input.person;
-  report.model = std::make_shared<KinematicModel>(
-      ScaleToPerson(person, reference, report.input.recording, config, assignments, &report.person,
-                    &report.warnings));
+  report.person = FindPerson(person, setup, recording, config, &report.warnings);
+  ScaleToPerson(ScalingOf(report.person, config), &setup);
 
   if (request.self_calibrate && !report.object) SelfCalibrate(config, &report);
   CheckHasSubject(request, report);
@@ -153,13 +149,12 @@ ConversionReport RunConversion(const ConversionRequest& request,
   report.subject_output = request.subject_output;
   report.model_output = request.model_output;
 
-  const auto converter =
-      report.converter.plugin->factory().Create(*report.model, assignments, config);
-  report.result = converter->Convert(markers, *report.model, assignments, [&](int done) {
-    return !progress || progress(done, markers.num_frames());
+  const auto converter = report.converter.plugin->factory().Create(setup, config);
+  report.result = converter->Convert(recording.markers, [&](int done) {
+    return !progress || progress(done, recording.markers.num_frames());
   });
   if (report.object) {
-    AddWarnings(JudgeObject(report.input, report.mapping, report.result.residuals), &report);
+    AddWarnings(JudgeObject(report.input, setup.mapping, report.result.residuals), &report);
   }
   return report;
 }

@@ -13,7 +13,6 @@
 #include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
-#include "common/convert/marker_mapping.h"
 #include "common/convert/motion_converter.h"
 
 namespace mmm_converter {
@@ -44,11 +43,9 @@ struct ConversionReport {
   Input input;
   ConverterChoice converter;
   Person person;
-  std::optional<ObjectModel> object;             ///< what is tracked, where it is no person
-  std::shared_ptr<const KinematicModel> model;   ///< of the person
+  std::optional<ObjectModel> object;  ///< what is tracked, where it is no person
+  TrackingSetup setup;
   std::optional<CalibrationResult> calibration;  ///< of this recording
-  std::string marker_set;                        ///< empty: the configuration has its own list
-  MarkerMapping mapping;
   ConversionResult result;
   std::string output, output_format, motion_name;
   std::string subject_output, model_output;  ///< empty: not written

@@ -22,17 +22,17 @@ void WriteTrc(const std::string& file, const ConversionReport& report) {
   output.file_name = std::filesystem::path(file).filename().string();
   output.first_frame = recording.first_frame + report.input.first_frame;
   output.measured = &recording.markers;
-  output.model_markers.reserve(report.mapping.assignments.size());
-  for (const MarkerAssignment& one : report.mapping.assignments) {
+  output.model_markers.reserve(report.setup.assignments().size());
+  for (const MarkerAssignment& one : report.setup.assignments()) {
     output.model_markers.push_back({one.label, one.marker});
   }
-  output.model = report.model.get();
+  output.model = report.setup.model.get();
   output.trajectory = &report.result.trajectory;
   WriteFileAtomically(file, FormatTrc(output));
 }
 
 void WriteMot(const std::string& file, const ConversionReport& report) {
-  const std::string& root = report.model->segments().front().name;
+  const std::string& root = report.setup.model->segments().front().name;
   WriteFileAtomically(file, FormatMot(report.result.trajectory, root));
 }
 

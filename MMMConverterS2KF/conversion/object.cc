@@ -19,7 +19,7 @@
 #include "common/motion/marker_residuals.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -34,7 +34,7 @@ int CountKnown(const std::vector<MarkerPair>& pairs, const MarkerSequence& recor
   MarkerSet set;
   set.pairs = pairs;
   set.pairs = PairsInModel(set, model);
-  return CountMappedMarkers(set, recording);
+  return CountMappedMarkers(set, recording.labels());
 }
 
 bool IsPersonsRecording(const Input& input, const ConverterConfig& config) {
@@ -181,10 +181,18 @@ void CheckIsBuilt(const std::string& file) {
                   file));
 }
 
+RigidShape ShapeOf(const Recording& recording) {
+  try {
+    return EstimateRigidShape(recording.markers);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", recording.file, error.what()));
+  }
+}
+
 ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input) {
   CheckIsBuilt(file);
   const Recording& recording = input->recording;
-  const RigidShape shape = EstimateRigidShape(recording.markers);
+  const RigidShape shape = ShapeOf(recording);
   WarnOfUnplacedMarkers(name, shape, input);
   ObjectModel built;
   built.has_motions_name = true;

@@ -35,13 +35,11 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
   if (config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }
-  const MarkerSequence& markers = one.input.recording.markers;
-  const KinematicModel& reference = *one.input.reference;
-  const std::vector<MarkerPair> pairs =
-      ResolveMarkerPairs(config, markers, reference, &one.marker_set);
-  one.mapping = ResolveMarkerMapping(pairs, markers, reference);
+  const Recording& recording = one.input.recording;
+  one.setup =
+      MatchMarkers(LabelsOf(recording.markers, recording.file), one.input.reference, config);
   Append(one.input.warnings, warnings);
-  Append(one.mapping.warnings, warnings);
+  Append(one.setup.mapping.warnings, warnings);
   return one;
 }
 
@@ -101,20 +99,22 @@ CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterCon
   }
   CheckOnePerson(request, report.recordings);
   const Input& first = report.recordings.front().input;
-  const KinematicModel scaled = ScaleToPerson(
-      request.inputs.front().person, *first.reference, first.recording, config,
-      report.recordings.front().mapping.assignments, &report.person, &report.warnings);
+  TrackingSetup setup = report.recordings.front().setup;
+  report.person =
+      FindPerson(request.inputs.front().person, setup, first.recording, config, &report.warnings);
+  ScaleToPerson(ScalingOf(report.person, config), &setup);
   std::vector<CalibrationRecording> recordings;
   recordings.reserve(report.recordings.size());
   for (const CalibrationInput& one : report.recordings) {
     recordings.push_back({FileName(one.input.recording.file), &one.input.recording.markers,
-                          one.mapping.assignments});
+                          one.setup.assignments()});
   }
-  report.result = CalibratePerson(scaled, ResolveJoints(config, scaled), recordings, report.person,
+  report.result = CalibratePerson(*setup.model, setup.joints, recordings, report.person,
                                   request.name.empty() ? SubjectName(first) : request.name);
   Append(report.result.warnings, &report.warnings);
   report.person.subject = std::make_shared<Subject>(report.result.subject);
-  report.model = std::make_shared<KinematicModel>(FitToSubject(scaled, report.result.subject));
+  report.model =
+      std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));
   return report;
 }
 

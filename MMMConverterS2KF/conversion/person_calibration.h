@@ -10,7 +10,7 @@
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
 #include "common/calibrate/calibration.h"
-#include "common/convert/marker_mapping.h"
+#include "common/convert/tracking_setup.h"
 
 namespace mmm_converter {
 
@@ -24,8 +24,7 @@ struct CalibrationRequest {
 /// A recording of the person, and what of it is used.
 struct CalibrationInput {
   Input input;
-  std::string marker_set;  ///< empty: the configuration has its own list
-  MarkerMapping mapping;
+  TrackingSetup setup;  ///< on the reference model
 };
 
 /// Everything that a summary tells.

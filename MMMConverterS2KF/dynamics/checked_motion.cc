@@ -13,7 +13,7 @@
 #include "common/io/model_file.h"
 #include "common/io/tables/trc_reader.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -126,7 +126,7 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
                     "by; give the model with --model, or a person's height with --height",
                     request.file, motion.model_path));
   }
-  const LoadedModel loaded = ReadModelFile(model_file);
+  LoadedModel loaded = ReadModelFile(model_file);
   warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
   ConverterConfig config;
   if (!loaded.is_reference) config.model_processor = "None";
@@ -135,15 +135,15 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
         "{}: does not say how tall the person is; give --height (and --mass), or --subject-file",
         request.file));
   }
-  Person person;
-  KinematicModel model =
-      ScaleToPerson(request.person, loaded.model, PersonOf(motion), config, {}, &person, &warnings);
+  TrackingSetup setup;  // of a motion without markers
+  setup.model = std::make_shared<const KinematicModel>(std::move(loaded.model));
+  const Person person = FindPerson(request.person, setup, PersonOf(motion), config, &warnings);
   CheckedMotion checked = {request.file,
                            motion.name,
                            0,
                            model_file,
-                           std::move(person),
-                           std::move(model),
+                           person,
+                           ScaleModel(*setup.model, ScalingOf(person, config)),
                            std::move(motion.trajectory),
                            std::move(warnings)};
   TakeFrames(request, &checked);

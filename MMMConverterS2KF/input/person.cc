@@ -7,12 +7,9 @@
 #include <functional>
 
 #include "common/convert/converter_config.h"
-#include "common/fit/height_estimate.h"
 #include "common/io/mmm/processor_config.h"
 #include "common/io/mmm/subject_file.h"
-#include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
 
 namespace mmm_converter {
 namespace {
@@ -31,17 +28,8 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
   return std::nullopt;
 }
 
-PersonValue Estimate(const KinematicModel& reference, const Recording& recording,
-                     const ConverterConfig& config,
-                     const std::vector<MarkerAssignment>& assignments) {
-  std::vector<int> markers;
-  std::vector<int> labels;
-  for (const MarkerAssignment& assignment : assignments) {
-    markers.push_back(assignment.marker);
-    labels.push_back(assignment.label);
-  }
-  const HeightEstimate estimate = EstimateHeight(reference, ResolveJoints(config, reference),
-                                                 markers, labels, recording.markers);
+PersonValue Estimate(const TrackingSetup& setup, const MarkerSequence& markers) {
+  const HeightEstimate estimate = EstimateHeight(setup, markers);
   return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
 }
 
@@ -97,26 +85,26 @@ void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
   if (hand_length) person->hand_length = hand_length->value;
 }
 
-KinematicModel Scale(const PersonRequest& request, const KinematicModel& reference,
-                     const Recording& recording, const ConverterConfig& config,
-                     const std::function<PersonValue()>& estimate_height, Person* person,
-                     std::vector<std::string>* warnings) {
+Person Find(const PersonRequest& request, const KinematicModel& reference,
+            const Recording& recording, const ConverterConfig& config,
+            const std::function<PersonValue()>& estimate_height,
+            std::vector<std::string>* warnings) {
+  Person person;
   ProcessorConfig processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
-  person->subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
-  if (!person->subject_file.empty()) {
-    person->subject = std::make_shared<Subject>(ReadSubject(person->subject_file, reference));
-    TakeSubject(request, processor, recording, person, warnings);
-    return FitToSubject(ScaleWinter(reference, ToWinterScaling(*person)), *person->subject);
+  person.subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
+  if (!person.subject_file.empty()) {
+    person.subject = std::make_shared<Subject>(ReadSubject(person.subject_file, reference));
+    TakeSubject(request, processor, recording, &person, warnings);
+    return person;
   }
-  TakeNumbers(request, processor, recording, person);
-  if (person->height.source.empty()) person->height = estimate_height();
-  return ScaleWinter(reference, ToWinterScaling(*person));
+  TakeNumbers(request, processor, recording, &person);
+  if (person.height.source.empty()) person.height = estimate_height();
+  return person;
 }
 
-KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel& reference,
-                             const ConverterConfig& config, Person* person,
-                             std::vector<std::string>* warnings) {
+Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config,
+                     std::vector<std::string>* warnings) {
   if (!request.subject_file.empty()) {
     throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
                             WhyUnscaled(config), request.subject_file));
@@ -124,31 +112,10 @@ KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel&
   if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
     warnings->push_back(WhyUnscaled(config) + "; height, mass and hand length are left out");
   }
-  person->height = {0, "model is not scaled"};
-  person->mass = person->height;
-  return reference;
-}
-
-/// No marker tells the angle of some tracked joints.
-void WarnOfFreeJoints(const KinematicModel& model, const ConverterConfig& config,
-                      const std::vector<MarkerAssignment>& assignments,
-                      std::vector<std::string>* warnings) {
-  constexpr std::size_t kShown = 5;
-  std::vector<int> markers;
-  markers.reserve(assignments.size());
-  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
-  const MarkerKinematics kinematics(model, ResolveJoints(config, model), markers);
-  std::vector<std::string> names;
-  for (int j = 0; j < kinematics.num_joints(); ++j) {
-    bool is_moving = false;
-    for (int m = 0; m < kinematics.num_markers(); ++m) is_moving |= kinematics.Moves(j, m);
-    if (!is_moving) names.push_back(model.joint(kinematics.joints()[j]).name);
-  }
-  if (names.empty()) return;
-  warnings->push_back(fmt::format(
-      "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
-      "known: {}",
-      names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
+  Person person;
+  person.height = {0, "model is not scaled"};
+  person.mass = person.height;
+  return person;
 }
 
 }  // namespace
@@ -164,32 +131,29 @@ std::string WhyUnscaled(const ConverterConfig& config) {
   return why + ", or " + config.file + " has <Model name=\"None\">)";
 }
 
-WinterScaling ToWinterScaling(const Person& person) {
-  return {person.height.value, person.mass.value, person.hand_length};
+PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
+  if (config.model_processor == "None") return {};
+  return {WinterScaling{person.height.value, person.mass.value, person.hand_length},
+          person.subject};
 }
 
-KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
-                             const Recording& recording, const ConverterConfig& config,
-                             const std::vector<MarkerAssignment>& assignments, Person* person,
-                             std::vector<std::string>* warnings) {
-  if (config.model_processor == "None") {
-    WarnOfFreeJoints(reference, config, assignments, warnings);
-    return LeaveUnscaled(request, reference, config, person, warnings);
-  }
-  const auto estimate = [&] { return Estimate(reference, recording, config, assignments); };
-  return Scale(request, reference, recording, config, estimate, person, warnings);
+Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
+                  const Recording& recording, const ConverterConfig& config,
+                  std::vector<std::string>* warnings) {
+  if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
+  const auto estimate = [&] { return Estimate(setup, recording.markers); };
+  return Find(request, *setup.model, recording, config, estimate, warnings);
 }
 
-KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
-                                  const ConverterConfig& config, Person* person,
-                                  std::vector<std::string>* warnings) {
+Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                       const ConverterConfig& config, std::vector<std::string>* warnings) {
   constexpr const char* kUnknown =
       "how tall and heavy is the person? Give --height and --mass, --person or --subject-file";
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));
   const auto fail = []() -> PersonValue { throw Error(kUnknown); };
-  KinematicModel model = Scale(request, reference, Recording(), config, fail, person, warnings);
-  if (person->mass.source == kAssumed) throw Error(kUnknown);
-  return model;
+  Person person = Find(request, reference, Recording(), config, fail, warnings);
+  if (person.mass.source == kAssumed) throw Error(kUnknown);
+  return person;
 }
 
 }  // namespace mmm_converter

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "common/convert/converter_config.h"
-#include "common/convert/marker_mapping.h"
+#include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
 #include "common/model/kinematic_model.h"
-#include "common/model/model_scaling.h"
 #include "common/model/subject.h"
 
 namespace mmm_converter {
@@ -41,26 +40,23 @@ struct Person {
 /// For messages: which file has it that the model is not scaled.
 std::string WhyUnscaled(const ConverterConfig& config);
 
-/// What Winter's scaling takes of a person.
-WinterScaling ToWinterScaling(const Person& person);
+/// What a model is scaled by for a person; nothing where the configuration says that it is not.
+PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 
-/// The model of the recorded person: the reference scaled by height and mass, or as it is where the
-/// configuration says so (<Model name="None">; MatchModel); fitted to the subject where the request
-/// or the configuration names one. Height, mass and hand length are the subject's, or else are
-/// taken from the request, the processor file, or the recording, in this order; then the height is
-/// estimated from the assigned markers and the mass assumed. Says in person what was taken and from
-/// where.
+/// The recorded person: the subject where the request or the configuration names one. Height, mass
+/// and hand length are the subject's, or else are taken from the request, the processor file, or
+/// the recording, in this order; then the height is estimated from the markers of the setup, which
+/// MatchMarkers made, and the mass assumed. Nothing of these where the model is not scaled
+/// (<Model name="None">; MatchModel).
 /// @throws Error; also where the user gives another height or hand length than the subject's, which
 ///         its segment scales are relative to.
-KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
-                             const Recording& recording, const ConverterConfig& config,
-                             const std::vector<MarkerAssignment>& assignments, Person* person,
-                             std::vector<std::string>* warnings);
+Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
+                  const Recording& recording, const ConverterConfig& config,
+                  std::vector<std::string>* warnings);
 
-/// As ScaleToPerson without a recording: nothing is estimated or assumed.
+/// As FindPerson without a recording: nothing is estimated or assumed.
 /// @throws Error; also where height or mass are not known, or the model is not scaled.
-KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
-                                  const ConverterConfig& config, Person* person,
-                                  std::vector<std::string>* warnings);
+Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                       const ConverterConfig& config, std::vector<std::string>* warnings);
 
 }  // namespace mmm_converter

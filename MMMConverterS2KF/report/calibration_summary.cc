@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/subject_json.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -119,10 +119,11 @@ std::string FormatCalibrationSummary(const CalibrationReport& report, const std:
   for (const CalibrationInput& one : report.recordings) {
     const MarkerSequence& markers = one.input.recording.markers;
     const int used = FramesTaken(result.subject, one.input.recording.file);
-    text += Line("recording",
-                 fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file,
-                             used, markers.num_frames(), one.mapping.assignments.size(),
-                             one.marker_set.empty() ? "" : ", marker set " + one.marker_set));
+    text += Line(
+        "recording",
+        fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file, used,
+                    markers.num_frames(), one.setup.assignments().size(),
+                    one.setup.marker_set.empty() ? "" : ", marker set " + one.setup.marker_set));
   }
   text += Line("person", fmt::format("\"{}\", {:.3g} m ({}), {:.4g} kg ({})", result.subject.name,
                                      report.person.height.value, report.person.height.source,
@@ -147,10 +148,10 @@ std::string FormatCalibrationJson(const CalibrationReport& report, const std::st
     recordings.push_back({{"file", one.input.recording.file},
                           {"frames", one.input.recording.markers.num_frames()},
                           {"first_frame", one.input.first_frame},
-                          {"markers", one.mapping.assignments.size()},
-                          {"marker_set", one.marker_set},
-                          {"ignored", one.mapping.ignored_labels},
-                          {"absent", one.mapping.absent_markers}});
+                          {"markers", one.setup.assignments().size()},
+                          {"marker_set", one.setup.marker_set},
+                          {"ignored", one.setup.mapping.ignored_labels},
+                          {"absent", one.setup.mapping.absent_markers}});
   }
   const Json json = {{"program", SubjectProgram()},
                      {"output", file},

@@ -25,13 +25,13 @@ Comparison MakeComparison(const ConversionReport& report) {
   Trial trial;
   trial.name = std::filesystem::path(report.input.recording.file).filename().string();
   trial.markers = report.input.recording.markers;
-  trial.model = report.model;
+  trial.model = report.setup.model;
   trial.subject = report.person.subject;
   Contender contender;
   contender.name = std::filesystem::path(report.converter.config.file).stem().string();
   contender.configuration = report.converter.text;
   contender.config = report.converter.config;
-  return CompareFinished(std::move(trial), {contender}, {{report.mapping, report.result}});
+  return CompareFinished(std::move(trial), {contender}, {{report.setup.mapping, report.result}});
 }
 
 }  // namespace

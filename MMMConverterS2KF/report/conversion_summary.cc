@@ -11,7 +11,7 @@
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -90,18 +90,18 @@ Json DescribePerson(const ConversionReport& report) {
 Json DescribeMarkers(const ConversionReport& report) {
   Json used = Json::array();
   const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
-  for (std::size_t i = 0; i < report.mapping.assignments.size(); ++i) {
-    const MarkerAssignment& assignment = report.mapping.assignments[i];
+  for (std::size_t i = 0; i < report.setup.assignments().size(); ++i) {
+    const MarkerAssignment& assignment = report.setup.assignments()[i];
     used.push_back({{"label", report.input.recording.markers.labels()[assignment.label]},
-                    {"marker", report.model->markers()[assignment.marker].name},
+                    {"marker", report.setup.model->markers()[assignment.marker].name},
                     {"noise_scale", assignment.noise_scale},
                     {"frames_seen", distances[i].seen},
                     {"distance_mm", ToJson(distances[i])}});
   }
-  return {{"set", report.marker_set},
+  return {{"set", report.setup.marker_set},
           {"used", used},
-          {"ignored", report.mapping.ignored_labels},
-          {"absent", report.mapping.absent_markers}};
+          {"ignored", report.setup.mapping.ignored_labels},
+          {"absent", report.setup.mapping.absent_markers}};
 }
 
 std::string WorstMarkers(const ConversionReport& report) {
@@ -109,7 +109,7 @@ std::string WorstMarkers(const ConversionReport& report) {
   const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double mean = kMillimetres * distances[i].mean;
-    const int label = report.mapping.assignments[i].label;
+    const int label = report.setup.assignments()[i].label;
     if (!std::isnan(mean)) means.emplace_back(mean, report.input.recording.markers.labels()[label]);
   }
   std::sort(means.rbegin(), means.rend());
@@ -122,7 +122,7 @@ std::string WorstMarkers(const ConversionReport& report) {
 
 // Label of an assignment.
 const std::string& LabelOf(const ConversionReport& report, int assignment) {
-  const int label = report.mapping.assignments[assignment].label;
+  const int label = report.setup.assignments()[assignment].label;
   return report.input.recording.markers.labels()[label];
 }
 
@@ -253,8 +253,9 @@ std::string FormatSummary(const ConversionReport& report) {
                       report.result.trajectory.joint_names.size());
   text += fmt::format("converter  {}, {}\n", report.converter.config.type,
                       report.converter.config.file);
-  text += fmt::format("markers    {}{}\n", DescribeMarkersShortly(report.mapping),
-                      report.marker_set.empty() ? "" : ", marker set " + report.marker_set);
+  text +=
+      fmt::format("markers    {}{}\n", DescribeMarkersShortly(report.setup.mapping),
+                  report.setup.marker_set.empty() ? "" : ", marker set " + report.setup.marker_set);
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
                       kMillimetres * distance.mean, kMillimetres * distance.p95,
                       kMillimetres * distance.max, WorstMarkers(report));

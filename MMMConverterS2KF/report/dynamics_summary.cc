@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

@@ -127,7 +127,7 @@ void AddNis(const ConversionResult& result, json* out) {
 json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
   json incidents = json::array();
   const auto label = [&](int assignment) {
-    return trial.markers.labels()[row.mapping.assignments[assignment].label];
+    return trial.markers.labels()[row.setup.assignments()[assignment].label];
   };
   for (const MarkerIncident& incident : row.result.incidents) {
     json labels = {label(incident.assignment)};
@@ -144,9 +144,9 @@ json RowJson(const Trial& trial, const ComparisonRow& row) {
   json out = {{"trial", row.trial},
               {"contender", row.contender},
               {"failure", row.failure},
-              {"warnings", row.mapping.warnings},
-              {"ignored", row.mapping.ignored_labels},
-              {"absent", row.mapping.absent_markers}};
+              {"warnings", row.setup.mapping.warnings},
+              {"ignored", row.setup.mapping.ignored_labels},
+              {"absent", row.setup.mapping.absent_markers}};
   if (!row.failure.empty()) return out;
   Eigen::VectorXd seconds(row.result.frames.size());
   for (Eigen::Index k = 0; k < seconds.size(); ++k) seconds[k] = row.result.frames[k].seconds;

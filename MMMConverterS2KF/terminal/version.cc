@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/math/instruction_set.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 

@@ -10,7 +10,6 @@
 #include "common/io/bytes/file_content.h"
 #include "common/model/kinematic_model.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

@@ -53,12 +53,12 @@ std::vector<int> ResolveJoints(const ConverterConfig& config, const KinematicMod
 /// Which labels stand for which markers: config.marker_pairs, or else those of marker_set, as far
 /// as the model has their markers. marker_set is the name of a shipped set or of its file
 /// ("kit53"), a file ("my_set.xml", relative to the configuration), or "auto": of the shipped sets
-/// and the names of the model's markers what knows most labels of the recording. name: the set's,
+/// and the names of the model's markers what knows most of the labels. name: the set's,
 /// or "" for a list.
 /// @throws Error where there is no such set, or no set knows three labels.
 std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
-                                           const MarkerSequence& recording,
-                                           const KinematicModel& model, std::string* name);
+                                           const MarkerLabels& labels, const KinematicModel& model,
+                                           std::string* name);
 
 /// The marker set that the configuration names as a file; nothing where it names none.
 /// @throws Error as ReadMarkerSet.

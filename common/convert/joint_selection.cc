@@ -9,6 +9,7 @@
 #include "common/model/kit_joints.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

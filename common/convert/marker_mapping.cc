@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -10,7 +11,7 @@
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -20,10 +21,10 @@ std::string BareLabel(const std::string& label) {
 }
 
 /// Index of the first label of each name.
-std::map<std::string, int> LabelIndices(const MarkerSequence& recording) {
+std::map<std::string, int> IndicesByName(const std::vector<std::string>& names) {
   std::map<std::string, int> indices;
-  for (int i = 0; i < recording.num_labels(); ++i) {
-    indices.emplace(BareLabel(recording.labels()[i]), i);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    indices.emplace(BareLabel(names[i]), static_cast<int>(i));
   }
   return indices;
 }
@@ -54,31 +55,57 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
                           FirstNames(unknown), FirstNames(markers)));
 }
 
-[[noreturn]] void ThrowNoMatch(const std::vector<MarkerPair>& pairs,
-                               const MarkerSequence& recording) {
+[[noreturn]] void ThrowNoMatch(const std::vector<MarkerPair>& pairs, const MarkerLabels& labels) {
   std::vector<std::string> sources;
   sources.reserve(pairs.size());
   for (const MarkerPair& pair : pairs) sources.push_back(pair.source);
-  throw Error(fmt::format("no label of the recording is mapped: it has {}; the mapping has {}",
-                          recording.num_labels() == 0 ? "none" : FirstNames(recording.labels()),
+  throw Error(fmt::format("{}no label of the recording is mapped: it has {}; the mapping has {}",
+                          labels.source.empty() ? "" : labels.source + ": ",
+                          labels.names.empty() ? "none" : FirstNames(labels.names),
                           sources.empty() ? "none" : FirstNames(sources)));
 }
 
 }  // namespace
 
-MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
-                                   const MarkerSequence& recording, const KinematicModel& model) {
+MarkerLabels LabelsOf(const MarkerSequence& recording, const std::string& source) {
+  MarkerLabels labels{recording.labels(), {}, source};
+  for (int i = 0; i < recording.num_labels(); ++i) labels.seen.push_back(IsEverSeen(recording, i));
+  return labels;
+}
+
+std::vector<int> LabelIndices(const std::vector<MarkerAssignment>& assignments) {
+  std::vector<int> labels;
+  labels.reserve(assignments.size());
+  for (const MarkerAssignment& assignment : assignments) labels.push_back(assignment.label);
+  return labels;
+}
+
+std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
+  std::vector<int> markers;
+  markers.reserve(assignments.size());
+  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
+  return markers;
+}
+
+Eigen::VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
+  Eigen::VectorXd scales(assignments.size());
+  for (std::size_t i = 0; i < assignments.size(); ++i) scales[i] = assignments[i].noise_scale;
+  return scales;
+}
+
+MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs, const MarkerLabels& labels,
+                                   const KinematicModel& model) {
   CheckPairs(pairs, model);
-  const std::map<std::string, int> labels = LabelIndices(recording);
+  const std::map<std::string, int> indices = IndicesByName(labels.names);
   MarkerMapping mapping;
   std::map<int, MarkerAssignment> by_marker;
   std::set<std::string> used;
   for (const MarkerPair& pair : pairs) {
     const int marker = model.FindMarker(pair.target);
-    const auto label = labels.find(BareLabel(pair.source));
-    if (label == labels.end() || by_marker.contains(marker)) continue;
-    const std::string& name = recording.labels()[label->second];
-    if (!IsEverSeen(recording, label->second)) {
+    const auto label = indices.find(BareLabel(pair.source));
+    if (label == indices.end() || by_marker.contains(marker)) continue;
+    const std::string& name = labels.names[label->second];
+    if (!labels.seen.empty() && !labels.seen[label->second]) {
       mapping.warnings.push_back(fmt::format("marker {} is not seen in any frame", name));
       continue;
     }
@@ -88,10 +115,10 @@ MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
       mapping.warnings.push_back(fmt::format("{} as {}: {}", name, pair.target, pair.warning));
     }
   }
-  if (by_marker.empty()) ThrowNoMatch(pairs, recording);
+  if (by_marker.empty()) ThrowNoMatch(pairs, labels);
 
   for (const auto& [marker, assignment] : by_marker) mapping.assignments.push_back(assignment);
-  for (const std::string& label : recording.labels()) {
+  for (const std::string& label : labels.names) {
     if (!used.contains(label)) mapping.ignored_labels.push_back(label);
   }
   std::set<std::string> absent;

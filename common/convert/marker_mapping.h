@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,16 @@ namespace mmm_converter {
 
 class KinematicModel;
 class MarkerSequence;
+
+/// The labels of a recording or a live stream, in the order of its columns.
+struct MarkerLabels {
+  std::vector<std::string> names;
+  std::vector<bool> seen = {};  ///< by label, in some frame; empty: all may be, as of a stream
+  std::string source = {};      ///< for messages: the file; may be empty
+};
+
+/// Of a whole recording: `seen` tells which of them are in some frame.
+MarkerLabels LabelsOf(const MarkerSequence& recording, const std::string& source = {});
 
 /// One line of a MarkerMapping: a recording label stands for a model marker.
 struct MarkerPair {
@@ -20,7 +31,7 @@ struct MarkerPair {
 
 /// A MarkerPair resolved once into indices.
 struct MarkerAssignment {
-  int label = -1;   ///< index into MarkerSequence::labels()
+  int label = -1;   ///< index into MarkerLabels::names, column of a frame
   int marker = -1;  ///< index into KinematicModel::markers()
   double noise_scale = 1.0;
 };
@@ -32,13 +43,17 @@ struct MarkerMapping {
   std::vector<std::string> warnings;
 };
 
+/// Of each assignment, in their order.
+std::vector<int> LabelIndices(const std::vector<MarkerAssignment>& assignments);
+std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments);
+Eigen::VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments);
+
 /// Matches labels without case, blanks, punctuation and prefix (`Subject:`). Of several pairs with
-/// the same target, the first whose label is seen in some frame is used: the later ones are
-/// substitutes.
+/// the same target, the first whose label is seen is used: the later ones are substitutes.
 /// @throws Error where no label matches (the message shows labels of both sides), a label is mapped
 /// to
 ///         two markers, or a target is not a marker of the model.
-MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
-                                   const MarkerSequence& recording, const KinematicModel& model);
+MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs, const MarkerLabels& labels,
+                                   const KinematicModel& model);
 
 }  // namespace mmm_converter

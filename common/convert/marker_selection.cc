@@ -49,8 +49,8 @@ std::optional<MarkerSet> ReadOwnMarkerSet(const ConverterConfig& config) {
 }
 
 std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
-                                           const MarkerSequence& recording,
-                                           const KinematicModel& model, std::string* name) {
+                                           const MarkerLabels& labels, const KinematicModel& model,
+                                           std::string* name) {
   name->clear();
   if (!config.marker_pairs.empty()) return config.marker_pairs;
   if (const auto own = ReadOwnMarkerSet(config)) {
@@ -60,7 +60,7 @@ std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
   std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
   const bool is_free = config.marker_set == "auto";
   if (is_free) FitToModel(model, &sets);
-  const MarkerSet& set = is_free ? ChooseMarkerSet(sets, recording) : FindSet(sets, config);
+  const MarkerSet& set = is_free ? ChooseMarkerSet(sets, labels) : FindSet(sets, config);
   *name = set.name;
   return PairsInModel(set, model);
 }

@@ -109,9 +109,10 @@ int FindSegment(const LoadedModel& model, const std::string& name) {
 }
 
 /// Model markers that the set finds a label for, with the noise scale of the pair used.
-std::map<std::string, double> MappedMarkers(const MarkerSet& set, const MarkerSequence& recording) {
+std::map<std::string, double> MappedMarkers(const MarkerSet& set,
+                                            const std::vector<std::string>& names) {
   std::set<std::string> labels;
-  for (const std::string& label : recording.labels()) labels.insert(NormalizeLabel(label));
+  for (const std::string& name : names) labels.insert(NormalizeLabel(name));
   std::map<std::string, double> mapped;
   for (const MarkerPair& pair : set.pairs) {
     if (labels.contains(NormalizeLabel(pair.source))) mapped.emplace(pair.target, pair.noise_scale);
@@ -221,17 +222,16 @@ std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel&
   return pairs;
 }
 
-int CountMappedMarkers(const MarkerSet& set, const MarkerSequence& recording) {
-  return static_cast<int>(MappedMarkers(set, recording).size());
+int CountMappedMarkers(const MarkerSet& set, const std::vector<std::string>& labels) {
+  return static_cast<int>(MappedMarkers(set, labels).size());
 }
 
-const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
-                                 const MarkerSequence& recording) {
+const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels) {
   const MarkerSet* best = nullptr;
   std::size_t most = 0;
   double least_noise = 0;
   for (const MarkerSet& set : sets) {
-    const std::map<std::string, double> mapped = MappedMarkers(set, recording);
+    const std::map<std::string, double> mapped = MappedMarkers(set, labels.names);
     double noise = 0;
     for (const auto& [target, scale] : mapped) noise += scale;
     if (mapped.size() < 3 || mapped.size() < most) continue;
@@ -245,10 +245,11 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
   names.reserve(sets.size());
   for (const MarkerSet& set : sets) names.push_back(set.name);
   throw Error(fmt::format(
-      "no marker set ({}) knows three labels of the recording, which has {}; "
+      "{}no marker set ({}) knows three labels of the recording, which has {}; "
       "name links of the URDF <label>_marker, or say which labels stand for which markers "
       "and where these are: --marker-set FILE, or a configuration with a MarkerMapping",
-      fmt::join(names, ", "), FirstNames(recording.labels())));
+      labels.source.empty() ? "" : labels.source + ": ", fmt::join(names, ", "),
+      FirstNames(labels.names)));
 }
 
 }  // namespace mmm_converter

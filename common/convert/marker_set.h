@@ -6,7 +6,6 @@
 
 #include "common/convert/marker_mapping.h"
 #include "common/io/model_file.h"
-#include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
 
@@ -47,11 +46,10 @@ MarkerSet OwnMarkerSet(const KinematicModel& model);
 std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel& model);
 
 /// How many model markers the set finds a label for.
-int CountMappedMarkers(const MarkerSet& set, const MarkerSequence& recording);
+int CountMappedMarkers(const MarkerSet& set, const std::vector<std::string>& labels);
 
 /// The set that maps most markers; of equal ones the one that trusts them more, then the first.
 /// @throws Error where no set maps three; the message lists the sets and labels of the recording.
-const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
-                                 const MarkerSequence& recording);
+const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels);
 
 }  // namespace mmm_converter

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
@@ -19,9 +20,9 @@ constexpr int kFewestMarkers = 3;
 // An incident goes on where it stops for no longer than this [s].
 constexpr double kBridgedTime = 0.1;
 
-int CountSeen(const MarkerSequence& recording, const std::vector<MarkerAssignment>& assignments,
-              int frame) {
+int CountSeen(const MarkerSequence& recording, const TrackingSetup& setup, int frame) {
   const auto points = recording.frame(frame);
+  const std::vector<MarkerAssignment>& assignments = setup.assignments();
   return static_cast<int>(std::count_if(
       assignments.begin(), assignments.end(),
       [&](const MarkerAssignment& assignment) { return IsSeen(points.col(assignment.label)); }));
@@ -29,57 +30,56 @@ int CountSeen(const MarkerSequence& recording, const std::vector<MarkerAssignmen
 
 // The first frame in which a posture can be assembled. A person is there from the start, objects
 // are fetched.
-int FindFirstFrame(const MarkerSequence& recording, const KinematicModel& model,
-                   const std::vector<MarkerAssignment>& assignments) {
-  const bool is_object = model.num_joints() == 0;
+int FindFirstFrame(const MarkerSequence& recording, const TrackingSetup& setup) {
+  const bool is_object = setup.model->num_joints() == 0;
   const int last = is_object
                        ? recording.num_frames()
                        : static_cast<int>(std::min<double>(
                              recording.num_frames(), std::max(1.0, std::ceil(recording.rate()))));
   int most = 0;
   for (int k = 0; k < last; ++k) {
-    const int seen = CountSeen(recording, assignments, k);
+    const int seen = CountSeen(recording, setup, k);
     if (seen >= kFewestMarkers) return k;
     most = std::max(most, seen);
   }
-  throw Error(
-      fmt::format("no frame{} shows {} mapped markers (at most {} of {} are seen); {}check the "
-                  "marker mapping",
-                  is_object ? "" : " of the first second", kFewestMarkers, most, assignments.size(),
-                  is_object ? "" : "start at a later frame with --frames, or "));
+  throw Error(fmt::format(
+      "no frame{} shows {} mapped markers (at most {} of {} are seen); {}check the "
+      "marker mapping",
+      is_object ? "" : " of the first second", kFewestMarkers, most, setup.assignments().size(),
+      is_object ? "" : "start at a later frame with --frames, or "));
 }
 
 // Fills one frame of a result from what a converter says of it.
 class ResultWriter {
  public:
-  ResultWriter(const MarkerSequence& recording, const KinematicModel& model,
-               const std::vector<MarkerAssignment>& assignments, const std::vector<int>& joints)
-      : recording_(recording), model_(model), assignments_(assignments), joints_(joints) {
+  ResultWriter(const MarkerSequence& recording, const TrackingSetup& setup)
+      : recording_(recording), setup_(setup) {
     const int frames = recording.num_frames();
+    const int assignments = static_cast<int>(setup.assignments().size());
+    const std::vector<int>& joints = setup.joints;
     PoseTrajectory& trajectory = result_.trajectory;
     trajectory.rate = recording.rate();
     trajectory.first_time = recording.first_time();
-    for (const int joint : joints) trajectory.joint_names.push_back(model.joint(joint).name);
+    for (const int joint : joints) trajectory.joint_names.push_back(setup.model->joint(joint).name);
     trajectory.postures.resize(frames);
     trajectory.standard_deviations.setConstant(6 + static_cast<int>(joints.size()), frames,
                                                std::numeric_limits<double>::quiet_NaN());
-    result_.residuals.setConstant(static_cast<int>(assignments.size()), frames,
-                                  std::numeric_limits<double>::quiet_NaN());
+    result_.residuals.setConstant(assignments, frames, std::numeric_limits<double>::quiet_NaN());
     result_.frames.resize(frames);
-    verdicts_.setConstant(static_cast<int>(assignments.size()), frames, kAsLabelled);
+    verdicts_.setConstant(assignments, frames, kAsLabelled);
   }
 
   void WritePosture(int k, const FrameEstimate& estimate) {
     Posture& posture = result_.trajectory.postures[k];
     posture.position = estimate.posture.position;
     posture.orientation = estimate.posture.orientation;
-    posture.joint_angles = estimate.posture.joint_angles(joints_);
+    posture.joint_angles = estimate.posture.joint_angles(setup_.joints);
     if (estimate.standard_deviations.size() > 0) {
       auto deviations = result_.trajectory.standard_deviations.col(k);
       deviations.head<6>() = estimate.standard_deviations.head<6>();
       const auto of_joints =
           estimate.standard_deviations.tail(estimate.standard_deviations.size() - 6);
-      deviations.tail(static_cast<int>(joints_.size())) = of_joints(joints_);
+      deviations.tail(static_cast<int>(setup_.joints.size())) = of_joints(setup_.joints);
     }
   }
 
@@ -98,13 +98,13 @@ class ResultWriter {
 
   // Frames with too few markers to assemble take the first assembled posture.
   void WriteEarlier(int first, const FrameEstimate& estimate) {
-    const Eigen::Matrix3Xd p_WM = MarkerPositions(model_, estimate.posture);
+    const Eigen::Matrix3Xd p_WM = MarkerPositions(*setup_.model, estimate.posture);
     for (int k = 0; k < first; ++k) {
       WritePosture(k, estimate);
-      result_.frames[k].markers_seen = CountSeen(recording_, assignments_, k);
+      result_.frames[k].markers_seen = CountSeen(recording_, setup_, k);
       const auto points = recording_.frame(k);
-      for (std::size_t i = 0; i < assignments_.size(); ++i) {
-        const MarkerAssignment& assignment = assignments_[i];
+      for (std::size_t i = 0; i < setup_.assignments().size(); ++i) {
+        const MarkerAssignment& assignment = setup_.assignments()[i];
         result_.residuals(static_cast<int>(i), k) =
             (points.col(assignment.label) - p_WM.col(assignment.marker)).norm();
       }
@@ -119,27 +119,24 @@ class ResultWriter {
 
  private:
   const MarkerSequence& recording_;
-  const KinematicModel& model_;
-  const std::vector<MarkerAssignment>& assignments_;
-  const std::vector<int>& joints_;
+  const TrackingSetup& setup_;
   Eigen::MatrixXi verdicts_;  // assignments x frames
   ConversionResult result_;
 };
 
 }  // namespace
 
+MotionConverter::MotionConverter(TrackingSetup setup) : setup_(std::move(setup)) {}
 MotionConverter::~MotionConverter() = default;
 MotionConverterFactory::~MotionConverterFactory() = default;
 
 ConversionResult MotionConverter::Convert(const MarkerSequence& recording,
-                                          const KinematicModel& model,
-                                          const std::vector<MarkerAssignment>& assignments,
                                           const std::function<bool(int)>& progress) {
   using Clock = std::chrono::steady_clock;
-  const int first = FindFirstFrame(recording, model, assignments);
+  const int first = FindFirstFrame(recording, setup_);
   const int frames = recording.num_frames();
   const double dt = 1 / recording.rate();
-  ResultWriter writer(recording, model, assignments, joints());
+  ResultWriter writer(recording, setup_);
   for (int k = first; k < frames; ++k) {
     const Clock::time_point start = Clock::now();
     const FrameEstimate& estimate =

@@ -10,15 +10,14 @@
 
 #include "common/convert/converter_config.h"
 #include "common/convert/marker_incidents.h"
-#include "common/convert/marker_mapping.h"
-#include "common/model/kinematic_model.h"
+#include "common/convert/tracking_setup.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {
 
 /// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
-inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-2";
+inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-3";
 
 /// What a converter knows of one frame. All vectors keep their size from frame to frame.
 struct FrameEstimate {
@@ -55,12 +54,15 @@ struct ConversionResult {
   std::vector<MarkerIncident> incidents;  ///< by first frame
 };
 
-/// Tracks one person through one recording. Not thread-safe; use one for each recording.
+/// Tracks one person through one recording or live stream. Not thread-safe; use one for each.
 class MotionConverter {
  public:
+  explicit MotionConverter(TrackingSetup setup);
   virtual ~MotionConverter();
 
-  /// Estimates the posture of a first frame from nothing. frame: 3 x recording labels [m], NaN =
+  const TrackingSetup& setup() const { return setup_; }
+
+  /// Estimates the posture of a first frame from nothing. frame: 3 x labels of the setup [m], NaN =
   /// not seen. May be called again to start over.
   /// @throws Error where fewer than three assigned markers are seen.
   virtual const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) = 0;
@@ -70,17 +72,17 @@ class MotionConverter {
   virtual const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
                                      double dt) = 0;
 
-  /// Joints that are estimated, as indices of the model, in output order.
-  virtual const std::vector<int>& joints() const = 0;
-
-  /// A whole recording: Assemble on the first frame, Track on the others. Leading frames in which
-  /// fewer than three assigned markers are seen take the first assembled posture, not converged.
-  /// progress(k): frames done, may be empty; returning false cancels (an Error is thrown).
+  /// A whole recording, whose labels are those of the setup: Assemble on the first frame, Track on
+  /// the others. Leading frames in which fewer than three assigned markers are seen take the first
+  /// assembled posture, not converged. progress(k): frames done, may be empty; returning false
+  /// cancels (an Error is thrown).
   /// @throws Error where no frame of the first second (for a model without joints: no frame at all)
   /// shows three assigned markers.
-  virtual ConversionResult Convert(const MarkerSequence& recording, const KinematicModel& model,
-                                   const std::vector<MarkerAssignment>& assignments,
+  virtual ConversionResult Convert(const MarkerSequence& recording,
                                    const std::function<bool(int)>& progress);
+
+ private:
+  TrackingSetup setup_;
 };
 
 /// Makes converters; what a plugin exports.
@@ -91,12 +93,9 @@ class MotionConverterFactory {
   virtual std::string description() const = 0;  ///< one line
   /// The documented configuration template, all settings at their defaults (XML).
   virtual std::string config_template() const = 0;
-  /// The model must outlive the converter.
-  /// @throws Error for an unknown element, attribute or value of the configuration (file and line),
-  /// an
-  ///         unknown joint, or assignments that can't be tracked.
-  virtual std::unique_ptr<MotionConverter> Create(const KinematicModel& model,
-                                                  const std::vector<MarkerAssignment>& assignments,
+  /// Of the configuration the plugin's own elements count; setup has what the others ask for.
+  /// @throws Error for an unknown element, attribute or value of these (file and line).
+  virtual std::unique_ptr<MotionConverter> Create(const TrackingSetup& setup,
                                                   const ConverterConfig& config) const = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

@@ -23,21 +23,15 @@ using Eigen::VectorXd;
 // A trial's contenders that take part, and what one of them uses.
 struct Field {
   std::vector<ComparisonRow*> rows;
-  std::vector<std::vector<int>> joints;  // of each row
   std::vector<int> used_labels;
   std::vector<int> used_joints;
 };
 
-void ResolveRow(const Trial& trial, const Contender& contender, std::vector<int>* joints,
-                ComparisonRow* row) {
+void ResolveRow(const Trial& trial, const Contender& contender, ComparisonRow* row) {
   row->failure = trial.failure.empty() ? contender.failure : trial.failure;
   if (!row->failure.empty()) return;
   try {
-    std::string set;
-    const std::vector<MarkerPair> pairs =
-        ResolveMarkerPairs(contender.config, trial.markers, *trial.model, &set);
-    row->mapping = ResolveMarkerMapping(pairs, trial.markers, *trial.model);
-    *joints = ResolveJoints(contender.config, *trial.model);
+    row->setup = MatchMarkers(LabelsOf(trial.markers), trial.model, contender.config);
   } catch (const Error& error) {
     row->failure = error.what();
   }
@@ -61,10 +55,10 @@ std::vector<int> Intersection(const std::vector<int>& ordered, const std::vector
 
 void FindCommonGround(const Field& field, CommonGround* ground) {
   if (field.rows.empty()) return;
-  for (const MarkerAssignment& assignment : field.rows.front()->mapping.assignments) {
+  for (const MarkerAssignment& assignment : field.rows.front()->setup.assignments()) {
     const bool is_common =
         std::all_of(field.rows.begin(), field.rows.end(), [&](const ComparisonRow* row) {
-          const auto& others = row->mapping.assignments;
+          const auto& others = row->setup.assignments();
           return std::any_of(others.begin(), others.end(), [&](const MarkerAssignment& other) {
             return other.label == assignment.label && other.marker == assignment.marker;
           });
@@ -73,18 +67,18 @@ void FindCommonGround(const Field& field, CommonGround* ground) {
     ground->labels.push_back(assignment.label);
     ground->markers.push_back(assignment.marker);
   }
-  ground->joints = field.joints.front();
-  for (const std::vector<int>& other : field.joints) {
-    ground->joints = Intersection(ground->joints, other);
+  ground->joints = field.rows.front()->setup.joints;
+  for (const ComparisonRow* row : field.rows) {
+    ground->joints = Intersection(ground->joints, row->setup.joints);
   }
 }
 
 void FindUsed(Field* field) {
   std::set<int> labels;
   std::set<int> joints;
-  for (const std::vector<int>& own : field->joints) joints.insert(own.begin(), own.end());
   for (const ComparisonRow* row : field->rows) {
-    for (const MarkerAssignment& assignment : row->mapping.assignments) {
+    joints.insert(row->setup.joints.begin(), row->setup.joints.end());
+    for (const MarkerAssignment& assignment : row->setup.assignments()) {
       labels.insert(assignment.label);
     }
   }
@@ -194,10 +188,8 @@ RunOutcome Perform(const Run& run, const Comparison& comparison, const Field& fi
   try {
     const HiddenMarkers hidden = HiddenInRun(field, trial, comparison.options, run.number);
     const MarkerSequence seen = WithoutHidden(trial.markers, field.used_labels, hidden);
-    const auto converter = contender.plugin->factory().Create(
-        *trial.model, row->mapping.assignments, contender.config);
-    ConversionResult result =
-        converter->Convert(seen, *trial.model, row->mapping.assignments, nullptr);
+    const auto converter = contender.plugin->factory().Create(row->setup, contender.config);
+    ConversionResult result = converter->Convert(seen, nullptr);
     MatrixXd distances = MeasureDistances(trial, ground, result.trajectory);
     outcome.frame_means = MeanOfEachFrame(distances);
     outcome.quality =
@@ -229,11 +221,8 @@ Field PrepareTrial(int index, Comparison* comparison) {
   Field field;
   for (std::size_t c = 0; c < comparison->contenders.size(); ++c) {
     ComparisonRow& row = comparison->rows[index * comparison->contenders.size() + c];
-    std::vector<int> own;
-    ResolveRow(trial, comparison->contenders[c], &own, &row);
-    if (!row.failure.empty()) continue;
-    field.rows.push_back(&row);
-    field.joints.push_back(own);
+    ResolveRow(trial, comparison->contenders[c], &row);
+    if (row.failure.empty()) field.rows.push_back(&row);
   }
   FindUsed(&field);
   FindCommonGround(field, &ground);
@@ -309,10 +298,9 @@ Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
   Field field;
   for (std::size_t i = 0; i < results.size(); ++i) {
     ComparisonRow& row = comparison.rows[i];
-    row.mapping = std::move(results[i].mapping);
     row.result = std::move(results[i].result);
+    row.setup = {only.model, JointsOf(only, row.result.trajectory), std::move(results[i].mapping)};
     field.rows.push_back(&row);
-    field.joints.push_back(JointsOf(only, row.result.trajectory));
   }
   FindUsed(&field);
   FindCommonGround(field, &ground);

@@ -63,8 +63,8 @@ struct CommonGround {
 struct ComparisonRow {
   int trial = 0;
   int contender = 0;
-  std::string failure;  ///< why there is no result; empty: there is one
-  MarkerMapping mapping;
+  std::string failure;                ///< why there is no result; empty: there is one
+  TrackingSetup setup;                ///< on the trial's model
   TrackingQuality quality;            ///< of all runs
   std::vector<TrackingQuality> runs;  ///< one for each
   ConversionResult result;            ///< of the first run

@@ -12,7 +12,7 @@
 
 #include "common/math/statistics.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

@@ -56,4 +56,19 @@ bool AppendDoubles(std::string_view text, std::vector<double>* numbers) {
   return true;
 }
 
+std::string JoinNames(const std::vector<std::string>& names, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? last : std::string_view(", ");
+    text += names[i];
+  }
+  return text;
+}
+
+std::string FirstNames(const std::vector<std::string>& names, std::size_t most) {
+  if (names.size() <= most) return JoinNames(names, ", ");
+  return JoinNames({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most)}, ", ") +
+         ", ...";
+}
+
 }  // namespace mmm_converter

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,5 +27,11 @@ std::optional<long> ParseLong(std::string_view text);
 /// Appends numbers separated by white space. false where one of them is not a number: it and what
 /// follows is not appended.
 bool AppendDoubles(std::string_view text, std::vector<double>* numbers);
+
+/// `a, b or c`; empty for no names.
+std::string JoinNames(const std::vector<std::string>& names, std::string_view last = " or ");
+
+/// `a, b, ...`: at most that many of the names.
+std::string FirstNames(const std::vector<std::string>& names, std::size_t most = 12);
 
 }  // namespace mmm_converter

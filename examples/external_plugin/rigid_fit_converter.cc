@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/convert/motion_converter.h"
@@ -19,8 +18,7 @@
 namespace {
 
 using mmm_converter::FrameEstimate;
-using mmm_converter::KinematicModel;
-using mmm_converter::MarkerAssignment;
+using mmm_converter::TrackingSetup;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -40,18 +38,17 @@ mmm_converter::SettingTable MakeTable(Settings* settings) {
 
 class RigidFitConverter : public mmm_converter::MotionConverter {
  public:
-  // All that depends on the model and the assignments happens here: a frame allocates nothing.
-  RigidFitConverter(const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
-                    std::vector<int> joints, const Settings& settings)
-      : settings_(settings), joints_(std::move(joints)), p_SM_(3, assignments.size()) {
+  // All that depends on the setup happens here: a frame allocates nothing.
+  RigidFitConverter(const TrackingSetup& setup, const Settings& settings)
+      : MotionConverter(setup),
+        settings_(settings),
+        labels_(mmm_converter::LabelIndices(setup.assignments())) {
+    const mmm_converter::KinematicModel& model = *setup.model;
     estimate_.posture = mmm_converter::ZeroPosture(model);
     estimate_.standard_deviations.setConstant(6 + model.num_joints(), kNaN);
-    estimate_.residuals.setConstant(p_SM_.cols(), kNaN);
-    const Eigen::Matrix3Xd markers = mmm_converter::MarkerPositions(model, estimate_.posture);
-    for (const MarkerAssignment& assignment : assignments) {
-      p_SM_.col(static_cast<int>(labels_.size())) = markers.col(assignment.marker);
-      labels_.push_back(assignment.label);
-    }
+    estimate_.residuals.setConstant(static_cast<int>(labels_.size()), kNaN);
+    p_SM_ = mmm_converter::MarkerPositions(model, estimate_.posture)(
+        Eigen::all, mmm_converter::MarkerIndices(setup.assignments()));
     seen_.reserve(labels_.size());
   }
 
@@ -82,8 +79,6 @@ class RigidFitConverter : public mmm_converter::MotionConverter {
     return estimate_;
   }
 
-  const std::vector<int>& joints() const override { return joints_; }
-
  private:
   // The pose that minimises the sum of |X_WS p_SM - p_WM|^2 over the seen markers, from the
   // singular value decomposition of the cross-covariance of the two point sets (Kabsch 1976).
@@ -109,7 +104,6 @@ class RigidFitConverter : public mmm_converter::MotionConverter {
   }
 
   Settings settings_;
-  std::vector<int> joints_;
   std::vector<int> labels_;  // by assignment
   Eigen::Matrix3Xd p_SM_;    // by assignment, zero posture, in axes of the root [m]
   std::vector<int> seen_;    // assignments seen in the present frame
@@ -127,14 +121,12 @@ class RigidFitFactory : public mmm_converter::MotionConverterFactory {
     return mmm_converter::FormatConfigTemplate(name(), MakeTable(&defaults));
   }
   std::unique_ptr<mmm_converter::MotionConverter> Create(
-      const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
-      const mmm_converter::ConverterConfig& config) const override {
+      const TrackingSetup& setup, const mmm_converter::ConverterConfig& config) const override {
     Settings settings;
     mmm_converter::Diagnostics diagnostics(config.file);
     MakeTable(&settings).Read(config.plugin_elements, &diagnostics);
     diagnostics.ThrowIfErrors();
-    return std::make_unique<RigidFitConverter>(model, assignments, ResolveJoints(config, model),
-                                               settings);
+    return std::make_unique<RigidFitConverter>(setup, settings);
   }
 };
 

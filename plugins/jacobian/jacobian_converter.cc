@@ -11,7 +11,6 @@ namespace mmm_converter::jacobian {
 
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -20,29 +19,14 @@ constexpr int kFewestMarkers = 3;
 // Steps have converged where the last one asked for less than this [rad].
 constexpr double kSmallStep = 1e-3;
 
-std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
-  std::vector<int> markers;
-  markers.reserve(assignments.size());
-  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
-  return markers;
-}
-
-VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
-  VectorXd scales(assignments.size());
-  for (std::size_t i = 0; i < assignments.size(); ++i) scales[i] = assignments[i].noise_scale;
-  return scales;
-}
-
 }  // namespace
 
-JacobianConverter::JacobianConverter(const KinematicModel& model,
-                                     const std::vector<MarkerAssignment>& assignments,
-                                     const std::vector<int>& joints,
-                                     const JacobianSettings& settings)
-    : settings_(settings),
-      kinematics_(model, joints, MarkerIndices(assignments)),
-      assignments_(assignments),
-      noise_scale_(NoiseScales(assignments)),
+JacobianConverter::JacobianConverter(const TrackingSetup& setup, const JacobianSettings& settings)
+    : MotionConverter(setup),
+      settings_(settings),
+      kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
+      labels_(LabelIndices(setup.assignments())),
+      noise_scale_(NoiseScales(setup.assignments())),
       search_(kinematics_),
       steps_(kinematics_),
       at_(kinematics_.MakeJacobian()),
@@ -54,15 +38,15 @@ JacobianConverter::JacobianConverter(const KinematicModel& model,
   if (settings.robust_distance > 0) fit_options_.robust_distance = settings.robust_distance;
   step_options_ = {settings.damping, settings.step_limit, fit_options_};
   posture_.joint_angles.setZero(kinematics_.num_joints());
-  estimate_.posture.joint_angles.setZero(model.num_joints());
-  estimate_.standard_deviations.setConstant(6 + model.num_joints(), kNaN);
+  estimate_.posture.joint_angles.setZero(setup.model->num_joints());
+  estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
   estimate_.residuals.setConstant(kinematics_.num_markers(), kNaN);
 }
 
 void JacobianConverter::Gather(const Ref<const Matrix3Xd>& frame) {
   estimate_.markers_seen = 0;
-  for (std::size_t i = 0; i < assignments_.size(); ++i) {
-    z_.col(i) = frame.col(assignments_[i].label);
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    z_.col(i) = frame.col(labels_[i]);
     if (IsSeen(z_.col(i))) {
       ++estimate_.markers_seen;
     } else {

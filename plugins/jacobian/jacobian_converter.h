@@ -17,13 +17,10 @@ namespace mmm_converter::jacobian {
 /// posture stays. Knows no uncertainty: standard deviations are NaN.
 class JacobianConverter : public MotionConverter {
  public:
-  /// model must outlive the converter. joints: indices of the model.
-  JacobianConverter(const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
-                    const std::vector<int>& joints, const JacobianSettings& settings);
+  JacobianConverter(const TrackingSetup& setup, const JacobianSettings& settings);
 
   const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) override;
   const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override;
-  const std::vector<int>& joints() const override { return kinematics_.joints(); }
 
  private:
   /// Takes the assigned markers out of a frame into z_.
@@ -33,7 +30,7 @@ class JacobianConverter : public MotionConverter {
 
   JacobianSettings settings_;
   MarkerKinematics kinematics_;
-  std::vector<MarkerAssignment> assignments_;
+  std::vector<int> labels_;  // by assignment
   Eigen::VectorXd noise_scale_;
   PostureSearch search_;
   PostureFitOptions fit_options_;

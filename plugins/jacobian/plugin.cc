@@ -20,12 +20,9 @@ class JacobianConverterFactory : public MotionConverterFactory {
     JacobianSettings defaults;
     return FormatConfigTemplate(name(), BindSettings(&defaults));
   }
-  std::unique_ptr<MotionConverter> Create(const KinematicModel& model,
-                                          const std::vector<MarkerAssignment>& assignments,
+  std::unique_ptr<MotionConverter> Create(const TrackingSetup& setup,
                                           const ConverterConfig& config) const override {
-    const JacobianSettings settings = ReadSettings(config);
-    return std::make_unique<JacobianConverter>(model, assignments, ResolveJoints(config, model),
-                                               settings);
+    return std::make_unique<JacobianConverter>(setup, ReadSettings(config));
   }
 };
 

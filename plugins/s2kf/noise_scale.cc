@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "common/fit/posture_search.h"
@@ -30,22 +29,14 @@ constexpr double kLargestLog = 3;  // of the scale, to the base 10
 /// The likelihood of a recording, part by part.
 class Likelihood {
  public:
-  Likelihood(const MarkerSequence& recording, const KinematicModel& model,
-             const std::vector<MarkerAssignment>& assignments, const std::vector<int>& joints,
+  Likelihood(const MarkerSequence& recording, const TrackingSetup& setup,
              const S2kfSettings& settings)
-      : settings_(settings), dt_(1 / recording.rate()) {
+      : settings_(settings),
+        dt_(1 / recording.rate()),
+        kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
+        noise_scale_(NoiseScales(setup.assignments())) {
     settings_.filter = FilterType::kEkf;
-    std::vector<int> markers;
-    markers.reserve(assignments.size());
-    for (const MarkerAssignment& a : assignments) markers.push_back(a.marker);
-    kinematics_ = std::make_unique<MarkerKinematics>(model, joints, markers);
-    noise_scale_.resize(static_cast<Eigen::Index>(assignments.size()));
-    std::vector<int> labels;
-    labels.reserve(assignments.size());
-    for (std::size_t i = 0; i < assignments.size(); ++i) {
-      noise_scale_[static_cast<Eigen::Index>(i)] = assignments[i].noise_scale;
-      labels.push_back(assignments[i].label);
-    }
+    const std::vector<int> labels = LabelIndices(setup.assignments());
     const int frames = recording.num_frames();
     const int parts = frames > kParts * kPartFrames ? kParts : 1;
     const int length = parts > 1 ? kPartFrames : frames;
@@ -69,7 +60,7 @@ class Likelihood {
     if (known != values_.end()) return known->second;
     S2kfSettings settings = settings_;
     settings.noise_scale *= std::pow(10.0, log_scale);
-    MarkerFilter filter(*kinematics_, settings, noise_scale_);
+    MarkerFilter filter(kinematics_, settings, noise_scale_);
     double sum = 0;
     for (const Part& part : parts_) {
       Belief belief;
@@ -101,7 +92,7 @@ class Likelihood {
       part.frames.push_back(std::move(z));
     }
     if (part.frames.empty()) return;
-    PostureSearch search(*kinematics_);
+    PostureSearch search(kinematics_);
     PostureFitOptions options;
     if (settings_.robust_distance > 0) options.robust_distance = settings_.robust_distance;
     search.Assemble(part.frames.front(), noise_scale_, options, settings_.start_attempts,
@@ -111,7 +102,7 @@ class Likelihood {
 
   S2kfSettings settings_;
   double dt_;
-  std::unique_ptr<MarkerKinematics> kinematics_;
+  MarkerKinematics kinematics_;
   VectorXd noise_scale_;
   std::vector<Part> parts_;
   std::map<double, double> values_;
@@ -119,10 +110,9 @@ class Likelihood {
 
 }  // namespace
 
-double ChooseNoiseScale(const MarkerSequence& recording, const KinematicModel& model,
-                        const std::vector<MarkerAssignment>& assignments,
-                        const std::vector<int>& joints, const S2kfSettings& settings) {
-  Likelihood likelihood(recording, model, assignments, joints, settings);
+double ChooseNoiseScale(const MarkerSequence& recording, const TrackingSetup& setup,
+                        const S2kfSettings& settings) {
+  Likelihood likelihood(recording, setup, settings);
   if (likelihood.num_frames() < kFewestFrames) return 1;
   // Uphill from the calmest motion to the first top: under much noise joints also take up that
   // markers sit elsewhere than the model has them, which has a top of its own.

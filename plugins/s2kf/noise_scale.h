@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
-#include "common/convert/marker_mapping.h"
-#include "common/model/kinematic_model.h"
+#include "common/convert/tracking_setup.h"
 #include "common/motion/marker_sequence.h"
 #include "plugins/s2kf/s2kf_settings.h"
 
@@ -14,9 +11,7 @@ namespace mmm_converter::s2kf {
 /// recording most: the least one that locally maximises the likelihood of the innovations, the sum
 /// of -(NIS + log det S) / 2 over up to 1000 frames from all parts of the recording (Mehra 1970),
 /// of the filter with a Jacobian. Within 1e-3 and 1e3; 1 where fewer than ten frames can be judged.
-/// joints: indices of the model.
-double ChooseNoiseScale(const MarkerSequence& recording, const KinematicModel& model,
-                        const std::vector<MarkerAssignment>& assignments,
-                        const std::vector<int>& joints, const S2kfSettings& settings);
+double ChooseNoiseScale(const MarkerSequence& recording, const TrackingSetup& setup,
+                        const S2kfSettings& settings);
 
 }  // namespace mmm_converter::s2kf

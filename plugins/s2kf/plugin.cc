@@ -21,12 +21,9 @@ class S2kfConverterFactory : public MotionConverterFactory {
     S2kfSettings defaults;
     return FormatConfigTemplate(name(), BindSettings(&defaults));
   }
-  std::unique_ptr<MotionConverter> Create(const KinematicModel& model,
-                                          const std::vector<MarkerAssignment>& assignments,
+  std::unique_ptr<MotionConverter> Create(const TrackingSetup& setup,
                                           const ConverterConfig& config) const override {
-    const S2kfSettings settings = ReadSettings(config);
-    return std::make_unique<S2kfConverter>(model, assignments, ResolveJoints(config, model),
-                                           settings);
+    return std::make_unique<S2kfConverter>(setup, ReadSettings(config));
   }
 };
 

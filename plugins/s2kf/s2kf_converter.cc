@@ -12,7 +12,6 @@ namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -46,19 +45,6 @@ constexpr double kAsWell = 4;
 // Of a frame, until no more markers are left out.
 constexpr int kGatePasses = 4;
 
-std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
-  std::vector<int> markers;
-  markers.reserve(assignments.size());
-  for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
-  return markers;
-}
-
-VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
-  VectorXd scales(assignments.size());
-  for (std::size_t i = 0; i < assignments.size(); ++i) scales[i] = assignments[i].noise_scale;
-  return scales;
-}
-
 int CountSeen(const Matrix3Xd& z) {
   int seen = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) seen += z.col(m).allFinite();
@@ -67,35 +53,34 @@ int CountSeen(const Matrix3Xd& z) {
 
 }  // namespace
 
-S2kfConverter::S2kfConverter(const KinematicModel& model,
-                             const std::vector<MarkerAssignment>& assignments,
-                             const std::vector<int>& joints, const S2kfSettings& settings)
-    : settings_(settings),
-      kinematics_(model, joints, MarkerIndices(assignments)),
-      assignments_(assignments),
-      noise_scale_(NoiseScales(assignments)),
+S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings)
+    : MotionConverter(setup),
+      settings_(settings),
+      kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
+      labels_(LabelIndices(setup.assignments())),
+      noise_scale_(NoiseScales(setup.assignments())),
       filter_(kinematics_, settings, noise_scale_),
       gate_(kinematics_, settings.gate_probability),
       search_(kinematics_),
       at_(kinematics_.MakeJacobian()),
       measured_(3, kinematics_.num_markers()),
       z_(3, kinematics_.num_markers()) {
-  track_.hidden_for.assign(assignments.size(), 0.0);
+  track_.hidden_for.assign(labels_.size(), 0.0);
   fit_options_.max_iterations = kFitIterations;
   if (settings.robust_distance > 0) fit_options_.robust_distance = settings.robust_distance;
   posture_.joint_angles.setZero(kinematics_.num_joints());
   candidate_ = posture_;
   deviations_.setZero(kinematics_.num_dofs());
-  estimate_.posture.joint_angles.setZero(model.num_joints());
-  estimate_.standard_deviations.setConstant(6 + model.num_joints(), kNaN);
+  estimate_.posture.joint_angles.setZero(setup.model->num_joints());
+  estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
   estimate_.residuals.setConstant(kinematics_.num_markers(), kNaN);
   estimate_.verdicts.setConstant(kinematics_.num_markers(), kAsLabelled);
 }
 
 int S2kfConverter::Gather(const Ref<const Matrix3Xd>& frame) {
   int seen = 0;
-  for (std::size_t i = 0; i < assignments_.size(); ++i) {
-    measured_.col(i) = frame.col(assignments_[i].label);
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    measured_.col(i) = frame.col(labels_[i]);
     if (measured_.col(i).allFinite()) {
       ++seen;
     } else {

@@ -21,18 +21,14 @@ namespace mmm_converter::s2kf {
 /// least-squares fit looks for a clearly better posture, from which the filter then goes on.
 class S2kfConverter : public MotionConverter {
  public:
-  /// model must outlive the converter. joints: indices of the model.
-  S2kfConverter(const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
-                const std::vector<int>& joints, const S2kfSettings& settings);
+  S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings);
 
   const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) override;
   const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override;
-  const std::vector<int>& joints() const override { return kinematics_.joints(); }
 
   /// With smoothing, postures, deviations and residuals are the smoothed ones; what a frame's
   /// diagnostic tells is of the filter.
-  ConversionResult Convert(const MarkerSequence& recording, const KinematicModel& model,
-                           const std::vector<MarkerAssignment>& assignments,
+  ConversionResult Convert(const MarkerSequence& recording,
                            const std::function<bool(int)>& progress) override;
 
  private:
@@ -96,7 +92,7 @@ class S2kfConverter : public MotionConverter {
 
   S2kfSettings settings_;
   MarkerKinematics kinematics_;
-  std::vector<MarkerAssignment> assignments_;
+  std::vector<int> labels_;  // by assignment
   Eigen::VectorXd noise_scale_;
   MarkerFilter filter_;
   MarkerGate gate_;

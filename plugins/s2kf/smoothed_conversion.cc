@@ -46,24 +46,22 @@ double SecondsSince(Clock::time_point start) {
 }  // namespace
 
 ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
-                                        const KinematicModel& model,
-                                        const std::vector<MarkerAssignment>& assignments,
                                         const std::function<bool(int)>& progress) {
   if (settings_.choose_noise_scale) {
     S2kfSettings settings = settings_;
-    const double scale = ChooseNoiseScale(recording, model, assignments, joints(), settings);
+    const double scale = ChooseNoiseScale(recording, setup(), settings);
     settings.noise_scale *= scale;
     settings.choose_noise_scale = false;
-    S2kfConverter converter(model, assignments, joints(), settings);
-    ConversionResult result = converter.Convert(recording, model, assignments, progress);
+    S2kfConverter converter(setup(), settings);
+    ConversionResult result = converter.Convert(recording, progress);
     result.noise_scale = scale;
     return result;
   }
   if (!settings_.smoothing) {
-    return MotionConverter::Convert(recording, model, assignments, progress);
+    return MotionConverter::Convert(recording, progress);
   }
   Checkpoints checkpoints;
-  ConversionResult result = MotionConverter::Convert(recording, model, assignments, [&](int done) {
+  ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
     if (checkpoints.first < 0) checkpoints.first = done - 1;
     KeepCheckpoint(done - 1, &checkpoints);
     return !progress || progress(done);

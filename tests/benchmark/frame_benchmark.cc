@@ -31,10 +31,10 @@ struct Task {
     markers = SynthesizeMarkers(model, MakeHandstand(model), MarkerErrors{}, 1);
     assignments = AssignAll(model, markers);
     assignments.resize(std::min<std::size_t>(num_markers, assignments.size()));
-    std::vector<int> indices;
-    for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);
-    kinematics = std::make_unique<MarkerKinematics>(model, joints, indices);
+    kinematics = std::make_unique<MarkerKinematics>(model, joints, MarkerIndices(assignments));
   }
+
+  TrackingSetup Setup() const { return SetupOf(model, joints, assignments); }
 
   /// The paper's 40, or the first so many of the whole body with its fingers.
   static std::vector<int> Joints(const KinematicModel& model, int count) {
@@ -79,7 +79,7 @@ void ForwardKinematics(benchmark::State& state) {
 }
 
 void RunFrames(benchmark::State& state, const S2kfSettings& settings, const Task& task) {
-  S2kfConverter converter(task.model, task.assignments, task.joints, settings);
+  S2kfConverter converter(task.Setup(), settings);
   converter.Assemble(task.markers.frame(0));
   for (int k = 1; k < kSettled; ++k) converter.Track(task.markers.frame(k), kFrameTime);
   int step = 0;
@@ -131,7 +131,7 @@ void LeastSquaresFrame(benchmark::State& state) {
 
 void Start(benchmark::State& state) {
   const Task task(kJoints, kMarkers);
-  S2kfConverter converter(task.model, task.assignments, task.joints, S2kfSettings{});
+  S2kfConverter converter(task.Setup(), S2kfSettings{});
   for (auto _ : state) benchmark::DoNotOptimize(converter.Assemble(task.markers.frame(0)));
 }
 

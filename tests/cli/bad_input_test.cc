@@ -101,7 +101,13 @@ TEST(BadInput, TruncatedFile) {
 }
 
 TEST(BadInput, NoKnownLabel) {
-  ExpectRefused({WriteRecording({"X1", "X2", "X3", "X4"}, 4), "--height", "1.8"}, "X1, X2, X3, X4");
+  const std::string recording = WriteRecording({"X1", "X2", "X3", "X4"}, 4);
+  ExpectRefused({recording, "--height", "1.8"}, "X1, X2, X3, X4");
+  ExpectRefused({recording, "--height", "1.8"}, recording + ": no marker set");
+  ExpectRefused({recording, "--height", "1.8", "-c",
+                 ConfigWith("<Model><MarkerMapping><Mapping source='C7' target='MARKER_C7'/>"
+                            "</MarkerMapping></Model>")},
+                recording + ": no label of the recording is mapped: it has X1, X2, X3, X4");
 }
 
 TEST(BadInput, FewerThanThreeMarkers) {

@@ -254,9 +254,10 @@ TEST(Objects, AMotionThatFailsIsNamedAndTheOthersAreConverted) {
   const auto run = RunProgram({"convert", input, "--motion", "all", "-o", output});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err,
-              AllOf(HasSubstr("motion rod: the markers (rod_0, rod_1, rod_2, rod_3) stand "
-                              "on a line"),
-                    HasSubstr("motion pair: the pose of a rigid object needs three markers")));
+              AllOf(HasSubstr("motion rod: " + input +
+                              ": the markers (rod_0, rod_1, rod_2, rod_3) stand on a line"),
+                    HasSubstr("motion pair: " + input +
+                              ": the pose of a rigid object needs three markers")));
   const MmmMotionFile file = ReadMmmMotionFile(output);
   EXPECT_EQ(FindMotion(file, "box").trajectory.num_frames(), 60);
   EXPECT_EQ(FindMotion(file, "rod").trajectory.num_frames(), 0);

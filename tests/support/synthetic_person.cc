@@ -124,6 +124,13 @@ std::vector<MarkerAssignment> AssignAll(const KinematicModel& model,
   return assignments;
 }
 
+TrackingSetup SetupOf(const KinematicModel& model, std::vector<int> joints,
+                      std::vector<MarkerAssignment> assignments) {
+  TrackingSetup setup{std::make_shared<const KinematicModel>(model), std::move(joints), {}};
+  setup.mapping.assignments = std::move(assignments);
+  return setup;
+}
+
 double MeanCentreError(const KinematicModel& person, const PoseTrajectory& truth,
                        const KinematicModel& model, const PoseTrajectory& estimate) {
   const std::vector<int> joints = TrackedJoints(model);
@@ -142,13 +149,8 @@ double MeanCentreError(const KinematicModel& person, const PoseTrajectory& truth
 PoseTrajectory FitRecording(const KinematicModel& model, const std::vector<int>& joints,
                             const std::vector<MarkerAssignment>& assignments,
                             const MarkerSequence& recording) {
-  std::vector<int> markers;
-  std::vector<int> labels;
-  for (const MarkerAssignment& assignment : assignments) {
-    markers.push_back(assignment.marker);
-    labels.push_back(assignment.label);
-  }
-  const MarkerKinematics kinematics(model, joints, markers);
+  const std::vector<int> labels = LabelIndices(assignments);
+  const MarkerKinematics kinematics(model, joints, MarkerIndices(assignments));
   PostureSearch search(kinematics);
   PostureFitOptions options;
   options.robust_distance = 0.1;

@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/convert/marker_mapping.h"
-#include "common/model/kinematic_model.h"
+#include "common/convert/tracking_setup.h"
 #include "common/model/subject.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
@@ -35,6 +34,10 @@ MarkerSequence RecordPerson(const KinematicModel& person, const PoseTrajectory& 
 /// Labels are marker names without MARKER_, all mapped.
 std::vector<MarkerAssignment> AssignAll(const KinematicModel& model,
                                         const MarkerSequence& recording);
+
+/// A setup of these.
+TrackingSetup SetupOf(const KinematicModel& model, std::vector<int> joints,
+                      std::vector<MarkerAssignment> assignments);
 
 /// Mean distance of the tracked joints' centres over all frames [m]; trajectories by joint name.
 double MeanCentreError(const KinematicModel& person, const PoseTrajectory& truth,

@@ -24,9 +24,9 @@ HeldOut CalibrateOnFirstHalf(const std::string& path, double height) {
   const KinematicModel model = testing::ScaledReferenceModel(height);
   ConverterConfig config;
   config.marker_set = "auto";
-  std::string set;
-  const auto assignments =
-      ResolveMarkerMapping(ResolveMarkerPairs(config, all, model, &set), all, model).assignments;
+  const TrackingSetup setup =
+      MatchMarkers(LabelsOf(all), std::make_shared<const KinematicModel>(model), config);
+  const auto& assignments = setup.assignments();
   const int half = all.num_frames() / 2;
   const MarkerSequence first = all.Slice(0, half);
   const MarkerSequence second = all.Slice(half, all.num_frames());

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "common/io/mmm/mmm_model.h"
-#include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/stick_model.h"
@@ -214,17 +213,11 @@ TEST(ResolveJoints, ErrorsNameEveryUnknownJointWithItsLine) {
                     "use auto, mmm44, mmm40, all or Upper")));
 }
 
-MarkerSequence RecordingOf(const std::vector<std::string>& labels) {
-  MarkerSequence recording(labels, 1, 100, 0);
-  recording.frame(0).setZero();
-  return recording;
-}
-
 TEST(ResolveMarkerPairs, TakesTheConfigurationsOwnList) {
   ConverterConfig config;
   config.marker_pairs = {{"a", "MARKER_A"}};
   std::string name = "unchanged";
-  const auto pairs = ResolveMarkerPairs(config, RecordingOf({"a"}), testing::StickModel(), &name);
+  const auto pairs = ResolveMarkerPairs(config, {{"a"}}, testing::StickModel(), &name);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].source, "a");
   EXPECT_EQ(name, "");
@@ -234,14 +227,14 @@ TEST(ResolveMarkerPairs, ChoosesAmongTheShippedSets) {
   const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
   ConverterConfig config;
   std::string name;
-  const auto pairs = ResolveMarkerPairs(config, RecordingOf({"LAEL", "LAOL", "C7"}), model, &name);
+  const auto pairs = ResolveMarkerPairs(config, {{"LAEL", "LAOL", "C7"}}, model, &name);
   EXPECT_EQ(name, "KIT");
   EXPECT_GE(pairs.size(), 53u);
-  ResolveMarkerPairs(config, RecordingOf({"LELB", "LFWT", "C7"}), model, &name);
+  ResolveMarkerPairs(config, {{"LELB", "LFWT", "C7"}}, model, &name);
   EXPECT_EQ(name, "PluginGait");
   for (const char* set : {"KIT", "kit53"}) {
     config.marker_set = set;
-    ResolveMarkerPairs(config, RecordingOf({"LELB", "LFWT", "C7"}), model, &name);
+    ResolveMarkerPairs(config, {{"LELB", "LFWT", "C7"}}, model, &name);
     EXPECT_EQ(name, "KIT");
   }
 }
@@ -252,8 +245,7 @@ TEST(ResolveMarkerPairs, ReadsASetBesideTheConfiguration) {
   config.marker_set = "kit53.xml";
   std::string name;
   // The stick model has none of the set's markers.
-  EXPECT_THAT(ResolveMarkerPairs(config, RecordingOf({"C7"}), testing::StickModel(), &name),
-              IsEmpty());
+  EXPECT_THAT(ResolveMarkerPairs(config, {{"C7"}}, testing::StickModel(), &name), IsEmpty());
   EXPECT_EQ(name, "KIT");
 }
 
@@ -263,7 +255,7 @@ TEST(ResolveMarkerPairs, SaysWhichSetsThereAre) {
   EXPECT_THAT(
       [&] {
         std::string name;
-        ResolveMarkerPairs(config, RecordingOf({"C7"}), testing::StickModel(), &name);
+        ResolveMarkerPairs(config, {{"C7"}}, testing::StickModel(), &name);
       },
       ThrowsMessage<Error>(HasSubstr("c.xml:3: <MarkerMapping>: there is no marker set \"kti53\" "
                                      "(did you mean kit53?)")));

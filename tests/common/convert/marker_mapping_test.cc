@@ -38,7 +38,7 @@ MarkerSequence MakeRecording(const std::vector<std::string>& labels) {
 
 std::string MessageOf(const std::vector<MarkerPair>& pairs, const MarkerSequence& recording) {
   try {
-    ResolveMarkerMapping(pairs, recording, MakeModel());
+    ResolveMarkerMapping(pairs, LabelsOf(recording, "walk.c3d"), MakeModel());
   } catch (const Error& error) {
     return error.what();
   }
@@ -48,7 +48,7 @@ std::string MessageOf(const std::vector<MarkerPair>& pairs, const MarkerSequence
 TEST(MarkerMapping, ResolvesByMarkerWithoutCaseBlanksAndPrefix) {
   const MarkerMapping mapping = ResolveMarkerMapping(
       {{"R Knee", "MARKER_C"}, {"Anna:lfhd", "MARKER_A", 2}, {"gone", "MARKER_B"}},
-      MakeRecording({"other", "LFHD", "r.knee"}), MakeModel());
+      LabelsOf(MakeRecording({"other", "LFHD", "r.knee"})), MakeModel());
   ASSERT_EQ(mapping.assignments.size(), 2u);
   EXPECT_EQ(mapping.assignments[0].label, 1);
   EXPECT_EQ(mapping.assignments[0].marker, 0);
@@ -66,7 +66,7 @@ TEST(MarkerMapping, TakesTheFirstSubstituteThatIsSeen) {
                             {"TIB", "MARKER_A", 3, "worn anywhere"},
                             {"SHN", "MARKER_A", 3},
                             {"X2", "MARKER_B"}},
-                           MakeRecording({"X1", "SHN", "TIB", "X2"}), MakeModel());
+                           LabelsOf(MakeRecording({"X1", "SHN", "TIB", "X2"})), MakeModel());
   ASSERT_EQ(mapping.assignments.size(), 1u);
   EXPECT_EQ(mapping.assignments[0].label, 2);
   EXPECT_THAT(mapping.ignored_labels, ElementsAre("X1", "SHN", "X2"));
@@ -76,9 +76,26 @@ TEST(MarkerMapping, TakesTheFirstSubstituteThatIsSeen) {
                           HasSubstr("X2 is not seen")));
 }
 
+TEST(MarkerMapping, OfAStreamTakesTheFirstSubstitute) {
+  const MarkerMapping mapping =
+      ResolveMarkerMapping({{"X1", "MARKER_A"}, {"TIB", "MARKER_A", 3}, {"X2", "MARKER_B"}},
+                           {{"X1", "TIB", "X2"}}, MakeModel());
+  EXPECT_THAT(LabelIndices(mapping.assignments), ElementsAre(0, 2));
+  EXPECT_THAT(MarkerIndices(mapping.assignments), ElementsAre(0, 1));
+  EXPECT_THAT(NoiseScales(mapping.assignments), ElementsAre(1, 1));
+  EXPECT_THAT(mapping.warnings, IsEmpty());
+}
+
+TEST(MarkerMapping, LabelsOfARecordingAreThoseSeenInSomeFrame) {
+  const MarkerLabels labels = LabelsOf(MakeRecording({"A", "X1", "B"}), "walk.c3d");
+  EXPECT_THAT(labels.names, ElementsAre("A", "X1", "B"));
+  EXPECT_THAT(labels.seen, ElementsAre(true, false, true));
+  EXPECT_EQ(labels.source, "walk.c3d");
+}
+
 TEST(MarkerMapping, SaysWhatDoesNotMatch) {
   EXPECT_THAT(MessageOf({{"C7", "MARKER_A"}, {"T10", "MARKER_B"}}, MakeRecording({"foo", "bar"})),
-              AllOf(HasSubstr("foo, bar"), HasSubstr("C7, T10")));
+              AllOf(HasSubstr("walk.c3d: no label"), HasSubstr("foo, bar"), HasSubstr("C7, T10")));
   EXPECT_THAT(MessageOf({}, MakeRecording({"foo"})), HasSubstr("the mapping has none"));
   EXPECT_THAT(MessageOf({{"C7", "MARKER_Z"}}, MakeRecording({"C7"})),
               AllOf(HasSubstr("not markers of model mmm: MARKER_Z"), HasSubstr("MARKER_D")));

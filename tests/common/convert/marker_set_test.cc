@@ -47,10 +47,10 @@ MarkerMapping MapRecording(const std::string& file, std::string* set_name,
   options.subject = subject;
   const Recording recording = ReadRecording(SharedData("recordings/" + file), options);
   const std::vector<MarkerSet> sets = ShippedSets();
-  const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
+  const MarkerSet& set = ChooseMarkerSet(sets, LabelsOf(recording.markers));
   *set_name = set.name;
   const KinematicModel model = ShippedModel();
-  return ResolveMarkerMapping(PairsInModel(set, model), recording.markers, model);
+  return ResolveMarkerMapping(PairsInModel(set, model), LabelsOf(recording.markers), model);
 }
 
 TEST(MarkerSet, ShippedSetsNameMarkersOfTheShippedModel) {
@@ -160,8 +160,8 @@ TEST(MarkerSet, TrustsLessWhatIsWornElsewhereAndSaysSo) {
 
 TEST(MarkerSet, NeedsThreeKnownLabels) {
   const std::vector<MarkerSet> sets = ShippedSets();
-  EXPECT_THROW(ChooseMarkerSet(sets, MarkerSequence({"C7", "T10", "box"}, 1, 100, 0)), Error);
-  EXPECT_EQ(ChooseMarkerSet(sets, MarkerSequence({"C7", "T10", "LHIP"}, 1, 100, 0)).name, "KIT");
+  EXPECT_THROW(ChooseMarkerSet(sets, {{"C7", "T10", "box"}}), Error);
+  EXPECT_EQ(ChooseMarkerSet(sets, {{"C7", "T10", "LHIP"}}).name, "KIT");
 }
 
 TEST(MarkerSet, SaysFileAndLineOfWhatIsWrong) {

@@ -20,7 +20,7 @@ using ::testing::ThrowsMessage;
 // Says in the posture what it was asked for: x counts calls, y is dt; the joints turn by call / 10.
 class RecordingConverter final : public MotionConverter {
  public:
-  RecordingConverter() {
+  explicit RecordingConverter(const TrackingSetup& setup) : MotionConverter(setup) {
     estimate_.posture.joint_angles.setZero(2);
     estimate_.standard_deviations = Eigen::VectorXd::LinSpaced(8, 1, 8);
     estimate_.residuals = Eigen::Vector3d(0.01, 0.02, 0.03);
@@ -33,7 +33,6 @@ class RecordingConverter final : public MotionConverter {
   const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override {
     return Answer(frame, dt);
   }
-  const std::vector<int>& joints() const override { return joints_; }
 
  private:
   const FrameEstimate& Answer(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) {
@@ -45,7 +44,6 @@ class RecordingConverter final : public MotionConverter {
   }
 
   int calls_ = 0;
-  std::vector<int> joints_ = {1};
   FrameEstimate estimate_;
 };
 
@@ -64,12 +62,16 @@ class MotionConverterTest : public ::testing::Test {
 
   ConversionResult Convert(const MarkerSequence& recording,
                            const std::function<bool(int)>& progress = {}) {
-    return converter_.Convert(recording, model_, assignments_, progress);
+    return converter_.Convert(recording, progress);
   }
 
-  KinematicModel model_ = testing::StickModel();
-  std::vector<MarkerAssignment> assignments_ = {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}};
-  RecordingConverter converter_;
+  static TrackingSetup MakeSetup() {
+    TrackingSetup setup{std::make_shared<const KinematicModel>(testing::StickModel()), {1}, {}};
+    setup.mapping.assignments = {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}};
+    return setup;
+  }
+
+  RecordingConverter converter_{MakeSetup()};
 };
 
 TEST_F(MotionConverterTest, AssemblesTheFirstFrameAndTracksTheOthers) {
@@ -94,12 +96,13 @@ TEST_F(MotionConverterTest, KeepsTheTrackedJointsOnly) {
 
 TEST_F(MotionConverterTest, FramesBeforeTheFirstPostureTakeItUnconverged) {
   const ConversionResult result = Convert(MakeRecording(5, 2));
+  const KinematicModel& model = *converter_.setup().model;
   for (int k = 0; k < 2; ++k) {
     EXPECT_EQ(result.trajectory.postures[k].position, Eigen::Vector3d(0, -1, 2));
     EXPECT_FALSE(result.frames[k].converged);
     EXPECT_EQ(result.frames[k].markers_seen, 1);
     const Eigen::Vector3d p_WM =
-        MarkerPositions(model_, ZeroPosture(model_)).col(0) + Eigen::Vector3d(0, -1, 2);
+        MarkerPositions(model, ZeroPosture(model)).col(0) + Eigen::Vector3d(0, -1, 2);
     EXPECT_DOUBLE_EQ(result.residuals(0, k), (Eigen::Vector3d(k, 0, 0) - p_WM).norm());
     EXPECT_TRUE(std::isnan(result.residuals(1, k)));
   }

@@ -45,8 +45,9 @@ TEST(LoadedPlugin, GivesTheFactoryAndItsConverters) {
   const LoadedPlugin plugin(TestPlugin("test_converter"));
   EXPECT_EQ(plugin.factory().name(), "TestConverter");
   EXPECT_EQ(plugin.version(), kConverterInterfaceVersion);
-  const KinematicModel model = testing::StickModel();
-  const auto converter = plugin.factory().Create(model, {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}}, {});
+  TrackingSetup setup{std::make_shared<const KinematicModel>(testing::StickModel()), {0, 1}, {}};
+  setup.mapping.assignments = {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}};
+  const auto converter = plugin.factory().Create(setup, {});
   const Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Constant(3, 3, 2.0);
   EXPECT_EQ(converter->Assemble(frame).posture.position, Eigen::Vector3d(2, 2, 2));
 }
@@ -56,8 +57,8 @@ TEST(LoadedPlugin, ErrorsOfAPluginArriveAsOurs) {
   ConverterConfig config;
   config.file = "walk.xml";
   config.plugin_elements = ParseXml("<C>\n<Tset/></C>", "walk.xml").children;
-  const KinematicModel model = testing::StickModel();
-  EXPECT_THAT(ErrorOf([&] { plugin.factory().Create(model, {}, config); }),
+  const TrackingSetup setup{std::make_shared<const KinematicModel>(testing::StickModel()), {}, {}};
+  EXPECT_THAT(ErrorOf([&] { plugin.factory().Create(setup, config); }),
               HasSubstr("walk.xml:2: unknown element <Tset> (did you mean Test?)"));
 }
 

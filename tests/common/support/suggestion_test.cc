@@ -16,12 +16,5 @@ TEST(ClosestName, FindsMisspellingsOnly) {
   EXPECT_EQ(ClosestName(std::string(100000, 'a'), names), "");
 }
 
-TEST(JoinNames, ReadsLikeASentence) {
-  EXPECT_EQ(JoinNames({}), "");
-  EXPECT_EQ(JoinNames({"a"}), "a");
-  EXPECT_EQ(JoinNames({"a", "b", "c"}), "a, b or c");
-  EXPECT_EQ(JoinNames({"a", "b"}, " and "), "a and b");
-}
-
 }  // namespace
 }  // namespace mmm_converter

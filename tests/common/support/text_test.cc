@@ -41,5 +41,18 @@ TEST(Text, ParsesLists) {
   EXPECT_FALSE(AppendDoubles("1 x 2", &numbers));
 }
 
+TEST(JoinNames, ReadsLikeASentence) {
+  EXPECT_EQ(JoinNames({}), "");
+  EXPECT_EQ(JoinNames({"a"}), "a");
+  EXPECT_EQ(JoinNames({"a", "b", "c"}), "a, b or c");
+  EXPECT_EQ(JoinNames({"a", "b"}, " and "), "a and b");
+}
+
+TEST(FirstNames, LeavesOutWhatIsTooMany) {
+  EXPECT_EQ(FirstNames({}), "");
+  EXPECT_EQ(FirstNames({"a", "b"}, 2), "a, b");
+  EXPECT_EQ(FirstNames({"a", "b", "c"}, 2), "a, b, ...");
+}
+
 }  // namespace
 }  // namespace mmm_converter

@@ -61,8 +61,9 @@ TEST(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
   int which = 0;
   for (const JacobianSettings& settings : {JacobianSettings(), pull, gradient}) {
     SCOPED_TRACE(which++);
-    JacobianConverter converter(model, s2kf::AssignAll(model, markers),
-                                s2kf::MotionJoints(model, 44), settings);
+    JacobianConverter converter(
+        s2kf::SetupOf(model, s2kf::MotionJoints(model, 44), s2kf::AssignAll(model, markers)),
+        settings);
     converter.Assemble(markers.frame(0));
     converter.Track(markers.frame(1), 0.01);
     const long before = allocations;

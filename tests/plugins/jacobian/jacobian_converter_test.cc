@@ -35,8 +35,8 @@ class JacobianConverterTest : public ::testing::Test {
 
   ConversionResult Convert(const MarkerSequence& markers, const JacobianSettings& settings) const {
     const auto assignments = s2kf::AssignAll(model_, markers);
-    JacobianConverter converter(model_, assignments, joints_, settings);
-    return converter.Convert(markers, model_, assignments, nullptr);
+    JacobianConverter converter(s2kf::SetupOf(model_, joints_, assignments), settings);
+    return converter.Convert(markers, nullptr);
   }
 
   static JacobianSettings Gradient(int steps) {
@@ -107,8 +107,8 @@ TEST_F(JacobianConverterTest, LeastSquaresIsTheOptimumAndTheFilterIsNotBelow) {
   const MarkerSequence markers = MakeMarkers({});
   const ConversionResult fit = Convert(markers, {});
   const auto assignments = s2kf::AssignAll(model_, markers);
-  s2kf::S2kfConverter converter(model_, assignments, joints_, {});
-  const ConversionResult filter = converter.Convert(markers, model_, assignments, nullptr);
+  s2kf::S2kfConverter converter(s2kf::SetupOf(model_, joints_, assignments), {});
+  const ConversionResult filter = converter.Convert(markers, nullptr);
   std::vector<int> indices(markers.num_labels());
   for (int i = 0; i < markers.num_labels(); ++i) indices[i] = assignments[i].marker;
   std::vector<int> labels(markers.num_labels());
@@ -249,7 +249,7 @@ TEST_F(JacobianConverterTest, KnowsNoUncertainty) {
 TEST_F(JacobianConverterTest, TwoMarkersAreTooFewToStart) {
   MarkerSequence markers = MakeMarkers({}).Slice(0, 1);
   markers.frame(0).rightCols(markers.num_labels() - 2).setConstant(std::nan(""));
-  JacobianConverter converter(model_, s2kf::AssignAll(model_, markers), joints_, {});
+  JacobianConverter converter(s2kf::SetupOf(model_, joints_, s2kf::AssignAll(model_, markers)), {});
   EXPECT_THROW(converter.Assemble(markers.frame(0)), Error);
 }
 

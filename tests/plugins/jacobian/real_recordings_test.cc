@@ -29,10 +29,10 @@ TEST(KitBimanualTest, LeastSquaresIsBelowKitsOwnSolutionAndNotAboveTheFilter) {
   const auto assignments = s2kf::AssignAll(model, recorded->markers);
   ASSERT_EQ(assignments.size(), 53u);
 
-  JacobianConverter converter(model, assignments, joints, {});
-  const ConversionResult fit = converter.Convert(recorded->markers, model, assignments, nullptr);
-  s2kf::S2kfConverter tracker(model, assignments, joints, {});
-  const ConversionResult filter = tracker.Convert(recorded->markers, model, assignments, nullptr);
+  const TrackingSetup setup = s2kf::SetupOf(model, joints, assignments);
+  const ConversionResult fit = JacobianConverter(setup, {}).Convert(recorded->markers, nullptr);
+  const ConversionResult filter =
+      s2kf::S2kfConverter(setup, {}).Convert(recorded->markers, nullptr);
 
   Eigen::MatrixXd stored(fit.residuals.rows(), fit.residuals.cols());
   for (int k = 0; k < recorded->markers.num_frames(); ++k) {

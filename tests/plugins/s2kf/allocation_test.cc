@@ -64,7 +64,8 @@ TEST_P(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
     settings.filter = GetParam();
     settings.update = update;
     settings.iterations = update == UpdateForm::kExact ? 1 : 3;
-    S2kfConverter converter(model, AssignAll(model, markers), MotionJoints(model, 44), settings);
+    S2kfConverter converter(SetupOf(model, MotionJoints(model, 44), AssignAll(model, markers)),
+                            settings);
     converter.Assemble(markers.frame(0));
     converter.Track(markers.frame(1), 0.01);
     const long before = allocations;

@@ -39,8 +39,8 @@ struct Distances {
 Distances Track(const KinematicModel& model, const std::vector<MarkerAssignment>& assignments,
                 const S2kfSettings& settings, const MarkerSequence& seen,
                 const MarkerSequence& all) {
-  S2kfConverter converter(model, assignments, testing::TrackedJoints(model), settings);
-  const PoseTrajectory motion = converter.Convert(seen, model, assignments, {}).trajectory;
+  S2kfConverter converter(SetupOf(model, testing::TrackedJoints(model), assignments), settings);
+  const PoseTrajectory motion = converter.Convert(seen, {}).trajectory;
   Distances result;
   long num_all = 0;
   long num_hidden = 0;

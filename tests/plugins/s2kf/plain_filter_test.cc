@@ -56,11 +56,8 @@ TEST_P(PlainFilterTest, TheFastFilterIsTheSame) {
   const KinematicModel model = ScaledReferenceModel(1.8);
   const MarkerSequence markers =
       SynthesizeMarkers(model, MakeHandstand(model), MarkerErrors{}, 1).Slice(200, 230);
-  const std::vector<MarkerAssignment> assignments = AssignAll(model, markers);
-  std::vector<int> indices;
-  indices.reserve(assignments.size());
-  for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);
-  const MarkerKinematics kinematics(model, MotionJoints(model, 40), indices);
+  const MarkerKinematics kinematics(model, MotionJoints(model, 40),
+                                    MarkerIndices(AssignAll(model, markers)));
   S2kfSettings settings;
   settings.update = GetParam();
   settings.iterations = 1;

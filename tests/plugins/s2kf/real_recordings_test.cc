@@ -84,9 +84,9 @@ TEST_P(PluginGaitTest, FollowsTheOptimum) {
       testing::SharedData(std::string("recordings/whole_body/") + GetParam().file + ".c3d"), {});
   const KinematicModel model = ScaledReferenceModel(1.7);
   const std::vector<MarkerSet> sets = ReadMarkerSets(testing::SourcePath("xml_config/marker_sets"));
-  const MarkerSet& set = ChooseMarkerSet(sets, recording.markers);
+  const MarkerSet& set = ChooseMarkerSet(sets, LabelsOf(recording.markers));
   const MarkerMapping mapping =
-      ResolveMarkerMapping(PairsInModel(set, model), recording.markers, model);
+      ResolveMarkerMapping(PairsInModel(set, model), LabelsOf(recording.markers), model);
   const TrackedRun run =
       RunTracker(model, MotionJoints(model, 44), S2kfSettings{}, recording.markers,
                  recording.markers, nullptr, mapping.assignments);

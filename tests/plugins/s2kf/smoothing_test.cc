@@ -46,8 +46,7 @@ struct Scene {
         assignments(AssignAll(model, markers)) {}
 
   ConversionResult Convert(const S2kfSettings& settings, const MarkerSequence& seen) const {
-    S2kfConverter converter(model, assignments, joints, settings);
-    return converter.Convert(seen, model, assignments, {});
+    return S2kfConverter(SetupOf(model, joints, assignments), settings).Convert(seen, {});
   }
 
   /// The tracked joints' true angles, joints x frames.
@@ -108,13 +107,8 @@ double LargestStep(const MatrixXd& angles, const MatrixXd& truth) {
 
 /// The best posture of each frame by itself, from the frame before.
 MatrixXd FramewiseFit(const Scene& scene) {
-  std::vector<int> markers;
-  std::vector<int> labels;
-  for (const MarkerAssignment& a : scene.assignments) {
-    markers.push_back(a.marker);
-    labels.push_back(a.label);
-  }
-  const MarkerKinematics kinematics(scene.model, scene.joints, markers);
+  const std::vector<int> labels = LabelIndices(scene.assignments);
+  const MarkerKinematics kinematics(scene.model, scene.joints, MarkerIndices(scene.assignments));
   PostureFit fit(kinematics);
   PostureFitOptions options;
   options.tolerance = 1e-6;

@@ -29,11 +29,8 @@ int Run(const std::string& method) {
   S2kfSettings settings;
   if (method == "s2kf-exact") settings.update = UpdateForm::kExact;
   if (method == "ekf") settings.filter = FilterType::kEkf;
-  S2kfConverter converter(model, assignments, joints, settings);
-  std::vector<int> indices;
-  indices.reserve(assignments.size());
-  for (const MarkerAssignment& a : assignments) indices.push_back(a.marker);
-  const MarkerKinematics kinematics(model, joints, indices);
+  S2kfConverter converter(SetupOf(model, joints, assignments), settings);
+  const MarkerKinematics kinematics(model, joints, MarkerIndices(assignments));
   MarkerJacobian at = kinematics.MakeJacobian();
   PostureFit fit(kinematics);
   const Eigen::VectorXd scale = Eigen::VectorXd::Ones(kinematics.num_markers());

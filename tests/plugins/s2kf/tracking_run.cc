@@ -130,14 +130,9 @@ TrackedRun RunTracker(const KinematicModel& model, const std::vector<int>& joint
                       const S2kfSettings& settings, const MarkerSequence& seen,
                       const MarkerSequence& all, const PoseTrajectory* truth,
                       const std::vector<MarkerAssignment>& assignments) {
-  S2kfConverter converter(model, assignments, joints, settings);
-  std::vector<int> markers;
-  std::vector<int> labels;
-  for (const MarkerAssignment& a : assignments) {
-    markers.push_back(a.marker);
-    labels.push_back(a.label);
-  }
-  const MarkerKinematics kinematics(model, joints, markers);
+  S2kfConverter converter(SetupOf(model, joints, assignments), settings);
+  const std::vector<int> labels = LabelIndices(assignments);
+  const MarkerKinematics kinematics(model, joints, MarkerIndices(assignments));
   FrameOptimum optimum(kinematics, assignments);
   TrackedRun run;
   const double share = 1.0 / (static_cast<double>(joints.size()) * seen.num_frames());

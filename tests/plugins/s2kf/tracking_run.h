@@ -15,6 +15,7 @@ namespace mmm_converter::s2kf {
 
 using testing::AssignAll;
 using testing::ScaledReferenceModel;
+using testing::SetupOf;
 
 /// Indices of KIT's 44 joints, or of the 40 of the paper.
 std::vector<int> MotionJoints(const KinematicModel& model, int count);

@@ -230,7 +230,7 @@ TEST(StartTest, FromRandomPosturesAndAnyHeading) {
     }
     still.postures.assign(30, q);
     const MarkerSequence markers = SynthesizeMarkers(model, still, {0, 0, 0.25, 0.001}, 100 + i);
-    S2kfConverter converter(model, AssignAll(model, markers), joints, S2kfSettings{});
+    S2kfConverter converter(SetupOf(model, joints, AssignAll(model, markers)), S2kfSettings{});
     const FrameEstimate* estimate = &converter.Assemble(markers.frame(0));
     for (int k = 1; k < 30; ++k) estimate = &converter.Track(markers.frame(k), 0.01);
     found += estimate->residuals.mean() <= 0.003;

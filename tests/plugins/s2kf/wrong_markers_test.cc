@@ -65,8 +65,8 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
   Outcome Track(const MarkerSequence& seen, double gate_probability = 1e-6) const {
     S2kfSettings settings;
     settings.gate_probability = gate_probability;
-    S2kfConverter converter(model_, assignments_, joints_, settings);
-    const ConversionResult result = converter.Convert(seen, model_, assignments_, {});
+    S2kfConverter converter(SetupOf(model_, joints_, assignments_), settings);
+    const ConversionResult result = converter.Convert(seen, {});
     Outcome run;
     run.incidents = result.incidents;
     run.error.setZero(seen.num_frames());

@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/convert/converter_config.h"
@@ -34,15 +33,11 @@ SettingTable MakeTable(TestSettings* settings) {
 
 class TestConverter final : public MotionConverter {
  public:
-  TestConverter(const KinematicModel& model, std::vector<MarkerAssignment> assignments,
-                std::vector<int> joints, const TestSettings& settings)
-      : model_(model),
-        assignments_(std::move(assignments)),
-        joints_(std::move(joints)),
-        settings_(settings) {
-    estimate_.posture = ZeroPosture(model);
-    estimate_.standard_deviations.setZero(6 + model.num_joints());
-    estimate_.residuals.setZero(static_cast<int>(assignments_.size()));
+  TestConverter(const TrackingSetup& setup, const TestSettings& settings)
+      : MotionConverter(setup), settings_(settings) {
+    estimate_.posture = ZeroPosture(*setup.model);
+    estimate_.standard_deviations.setZero(6 + setup.model->num_joints());
+    estimate_.residuals.setZero(static_cast<int>(setup.assignments().size()));
   }
 
   const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) override {
@@ -53,7 +48,8 @@ class TestConverter final : public MotionConverter {
                              double /*dt*/) override {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     estimate_.markers_seen = 0;
-    for (const MarkerAssignment& assignment : assignments_) {
+    const std::vector<MarkerAssignment>& assignments = setup().assignments();
+    for (const MarkerAssignment& assignment : assignments) {
       if (!IsSeen(frame.col(assignment.label))) continue;
       sum += frame.col(assignment.label);
       ++estimate_.markers_seen;
@@ -63,20 +59,15 @@ class TestConverter final : public MotionConverter {
       estimate_.posture.position =
           sum / estimate_.markers_seen + settings_.height_offset * Eigen::Vector3d::UnitZ();
     }
-    const Eigen::Matrix3Xd p_WM = MarkerPositions(model_, estimate_.posture);
-    for (std::size_t i = 0; i < assignments_.size(); ++i) {
+    const Eigen::Matrix3Xd p_WM = MarkerPositions(*setup().model, estimate_.posture);
+    for (std::size_t i = 0; i < assignments.size(); ++i) {
       estimate_.residuals[static_cast<int>(i)] =
-          (frame.col(assignments_[i].label) - p_WM.col(assignments_[i].marker)).norm();
+          (frame.col(assignments[i].label) - p_WM.col(assignments[i].marker)).norm();
     }
     return estimate_;
   }
 
-  const std::vector<int>& joints() const override { return joints_; }
-
  private:
-  const KinematicModel& model_;
-  std::vector<MarkerAssignment> assignments_;
-  std::vector<int> joints_;
   TestSettings settings_;
   FrameEstimate estimate_;
 };
@@ -89,15 +80,13 @@ class TestFactory final : public MotionConverterFactory {
     TestSettings settings;
     return FormatConfigTemplate(name(), MakeTable(&settings));
   }
-  std::unique_ptr<MotionConverter> Create(const KinematicModel& model,
-                                          const std::vector<MarkerAssignment>& assignments,
+  std::unique_ptr<MotionConverter> Create(const TrackingSetup& setup,
                                           const ConverterConfig& config) const override {
     TestSettings settings;
     Diagnostics diagnostics(config.file);
     MakeTable(&settings).Read(config.plugin_elements, &diagnostics);
     diagnostics.ThrowIfErrors();
-    return std::make_unique<TestConverter>(model, assignments, ResolveJoints(config, model),
-                                           settings);
+    return std::make_unique<TestConverter>(setup, settings);
   }
 };
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/tracking_setup.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/model/marker_kinematics.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+bool IsScaled(const ConverterConfig& config) { return config.model_processor != "None"; }
+
+// Of tracked joints that no marker moves.
+void WarnOfFreeJoints(TrackingSetup* setup) {
+  constexpr std::size_t kShown = 5;
+  const MarkerKinematics kinematics(*setup->model, setup->joints,
+                                    MarkerIndices(setup->assignments()));
+  std::vector<std::string> names;
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    bool is_moving = false;
+    for (int m = 0; m < kinematics.num_markers(); ++m) is_moving |= kinematics.Moves(j, m);
+    if (!is_moving) names.push_back(setup->model->joint(kinematics.joints()[j]).name);
+  }
+  if (names.empty()) return;
+  setup->mapping.warnings.push_back(fmt::format(
+      "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
+      "known: {}",
+      names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
+}
+
+}  // namespace
+
+TrackingSetup MatchMarkers(const MarkerLabels& labels,
+                           std::shared_ptr<const KinematicModel> reference,
+                           const ConverterConfig& config) {
+  TrackingSetup setup;
+  setup.model = std::move(reference);
+  const std::vector<MarkerPair> pairs =
+      ResolveMarkerPairs(config, labels, *setup.model, &setup.marker_set);
+  setup.mapping = ResolveMarkerMapping(pairs, labels, *setup.model);
+  setup.joints = ResolveJoints(config, *setup.model);
+  if (!IsScaled(config)) WarnOfFreeJoints(&setup);
+  return setup;
+}
+
+HeightEstimate EstimateHeight(const TrackingSetup& setup, const MarkerSequence& recording) {
+  return EstimateHeight(*setup.model, setup.joints, MarkerIndices(setup.assignments()),
+                        LabelIndices(setup.assignments()), recording);
+}
+
+KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person) {
+  if (!person.size) return reference;
+  KinematicModel scaled = ScaleWinter(reference, *person.size);
+  return person.subject ? FitToSubject(scaled, *person.subject) : scaled;
+}
+
+void ScaleToPerson(const PersonScaling& person, TrackingSetup* setup) {
+  if (!person.size) return;
+  setup->model = std::make_shared<const KinematicModel>(ScaleModel(*setup->model, person));
+}
+
+TrackingSetup MakeTrackingSetup(const MarkerLabels& labels,
+                                std::shared_ptr<const KinematicModel> reference,
+                                const ConverterConfig& config, const PersonScaling& person) {
+  TrackingSetup setup = MatchMarkers(labels, std::move(reference), config);
+  if (IsScaled(config)) ScaleToPerson(person, &setup);
+  return setup;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/converter_config.h"
+#include "common/convert/marker_mapping.h"
+#include "common/fit/height_estimate.h"
+#include "common/model/kinematic_model.h"
+#include "common/model/model_scaling.h"
+#include "common/model/subject.h"
+
+namespace mmm_converter {
+
+/// What is tracked by which markers: all that a converter knows before the first frame.
+struct TrackingSetup {
+  std::shared_ptr<const KinematicModel> model;  ///< scaled to the person; of an object: as it is
+  std::vector<int> joints;                      ///< tracked, indices of the model, in output order
+  MarkerMapping mapping;
+  std::string marker_set = {};  ///< its name; empty: the configuration has its own list
+
+  const std::vector<MarkerAssignment>& assignments() const { return mapping.assignments; }
+};
+
+/// What a reference model is scaled by.
+struct PersonScaling {
+  std::optional<WinterScaling> size;            ///< nothing: the model is as large as it is
+  std::shared_ptr<const Subject> subject = {};  ///< what is known beyond the size; null: nothing
+};
+
+/// Matches the labels with the markers of a model that is not scaled yet, by ResolveMarkerPairs,
+/// ResolveMarkerMapping and ResolveJoints. The setup's model is the reference itself.
+/// @throws Error as these.
+TrackingSetup MatchMarkers(const MarkerLabels& labels,
+                           std::shared_ptr<const KinematicModel> reference,
+                           const ConverterConfig& config);
+
+/// EstimateHeight with the joints and markers of a setup that MatchMarkers made.
+/// @throws Error where no frame shows at least ten of the markers.
+HeightEstimate EstimateHeight(const TrackingSetup& setup, const MarkerSequence& recording);
+
+/// The reference by ScaleWinter and FitToSubject. @throws Error as these.
+KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person);
+
+/// Scales the model of a setup that MatchMarkers made. @throws Error as ScaleModel.
+void ScaleToPerson(const PersonScaling& person, TrackingSetup* setup);
+
+/// All in one for a person who is known, or an object; no frame is needed, so that a live stream
+/// has its setup before it starts. A configuration with <Model name="None"> leaves the model as it
+/// is; what it says of a subject is the caller's to read (ReadSubject).
+/// @throws Error as MatchMarkers and ScaleModel.
+TrackingSetup MakeTrackingSetup(const MarkerLabels& labels,
+                                std::shared_ptr<const KinematicModel> reference,
+                                const ConverterConfig& config, const PersonScaling& person);
+
+}  // namespace mmm_converter
