@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -16,11 +17,6 @@ namespace fs = std::filesystem;
 
 class JournalTest : public ::testing::Test {
  protected:
-  JournalTest() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-
   static JournalRecord Record(const std::string& id) {
     JournalRecord record;
     record.id = id;
@@ -32,8 +28,7 @@ class JournalTest : public ::testing::Test {
     return record;
   }
 
-  std::string folder_ = ::testing::TempDir() + "/journal_" +
-                        ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string folder_ = testing::TestFolder();
 };
 
 TEST_F(JournalTest, GivesBackWhatWasWritten) {

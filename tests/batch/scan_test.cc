@@ -9,6 +9,7 @@
 
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -21,11 +22,6 @@ using ::testing::Pair;
 
 class ScanTest : public ::testing::Test {
  protected:
-  ScanTest() {
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-
   std::string Write(const std::string& name, const std::string& text) {
     const fs::path path = fs::path(root_) / name;
     fs::create_directories(path.parent_path());
@@ -46,8 +42,7 @@ class ScanTest : public ::testing::Test {
            height + "</Height><Mass>62</Mass></ModelProcessorConfig>" + inside + "</Motion></MMM>";
   }
 
-  std::string root_ = ::testing::TempDir() + "/scan_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string root_ = testing::TestFolder();
 };
 
 TEST_F(ScanTest, KitsTreeWithMotionsBesideTheRecordings) {

@@ -74,9 +74,8 @@ TEST(BatchSurvival, InterruptedItEndsInOrder) {
     program.WaitForLines(Journal(), static_cast<int>(done) + 2);
     program.Send(signal);
     EXPECT_EQ(program.Wait(), 128 + signal);
-    const std::string said =
-        ReadText(::testing::TempDir() + "/cli_BatchSurvival.InterruptedItEndsInOrder.started");
-    EXPECT_THAT(said, AllOf(HasSubstr("go on with --resume"), HasSubstr(" not done in ")));
+    EXPECT_THAT(program.Said(),
+                AllOf(HasSubstr("go on with --resume"), HasSubstr(" not done in ")));
     const auto motions = Contents(Out() + "/motions");
     EXPECT_EQ(static_cast<long>(motions.size()), LinesOf(Journal()));
     EXPECT_FALSE(fs::exists(Out() + "/index.html"));

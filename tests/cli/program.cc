@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -26,29 +25,23 @@ std::string Quoted(const std::string& word) {
   return quoted + "'";
 }
 
-std::string TestName() {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string(test->test_suite_name()) + "." + test->name();
-  for (char& c : name) c = c == '/' ? '_' : c;
-  return name;
-}
-
 }  // namespace
 
 ProgramRun RunProgram(const std::vector<std::string>& arguments,
                       const std::map<std::string, std::string>& environment) {
-  const std::string base = ::testing::TempDir() + "/cli_" + TestName();
+  const TemporaryFolder said;
   std::string command = "env";
   for (const auto& [name, value] : environment)
     command.append(" ").append(Quoted(name)).append("=").append(Quoted(value));
   command += " " + Quoted(MMM_CONVERTER_BINARY_DIR "/bin/MMMConverterS2KF");
   for (const std::string& argument : arguments) command += " " + Quoted(argument);
-  command += " >" + Quoted(base + ".out") + " 2>" + Quoted(base + ".err") + " </dev/null";
+  command +=
+      " >" + Quoted(said.path() + "/out") + " 2>" + Quoted(said.path() + "/err") + " </dev/null";
   const int status = std::system(command.c_str());
   ProgramRun run;
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
-  run.out = ReadText(base + ".out");
-  run.err = ReadText(base + ".err");
+  run.out = ReadText(said.path() + "/out");
+  run.err = ReadText(said.path() + "/err");
   return run;
 }
 
@@ -59,7 +52,7 @@ StartedProgram::StartedProgram(const std::vector<std::string>& arguments) {
   pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const std::string log = ::testing::TempDir() + "/cli_" + TestName() + ".started";
+  const std::string log = said_.path() + "/all";
   process_ = ::fork();
   if (process_ != 0) return;
   const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -97,16 +90,7 @@ int StartedProgram::Wait() {
   return WIFSIGNALED(status_) ? -WTERMSIG(status_) : WEXITSTATUS(status_);
 }
 
-std::string TestFolder() {
-  static std::string made_for;
-  std::string folder = ::testing::TempDir() + "/cli_" + TestName();
-  if (made_for != folder) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    made_for = folder;
-  }
-  return folder;
-}
+std::string StartedProgram::Said() const { return ReadText(said_.path() + "/all"); }
 
 std::string ReadText(const std::string& path) {
   std::ostringstream text;

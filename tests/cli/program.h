@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/test_folder.h"
+
 namespace mmm_converter::testing {
 
 struct ProgramRun {
@@ -30,17 +32,17 @@ class StartedProgram {
   void Send(int signal);
   /// Waits for its end. The exit code; of one that a signal killed, -signal.
   int Wait();
+  /// What it has printed so far, warnings and errors too.
+  std::string Said() const;
 
  private:
   bool HasEnded();
 
+  TemporaryFolder said_;
   int process_ = -1;
   int status_ = 0;
   bool has_ended_ = false;
 };
-
-/// A folder of its own for the running test, empty at first; `TestFolder() + "/name"`.
-std::string TestFolder();
 
 std::string ReadText(const std::string& path);
 void WriteText(const std::string& path, const std::string& text);

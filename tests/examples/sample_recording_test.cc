@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "common/io/bytes/file_content.h"
@@ -16,6 +14,7 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -23,10 +22,7 @@ namespace {
 using testing::SourcePath;
 
 TEST(SampleRecordingTest, IsWhatItsGeneratorMakes) {
-  const std::string folder =
-      ::testing::TempDir() + "mmm_converter_sample" + std::to_string(getpid());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const std::string folder = testing::TestFolder();
   const std::string command = std::string("\"") + MAKE_SAMPLE_RECORDING + "\" \"" +
                               SourcePath("xml_config/models/mmm.xml") + "\" \"" + folder + "\"";
   ASSERT_EQ(std::system(command.c_str()), 0);
@@ -36,7 +32,6 @@ TEST(SampleRecordingTest, IsWhatItsGeneratorMakes) {
                 ReadFileContent(SourcePath(std::string("examples") + name)))
         << name << " differs; make it anew as examples/make_sample_recording.cc says";
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(SampleRecordingTest, SaysThatItIsSynthetic) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A report in headless Chromium."""
 
+import os
 import pathlib
 import shutil
 import tempfile
@@ -16,22 +17,24 @@ class Browser:
     """Opens one report at a time. with Browser() as browser: browser.open("report.html")"""
 
     def __init__(self, width=1200, height=900, webgl=True):
-        self.profile = tempfile.mkdtemp(prefix="mmm_report_test_")
+        self.size = (width, height)
+        self.folder = tempfile.TemporaryDirectory(prefix="mmm_converter_test_")  # all that a browser leaves
         options = webdriver.ChromeOptions()
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         # Containers have neither a sandbox nor much shared memory; pictures are drawn in software.
         arguments = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
-                     "--force-device-scale-factor=1", f"--user-data-dir={self.profile}"]
+                     "--force-device-scale-factor=1", f"--user-data-dir={self.folder.name}/profile"]
         if webgl:
             arguments += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
         else:
             arguments += ["--disable-3d-apis"]
         for argument in arguments:
             options.add_argument(argument)
-        self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+        service = Service(shutil.which("chromedriver"), env={**os.environ, "TMPDIR": self.folder.name})
+        self.driver = webdriver.Chrome(options=options, service=service)
         self.driver.set_page_load_timeout(SECONDS)
         self.driver.set_script_timeout(SECONDS)
-        self.resize(width, height)
+        self.resize(*self.size)
 
     def __enter__(self):
         return self
@@ -41,7 +44,18 @@ class Browser:
 
     def close(self):
         self.driver.quit()
-        shutil.rmtree(self.profile, ignore_errors=True)
+        self.folder.cleanup()
+
+    def start_anew(self):
+        """A tab of its own, with nothing of what the last one was told: size, colours, focus, messages."""
+        last = self.driver.current_window_handle
+        self.driver.switch_to.new_window("tab")
+        tab = self.driver.current_window_handle
+        self.driver.switch_to.window(last)
+        self.driver.close()
+        self.driver.switch_to.window(tab)
+        self.errors()
+        self.resize(*self.size)
 
     def resize(self, width, height):
         """The page's own width and height, also below the least width of a window."""

@@ -12,8 +12,6 @@ PLOTS = ("#force-plot", "#contact-plot", "#support-plot", "#height-plot", "#acce
 
 
 class ReportPage(PageCase):
-    """Few tests, as each starts a browser of its own."""
-
     def test_dynamics_are_shown(self):
         self.open("dynamics.html")
         figures = json.loads((self.folder / "dynamics.json").read_text())

@@ -18,8 +18,6 @@ def member(result, path):
 
 
 class ReportPage(PageCase):
-    """Few tests, as each starts a browser of its own."""
-
     def chosen(self):
         return self.run_script("return mmmReport.chosen")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of all pages share: a browser of their own, and an empty console at the end."""
+"""What the tests of all pages share: a browser, a tab for each test, and an empty console at its end."""
 
 import pathlib
 import sys
@@ -43,14 +43,17 @@ return countColour(document.querySelectorAll(arguments[0] + " canvas"), argument
 
 
 class PageCase(unittest.TestCase):
-    """Each test opens pages of `folder` in a browser of its own."""
+    """Each test opens pages of `folder` in a tab of its own; all of a class share a browser."""
 
     folder = pathlib.Path()
     webgl = False
 
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = cls.enterClassContext(Browser(webgl=cls.webgl))
+
     def setUp(self):
-        self.browser = Browser(webgl=self.webgl)
-        self.addCleanup(lambda: self.browser.close())
+        self.browser.start_anew()
 
     def tearDown(self):
         self.assertEqual(self.browser.errors(), [])

@@ -7,7 +7,6 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-from browser import Browser
 from page_case import COUNT_DRAWN, PIXELS, PageCase, run_tests
 
 COLOURS = ["--converter-0", "--converter-1"]  # of the converters that have a result
@@ -270,9 +269,14 @@ class ReportPage(PageCase):
         print("[ measured ] ms until the report is ready:",
               self.run_script("return performance.getEntriesByName('ready')[0].startTime"))
 
-    def test_without_webgl_the_rest_works(self):
-        self.browser.close()
-        self.browser = Browser(webgl=False)
+    def test_nothing_is_loaded(self):
+        self.open("compare.html")
+        self.check_nothing_was_loaded()
+
+
+class ReportPageWithoutWebgl(PageCase):
+
+    def test_the_rest_works(self):
         self.open("compare.html")
         self.assertIn("WebGL", self.text("#no-webgl"))
         self.assertTrue(self.find("#no-webgl").is_displayed())
@@ -280,10 +284,6 @@ class ReportPage(PageCase):
             self.assertGreater(self.run_script(COUNT_DRAWN, plot, COLOURS[0]), 30, plot)
         self.find("#play").click()
         self.browser.wait("return mmmReport.frame > 5")
-
-    def test_nothing_is_loaded(self):
-        self.open("compare.html")
-        self.check_nothing_was_loaded()
 
 
 if __name__ == "__main__":

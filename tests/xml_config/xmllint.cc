@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
 #include "tests/support/shared_data.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter::testing {
 
@@ -18,10 +18,7 @@ bool IsValidFile(const std::string& schema, const std::string& file) {
 }
 
 bool IsValidText(const std::string& schema, const std::string& xml) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string(test->test_suite_name()) + "_" + test->name();
-  std::replace(name.begin(), name.end(), '/', '_');
-  const std::string file = ::testing::TempDir() + "/schema_" + name + ".xml";
+  const std::string file = TestFolder() + "/checked.xml";
   std::ofstream(file) << xml;
   return IsValidFile(schema, file);
 }

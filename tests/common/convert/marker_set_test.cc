@@ -11,6 +11,7 @@
 #include "common/io/recording/recording.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -30,7 +31,7 @@ KinematicModel ShippedModel() {
 }
 
 std::string MessageOf(const std::string& xml) {
-  const std::string path = ::testing::TempDir() + "set.xml";
+  const std::string path = testing::TestFolder() + "/set.xml";
   std::ofstream(path) << xml;
   try {
     ReadMarkerSet(path);
@@ -72,7 +73,7 @@ TEST(MarkerSet, ShippedSetsNameMarkersOfTheShippedModel) {
 }
 
 TEST(MarkerSet, PlacesMarkersOnSegmentsAndLinks) {
-  const std::string path = ::testing::TempDir() + "places.xml";
+  const std::string path = testing::TestFolder() + "/places.xml";
   std::ofstream(path) << "<MarkerSet name='s'><Marker name='A' segment='arm' x_mm='1' y_mm='2' "
                          "z_mm='-3'/><Marker name='B' segment='elbow' x_mm='0' y_mm='0' z_mm='10'/>"
                          "<Marker name='C' segment='root' x_mm='5' y_mm='0' z_mm='0'/>"
@@ -176,7 +177,7 @@ TEST(MarkerSet, SaysFileAndLineOfWhatIsWrong) {
       AllOf(HasSubstr("set.xml:2: <Mapping> needs the attribute target"),
             HasSubstr("set.xml:3: <Map>: only <Mapping>"), HasSubstr("set.xml:4: noiseScale=\"0\""),
             HasSubstr("set.xml:5: label B"), HasSubstr("no attribute weight")));
-  EXPECT_THROW(ReadMarkerSets(::testing::TempDir() + "no_such_folder"), Error);
+  EXPECT_THROW(ReadMarkerSets(testing::TestFolder() + "/no_such_folder"), Error);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "tests/support/scoped_environment.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/stick_model.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/test_plugins.h"
 
 namespace mmm_converter {
@@ -67,7 +68,7 @@ TEST(LoadedPlugin, RefusesWhatIsNoPlugin) {
   EXPECT_THAT(LoadError("/"), HasSubstr("no such plugin file"));
   EXPECT_THAT(LoadError(testing::SourcePath("LICENSE")),
               HasSubstr("LICENSE: can't be loaded as a shared library"));
-  const std::string empty = ::testing::TempDir() + "/empty_plugin.so";
+  const std::string empty = testing::TestFolder() + "/empty_plugin.so";
   std::ofstream(empty).close();
   EXPECT_THAT(LoadError(empty), HasSubstr("can't be loaded as a shared library"));
   const std::string library = LibraryDirectory() + "/libmmm_converter_common.so";

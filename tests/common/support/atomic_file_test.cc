@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -23,13 +24,6 @@ using ::testing::HasSubstr;
 
 class AtomicFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = ::testing::TempDir() + "atomic_file_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string Path(const std::string& name) const { return folder_ / name; }
 
   static std::string Content(const std::string& path) {
@@ -51,7 +45,7 @@ class AtomicFile : public ::testing::Test {
     return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
   }
 
-  fs::path folder_;
+  const fs::path folder_ = testing::TestFolder();
 };
 
 TEST_F(AtomicFile, WritesANewFileWithAnyBytes) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -23,7 +24,7 @@ TEST(ContentHash, DoesNotDependOnHowBytesCome) {
   for (std::size_t i = 0; i < bytes.size(); i += 997)
     parts.Add(std::string_view(bytes).substr(i, 997));
   EXPECT_EQ(parts.Hex(), whole.Hex());
-  const std::string file = ::testing::TempDir() + "/content_hash_file";
+  const std::string file = testing::TestFolder() + "/file";
   std::ofstream(file, std::ios::binary) << bytes;
   EXPECT_EQ(HashFile(file), whole.Hex());
   bytes[500000] = 'c';
@@ -49,7 +50,7 @@ TEST(ContentHash, SaysWhichFileIsNotThere) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "/nowhere/at all: can't be read: No such file or directory");
   }
-  EXPECT_THROW(HashFile(::testing::TempDir()), Error);  // a folder
+  EXPECT_THROW(HashFile(testing::TestFolder()), Error);  // a folder
 }
 
 }  // namespace

@@ -4,12 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -20,16 +20,13 @@ using ::testing::IsEmpty;
 
 class LineFileTest : public ::testing::Test {
  protected:
-  LineFileTest() { std::filesystem::remove(path_); }
-
   std::vector<std::string> Lines() const {
     std::vector<std::string> lines;
     ForEachLine(path_, [&](std::string_view line) { lines.emplace_back(line); });
     return lines;
   }
 
-  std::string path_ = ::testing::TempDir() + "/line_file_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string path_ = testing::TestFolder() + "/lines";
 };
 
 TEST_F(LineFileTest, KeepsLinesFromRunToRun) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/support/scoped_environment.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -16,16 +17,13 @@ namespace fs = std::filesystem;
 
 class ControlGroupTest : public ::testing::Test {
  protected:
-  ControlGroupTest() { fs::remove_all(root_); }
-
   void Write(const std::string& file, const std::string& text) {
     const fs::path path = fs::path(root_) / file;
     fs::create_directories(path.parent_path());
     std::ofstream(path) << text;
   }
 
-  std::string root_ = ::testing::TempDir() + "/control_groups_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string root_ = testing::TestFolder();
 };
 
 TEST_F(ControlGroupTest, NoneIsNoLimit) {

@@ -2,7 +2,6 @@
 #include "plugins/s2kf/lcd_sampling.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +11,8 @@
 #include "common/support/error.h"
 #include "plugins/s2kf/lcd_distance.h"
 #include "plugins/s2kf/lcd_samples_text.h"
+#include "tests/support/scoped_environment.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter::s2kf {
 namespace {
@@ -36,20 +37,10 @@ std::string Content(const fs::path& path) {
 /// Points the cache into an empty folder of its own.
 class LcdSamplingTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::temp_directory_path() / ("mmm_converter_lcd_" + name + std::to_string(getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
-  }
-  void TearDown() override {
-    unsetenv("XDG_CACHE_HOME");
-    fs::remove_all(folder_);
-  }
   fs::path CachedFile() const { return folder_ / "MMMConverterS2KF" / "lcd_3_31.txt"; }
 
-  fs::path folder_;
+  const fs::path folder_ = testing::TestFolder();
+  const testing::ScopedEnvironment cache_{"XDG_CACHE_HOME", folder_};
 };
 
 TEST_F(LcdSamplingTest, ShippedSetsHaveTheirDistanceAndExactMoments) {

@@ -17,6 +17,7 @@
 #include "common/io/recording/recording.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -25,10 +26,7 @@ using ::mmm_converter::testing::SharedData;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-std::string TempPath() {
-  return ::testing::TempDir() + "hostile_" +
-         ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".c3d";
-}
+std::string TempPath() { return testing::TestFolder() + "/hostile.c3d"; }
 
 std::string WriteTemp(const std::string& content) {
   std::string path = TempPath();
@@ -51,7 +49,7 @@ int FramesRead(const std::string& content) {
               content.size());
     return recording.markers.num_frames();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("hostile_"));  // it names the file
+    EXPECT_THAT(error.what(), HasSubstr("hostile.c3d"));  // it names the file
     return -1;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "common/io/c3d/c3d_reader.h"
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -18,7 +19,7 @@ using ::testing::IsEmpty;
 
 constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
-std::string TempPath(const std::string& name) { return ::testing::TempDir() + name; }
+std::string TempPath(const std::string& name) { return testing::TestFolder() + "/" + name; }
 
 /// Positions with a pattern of their own; every seventh point is not seen.
 MarkerSequence MakeSequence(int labels, int frames) {
@@ -61,7 +62,6 @@ void ExpectRoundTrip(const MarkerSequence& sequence, const C3dWriteOptions& opti
     }
   }
   EXPECT_EQ(differing, 0);
-  std::filesystem::remove(path);
 }
 
 TEST(C3dWriter, ReadsBackWhatItWrote) {
@@ -103,7 +103,6 @@ TEST(C3dWriter, WritesUnseenAsInvalidZero) {
   EXPECT_TRUE(points[0].valid);
   EXPECT_FALSE(points[1].valid);
   EXPECT_EQ(points[1].position, Eigen::Vector3d::Zero());
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "common/math/rotation.h"
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -266,7 +267,7 @@ TEST(MmmModel, RefusesOtherFiles) {
               HasSubstr("m.xml:1: not a model: expected <Robot>, found <MMM>; this is a motion"));
   EXPECT_THAT(ErrorOf("not XML"), HasSubstr("m.xml:"));
   EXPECT_THAT(ErrorOf(""), Not(HasSubstr("no error")));
-  EXPECT_THROW(ReadMmmModel(::testing::TempDir() + "/no_such_model.xml"), Error);
+  EXPECT_THROW(ReadMmmModel(testing::TestFolder() + "/no_such_model.xml"), Error);
 }
 
 TEST(MmmModel, SurvivesALongChain) {

@@ -9,6 +9,7 @@
 #include "common/io/xml/xml_document.h"
 #include "common/support/error.h"
 #include "tests/common/io/mmm/mmm_motion_samples.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -200,12 +201,10 @@ TEST(ModelPath, IsRelativeToTheOutputWhereTheyAreNeighbours) {
 
 TEST(ModelPath, FollowsLinkedFolders) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(::testing::TempDir()) / "mmm_converter_model_path";
-  fs::remove_all(folder);
+  const fs::path folder = testing::TestFolder();
   fs::create_directories(folder / "real/deep");
   fs::create_directory_symlink(folder / "real/deep", folder / "link");
   EXPECT_EQ(ModelPathFor(folder / "mmm.xml", folder / "link/walk.xml"), "../../mmm.xml");
-  fs::remove_all(folder);
 }
 
 }  // namespace

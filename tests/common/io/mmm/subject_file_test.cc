@@ -8,6 +8,7 @@
 
 #include "common/support/error.h"
 #include "tests/support/stick_model.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -158,7 +159,7 @@ TEST(SubjectFile, RefusesOtherFiles) {
 }
 
 TEST(SubjectFile, IsReadFromAFile) {
-  const std::string path = ::testing::TempDir() + "/subject.xml";
+  const std::string path = testing::TestFolder() + "/subject.xml";
   std::ofstream(path) << FormatSubject(FullSubject(), "p");
   EXPECT_EQ(FormatSubject(ReadSubject(path, StickModel()), "p"),
             FormatSubject(Parse(FormatSubject(FullSubject(), "p")), "p"));

@@ -6,13 +6,13 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/recording/recording_axes.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -33,7 +33,7 @@ std::string MessageOf(const std::string& path, const ReadRecordingOptions& optio
 }
 
 std::string WriteTemp(const std::string& name, const std::string& content) {
-  std::string path = ::testing::TempDir() + name;
+  std::string path = testing::TestFolder() + "/" + name;
   std::ofstream(path, std::ios::binary) << content;
   return path;
 }
@@ -143,7 +143,7 @@ TEST(Recording, AssumesZUpWhereLabelsTellNothing) {
 
 TEST(Recording, ChecksTheUnit) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
-  const std::string path = ::testing::TempDir() + "metres_called_mm.c3d";
+  const std::string path = testing::TestFolder() + "/metres_called_mm.c3d";
   MarkerSequence markers = ReadSynthetic("kit53_intel_float.c3d").markers;
   ToMetresAndZUp(0.001, UpAxis::kZ, &markers);  // a file that says mm, with metres inside
   WriteC3d(path, markers);
@@ -155,7 +155,6 @@ TEST(Recording, ChecksTheUnit) {
   EXPECT_FALSE(forced.unit_was_guessed);
   EXPECT_NEAR(forced.markers.frame(0)(2, 0), 0.00139602, 1e-9);  // float
   EXPECT_THAT(MessageOf(path, {.unit = "furlong"}), HasSubstr("use mm, cm, m or in"));
-  std::filesystem::remove(path);
 
   EXPECT_EQ(DecideUnit(markers, "mete").unit, "m");
   EXPECT_EQ(DecideUnit(Acrobat(0, UpAxis::kZ), "").unit, "m");
@@ -188,13 +187,12 @@ TEST(Recording, TakesThePersonNotTheObject) {
   }
   MarkerSequence markers(labels, 2, 100, 0);
   for (int k = 0; k < 2; ++k) markers.frame(k).setConstant(0.5);
-  const std::string path = ::testing::TempDir() + "anna_and_box.c3d";
+  const std::string path = testing::TestFolder() + "/anna_and_box.c3d";
   WriteC3d(path, markers);
   const Recording recording = ReadRecording(path, {});
   EXPECT_EQ(recording.subject, "Anna");
   EXPECT_EQ(recording.markers.num_labels(), 8);
   EXPECT_THAT(recording.warnings, Contains(HasSubstr("those of Box")));
-  std::filesystem::remove(path);
 }
 
 TEST(Recording, LeavesOutWhatIsNoMarker) {
@@ -288,7 +286,7 @@ TEST(Recording, ReadsMarkersOfMmmMotions) {
 
 TEST(Recording, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(MessageOf("/no/such/file.c3d"), HasSubstr("no such file"));
-  EXPECT_THAT(MessageOf(::testing::TempDir()), HasSubstr("is a folder"));
+  EXPECT_THAT(MessageOf(testing::TestFolder()), HasSubstr("is a folder"));
   EXPECT_THAT(MessageOf(WriteTemp("empty.c3d", "")), HasSubstr("the file is empty"));
   EXPECT_THAT(MessageOf(WriteTemp("text.c3d", "hello\n")), HasSubstr("is text, but neither"));
   EXPECT_THAT(

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -53,7 +54,7 @@ TEST(XmlDocument, SaysFileAndLineOfWhatIsWrong) {
 }
 
 TEST(XmlDocument, SaysWhatIsWrongWithAFile) {
-  const std::string folder = ::testing::TempDir();
+  const std::string folder = testing::TestFolder();
   EXPECT_THROW(ReadXmlFile(folder), Error);
   EXPECT_THROW(ReadXmlFile(folder + "/no_such_file.xml"), Error);
 }
