@@ -42,8 +42,8 @@ MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransf
                             const VectorXd& natural_angles) {
   MotionModel model;
   model.velocity = settings.motion_model == MotionModelType::kVelocity;
-  model.noise =
-      (model.velocity ? settings.velocity_noise : settings.noise).Scaled(settings.noise_scale);
+  model.noise = (model.velocity ? settings.velocity_noise : settings.noise)
+                    .Scaled(settings.process_noise_scale);
   model.natural_spread = settings.natural_spread;
   model.velocity_decay = settings.velocity_decay;
   model.natural.resize(natural_angles.size());

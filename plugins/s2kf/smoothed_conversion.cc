@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/motion/trajectory_derivatives.h"
-#include "plugins/s2kf/noise_scale.h"
+#include "plugins/s2kf/process_noise_scale.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "plugins/s2kf/trajectory_smoother.h"
 
@@ -47,11 +47,11 @@ double SecondsSince(Clock::time_point start) {
 
 ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
                                         const std::function<bool(int)>& progress) {
-  if (settings_.choose_noise_scale) {
+  if (settings_.choose_process_noise_scale) {
     S2kfSettings settings = settings_;
-    const double scale = ChooseNoiseScale(recording, setup(), settings);
-    settings.noise_scale *= scale;
-    settings.choose_noise_scale = false;
+    const double scale = ChooseProcessNoiseScale(recording, setup(), settings);
+    settings.process_noise_scale *= scale;
+    settings.choose_process_noise_scale = false;
     S2kfConverter converter(setup(), settings);
     ConversionResult result = converter.Convert(recording, progress);
     result.noise_scale = scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plugins/s2kf/noise_scale.h"
+#include "plugins/s2kf/process_noise_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ class Likelihood {
     const auto known = values_.find(log_scale);
     if (known != values_.end()) return known->second;
     S2kfSettings settings = settings_;
-    settings.noise_scale *= std::pow(10.0, log_scale);
+    settings.process_noise_scale *= std::pow(10.0, log_scale);
     MarkerFilter filter(kinematics_, settings, noise_scale_);
     double sum = 0;
     for (const Part& part : parts_) {
@@ -110,8 +110,8 @@ class Likelihood {
 
 }  // namespace
 
-double ChooseNoiseScale(const MarkerSequence& recording, const TrackingSetup& setup,
-                        const S2kfSettings& settings) {
+double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackingSetup& setup,
+                               const S2kfSettings& settings) {
   Likelihood likelihood(recording, setup, settings);
   if (likelihood.num_frames() < kFewestFrames) return 1;
   // Uphill from the calmest motion to the first top: under much noise joints also take up that
