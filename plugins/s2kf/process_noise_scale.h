@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "common/convert/tracking_setup.h"
 #include "common/motion/marker_sequence.h"
 #include "plugins/s2kf/s2kf_settings.h"
+#include "plugins/s2kf/tracked_markers.h"
 
 namespace mmm_converter::s2kf {
 
@@ -12,7 +12,7 @@ namespace mmm_converter::s2kf {
 /// innovations, the sum of -(NIS + log det S) / 2 over up to 1000 frames from all parts of the
 /// recording (Mehra 1970), of the filter with a Jacobian. Within 1e-3 and 1e3; 1 where fewer than
 /// ten frames can be judged.
-double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackingSetup& setup,
+double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMarkers& markers,
                                const S2kfSettings& settings);
 
 }  // namespace mmm_converter::s2kf
