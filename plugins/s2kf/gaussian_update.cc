@@ -18,13 +18,7 @@ void MeasurementMoments::ClearCovariance() {
 }
 
 GaussianUpdate::GaussianUpdate(int n, int m)
-    : mean_(n, 1),
-      weights_(m, 1),
-      innovation_(m, 1),
-      factor_(n, n),
-      scaled_(n, m),
-      s_(n, 1),
-      three_(n, 3) {}
+    : mean_(n, 1), weights_(m, 1), innovation_(m, 1), factor_(n, n) {}
 
 void GaussianUpdate::Compute(const MeasurementMoments& moments, const VectorXd& z,
                              const VectorXd& noise, UpdateForm form) {
@@ -66,9 +60,9 @@ void GaussianUpdate::ComputeRegression(const MeasurementMoments& moments, const 
 void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const VectorXd& z,
                                   const VectorXd& noise) {
   const Eigen::Index m = z.size();
-  S_ = moments.C_zz;
-  scaled_ = moments.C_sz;
-  auto S = S_.view();
+  F_ = moments.C_zz;
+  V_ = moments.C_sz;
+  auto S = F_.view();
   auto innovation = innovation_.view().col(0);
   for (Eigen::Index i = 0; i < m; ++i) {
     weights_.view()(i, 0) = std::isinf(noise[i]) ? 0 : 1;
@@ -77,23 +71,23 @@ void GaussianUpdate::ComputeExact(const MeasurementMoments& moments, const Vecto
       S.row(i).head(i).setZero();
       S.col(i).tail(m - i - 1).setZero();
       S(i, i) = 1;
-      scaled_.view().col(i).setZero();
+      V_.view().col(i).setZero();
       innovation[i] = 0;
     } else {
       S(i, i) += noise[i];
       innovation[i] = z[i] - moments.mean[i];
     }
   }
-  // S = F F^T; with V = F^-1 C_zs the gain is V^T F^-1, and Cov(s | z) = I - V^T V.
-  Factorize(&S_);
-  log_determinant_ = 2 * S_.view().diagonal().array().log().sum();
-  DivideByTransposed(S_, &scaled_);
-  SolveLower(S_, &innovation_);
+  // The gain is V F^-1, and Cov(s | z) = I - V V^T.
+  Factorize(&F_);
+  log_determinant_ = 2 * F_.view().diagonal().array().log().sum();
+  DivideByTransposed(F_, &V_);
+  SolveLower(F_, &innovation_);
   nis_ = innovation.squaredNorm();
   mean_.SetZero();
-  mean_.view().col(0).noalias() = scaled_.view() * innovation;
+  mean_.view().col(0).noalias() = V_.view() * innovation;
   factor_.SetIdentity();
-  AddSquare(-1, scaled_, &factor_);
+  AddSquare(-1, V_, &factor_);
   Factorize(&factor_);
 }
 
@@ -107,29 +101,30 @@ void GaussianUpdate::Spread(const PaddedMatrix& L, PaddedMatrix* X) const {
 }
 
 void GaussianUpdate::Expect(const MeasurementMoments& moments, const VectorXd& other,
-                            VectorXd* expected) {
-  auto innovation = innovation_.view().col(0);
+                            Scratch* scratch, VectorXd* expected) const {
+  auto innovation = scratch->innovation.view().col(0);
   for (Eigen::Index i = 0; i < other.size(); ++i) {
     innovation[i] = weights_.view()(i, 0) == 0 ? 0 : other[i] - moments.mean[i];
   }
-  s_.SetZero();
-  auto s = s_.view().col(0);
+  scratch->s.SetZero();
+  auto s = scratch->s.view().col(0);
   if (form_ == UpdateForm::kRegression) {
     innovation.array() *= weights_.view().col(0).array();
     s.noalias() = moments.C_sz.view() * innovation;
-    SolveLower(factor_, &s_);
-    SolveLowerTransposed(factor_, &s_);
+    SolveLower(factor_, &scratch->s);
+    SolveLowerTransposed(factor_, &scratch->s);
   } else {
-    SolveLower(S_, &innovation_);
-    s.noalias() = scaled_.view() * innovation;
+    SolveLower(F_, &scratch->innovation);
+    s.noalias() = V_.view() * innovation;
   }
   *expected = moments.mean;
   *expected += moments.C_sz.view().transpose().lazyProduct(s);
 }
 
-Eigen::Matrix3d GaussianUpdate::PosteriorCovariance(const PaddedMatrix& C_sz, int i) {
+Eigen::Matrix3d GaussianUpdate::PosteriorCovariance(const PaddedMatrix& C_sz, int i,
+                                                    Scratch* scratch) const {
   const auto C = C_sz.view().middleCols<3>(i);
-  auto V = three_.view();
+  auto V = scratch->three.view();
   if (form_ == UpdateForm::kRegression) {
     V = C;
     factor_.view().triangularView<Eigen::Lower>().solveInPlace(V);
@@ -139,11 +134,11 @@ Eigen::Matrix3d GaussianUpdate::PosteriorCovariance(const PaddedMatrix& C_sz, in
   return V.transpose().lazyProduct(V);
 }
 
-void GaussianUpdate::FromPosteriorSpace(PaddedMatrix* C_sz) {
+void GaussianUpdate::FromPosteriorSpace(PaddedMatrix* C_sz, PaddedMatrix* scratch) const {
   // C_sz = T^-T C_tz.
   assert(form_ == UpdateForm::kRegression);
-  Multiply(1, factor_, *C_sz, &scaled_);
-  std::swap(*C_sz, scaled_);
+  Multiply(1, factor_, *C_sz, scratch);
+  std::swap(*C_sz, *scratch);
 }
 
 }  // namespace mmm_converter::s2kf

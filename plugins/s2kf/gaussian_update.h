@@ -29,32 +29,41 @@ enum class UpdateForm {
 };
 
 /// Kalman update in the space of s: x = x0 + L s with the prior s ~ N(0, I) has the posterior mean
-/// x0 + L mean() and covariance (L T)(L T)^T. Sized once.
+/// x0 + L mean() and covariance (L T)(L T)^T. A value; sized once.
 class GaussianUpdate {
  public:
   /// n states that h depends on, m measured coordinates.
   GaussianUpdate(int n, int m);
 
   /// z: measurement, m. noise: variance of each coordinate, m; infinity where z was not measured
-  /// (the value of z there is not used).
+  /// (the value of z there is not used). Nothing measured: the posterior is the prior.
   void Compute(const MeasurementMoments& moments, const Eigen::VectorXd& z,
                const Eigen::VectorXd& noise, UpdateForm form);
 
+  UpdateForm form() const { return form_; }
   Eigen::Map<const Eigen::VectorXd> mean() const { return {mean_.data(), mean_.rows()}; }
   /// X = L T. L: as many columns as s is long.
   void Spread(const PaddedMatrix& L, PaddedMatrix* X) const;
-  /// Cov(s, z) of the linear model whose C_sz in the space of t, s = mean() + T t, is given.
-  /// kRegression only.
-  void FromPosteriorSpace(PaddedMatrix* C_sz);
-  /// E[h(x)] had `other` been measured instead of z, with the same noise; moments as in Compute.
-  void Expect(const MeasurementMoments& moments, const Eigen::VectorXd& other,
-              Eigen::VectorXd* expected);
-  /// Posterior covariance of h's coordinates i, i + 1, i + 2 in the linear model with this C_sz.
-  Eigen::Matrix3d PosteriorCovariance(const PaddedMatrix& C_sz, int i);
   /// Normalised innovation squared, (z - E z)^T (C_zz + R)^-1 (z - E z).
   double nis() const { return nis_; }
   /// Log of the probability density of z, without its constant term.
   double log_likelihood() const { return -0.5 * (nis_ + log_determinant_); }
+
+  /// What the functions below write into; of the same n and m.
+  struct Scratch {
+    Scratch(int n, int m) : innovation(m, 1), s(n, 1), three(n, 3) {}
+    PaddedMatrix innovation;
+    PaddedMatrix s;
+    PaddedMatrix three;
+  };
+  /// E[h(x)] had `other` been measured instead of z, with the same noise; moments as in Compute.
+  void Expect(const MeasurementMoments& moments, const Eigen::VectorXd& other, Scratch* scratch,
+              Eigen::VectorXd* expected) const;
+  /// Posterior covariance of h's coordinates i, i + 1, i + 2 in the linear model with this C_sz.
+  Eigen::Matrix3d PosteriorCovariance(const PaddedMatrix& C_sz, int i, Scratch* scratch) const;
+  /// Cov(s, z) of the linear model whose C_sz in the space of t, s = mean() + T t, is given.
+  /// kRegression only. scratch: n x m.
+  void FromPosteriorSpace(PaddedMatrix* C_sz, PaddedMatrix* scratch) const;
 
  private:
   void ComputeRegression(const MeasurementMoments& moments, const Eigen::VectorXd& z,
@@ -69,10 +78,8 @@ class GaussianUpdate {
   PaddedMatrix weights_;        // m x 1; 0: not measured
   PaddedMatrix innovation_;     // m x 1, scaled
   PaddedMatrix factor_;  // G with T = G^-T (regression) or T itself (exact), lower triangular
-  PaddedMatrix scaled_;  // n x m, scratch
-  PaddedMatrix s_;       // n x 1, scratch
-  PaddedMatrix three_;   // n x 3, scratch
-  PaddedMatrix S_;       // m x m, exact form
+  PaddedMatrix F_;       // C_zz + R = F F^T, m x m; exact form
+  PaddedMatrix V_;       // C_sz F^-T, n x m; exact form
 };
 
 }  // namespace mmm_converter::s2kf

@@ -42,8 +42,8 @@ MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransf
                             const VectorXd& natural_angles) {
   MotionModel model;
   model.velocity = settings.motion_model == MotionModelType::kVelocity;
-  model.noise =
-      (model.velocity ? settings.velocity_noise : settings.noise).Scaled(settings.noise_scale);
+  model.noise = (model.velocity ? settings.velocity_noise : settings.noise)
+                    .Scaled(settings.process_noise_scale);
   model.natural_spread = settings.natural_spread;
   model.velocity_decay = settings.velocity_decay;
   model.natural.resize(natural_angles.size());
@@ -70,8 +70,7 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
       measurement_model_(
           kinematics, JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
           settings.root, HalfSamples(settings, kinematics.num_dofs())),
-      moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
-      update_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
+      C_sz_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
   motion_model_ =
       MakeMotionModel(settings, measurement_model_.transform(), NaturalAngles(kinematics));
   const int n = kinematics.num_dofs();
@@ -147,17 +146,18 @@ void MarkerFilter::Predict(double dt, Belief* belief) const {
   motion_model_.Predict(dt, settings_.root, belief);
 }
 
-void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, Outcome* outcome) {
+void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, UpdateOutcome* outcome) {
   outcome->seen = 0;
   outcome->downweighted = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) {
+    const double deviation = settings_.marker_deviation * noise_scale_[m];
+    double& variance = outcome->variance[m];
+    variance = deviation * deviation;
     const double distance = (z.col(m) - expected_.segment<3>(3 * m)).norm();
     if (!std::isfinite(distance)) {
       noise_.segment<3>(3 * m).setConstant(kInfinity);
       continue;
     }
-    const double deviation = settings_.marker_deviation * noise_scale_[m];
-    double variance = deviation * deviation;
     if (settings_.robust_distance > 0 && distance > settings_.robust_distance) {
       variance *= distance / settings_.robust_distance;
       ++outcome->downweighted;
@@ -168,36 +168,37 @@ void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, Outcome* outcome) {
   }
 }
 
-bool MarkerFilter::IsFarFromLinear() const {
+bool MarkerFilter::IsFarFromLinear(const MeasurementMoments& moments) const {
   double unexplained = 0;
   double noise = 0;
   for (Eigen::Index i = 0; i < noise_.size(); ++i) {
     if (std::isinf(noise_[i])) continue;
-    unexplained += moments_.residual[i];
+    unexplained += moments.residual[i];
     noise += noise_[i];
   }
   return unexplained > kLargestUnexplainedShare * noise;
 }
 
-void MarkerFilter::Relinearize(const Belief& belief) {
+void MarkerFilter::Relinearize(const Belief& belief, UpdateOutcome* outcome) {
   // About N(mu, T T^T) of s: z = C_zt t + mean with t = T^-1 (s - mu), which is then the line
   // z = H s + (mean - H mu) with H = C_zt T^-1 (Garcia-Fernandez et al. 2015).
-  const auto mu = update_.mean();
-  center_.noalias() = L_x().view() * mu;
-  update_.Spread(L_x(), &posterior_x_);
-  measurement_model_.ComputeMoments(belief, center_, {posterior_x_}, false, &moments_);
-  update_.FromPosteriorSpace(&moments_.C_sz);
-  moments_.mean -= moments_.C_sz.view().transpose().lazyProduct(mu);
+  const GaussianUpdate& update = outcome->update;
+  MeasurementMoments& moments = outcome->moments;
+  center_.noalias() = L_x().view() * update.mean();
+  update.Spread(L_x(), &posterior_x_);
+  measurement_model_.ComputeMoments(belief, center_, {posterior_x_}, false, &moments);
+  update.FromPosteriorSpace(&moments.C_sz, &C_sz_);
+  moments.mean -= moments.C_sz.view().transpose().lazyProduct(update.mean());
 }
 
-void MarkerFilter::Commit(Belief* belief) {
+void MarkerFilter::Commit(const GaussianUpdate& update, Belief* belief) {
   const Eigen::Index n = L_.cols();
   const Eigen::Index all = L_.rows();
-  dx_.noalias() = L_.view() * update_.mean();
+  dx_.noalias() = L_.view() * update.mean();
   Move(dx_.head(n), settings_.root, belief);
   if (motion_model_.velocity) belief->rate += dx_.tail(n);
   // What the markers said of L_'s part of the state leaves the rest as it was.
-  update_.Spread(L_, &posterior_);
+  update.Spread(L_, &posterior_);
   P_.SetZero();
   AddSquare(1, posterior_, &P_);
   if (all > n) AddSquare(1, L_rates_, &P_);
@@ -217,30 +218,30 @@ void MarkerFilter::FactorizeCovariance(const Belief& belief) {
   }
 }
 
-MarkerFilter::Outcome MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief* belief) {
+void MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief* belief, UpdateOutcome* outcome) {
   const bool exact = settings_.update == UpdateForm::kExact;
+  MeasurementMoments& moments = outcome->moments;
+  GaussianUpdate& update = outcome->update;
   FactorizeCovariance(*belief);
   center_.setZero();
-  measurement_model_.ComputeMoments(*belief, center_, {L_x(), true}, exact, &moments_);
-  expected_ = moments_.mean;
-  Outcome outcome;
-  Weigh(z, &outcome);
-  if (outcome.seen == 0) return outcome;
-  update_.Compute(moments_, z_, noise_, settings_.update);
-  outcome.nis = update_.nis() / (3 * outcome.seen);
-  outcome.log_likelihood = update_.log_likelihood();
+  measurement_model_.ComputeMoments(*belief, center_, {L_x(), true}, exact, &moments);
+  expected_ = moments.mean;
+  Weigh(z, outcome);
+  update.Compute(moments, z_, noise_, settings_.update);
+  outcome->nis = outcome->seen > 0 ? update.nis() / (3 * outcome->seen) : 0;
+  outcome->log_likelihood = update.log_likelihood();
+  if (outcome->seen == 0) return;
   for (int i = 1; i < settings_.iterations; ++i) {
-    const bool is_far = IsFarFromLinear();
-    if (!is_far && outcome.downweighted == 0) break;
-    if (is_far) Relinearize(*belief);
+    const bool is_far = IsFarFromLinear(moments);
+    if (!is_far && outcome->downweighted == 0) break;
+    if (is_far) Relinearize(*belief, outcome);
     // A marker that is far from where it was expected is wrong only if it is far from the estimate.
-    expected_ = moments_.mean;
-    expected_ += moments_.C_sz.view().transpose().lazyProduct(update_.mean());
-    Weigh(z, &outcome);
-    update_.Compute(moments_, z_, noise_, settings_.update);
+    expected_ = moments.mean;
+    expected_ += moments.C_sz.view().transpose().lazyProduct(update.mean());
+    Weigh(z, outcome);
+    update.Compute(moments, z_, noise_, settings_.update);
   }
-  Commit(belief);
-  return outcome;
+  Commit(update, belief);
 }
 
 void MarkerFilter::ToPosture(const Belief& belief, Posture* posture) const {
@@ -250,6 +251,12 @@ void MarkerFilter::ToPosture(const Belief& belief, Posture* posture) const {
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
     posture->joint_angles[j] = measurement_model_.transform().Angle(j, belief.parameters[j]);
   }
+}
+
+void MarkerFilter::Place(const Belief& belief, Posture* posture, MarkerJacobian* at) const {
+  ToPosture(belief, posture);
+  kinematics_.ComputeMarkers(posture->position, posture->orientation.toRotationMatrix(),
+                             posture->joint_angles, at);
 }
 
 void MarkerFilter::Deviations(const Belief& belief, VectorXd* deviations) const {

@@ -6,10 +6,10 @@
 #include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
 #include "plugins/s2kf/belief.h"
-#include "plugins/s2kf/gaussian_update.h"
 #include "plugins/s2kf/marker_measurement_model.h"
 #include "plugins/s2kf/motion_model.h"
 #include "plugins/s2kf/s2kf_settings.h"
+#include "plugins/s2kf/update_outcome.h"
 
 namespace mmm_converter::s2kf {
 
@@ -32,26 +32,15 @@ class MarkerFilter {
   /// Folds the joint parameters (JointLimitTransform::Fold), then moves on by dt.
   void Predict(double dt, Belief* belief) const;
 
-  struct Outcome {
-    int seen = 0;
-    int downweighted = 0;
-    double nis = 0;             ///< over its degrees of freedom
-    double log_likelihood = 0;  ///< of z, GaussianUpdate::log_likelihood
-  };
-  /// z: 3 x markers [m], NaN = not seen; such a marker is left out.
-  Outcome Update(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief);
+  /// What Update writes into, of the right sizes.
+  UpdateOutcome MakeOutcome() const { return {kinematics_.num_dofs(), kinematics_.num_markers()}; }
 
-  /// Where the last Update would have expected the markers, had these been measured, 3 x markers.
-  void Expect(const Eigen::VectorXd& measured, Eigen::VectorXd* expected) {
-    update_.Expect(moments_, measured, expected);
-  }
-  /// Covariance of the expected place of a marker [m^2], by what the last Update of a seen marker
-  /// left open.
-  Eigen::Matrix3d ExpectedCovariance(int marker) {
-    return update_.PosteriorCovariance(moments_.C_sz, 3 * marker);
-  }
+  /// z: 3 x markers [m], NaN = not seen; such a marker is left out. Nothing seen: the belief stays.
+  void Update(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief, UpdateOutcome* outcome);
 
   void ToPosture(const Belief& belief, Posture* posture) const;
+  /// The posture, and its markers in at->p_WM.
+  void Place(const Belief& belief, Posture* posture, MarkerJacobian* at) const;
   /// Standard deviations of [root position; root rotation; joint angles], num_dofs.
   void Deviations(const Belief& belief, Eigen::VectorXd* deviations) const;
 
@@ -60,24 +49,23 @@ class MarkerFilter {
 
  private:
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
-  void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Outcome* outcome);
+  void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, UpdateOutcome* outcome);
   void FactorizeCovariance(const Belief& belief);
   /// The part of L_ for the states that h depends on, n x n.
   const PaddedMatrix& L_x() const { return motion_model_.velocity ? L_states_ : L_; }
-  bool IsFarFromLinear() const;
-  void Relinearize(const Belief& belief);
-  void Commit(Belief* belief);
+  bool IsFarFromLinear(const MeasurementMoments& moments) const;
+  void Relinearize(const Belief& belief, UpdateOutcome* outcome);
+  void Commit(const GaussianUpdate& update, Belief* belief);
 
   const MarkerKinematics& kinematics_;
   S2kfSettings settings_;
   Eigen::VectorXd noise_scale_;
   MotionModel motion_model_;
   MarkerMeasurementModel measurement_model_;
-  MeasurementMoments moments_;
-  GaussianUpdate update_;
   Eigen::VectorXd expected_;  // of z, by the latest estimate
   Eigen::VectorXd z_;         // measured coordinates, m
-  Eigen::VectorXd noise_;     // their variances, m
+  Eigen::VectorXd noise_;     // their variances, m; infinity: not seen
+  PaddedMatrix C_sz_;         // scratch, n x m
   PaddedMatrix L_;            // root of P, lower triangular; n columns of n or, with rates, 2n rows
   PaddedMatrix L_rates_;      // its other n columns, with rates
   PaddedMatrix L_states_;     // its first n rows, with rates

@@ -61,10 +61,10 @@ void BindMotionModel(S2kfSettings* v, SettingTable* table) {
              1000, "velocity: drift of the root's angular velocity within one second");
   table->Add("MotionModel", "jointRate_rad_per_s_per_sqrt_s", &v->velocity_noise.parameters, 1, 0,
              1000, "velocity: drift of the joint parameter rates within one second");
-  table->Add("MotionModel", "noiseScale", &v->noise_scale, 1, 1e-6, 1e6,
+  table->Add("MotionModel", "noiseScale", &v->process_noise_scale, 1, 1e-6, 1e6,
              "factor on the variances of all of these drifts");
   table->Add(
-      "MotionModel", "chooseNoiseScale", &v->choose_noise_scale,
+      "MotionModel", "chooseNoiseScale", &v->choose_process_noise_scale,
       "of whole recordings: multiply noiseScale by the factor under which the filter expects "
       "the recording most (maximum likelihood of its innovations)");
 }

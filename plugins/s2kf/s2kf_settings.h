@@ -37,8 +37,8 @@ struct S2kfSettings {
   double natural_spread = 0.15;
   double velocity_decay = 0.2;
   ProcessNoise velocity_noise = {1.0, 3.0, 3.0};
-  double noise_scale = 1;  ///< on the variances of noise and velocity_noise
-  bool choose_noise_scale = false;
+  double process_noise_scale = 1;  ///< on the variances of noise and velocity_noise
+  bool choose_process_noise_scale = false;
 
   double marker_deviation = 0.005;
   double robust_distance = 0.1;

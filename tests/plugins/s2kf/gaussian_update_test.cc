@@ -108,6 +108,23 @@ TEST_P(GaussianUpdateTest, NothingMeasuredChangesNothing) {
   EXPECT_EQ(Spread(update, MatrixXd::Identity(3, 3)), MatrixXd::Identity(3, 3));
 }
 
+TEST_P(GaussianUpdateTest, WithNothingMeasuredExpectsThePrior) {
+  const LinearProblem problem(3, 6);
+  const MeasurementMoments moments = problem.Moments();
+  GaussianUpdate update(3, 6);
+  // An update before leaves nothing.
+  update.Compute(moments, problem.z, problem.noise, GetParam());
+  update.Compute(moments, problem.z, VectorXd::Constant(6, std::numeric_limits<double>::infinity()),
+                 GetParam());
+  GaussianUpdate::Scratch scratch(3, 6);
+  VectorXd expected;
+  update.Expect(moments, VectorXd::Ones(6), &scratch, &expected);
+  EXPECT_EQ(expected, moments.mean);
+  const MatrixXd prior = (problem.H * problem.P * problem.H.transpose()).block(3, 3, 3, 3);
+  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3, &scratch) - prior).norm(), kRounding);
+  EXPECT_EQ(update.nis(), 0);
+}
+
 TEST_P(GaussianUpdateTest, NumbersThatAreNotFiniteAreForgotten) {
   const LinearProblem problem(5, 8);
   GaussianUpdate fresh(5, 8);
@@ -133,10 +150,11 @@ TEST_P(GaussianUpdateTest, ExpectsWhatAnotherMeasurementWouldHaveGiven) {
   double nis = 0;
   problem.Textbook(&x, &P, &nis);
   VectorXd expected;
-  update.Expect(moments, problem.z, &expected);
+  GaussianUpdate::Scratch scratch(5, 8);
+  update.Expect(moments, problem.z, &scratch, &expected);
   EXPECT_LT((expected - problem.H * x).norm(), kRounding);
   const MatrixXd covariance = (problem.H * P * problem.H.transpose()).block(3, 3, 3, 3);
-  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3) - covariance).norm(), kRounding);
+  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3, &scratch) - covariance).norm(), kRounding);
 }
 
 TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {

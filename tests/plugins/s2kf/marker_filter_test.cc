@@ -31,6 +31,12 @@ class MarkerFilterTest : public ::testing::TestWithParam<FilterType> {
     return at.p_WM;
   }
 
+  static UpdateOutcome Update(const Eigen::Matrix3Xd& z, Belief* belief, MarkerFilter* filter) {
+    UpdateOutcome outcome = filter->MakeOutcome();
+    filter->Update(z, belief, &outcome);
+    return outcome;
+  }
+
   KinematicModel model_ = testing::MakeBranchedModel();
   MarkerKinematics kinematics_ = testing::MakeFullKinematics(model_);
   VectorXd scale_ = VectorXd::Ones(kinematics_.num_markers());
@@ -47,7 +53,7 @@ TEST_P(MarkerFilterTest, ConvergesToThePostureThatMadeTheMarkers) {
   filter.StartAt(Retract(truth, 0.05 * VectorXd::Ones(kinematics_.num_dofs())), &belief);
   for (int k = 0; k < 30; ++k) {
     filter.Predict(0.01, &belief);
-    filter.Update(z, &belief);
+    Update(z, &belief, &filter);
   }
   Posture q;
   filter.ToPosture(belief, &q);
@@ -68,8 +74,8 @@ TEST_P(MarkerFilterTest, AMissingMarkerIsAFilterWithoutIt) {
   Belief b;
   all.StartAt(Retract(truth, 0.02 * VectorXd::Ones(kinematics_.num_dofs())), &a);
   b = a;
-  EXPECT_EQ(all.Update(z, &a).seen, 10);
-  fewer.Update(z_kept, &b);
+  EXPECT_EQ(Update(z, &a, &all).seen, 10);
+  Update(z_kept, &b, &fewer);
   // The same sums with zeros between.
   EXPECT_LT((a.P - b.P).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LT((a.parameters - b.parameters).norm(), 1e-11);
@@ -83,7 +89,7 @@ TEST_P(MarkerFilterTest, NothingSeenLeavesThePrediction) {
   filter.Predict(0.01, &belief);
   const Belief before = belief;
   const Eigen::Matrix3Xd none = Eigen::Matrix3Xd::Constant(3, kinematics_.num_markers(), kNaN);
-  EXPECT_EQ(filter.Update(none, &belief).seen, 0);
+  EXPECT_EQ(Update(none, &belief, &filter).seen, 0);
   EXPECT_EQ(belief.position, before.position);
   EXPECT_EQ(belief.parameters, before.parameters);
   EXPECT_EQ(belief.P, before.P);
@@ -99,7 +105,7 @@ TEST_P(MarkerFilterTest, OneWildMarkerIsHeldOff) {
     MarkerFilter filter(kinematics_, settings_, scale_);
     Belief belief;
     filter.StartAt(truth, &belief);
-    const MarkerFilter::Outcome outcome = filter.Update(z, &belief);
+    const UpdateOutcome outcome = Update(z, &belief, &filter);
     EXPECT_EQ(outcome.downweighted > 0, robust);
     Posture q;
     filter.ToPosture(belief, &q);
@@ -122,7 +128,7 @@ TEST_P(MarkerFilterTest, TheCovarianceStaysOneAndBoundedThroughLongGaps) {
     // The last joints' markers are gone in the second half.
     if (k >= 500) z.rightCols(4).setConstant(kNaN);
     filter.Predict(0.01, &belief);
-    filter.Update(z, &belief);
+    Update(z, &belief, &filter);
     EXPECT_EQ(belief.P, belief.P.transpose());
     if (k == 499) filter.Deviations(belief, &seen_deviations);
   }
@@ -151,7 +157,7 @@ TEST_P(MarkerFilterTest, TheCovarianceStaysPositiveWhileMarkersComeAndGo) {
       if (is_hidden(random_)) marker.setConstant(kNaN);
     }
     filter.Predict(0.01, &belief);
-    filter.Update(z, &belief);
+    Update(z, &belief, &filter);
     ASSERT_EQ(belief.P, belief.P.transpose()) << "frame " << k;
     ASSERT_EQ(Eigen::LLT<MatrixXd>(belief.P).info(), Eigen::Success) << "frame " << k;
   }
@@ -167,8 +173,8 @@ TEST_P(MarkerFilterTest, FoldingKeepsThePosture) {
   filter.StartAt(Retract(truth, 0.02 * VectorXd::Ones(kinematics_.num_dofs())), &near);
   Belief far = near;
   far.parameters.array() += 2 * EIGEN_PI;
-  filter.Update(Markers(truth), &near);
-  filter.Update(Markers(truth), &far);
+  Update(Markers(truth), &near, &filter);
+  Update(Markers(truth), &far, &filter);
   filter.Predict(0.01, &near);
   filter.Predict(0.01, &far);
   EXPECT_LE(far.parameters.cwiseAbs().maxCoeff(), EIGEN_PI / 2);
@@ -187,7 +193,7 @@ TEST_P(MarkerFilterTest, RunsAreTheSameToTheLastBit) {
     filter.StartAt(Retract(truth, 0.05 * VectorXd::Ones(kinematics_.num_dofs())), &b);
     for (int k = 0; k < 10; ++k) {
       filter.Predict(0.01, &b);
-      filter.Update(z, &b);
+      Update(z, &b, &filter);
     }
   }
   EXPECT_EQ(belief[0].P, belief[1].P);

@@ -68,6 +68,7 @@ TEST_P(PlainFilterTest, TheFastFilterIsTheSame) {
   Belief fast;
   filter.StartAt(start, &fast);
   Belief plain = fast;
+  UpdateOutcome outcome = filter.MakeOutcome();
   const MatrixXd half_samples = LcdHalfSamples(kinematics.num_dofs(), settings.samples);
   MarkerJacobian at = kinematics.MakeJacobian();
   const auto place = [&](const Belief& belief) {
@@ -82,7 +83,7 @@ TEST_P(PlainFilterTest, TheFastFilterIsTheSame) {
     const Eigen::Matrix3Xd before = place(plain);
     filter.Predict(0.01, &fast);
     filter.Predict(0.01, &plain);
-    filter.Update(z, &fast);
+    filter.Update(z, &fast, &outcome);
     PlainUpdate(kinematics, settings, half_samples, z.reshaped(), &plain);
     // What the project promises of its fast path.
     EXPECT_LT((place(fast) - place(plain)).cwiseAbs().maxCoeff(), 1e-9) << "frame " << k;

@@ -153,7 +153,7 @@ TEST(CalibratedTracking, SmoothingStaysWithTheFilterWhereItIsNotLinear) {
     const KitTrial trial(recording);
     const MarkerSequence seen = OccludeShare(trial.second, 0.33, 10, 1);
     S2kfSettings settings = Shipped("s2kf_offline");
-    settings.choose_noise_scale = false;
+    settings.choose_process_noise_scale = false;
     const double smoothed = Track(trial.model, trial.assignments, settings, seen, seen).all;
     settings.smoothing = false;
     const double filtered = Track(trial.model, trial.assignments, settings, seen, seen).all;

@@ -15,7 +15,6 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
-#include "plugins/s2kf/noise_scale.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/shared_data.h"
@@ -161,8 +160,8 @@ struct Figures {
 Figures Measure(const std::string& name, const Scene& scene) {
   const ConversionResult smoothed = scene.Convert(OfflineSettings(), scene.markers);
   S2kfSettings settings = WithoutSmoothing(OfflineSettings());
-  settings.choose_noise_scale = false;
-  settings.noise_scale = smoothed.noise_scale.value_or(1);
+  settings.choose_process_noise_scale = false;
+  settings.process_noise_scale = smoothed.noise_scale.value_or(1);
   const ConversionResult filtered = scene.Convert(settings, scene.markers);
   ExpectInsideLimits(scene, smoothed.trajectory);
   const MatrixXd truth = Accelerations(scene.TrueAngles());
@@ -260,7 +259,7 @@ TEST(SmoothingTest, TheResultDoesNotDependOnTheChunks) {
   const Scene scene = Handstand();
   const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 100), 0.3, 20, 1);
   S2kfSettings settings = OfflineSettings();
-  settings.choose_noise_scale = false;
+  settings.choose_process_noise_scale = false;
   const ConversionResult whole = scene.Convert(settings, seen);
   for (const int chunk : {1, 7, 33}) {
     settings.smoothing_chunk = chunk;
@@ -274,7 +273,7 @@ TEST(SmoothingTest, TheResultDoesNotDependOnTheChunks) {
 TEST(SmoothingTest, EndsWithTheFilterAndIsNowhereLessCertain) {
   const Scene scene = Handstand();
   S2kfSettings settings = OfflineSettings();
-  settings.choose_noise_scale = false;
+  settings.choose_process_noise_scale = false;
   const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 300), 0.3, 50, 1);
   const ConversionResult smoothed = scene.Convert(settings, seen);
   const ConversionResult filtered = scene.Convert(WithoutSmoothing(settings), seen);

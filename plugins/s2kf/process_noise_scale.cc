@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "plugins/s2kf/noise_scale.h"
+#include "plugins/s2kf/process_noise_scale.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "common/fit/posture_search.h"
-#include "common/model/marker_kinematics.h"
 #include "plugins/s2kf/marker_filter.h"
+#include "plugins/s2kf/posture_recovery.h"
 
 namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3Xd;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -29,20 +29,16 @@ constexpr double kLargestLog = 3;  // of the scale, to the base 10
 /// The likelihood of a recording, part by part.
 class Likelihood {
  public:
-  Likelihood(const MarkerSequence& recording, const TrackingSetup& setup,
+  Likelihood(const MarkerSequence& recording, const TrackedMarkers& markers,
              const S2kfSettings& settings)
-      : settings_(settings),
-        dt_(1 / recording.rate()),
-        kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
-        noise_scale_(NoiseScales(setup.assignments())) {
+      : markers_(markers), settings_(settings), dt_(1 / recording.rate()) {
     settings_.filter = FilterType::kEkf;
-    const std::vector<int> labels = LabelIndices(setup.assignments());
     const int frames = recording.num_frames();
     const int parts = frames > kParts * kPartFrames ? kParts : 1;
     const int length = parts > 1 ? kPartFrames : frames;
     for (int p = 0; p < parts; ++p) {
       const int begin = parts > 1 ? static_cast<int>(1L * p * (frames - length) / (parts - 1)) : 0;
-      AddPart(recording, labels, begin, begin + length);
+      AddPart(recording, begin, begin + length);
     }
   }
 
@@ -59,15 +55,16 @@ class Likelihood {
     const auto known = values_.find(log_scale);
     if (known != values_.end()) return known->second;
     S2kfSettings settings = settings_;
-    settings.noise_scale *= std::pow(10.0, log_scale);
-    MarkerFilter filter(kinematics_, settings, noise_scale_);
+    settings.process_noise_scale *= std::pow(10.0, log_scale);
+    MarkerFilter filter(markers_.kinematics(), settings, markers_.noise_scale());
+    UpdateOutcome outcome = filter.MakeOutcome();
     double sum = 0;
     for (const Part& part : parts_) {
       Belief belief;
       filter.StartAt(part.start, &belief);
       for (std::size_t k = 0; k < part.frames.size(); ++k) {
         if (k > 0) filter.Predict(dt_, &belief);
-        const MarkerFilter::Outcome outcome = filter.Update(part.frames[k], &belief);
+        filter.Update(part.frames[k], &belief, &outcome);
         if (k >= kSettling) sum += outcome.log_likelihood;
       }
     }
@@ -81,38 +78,33 @@ class Likelihood {
     std::vector<Matrix3Xd> frames;
   };
 
-  void AddPart(const MarkerSequence& recording, const std::vector<int>& labels, int begin,
-               int end) {
+  void AddPart(const MarkerSequence& recording, int begin, int end) {
     Part part;
+    Matrix3Xd z(3, markers_.kinematics().num_markers());
     for (int k = begin; k < end; ++k) {
-      Matrix3Xd z = recording.frame(k)(Eigen::all, labels);
-      int seen = 0;
-      for (Eigen::Index m = 0; m < z.cols(); ++m) seen += IsSeen(z.col(m));
+      const int seen = markers_.Gather(recording.frame(k), &z);
       if (part.frames.empty() && seen < kFewestMarkers) continue;
-      part.frames.push_back(std::move(z));
+      part.frames.push_back(z);
     }
     if (part.frames.empty()) return;
-    PostureSearch search(kinematics_);
-    PostureFitOptions options;
-    if (settings_.robust_distance > 0) options.robust_distance = settings_.robust_distance;
-    search.Assemble(part.frames.front(), noise_scale_, options, settings_.start_attempts,
-                    &part.start);
+    PostureSearch search(markers_.kinematics());
+    search.Assemble(part.frames.front(), markers_.noise_scale(), FitOptions(settings_),
+                    settings_.start_attempts, &part.start);
     parts_.push_back(std::move(part));
   }
 
+  const TrackedMarkers& markers_;
   S2kfSettings settings_;
   double dt_;
-  MarkerKinematics kinematics_;
-  VectorXd noise_scale_;
   std::vector<Part> parts_;
   std::map<double, double> values_;
 };
 
 }  // namespace
 
-double ChooseNoiseScale(const MarkerSequence& recording, const TrackingSetup& setup,
-                        const S2kfSettings& settings) {
-  Likelihood likelihood(recording, setup, settings);
+double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMarkers& markers,
+                               const S2kfSettings& settings) {
+  Likelihood likelihood(recording, markers, settings);
   if (likelihood.num_frames() < kFewestFrames) return 1;
   // Uphill from the calmest motion to the first top: under much noise joints also take up that
   // markers sit elsewhere than the model has them, which has a top of its own.

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/gate_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mmm_converter::s2kf {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+namespace {
+
+// Standard deviation of an offset's coordinates before anything is known of it [m].
+constexpr double kUnknownOffset = 0.04;
+// The offset follows the residuals within this time [s]: what a marker does faster is a jump.
+constexpr double kOffsetTime = 0.05;
+// The usual offset follows within this time [s]; a marker that is farther from it than this [m] has
+// wandered off.
+constexpr double kUsualTime = 3;
+constexpr double kFarOff = 0.12;
+// It is not known before so many frames.
+constexpr int kUsualFrames = 10;
+// The offset of a hidden marker is unknown again after this time [s]: others that hide and return
+// move the posture that it is beside.
+constexpr double kHiddenTime = 0.3;
+// And that of one left out: it may have another place on the body now.
+constexpr double kLeftOutTime = 2;
+// Of a residual about the offset: soft tissue and what the posture leaves [m].
+constexpr double kResidual = 0.008;
+
+}  // namespace
+
+void GateState::Reset(int num_markers) {
+  offset.setZero(3, num_markers);
+  variance.setConstant(num_markers, kUnknownOffset * kUnknownOffset);
+  usual.setZero(3, num_markers);
+  learned.setZero(num_markers);
+  verdicts.setConstant(num_markers, -1);
+  agreed.setZero(num_markers);
+  is_hidden.assign(num_markers, false);
+  frames_since_change = 0;
+}
+
+void GateState::Loosen() {
+  for (int m = 0; m < verdicts.size(); ++m) {
+    if (!IsLeftOut(m)) variance[m] = kUnknownOffset * kUnknownOffset;
+  }
+}
+
+void GateState::Open() {
+  for (int m = 0; m < verdicts.size(); ++m) {
+    if (IsLeftOut(m)) verdicts[m] = -1;
+  }
+  learned.setZero();
+  Loosen();
+}
+
+void GateState::Advance(double dt) {
+  ++frames_since_change;
+  // Such that the steady gain is that of kOffsetTime.
+  const double gain = 1 - std::exp(-dt / kOffsetTime);
+  const double drift = kResidual * kResidual * gain * gain / (1 - gain);
+  usual_gain = 1 - std::exp(-dt / kUsualTime);
+  const double unknown = kUnknownOffset * kUnknownOffset;
+  for (int m = 0; m < variance.size(); ++m) {
+    const double growth = is_hidden[m]   ? unknown * dt / kHiddenTime
+                          : IsLeftOut(m) ? unknown * dt / kLeftOutTime
+                                         : drift;
+    variance[m] = std::min(unknown, variance[m] + growth);
+  }
+}
+
+int GateState::CountLeftOut(const Matrix3Xd& measured) const {
+  int count = 0;
+  for (int m = 0; m < measured.cols(); ++m) {
+    count += IsLeftOut(m) && measured.col(m).allFinite();
+  }
+  return count;
+}
+
+void GateState::Select(const Matrix3Xd& measured, Matrix3Xd* z) const {
+  *z = measured;
+  for (int m = 0; m < z->cols(); ++m) {
+    if (IsLeftOut(m)) {
+      z->col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
+    } else if (verdicts[m] >= 0) {
+      z->col(m) = measured.col(verdicts[m]);
+    }
+  }
+}
+
+double GateState::VarianceOfResidual(int m) const { return variance[m] + kResidual * kResidual; }
+
+bool GateState::IsFarOff(const Vector3d& from_usual, int m) const {
+  return learned[m] >= kUsualFrames && from_usual.norm() > kFarOff;
+}
+
+void GateState::Learn(int m, const Vector3d& r) {
+  const double gain = variance[m] / VarianceOfResidual(m);
+  offset.col(m) += gain * (r - offset.col(m));
+  variance[m] *= 1 - gain;
+  usual.col(m) += std::max(usual_gain, 1.0 / ++learned[m]) * (r - usual.col(m));
+}
+
+}  // namespace mmm_converter::s2kf

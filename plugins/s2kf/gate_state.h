@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace mmm_converter::s2kf {
+
+/// What MarkerGate carries from one frame to the next: where the person wears each marker beside
+/// its place on the model, and which labels are wrong. By marker; offsets in the marker's link [m].
+struct GateState {
+  Eigen::Matrix3Xd offset;   ///< b, estimated from the residuals r of the tracked postures
+  Eigen::VectorXd variance;  ///< of each coordinate of b [m^2]
+  Eigen::Matrix3Xd usual;    ///< slow mean of r
+  Eigen::VectorXi learned;   ///< frames in it
+  Eigen::VectorXi
+      verdicts;            ///< -1: as labelled, its own index: left out, another's: bears its label
+  Eigen::VectorXi agreed;  ///< frames in a row in which a marker left out passed
+  std::vector<bool> is_hidden;
+  int frames_since_change = 0;  ///< of the markers in use
+  double usual_gain = 0;        ///< of `usual` in this frame
+
+  /// All labels right, offsets unknown.
+  void Reset(int num_markers);
+  /// The track was taken up anew: the offsets of the markers in use may be others.
+  void Loosen();
+  /// Takes all markers that are left out back in, wherever they are.
+  void Open();
+  /// A frame begins, dt [s] after the last.
+  void Advance(double dt);
+
+  bool IsLeftOut(int m) const { return verdicts[m] == m; }
+  bool IsAnyWrong() const { return (verdicts.array() >= 0).any(); }
+  /// Of those seen. measured: by label, 3 x markers [m], NaN = not seen.
+  int CountLeftOut(const Eigen::Matrix3Xd& measured) const;
+  /// z: what to track of `measured`. NaN = not seen or left out.
+  void Select(const Eigen::Matrix3Xd& measured, Eigen::Matrix3Xd* z) const;
+
+  /// Variance of each coordinate of r - b of a right marker [m^2].
+  double VarianceOfResidual(int m) const;
+  /// r is far from its usual value, where that is known. from_usual: r - usual, in any frame.
+  bool IsFarOff(const Eigen::Vector3d& from_usual, int m) const;
+  /// Follows b and `usual` by the residual of a marker that is used.
+  void Learn(int m, const Eigen::Vector3d& r);
+};
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <vector>
+
+#include "common/convert/motion_converter.h"
+#include "common/motion/marker_sequence.h"
+#include "plugins/s2kf/online_tracker.h"
+#include "plugins/s2kf/s2kf_settings.h"
+#include "plugins/s2kf/track_state.h"
+#include "plugins/s2kf/tracked_frame.h"
+
+namespace mmm_converter::s2kf {
+
+/// Makes the track of one whole recording better, by what later frames tell of earlier ones: takes
+/// it up where a lost track could first have been taken up, then goes backwards over it
+/// (TrajectorySmoother). Of the track every so manieth state is kept, from which the tracker does
+/// the same again. Keep comes after each tracked frame, then Smooth once.
+class OfflineTracker {
+ public:
+  /// All must outlive the object; `tracker` is what tracks the recording.
+  OfflineTracker(const MarkerSequence& recording, const S2kfSettings& settings,
+                 OnlineTracker* tracker);
+
+  /// state: after frame k; from the first tracked frame on, in order.
+  void Keep(int k, const TrackState& state);
+
+  /// result: of the tracker, all frames; its postures, standard deviations and residuals are
+  /// replaced by the smoothed ones, its times grow. Frames before the first tracked one take that
+  /// one's posture.
+  void Smooth(ConversionResult* result);
+
+ private:
+  struct Checkpoint {
+    int frame = 0;
+    TrackState state;
+  };
+
+  /// Where the track was taken up anew, goes backwards from there as long as that is nearer to the
+  /// markers than the track was: the frame in which it ends is where to take it up.
+  void FindRetakes(const ConversionResult& result);
+  void TrackFromRetakes();
+  /// The track of frame k from that of the frame before.
+  void TrackAgain(int k, TrackState* state);
+  void Retake(int k, TrackState* state);
+  void SmoothBackwards(ConversionResult* result);
+  /// Whether a smoothed posture is about as near to the gathered markers as the filter's.
+  bool IsAsNear(const Belief& smoothed, const Belief& filtered);
+  /// Takes the markers of frame k into frame_; returns how many are seen.
+  int Gather(int k);
+  /// Mean distance of the gathered markers from those of a belief, which it places; clipped [m].
+  double MeasuredDistance(const Belief& belief);
+  void Write(int k, const Belief& belief, ConversionResult* result);
+
+  const MarkerSequence& recording_;
+  OnlineTracker& tracker_;
+  RootParameters root_;
+  int chunk_;    // frames between checkpoints
+  double clip_;  // [m]
+  double dt_;    // [s]
+  std::vector<Checkpoint> checkpoints_;
+  // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
+  std::map<int, Posture> retakes_;
+  TrackedFrame frame_;
+  Eigen::VectorXd deviations_;
+};
+
+}  // namespace mmm_converter::s2kf

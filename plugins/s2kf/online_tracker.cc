@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/online_tracker.h"
+
+#include <string>
+
+#include "common/support/error.h"
+
+namespace mmm_converter::s2kf {
+
+using Eigen::Matrix3Xd;
+using Eigen::Ref;
+
+namespace {
+
+constexpr int kFewestMarkers = 3;
+
+}  // namespace
+
+OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& settings)
+    : markers_(markers),
+      settings_(settings),
+      clip_(FitOptions(settings).robust_distance),
+      filter_(markers.kinematics(), settings, markers.noise_scale()),
+      update_(markers.kinematics(), settings.gate_probability),
+      watch_(settings),
+      recovery_(markers, settings) {
+  candidate_.joint_angles.setZero(markers.kinematics().num_joints());
+}
+
+double OnlineTracker::Distance(const TrackedFrame& frame) const {
+  return ClippedMeanDistance(frame.z, frame.at.p_WM, clip_);
+}
+
+void OnlineTracker::Start(const Ref<const Matrix3Xd>& points, TrackState* state,
+                          TrackedFrame* frame) {
+  frame->seen = markers_.Gather(points, &frame->measured);
+  if (frame->seen < kFewestMarkers) {
+    throw Error("only " + std::to_string(frame->seen) +
+                " of the mapped markers are seen in the first frame; at least 3 are needed");
+  }
+  const int num_markers = markers_.kinematics().num_markers();
+  *state = TrackState();
+  state->gate.Reset(num_markers);
+  if (settings_.start == StartMethod::kPaper) {
+    filter_.StartAsPaper(frame->measured, &state->belief);
+  } else {
+    recovery_.Assemble(*frame, &state->random, &candidate_);
+    filter_.StartAt(candidate_, &state->belief);
+  }
+  Update(state, frame);
+  frame->reassembled = false;
+  watch_.Start(num_markers, Distance(*frame), &state->watch);
+}
+
+void OnlineTracker::Track(const Ref<const Matrix3Xd>& points, double dt, TrackState* state,
+                          TrackedFrame* frame) {
+  frame->seen = markers_.Gather(points, &frame->measured);
+  filter_.Predict(dt, &state->belief);
+  state->gate.Advance(dt);
+  Update(state, frame);
+  frame->reassembled = settings_.recovery && Reopen(state, frame);
+  if (!settings_.recovery || frame->seen < kFewestMarkers) return;
+  const bool is_in_doubt = watch_.IsInDoubt(frame->z, Distance(*frame), dt, &state->watch);
+  if (is_in_doubt && !frame->reassembled) frame->reassembled = Recover(state, frame);
+}
+
+bool OnlineTracker::Reopen(TrackState* state, TrackedFrame* frame) {
+  const int left_out = state->gate.CountLeftOut(frame->measured);
+  if (!recovery_.FindForAll(*frame, left_out, watch_, &candidate_)) return false;
+  filter_.StartAt(candidate_, &state->belief);
+  state->gate.Open();
+  Update(state, frame);
+  return true;
+}
+
+bool OnlineTracker::Recover(TrackState* state, TrackedFrame* frame) {
+  if (!recovery_.FindBetter(*frame, watch_, &state->random, &candidate_)) return false;
+  filter_.StartAt(candidate_, &state->belief);
+  state->gate.Loosen();
+  Update(state, frame);
+  watch_.Recovered(Distance(*frame), &state->watch);
+  return true;
+}
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/posture_recovery.h"
+
+#include <utility>
+
+namespace mmm_converter::s2kf {
+
+namespace {
+
+// Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
+constexpr int kFitIterations = 12;
+
+}  // namespace
+
+PostureFitOptions FitOptions(const S2kfSettings& settings) {
+  PostureFitOptions options;
+  if (settings.robust_distance > 0) options.robust_distance = settings.robust_distance;
+  return options;
+}
+
+PostureRecovery::PostureRecovery(const TrackedMarkers& markers, const S2kfSettings& settings)
+    : markers_(markers),
+      options_(FitOptions(settings)),
+      start_attempts_(settings.start_attempts),
+      search_(markers.kinematics()) {
+  options_.max_iterations = kFitIterations;
+}
+
+void PostureRecovery::Assemble(const TrackedFrame& frame, std::mt19937* random, Posture* posture) {
+  search_.Assemble(frame.measured, markers_.noise_scale(), options_, start_attempts_, posture);
+  *random = search_.random();
+}
+
+bool PostureRecovery::FindBetter(const TrackedFrame& frame, const TrackWatch& watch,
+                                 std::mt19937* random, Posture* posture) {
+  PostureFit& fit = search_.fit();
+  const Eigen::VectorXd& scale = markers_.noise_scale();
+  *posture = frame.posture;
+  const PostureFit::Result before = fit.Evaluate(frame.z, scale, options_, frame.posture);
+  fit.Solve(frame.z, scale, options_, posture);
+  std::swap(search_.random(), *random);
+  search_.Improve(frame.z, scale, options_, posture);
+  std::swap(search_.random(), *random);
+  const PostureFit::Result after = fit.Evaluate(frame.z, scale, options_, *posture);
+  const double unseen =
+      1 - static_cast<double>(CountSeen(frame.z)) / static_cast<double>(frame.z.cols());
+  return watch.IsClearlyBetter(before, after, unseen);
+}
+
+bool PostureRecovery::FindForAll(const TrackedFrame& frame, int left_out, const TrackWatch& watch,
+                                 Posture* posture) {
+  if (!watch.MayBeRight(left_out)) return false;
+  PostureFit& fit = search_.fit();
+  const Eigen::VectorXd& scale = markers_.noise_scale();
+  *posture = frame.posture;
+  fit.Solve(frame.measured, scale, options_, posture);
+  const double all = fit.Evaluate(frame.measured, scale, options_, *posture).cost;
+  const double used = fit.Evaluate(frame.z, scale, options_, *posture).cost;
+  return watch.ExplainsLeftOut(used, CountSeen(frame.z), all - used, left_out);
+}
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/track_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mmm_converter::s2kf {
+
+namespace {
+
+// A track is in doubt for this many frames after its start or after a cause of doubt.
+constexpr int kDoubtFrames = 20;
+// So many markers that come back together after having been hidden for longer than this [s] may
+// stand where the filter does not expect them.
+constexpr int kManyReturned = 3;
+constexpr double kLongGap = 0.1;
+// Distances this much above their usual level are a cause of doubt.
+constexpr double kDoubtFactor = 1.15;
+constexpr double kDoubtDistance = 0.001;
+// The usual level follows with this time constant [s].
+constexpr double kLevelTime = 1.0;
+// A found posture must lower the cost by this share to replace the filter's: the filter smooths, so
+// its posture never has the least cost. Markers that are not seen leave a fit free, and a track
+// that is smoothed is cut where it is taken up anew: there the mean distance must fall, too, by up
+// to the noise of a marker.
+constexpr double kClearlyBetter = 0.1;
+
+// Markers left out may be right where there are so many, and are where a posture exists at which
+// their mean squared distance is no more than this many times the others'.
+constexpr int kManyLeftOut = 2;
+constexpr double kAsWell = 4;
+
+}  // namespace
+
+TrackWatch::TrackWatch(const S2kfSettings& settings)
+    : marker_deviation_(settings.marker_deviation), is_smoothed_(settings.smoothing) {}
+
+void TrackWatch::Start(int num_markers, double distance, State* state) const {
+  state->hidden_for.assign(num_markers, 0.0);
+  state->usual_distance = distance;
+  state->is_far = false;
+  state->doubt = kDoubtFrames;
+}
+
+bool TrackWatch::IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt,
+                           State* state) const {
+  int returned = 0;
+  for (std::size_t i = 0; i < state->hidden_for.size(); ++i) {
+    double& hidden_for = state->hidden_for[i];
+    if (z.col(static_cast<Eigen::Index>(i)).allFinite()) {
+      returned += hidden_for > kLongGap;
+      hidden_for = 0;
+    } else {
+      hidden_for += dt;
+    }
+  }
+  const double level = kDoubtFactor * state->usual_distance;
+  const bool rises = distance > level + kDoubtDistance;
+  state->is_far = distance > level + std::max(kDoubtDistance, marker_deviation_);
+  state->doubt = rises || returned >= kManyReturned ? kDoubtFrames : std::max(state->doubt - 1, 0);
+  const double step = 1 - std::exp(-dt / kLevelTime);
+  state->usual_distance += step * (distance - state->usual_distance);
+  return state->doubt > 0;
+}
+
+void TrackWatch::Recovered(double distance, State* state) const {
+  state->is_far = false;
+  state->usual_distance = std::min(state->usual_distance, distance);
+}
+
+bool TrackWatch::IsClearlyBetter(const PostureFit::Result& before, const PostureFit::Result& after,
+                                 double unseen) const {
+  if (after.cost > (1 - kClearlyBetter) * before.cost) return false;
+  const double least_gain = (is_smoothed_ ? 1 : std::min(1.0, 2 * unseen)) * marker_deviation_;
+  return after.mean_distance <= before.mean_distance - least_gain;
+}
+
+bool TrackWatch::MayBeRight(int left_out) const { return left_out >= kManyLeftOut; }
+
+bool TrackWatch::ExplainsLeftOut(double used_cost, int used, double left_out_cost,
+                                 int left_out) const {
+  return left_out_cost * used <= kAsWell * used_cost * left_out;
+}
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/fit/posture_fit.h"
+#include "plugins/s2kf/s2kf_settings.h"
+
+namespace mmm_converter::s2kf {
+
+/// Decides when a track is in doubt, so that a least-squares fit looks for a better posture, and
+/// when a posture that was found replaces the filter's. Knows distances and costs only. State in,
+/// state out: Start with the first frame, IsInDoubt once in each later one, Recovered where a
+/// posture was replaced.
+class TrackWatch {
+ public:
+  struct State {
+    std::vector<double> hidden_for;  ///< by marker [s]
+    double usual_distance = 0;       ///< running level of the distance [m]
+    bool is_far = false;             ///< the distance is well above its usual level
+    int doubt = 0;                   ///< frames for which the track stays in doubt
+  };
+
+  explicit TrackWatch(const S2kfSettings& settings);
+
+  /// distance: mean of the first frame's markers from the estimate's [m]. A new track is in doubt.
+  void Start(int num_markers, double distance, State* state) const;
+
+  /// A frame dt [s] after the last, with three markers or more. z: as tracked, 3 x markers, NaN =
+  /// not seen. distance: their mean from the estimate's [m].
+  bool IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt, State* state) const;
+
+  /// The posture was replaced; distance: of the new one [m].
+  void Recovered(double distance, State* state) const;
+
+  /// Whether a posture that a fit found replaces the filter's. before, after: of both, on the same
+  /// markers. unseen: share of the markers that are not seen.
+  bool IsClearlyBetter(const PostureFit::Result& before, const PostureFit::Result& after,
+                       double unseen) const;
+
+  /// Whether markers are left out together that may be right together.
+  bool MayBeRight(int left_out) const;
+
+  /// Whether a posture that was fitted to all markers explains those that are left out about as
+  /// well as the others. Costs: of so many markers at that posture.
+  bool ExplainsLeftOut(double used_cost, int used, double left_out_cost, int left_out) const;
+
+ private:
+  double marker_deviation_;  // [m]
+  bool is_smoothed_;
+};
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/tracked_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mmm_converter::s2kf {
+
+using Eigen::Index;
+using Eigen::Matrix3Xd;
+
+namespace {
+
+template <typename DistanceOf>
+double ClippedMeanOf(Index count, double limit, const DistanceOf& distance_of) {
+  double sum = 0;
+  int seen = 0;
+  for (Index i = 0; i < count; ++i) {
+    const double distance = distance_of(i);
+    if (!std::isfinite(distance)) continue;
+    sum += std::min(distance, limit);
+    ++seen;
+  }
+  return sum / std::max(seen, 1);
+}
+
+}  // namespace
+
+TrackedFrame::TrackedFrame(const MarkerKinematics& kinematics)
+    : measured(Matrix3Xd::Constant(3, kinematics.num_markers(),
+                                   std::numeric_limits<double>::quiet_NaN())),
+      z(measured),
+      outcome(kinematics.num_dofs(), kinematics.num_markers()),
+      at(kinematics.MakeJacobian()) {
+  posture.joint_angles.setZero(kinematics.num_joints());
+}
+
+int CountSeen(const Matrix3Xd& z) {
+  int seen = 0;
+  for (Index m = 0; m < z.cols(); ++m) seen += z.col(m).allFinite();
+  return seen;
+}
+
+double ClippedMean(const Eigen::Ref<const Eigen::VectorXd>& distances, double limit) {
+  return ClippedMeanOf(distances.size(), limit, [&](Index i) { return distances[i]; });
+}
+
+double ClippedMeanDistance(const Matrix3Xd& a, const Matrix3Xd& b, double limit) {
+  return ClippedMeanOf(a.cols(), limit, [&](Index i) { return (a.col(i) - b.col(i)).norm(); });
+}
+
+}  // namespace mmm_converter::s2kf

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/convert/tracking_setup.h"
+#include "common/model/marker_kinematics.h"
+
+namespace mmm_converter::s2kf {
+
+/// The markers that are tracked, in the order of the assignments: where the model has them, which
+/// label of a frame is theirs, how noisy they are. Immutable.
+class TrackedMarkers {
+ public:
+  explicit TrackedMarkers(const TrackingSetup& setup);
+
+  const MarkerKinematics& kinematics() const { return kinematics_; }
+  /// Factor on a marker's standard deviation.
+  const Eigen::VectorXd& noise_scale() const { return noise_scale_; }
+
+  /// measured: the markers in a frame of labels, 3 x markers [m]; all NaN where not seen. Returns
+  /// how many are seen.
+  int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, Eigen::Matrix3Xd* measured) const;
+
+ private:
+  MarkerKinematics kinematics_;
+  std::vector<int> labels_;
+  Eigen::VectorXd noise_scale_;
+};
+
+}  // namespace mmm_converter::s2kf
