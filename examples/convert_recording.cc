@@ -28,8 +28,8 @@ void Run(const std::string& input, double height, const std::string& output) {
 
   // The reference model is a person of 1 m and 1 kg; Winter's rule scales it to ours.
   const std::string model_file = DataFile("models/mmm.xml");
-  const KinematicModel model = ScaleWinter(ReadMmmModel(model_file).model,
-                                           {.height = height, .mass = kMass, .hand_length = {}});
+  const KinematicModel model =
+      ScaleWinter(ReadMmmModel(model_file), {.height = height, .mass = kMass, .hand_length = {}});
 
   // The plugin must outlive the converter. Its template is also its default configuration.
   const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");

@@ -33,7 +33,7 @@ int NumSeen(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
 void Run(const std::string& input, double height) {
   // Before the stream starts: labels, model and converter.
   const MarkerSequence stream = ReadRecording(input, {}).markers;
-  const KinematicModel model = ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")).model,
+  const KinematicModel model = ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")),
                                            {.height = height, .mass = 70, .hand_length = {}});
   const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");
   const ConverterConfig config =

@@ -35,22 +35,22 @@ SharedInputs::SharedInputs() : program_(HashProgram()) {}
 
 void SharedInputs::Prepare(ConversionRequest* request) {
   const std::scoped_lock lock(mutex_);
-  const std::string model_file = ModelFile(request->input);
-  auto& model = models_[model_file];
-  if (!model) model = std::make_shared<LoadedModel>(ReadModelFile(model_file));
+  auto& model = models_[ModelFile(request->input)];
+  if (!model.value) model = ReadModelOnce(request->input);
   request->input.model = model;
   const ConverterRequest& converter = request->converter;
   auto& choice = choices_[converter.config + '\n' + converter.plugin_file];
-  if (!choice) choice = std::make_shared<ConverterChoice>(ChooseConverter(converter));
+  if (!choice.value) choice = ChooseOnce(converter);
   request->choice = choice;
 }
 
 std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConversionRequest& request) {
-  const ConverterConfig& config = request.choice->config;
+  const ConverterChoice& choice = *request.choice.value;
+  const ConverterConfig& config = choice.config;
   ContentHash hash;
   hash.AddPart(program_);
-  hash.AddPart(FileHash(request.choice->plugin->path()));
-  hash.AddPart(request.choice->text);
+  hash.AddPart(FileHash(choice.plugin->path()));
+  hash.AddPart(choice.text);
   hash.AddPart(FileHash(ModelFile(request.input)));
   hash.AddPart(fs::path(request.input.file).filename().string());
   for (const auto& [name, value] : entry.settings) {

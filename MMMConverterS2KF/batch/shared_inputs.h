@@ -31,8 +31,8 @@ class SharedInputs {
 
   std::string program_;  // hash
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const LoadedModel>> models_;
-  std::map<std::string, std::shared_ptr<const ConverterChoice>> choices_;
+  std::map<std::string, WithWarnings<std::shared_ptr<const LoadedModel>>> models_;
+  std::map<std::string, WithWarnings<std::shared_ptr<const ConverterChoice>>> choices_;
   std::map<std::string, std::string> hashes_;
 };
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
 
@@ -28,13 +29,14 @@ void NumberRepeatedNames(std::vector<Named>* items) {
 }
 
 void TakeModel(const InputRequest& request, ConverterConfig config, Input* read, Trial* trial,
-               std::vector<std::string>* warnings) {
+               Warnings* warnings) {
   MatchModel(request, read, &config);
   const Input& input = *read;
   const MarkerSequence& markers = input.recording.markers;
   std::string set;
   const std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, markers, *input.reference, &set);
-  const MarkerMapping mapping = ResolveMarkerMapping(pairs, markers, *input.reference);
+  const MarkerMapping mapping =
+      ResolveMarkerMapping(pairs, markers, *input.reference, nullptr);  // each row says it
   Person person;
   trial->model = std::make_shared<KinematicModel>(
       ScaleToPerson(request.person, *input.reference, input.recording, config, mapping.assignments,
@@ -48,12 +50,12 @@ Contender MakeContender(const std::string& config) {
   Contender contender;
   contender.name = config.empty() ? "s2kf_default" : fs::path(config).stem().string();
   try {
-    ConverterChoice choice = ChooseConverter({config, "", ""});
+    ConverterChoice choice = ChooseConverter({config, "", ""}, nullptr);
     contender.config = std::move(choice.config);
     contender.configuration = std::move(choice.text);
     contender.plugin = std::move(choice.plugin);
   } catch (const Error& error) {
-    contender.failure = error.what();
+    contender.failure = WithAdvice(error);
   }
   return contender;
 }
@@ -63,12 +65,14 @@ void NameInputs(const Contender& contender, OutputPlan* plan) {
 }
 
 Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
-                std::vector<std::string>* warnings) {
+                Warnings* warnings) {
   Trial trial;
   trial.name = fs::path(request.file).filename().string();
   try {
-    Input input = ReadInput(request);
-    warnings->insert(warnings->end(), input.warnings.begin(), input.warnings.end());
+    Warnings of_input;
+    Input input = ReadInput(request, &of_input);
+    warnings->Append(of_input);
+    const WarningContext context(warnings, request.file, input.recording.motion);
     if (!truth_file.empty()) {
       const MmmMotion truth = ReadPostures(truth_file, input.recording.motion);
       trial.truth = AlignFrames(truth.trajectory, input.recording.markers, truth_file);
@@ -80,7 +84,7 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
     TakeModel(request, config, &input, &trial, warnings);
     trial.markers = std::move(input.recording.markers);
   } catch (const Error& error) {
-    trial.failure = error.what();
+    trial.failure = WithAdvice(error);
   }
   return trial;
 }

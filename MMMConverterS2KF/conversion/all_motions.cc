@@ -11,6 +11,7 @@
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/error.h"
 #include "common/support/output_plan.h"
@@ -20,12 +21,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-ConversionRequest RequestFor(const ConversionRequest& request, Recording recording,
-                             const std::shared_ptr<const ConverterChoice>& choice) {
+ConversionRequest RequestFor(const ConversionRequest& request, WithWarnings<Recording> recording) {
   ConversionRequest own = request;
-  own.input.reading.motion = recording.motion;
-  own.input.recording = std::make_shared<const Recording>(std::move(recording));
-  own.choice = choice;
+  own.input.reading.motion = recording.value.motion;
+  own.input.recording = {std::make_shared<const Recording>(std::move(recording.value)),
+                         std::move(recording.warnings)};
   own.motion_name.clear();
   own.is_one_of_all = true;
   return own;
@@ -45,20 +45,21 @@ void CheckFormat(const ConversionRequest& request, const ConverterChoice& choice
 MotionOutcome ConvertOne(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress) {
   MotionOutcome outcome;
-  outcome.name = request.input.recording->motion;
-  if (request.input.recording->markers.num_labels() == 0) return outcome;
+  const Recording& recording = *request.input.recording.value;
+  outcome.name = recording.motion;
+  if (recording.markers.num_labels() == 0) return outcome;
   try {
     outcome.report = RunConversion(request, progress);
   } catch (const Error& error) {
-    outcome.failure = error.what();
+    outcome.failure = WithAdvice(error);
   }
   return outcome;
 }
 
 // Names are what tells motions that are written apart.
-void CheckNames(const std::vector<Recording>& recordings) {
+void CheckNames(const std::vector<WithWarnings<Recording>>& recordings) {
   std::set<std::string> names;
-  for (const Recording& recording : recordings) {
+  for (const auto& [recording, warnings] : recordings) {
     const bool has_markers = recording.markers.num_labels() > 0;
     if (!has_markers || names.insert(recording.motion).second) continue;
     throw Error(
@@ -124,16 +125,16 @@ AllMotions RunAllMotions(const ConversionRequest& request,
   for (const std::string& output : request.more_outputs) outputs.Write(output);
   outputs.Check();
   AllMotions all;
-  std::vector<Recording> recordings =
+  std::vector<WithWarnings<Recording>> recordings =
       ReadAllMotions(request.input.file, request.input.reading, &all.warnings);
-  const auto choice = std::make_shared<const ConverterChoice>(ChooseConverter(request.converter));
-  CheckNames(recordings);
   ConversionRequest of_each = request;
-  of_each.input.model = ReadModel(request.input).model;
+  of_each.choice = ChooseOnce(request.converter);
+  CheckNames(recordings);
+  of_each.input.model = ReadModelOnce(request.input);
   std::set<std::string> models;
-  for (Recording& recording : recordings) {
-    CheckFormat(request, *choice, recording);
-    MotionOutcome outcome = ConvertOne(RequestFor(of_each, std::move(recording), choice), progress);
+  for (WithWarnings<Recording>& recording : recordings) {
+    CheckFormat(request, *of_each.choice.value, recording.value);
+    MotionOutcome outcome = ConvertOne(RequestFor(of_each, std::move(recording)), progress);
     CheckModelIsOwn(&models, &outcome);
     all.motions.push_back(std::move(outcome));
   }

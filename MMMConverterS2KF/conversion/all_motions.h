@@ -18,7 +18,7 @@ struct MotionOutcome {
 };
 
 struct AllMotions {
-  std::vector<std::string> warnings;   ///< of the file as a whole; the others are in reports
+  Warnings warnings;                   ///< of the file as a whole; the others are in reports
   std::vector<MotionOutcome> motions;  ///< in the file's order
   std::string output;
 };

@@ -15,8 +15,13 @@
 namespace mmm_converter {
 namespace {
 
-void AddWarnings(const std::vector<std::string>& more, ConversionReport* report) {
-  report->warnings.insert(report->warnings.end(), more.begin(), more.end());
+void TakeConverter(const ConversionRequest& request, ConversionReport* report) {
+  if (request.choice.value) {
+    report->converter = *request.choice.value;
+    report->warnings.Append(request.choice.warnings);
+  } else {
+    report->converter = ChooseConverter(request.converter, &report->warnings);
+  }
 }
 
 // The person as the recording itself shows them.
@@ -27,10 +32,10 @@ void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
   const Recording& recording = report->input.recording;
   const std::string file = std::filesystem::path(recording.file).filename().string();
   const KinematicModel& scaled = *report->model;
-  report->calibration = CalibratePerson(scaled, ResolveJoints(config, scaled),
-                                        {{file, &recording.markers, report->mapping.assignments}},
-                                        report->person, SubjectName(report->input));
-  AddWarnings(report->calibration->warnings, report);
+  report->calibration =
+      CalibratePerson(scaled, ResolveJoints(config, scaled),
+                      {{file, &recording.markers, report->mapping.assignments}}, report->person,
+                      SubjectName(report->input), &report->warnings);
   report->person.subject = std::make_shared<Subject>(report->calibration->subject);
   report->model =
       std::make_shared<KinematicModel>(FitToSubject(scaled, report->calibration->subject));
@@ -53,11 +58,7 @@ void TakeObject(const ConversionRequest& request, ConversionReport* report) {
   object.models = request.object_models;
   object.new_models = FolderOfNewModels(request, *report);
   object.has_model_given = !request.input.model_file.empty() && !request.is_one_of_all;
-  const std::size_t known = report->input.warnings.size();
-  report->object = TakeObject(object, &report->input, &report->converter.config);
-  AddWarnings({report->input.warnings.begin() + static_cast<std::ptrdiff_t>(known),
-               report->input.warnings.end()},
-              report);
+  report->object = TakeObject(object, &report->input, &report->converter.config, &report->warnings);
 }
 
 // Configurations know how far markers stray from a model of a person. On an object nothing moves
@@ -120,10 +121,10 @@ void CheckOutputs(const ConversionRequest& request,
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<bool(int, int)>& progress) {
   ConversionReport report;
-  report.input = ReadInput(request.input);
-  AddWarnings(report.input.warnings, &report);
-  report.converter = request.choice ? *request.choice : ChooseConverter(request.converter);
-  AddWarnings(report.converter.config.warnings, &report);
+  Warnings& warnings = report.warnings;
+  report.input = ReadInput(request.input, &warnings);
+  TakeConverter(request, &report);
+  const WarningContext context(&warnings, request.input.file, report.input.recording.motion);
   ConverterConfig& config = report.converter.config;
   MatchModel(request.input, &report.input, &config);
   if (request.self_calibrate) config.subject_file.clear();
@@ -137,15 +138,13 @@ ConversionReport RunConversion(const ConversionRequest& request,
   const MarkerSequence& markers = report.input.recording.markers;
   const std::vector<MarkerPair> pairs =
       ResolveMarkerPairs(config, markers, reference, &report.marker_set);
-  report.mapping = ResolveMarkerMapping(pairs, markers, reference);
-  AddWarnings(report.mapping.warnings, &report);
+  report.mapping = ResolveMarkerMapping(pairs, markers, reference, &warnings);
   const std::vector<MarkerAssignment>& assignments = report.mapping.assignments;
   CheckDeterminesPose(report.input, report.mapping);
   if (report.object) TrustMarkersOfObject(&report.mapping);
   const PersonRequest person = report.object ? PersonRequest() : request.input.person;
-  report.model = std::make_shared<KinematicModel>(
-      ScaleToPerson(person, reference, report.input.recording, config, assignments, &report.person,
-                    &report.warnings));
+  report.model = std::make_shared<KinematicModel>(ScaleToPerson(
+      person, reference, report.input.recording, config, assignments, &report.person, &warnings));
 
   if (request.self_calibrate && !report.object) SelfCalibrate(config, &report);
   CheckHasSubject(request, report);
@@ -159,7 +158,7 @@ ConversionReport RunConversion(const ConversionRequest& request,
     return !progress || progress(done, markers.num_frames());
   });
   if (report.object) {
-    AddWarnings(JudgeObject(report.input, report.mapping, report.result.residuals), &report);
+    JudgeObject(report.input, report.mapping, report.result.residuals, &warnings);
   }
   return report;
 }

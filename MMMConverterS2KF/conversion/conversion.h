@@ -15,6 +15,7 @@
 #include "MMMConverterS2KF/input/person.h"
 #include "common/convert/marker_mapping.h"
 #include "common/convert/motion_converter.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -22,8 +23,8 @@ namespace mmm_converter {
 struct ConversionRequest {
   InputRequest input;
   ConverterRequest converter;
-  std::shared_ptr<const ConverterChoice> choice;  ///< for it, where that was made before
-  std::string output;                             ///< input stem + "_mmm.xml", beside the input
+  WithWarnings<std::shared_ptr<const ConverterChoice>> choice;  ///< where it was made before
+  std::string output;                     ///< input stem + "_mmm.xml", beside the input
   std::string output_format;              ///< "2.0" or "1.0"; empty: what the configuration says
   std::string motion_name;                ///< to write
   std::string model_path;                 ///< to write, as it is
@@ -52,7 +53,7 @@ struct ConversionReport {
   ConversionResult result;
   std::string output, output_format, motion_name;
   std::string subject_output, model_output;  ///< empty: not written
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads the recording, loads and scales the model, matches the markers, calibrates where asked to,

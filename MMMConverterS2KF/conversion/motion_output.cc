@@ -67,7 +67,7 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
     return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
   }
   if (recording.num_motions > 1) {
-    first.warnings.push_back(
+    first.warnings.Add(
         fmt::format("{}: has {} motions; the output has the converted one "
                     "only (MMM 2.0 in and out keeps all)",
                     request.input.file, recording.num_motions));

@@ -75,8 +75,6 @@ bool IsFile(const std::string& path) {
 
 void UseModel(const std::string& file, LoadedModel model, Input* input) {
   input->model = std::make_shared<const LoadedModel>(std::move(model));
-  const std::vector<std::string>& warnings = input->model->warnings;
-  input->warnings.insert(input->warnings.end(), warnings.begin(), warnings.end());
   input->model_file = file;
   input->reference = std::shared_ptr<const KinematicModel>(input->model, &input->model->model);
 }
@@ -120,7 +118,8 @@ std::string WhyNotItsModel(const LoadedModel& model, const Input& input,
 }
 
 // The file that the motion names, if it is there and can be tracked.
-bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input* input) {
+bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input* input,
+                   Warnings* warnings) {
   const Recording& recording = input->recording;
   if (recording.model_path.empty()) return false;
   const std::string file =
@@ -128,16 +127,18 @@ bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input
   if (!IsFile(file)) return false;
   std::string reason;
   try {
-    LoadedModel model = ReadModelFile(file);
+    Warnings of_model;
+    LoadedModel model = ReadModelFile(file, &of_model);
     reason = WhyNotItsModel(model, *input, config);
     if (reason.empty()) {
+      warnings->Append(of_model);
       UseModel(file, std::move(model), input);
       return true;
     }
   } catch (const Error& error) {
     reason = error.what();
   }
-  input->warnings.push_back(
+  warnings->Add(
       fmt::format("{}, the model that the motion {} names, is not used: {}", file, name, reason));
   return false;
 }
@@ -156,11 +157,12 @@ KinematicModel ModelOf(const std::string& name, const RigidShape& shape,
   return KinematicModel(description);
 }
 
-void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape, Input* input) {
-  const std::vector<std::string>& labels = input->recording.markers.labels();
+void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape,
+                           const Recording& recording, Warnings* warnings) {
+  const std::vector<std::string>& labels = recording.markers.labels();
   for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
     if (std::count(shape.labels.begin(), shape.labels.end(), i) > 0) continue;
-    input->warnings.push_back(fmt::format(
+    warnings->Add(fmt::format(
         "motion {}: marker {} is left out of the model: it could not be placed by three "
         "others",
         name, labels[i]));
@@ -181,11 +183,12 @@ void CheckIsBuilt(const std::string& file) {
                   file));
 }
 
-ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input) {
+ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input,
+                       Warnings* warnings) {
   CheckIsBuilt(file);
   const Recording& recording = input->recording;
   const RigidShape shape = EstimateRigidShape(recording.markers);
-  WarnOfUnplacedMarkers(name, shape, input);
+  WarnOfUnplacedMarkers(name, shape, recording, warnings);
   ObjectModel built;
   built.has_motions_name = true;
   built.source = fmt::format("built from {} frames", shape.frames);
@@ -197,17 +200,17 @@ ObjectModel BuildModel(const std::string& file, const std::string& name, Input* 
                   "markers.",
                   kBuilt, name, fs::path(recording.file).filename().string(), shape.frames,
                   1e3 * shape.distance));
-  MmmModel model = ParseMmmModel(built.text, file);
-  UseModel(file, {std::move(model.model), true, {}, std::move(model.warnings)}, input);
+  UseModel(file, {ParseMmmModel(built.text, file, warnings), true, {}}, input);
   return built;
 }
 
-ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& config, Input* input) {
+ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& config, Input* input,
+                      Warnings* warnings) {
   const std::string file_name = FileNameOf(request.name);
   if (!request.models.empty()) {
     const std::string file = (fs::path(request.models) / file_name).string();
     if (IsFile(file)) {
-      LoadedModel model = ReadModelFile(file);
+      LoadedModel model = ReadModelFile(file, warnings);
       const std::string reason = WhyNotItsModel(model, *input, config);
       if (!reason.empty()) {
         throw Error(fmt::format("{}: {}; take it out of the folder to have one built from them",
@@ -217,14 +220,16 @@ ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& confi
       return {"in " + request.models, "", 0, true};
     }
   }
-  if (UseNamedModel(request.name, config, input)) return {"named by the motion", "", 0, false};
+  if (UseNamedModel(request.name, config, input, warnings))
+    return {"named by the motion", "", 0, false};
   if (request.new_models.empty()) {
     throw Error(
         fmt::format("{}: the motion {} is of a rigid object without a model, and there is no "
                     "folder for one that is built (convert --object-models DIR)",
                     input->recording.file, request.name));
   }
-  return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input);
+  return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input,
+                    warnings);
 }
 
 // A configuration is written for persons.
@@ -250,7 +255,7 @@ Eigen::Matrix3Xd PlacesOf(const Input& input, const MarkerMapping& mapping) {
 }  // namespace
 
 std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
-                                      ConverterConfig* config) {
+                                      ConverterConfig* config, Warnings* warnings) {
   std::optional<ObjectModel> object;
   if (request.has_model_given) {
     const int joints = input->reference->num_joints();
@@ -263,7 +268,7 @@ std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input
   } else {
     const bool is_person = request.is_person || IsPersonsRecording(*input, *config);
     if (!request.is_object && is_person) return std::nullopt;
-    object = FindModel(request, *config, input);
+    object = FindModel(request, *config, input, warnings);
   }
   AdaptToObject(*input, config);
   return object;
@@ -294,28 +299,26 @@ void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping) {
                   count < kFewestMarkers ? "are too few" : "stand on a line"));
 }
 
-std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
-                                     const Eigen::MatrixXd& residuals) {
+void JudgeObject(const Input& input, const MarkerMapping& mapping, const Eigen::MatrixXd& residuals,
+                 Warnings* warnings) {
   constexpr double kHardlyTold = 0.05;  // [rad]
   const Eigen::Matrix3Xd places = PlacesOf(input, mapping);
   const double radius = RadiusOf(places);
   const double beside_line = DistanceFromLine(places);
   const double distance = SummarizeResiduals(residuals).mean;
   if (distance > kMostStray * radius) {
-    return {
+    warnings->Add(
         fmt::format("{}: the markers are {:.1f} mm from this model, whose radius is {:.0f} mm "
                     "(both on average); is it this object's?",
-                    input.model_file, 1e3 * distance, 1e3 * radius)};
-  }
-  if (distance > kHardlyTold * beside_line) {
-    return {
+                    input.model_file, 1e3 * distance, 1e3 * radius));
+  } else if (distance > kHardlyTold * beside_line) {
+    warnings->Add(
         fmt::format("{}: the markers are {:.1f} mm (root mean square) beside a line, and {:.1f} "
                     "mm from their places on average: turns about that line are hardly known, "
                     "to about {:.0f} degrees",
                     input.model_file, 1e3 * beside_line, 1e3 * distance,
-                    distance / beside_line * 180 / EIGEN_PI)};
+                    distance / beside_line * 180 / EIGEN_PI));
   }
-  return {};
 }
 
 }  // namespace mmm_converter

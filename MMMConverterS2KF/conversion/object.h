@@ -8,6 +8,7 @@
 #include "MMMConverterS2KF/input/input.h"
 #include "common/convert/converter_config.h"
 #include "common/convert/marker_mapping.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -41,7 +42,7 @@ struct ObjectModel {
 /// mapping to other markers) is taken out of it.
 /// @throws Error
 std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
-                                      ConverterConfig* config);
+                                      ConverterConfig* config, Warnings* warnings);
 
 /// Where it is from, and how near a built one is to its markers.
 std::string DescribeObjectModel(const ObjectModel& object);
@@ -49,10 +50,10 @@ std::string DescribeObjectModel(const ObjectModel& object);
 /// @throws Error where the mapped markers of an object do not determine its pose.
 void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping);
 
-/// What a user should know of the track of an object: that the markers are far from the model, as
-/// those of another object would be, or that they hardly tell turns about the line that they are
-/// nearly on. residuals: markers x frames [m].
-std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
-                                     const Eigen::MatrixXd& residuals);
+/// Warns of what a user should know of the track of an object: that the markers are far from the
+/// model, as those of another object would be, or that they hardly tell turns about the line that
+/// they are nearly on. residuals: markers x frames [m].
+void JudgeObject(const Input& input, const MarkerMapping& mapping, const Eigen::MatrixXd& residuals,
+                 Warnings* warnings);
 
 }  // namespace mmm_converter

@@ -43,23 +43,35 @@ void NameInputs(const InputRequest& request, OutputPlan* plan) {
   plan->Read(request.person.subject_file);
 }
 
-Input ReadModel(const InputRequest& request) {
+Input ReadModel(const InputRequest& request, Warnings* warnings) {
   Input input;
   input.model_file = ModelFile(request);
-  input.model = request.model
-                    ? request.model
-                    : std::make_shared<const LoadedModel>(ReadModelFile(input.model_file));
-  input.warnings = input.model->warnings;
+  if (request.model.value) {
+    input.model = request.model.value;
+    warnings->Append(request.model.warnings);
+  } else {
+    input.model = std::make_shared<const LoadedModel>(ReadModelFile(input.model_file, warnings));
+  }
   input.reference = std::shared_ptr<const KinematicModel>(input.model, &input.model->model);
   return input;
 }
 
-Input ReadInput(const InputRequest& request) {
-  Recording recording =
-      request.recording ? *request.recording : ReadRecording(request.file, request.reading);
-  Input input = ReadModel(request);
-  input.warnings.insert(input.warnings.begin(), recording.warnings.begin(),
-                        recording.warnings.end());
+WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request) {
+  WithWarnings<std::shared_ptr<const LoadedModel>> model;
+  model.value =
+      std::make_shared<const LoadedModel>(ReadModelFile(ModelFile(request), &model.warnings));
+  return model;
+}
+
+Input ReadInput(const InputRequest& request, Warnings* warnings) {
+  Recording recording;
+  if (request.recording.value) {
+    recording = *request.recording.value;
+    warnings->Append(request.recording.warnings);
+  } else {
+    recording = ReadRecording(request.file, request.reading, warnings);
+  }
+  Input input = ReadModel(request, warnings);
   input.recording = std::move(recording);
   TakeFrames(request, &input);
   return input;

@@ -13,6 +13,7 @@
 #include "common/io/recording/recording.h"
 #include "common/model/kinematic_model.h"
 #include "common/support/output_plan.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -20,12 +21,12 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::shared_ptr<const Recording> recording;  ///< of that file, where it has been read before
-  std::optional<int> first_frame;              ///< counted from 0
-  std::optional<int> end_frame;                ///< the frame behind the last
-  std::string model_file;                      ///< reference model, or a URDF
-  std::shared_ptr<const LoadedModel> model;    ///< of that file, where it has been read before
-  std::string marker_set;                      ///< file or name; comes before the configuration's
+  WithWarnings<std::shared_ptr<const Recording>> recording;  ///< where it has been read before
+  std::optional<int> first_frame;                            ///< counted from 0
+  std::optional<int> end_frame;                              ///< the frame behind the last
+  std::string model_file;                                    ///< reference model, or a URDF
+  WithWarnings<std::shared_ptr<const LoadedModel>> model;    ///< where it has been read before
+  std::string marker_set;  ///< file or name; comes before the configuration's
   PersonRequest person;
 };
 
@@ -35,7 +36,6 @@ struct Input {
   std::string model_file;
   std::shared_ptr<const LoadedModel> model;         ///< of that file
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
-  std::vector<std::string> warnings;
 };
 
 /// Says in the plan which files the request names.
@@ -46,10 +46,14 @@ std::string ModelFile(const InputRequest& request);
 
 /// The model only; no recording.
 /// @throws Error
-Input ReadModel(const InputRequest& request);
+Input ReadModel(const InputRequest& request, Warnings* warnings);
+
+/// The model for several inputs: to be InputRequest::model.
+/// @throws Error
+WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request);
 
 /// @throws Error
-Input ReadInput(const InputRequest& request);
+Input ReadInput(const InputRequest& request, Warnings* warnings);
 
 /// The request's marker set instead of the configuration's, where it names one.
 void TakeMarkerSet(const InputRequest& request, ConverterConfig* config);

@@ -60,7 +60,7 @@ void CheckLength(const char* what, const std::optional<double>& given, std::opti
 
 // Another mass changes no length.
 void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
-                 const Recording& recording, Person* person, std::vector<std::string>* warnings) {
+                 const Recording& recording, Person* person, Warnings* warnings) {
   const Subject& subject = *person->subject;
   const std::string& file = person->subject_file;
   const auto height = request.height ? request.height : processor.height;
@@ -72,12 +72,12 @@ void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
   person->hand_length = subject.hand_length;
   const auto mass = Choose(request.mass, processor.mass, request.processor_file, std::nullopt);
   if (mass && !AreEqual(mass->value, subject.mass)) {
-    warnings->push_back(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
-                                    subject.mass, mass->value, mass->source));
+    warnings->Add(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
+                              subject.mass, mass->value, mass->source));
     person->mass = *mass;
   }
   if (recording.height && !AreEqual(*recording.height, subject.height)) {
-    warnings->push_back(
+    warnings->Add(
         fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
                     "same person?",
                     file, *recording.height, subject.height));
@@ -100,7 +100,7 @@ void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
 KinematicModel Scale(const PersonRequest& request, const KinematicModel& reference,
                      const Recording& recording, const ConverterConfig& config,
                      const std::function<PersonValue()>& estimate_height, Person* person,
-                     std::vector<std::string>* warnings) {
+                     Warnings* warnings) {
   ProcessorConfig processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
   person->subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
@@ -115,14 +115,13 @@ KinematicModel Scale(const PersonRequest& request, const KinematicModel& referen
 }
 
 KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel& reference,
-                             const ConverterConfig& config, Person* person,
-                             std::vector<std::string>* warnings) {
+                             const ConverterConfig& config, Person* person, Warnings* warnings) {
   if (!request.subject_file.empty()) {
     throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
                             WhyUnscaled(config), request.subject_file));
   }
   if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
-    warnings->push_back(WhyUnscaled(config) + "; height, mass and hand length are left out");
+    warnings->Add(WhyUnscaled(config) + "; height, mass and hand length are left out");
   }
   person->height = {0, "model is not scaled"};
   person->mass = person->height;
@@ -131,8 +130,7 @@ KinematicModel LeaveUnscaled(const PersonRequest& request, const KinematicModel&
 
 /// No marker tells the angle of some tracked joints.
 void WarnOfFreeJoints(const KinematicModel& model, const ConverterConfig& config,
-                      const std::vector<MarkerAssignment>& assignments,
-                      std::vector<std::string>* warnings) {
+                      const std::vector<MarkerAssignment>& assignments, Warnings* warnings) {
   constexpr std::size_t kShown = 5;
   std::vector<int> markers;
   markers.reserve(assignments.size());
@@ -145,7 +143,7 @@ void WarnOfFreeJoints(const KinematicModel& model, const ConverterConfig& config
     if (!is_moving) names.push_back(model.joint(kinematics.joints()[j]).name);
   }
   if (names.empty()) return;
-  warnings->push_back(fmt::format(
+  warnings->Add(fmt::format(
       "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
       "known: {}",
       names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
@@ -171,7 +169,7 @@ WinterScaling ToWinterScaling(const Person& person) {
 KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
                              const Recording& recording, const ConverterConfig& config,
                              const std::vector<MarkerAssignment>& assignments, Person* person,
-                             std::vector<std::string>* warnings) {
+                             Warnings* warnings) {
   if (config.model_processor == "None") {
     WarnOfFreeJoints(reference, config, assignments, warnings);
     return LeaveUnscaled(request, reference, config, person, warnings);
@@ -182,7 +180,7 @@ KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel&
 
 KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
                                   const ConverterConfig& config, Person* person,
-                                  std::vector<std::string>* warnings) {
+                                  Warnings* warnings) {
   constexpr const char* kUnknown =
       "how tall and heavy is the person? Give --height and --mass, --person or --subject-file";
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));

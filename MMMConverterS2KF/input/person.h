@@ -12,6 +12,7 @@
 #include "common/model/kinematic_model.h"
 #include "common/model/model_scaling.h"
 #include "common/model/subject.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -55,12 +56,12 @@ WinterScaling ToWinterScaling(const Person& person);
 KinematicModel ScaleToPerson(const PersonRequest& request, const KinematicModel& reference,
                              const Recording& recording, const ConverterConfig& config,
                              const std::vector<MarkerAssignment>& assignments, Person* person,
-                             std::vector<std::string>* warnings);
+                             Warnings* warnings);
 
 /// As ScaleToPerson without a recording: nothing is estimated or assumed.
 /// @throws Error; also where height or mass are not known, or the model is not scaled.
 KinematicModel ScaleToKnownPerson(const PersonRequest& request, const KinematicModel& reference,
                                   const ConverterConfig& config, Person* person,
-                                  std::vector<std::string>* warnings);
+                                  Warnings* warnings);
 
 }  // namespace mmm_converter

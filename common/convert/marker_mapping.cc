@@ -67,7 +67,8 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
 }  // namespace
 
 MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
-                                   const MarkerSequence& recording, const KinematicModel& model) {
+                                   const MarkerSequence& recording, const KinematicModel& model,
+                                   Warnings* warnings) {
   CheckPairs(pairs, model);
   const std::map<std::string, int> labels = LabelIndices(recording);
   MarkerMapping mapping;
@@ -79,13 +80,13 @@ MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
     if (label == labels.end() || by_marker.contains(marker)) continue;
     const std::string& name = recording.labels()[label->second];
     if (!IsEverSeen(recording, label->second)) {
-      mapping.warnings.push_back(fmt::format("marker {} is not seen in any frame", name));
+      Warn(warnings, fmt::format("marker {} is not seen in any frame", name));
       continue;
     }
     by_marker[marker] = {label->second, marker, pair.noise_scale};
     used.insert(name);
     if (!pair.warning.empty()) {
-      mapping.warnings.push_back(fmt::format("{} as {}: {}", name, pair.target, pair.warning));
+      Warn(warnings, fmt::format("{} as {}: {}", name, pair.target, pair.warning));
     }
   }
   if (by_marker.empty()) ThrowNoMatch(pairs, recording);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/support/warnings.h"
+
 namespace mmm_converter {
 
 class KinematicModel;
@@ -29,7 +31,6 @@ struct MarkerMapping {
   std::vector<MarkerAssignment> assignments;  ///< by model marker index, each marker at most once
   std::vector<std::string> ignored_labels;    ///< in the recording, not mapped
   std::vector<std::string> absent_markers;    ///< mapped, but not seen in the recording
-  std::vector<std::string> warnings;
 };
 
 /// Matches labels without case, blanks, punctuation and prefix (`Subject:`). Of several pairs with
@@ -39,6 +40,7 @@ struct MarkerMapping {
 /// to
 ///         two markers, or a target is not a marker of the model.
 MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs,
-                                   const MarkerSequence& recording, const KinematicModel& model);
+                                   const MarkerSequence& recording, const KinematicModel& model,
+                                   Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

@@ -244,11 +244,13 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets,
   std::vector<std::string> names;
   names.reserve(sets.size());
   for (const MarkerSet& set : sets) names.push_back(set.name);
-  throw Error(fmt::format(
-      "no marker set ({}) knows three labels of the recording, which has {}; "
-      "name links of the URDF <label>_marker, or say which labels stand for which markers "
-      "and where these are: --marker-set FILE, or a configuration with a MarkerMapping",
-      fmt::join(names, ", "), FirstNames(recording.labels())));
+  throw Error(
+      fmt::format(
+          "no marker set ({}) knows three labels of the recording, which has {}; "
+          "name links of the URDF <label>_marker, or say which labels stand for which markers "
+          "and where these are, in the configuration or in a marker set",
+          fmt::join(names, ", "), FirstNames(recording.labels())),
+      Remedy::kMarkerSet);
 }
 
 }  // namespace mmm_converter

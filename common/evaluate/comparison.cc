@@ -36,10 +36,11 @@ void ResolveRow(const Trial& trial, const Contender& contender, std::vector<int>
     std::string set;
     const std::vector<MarkerPair> pairs =
         ResolveMarkerPairs(contender.config, trial.markers, *trial.model, &set);
-    row->mapping = ResolveMarkerMapping(pairs, trial.markers, *trial.model);
+    row->mapping = ResolveMarkerMapping(pairs, trial.markers, *trial.model, &row->warnings);
     *joints = ResolveJoints(contender.config, *trial.model);
   } catch (const Error& error) {
     row->failure = error.what();
+    row->remedy = error.remedy();
   }
 }
 
@@ -155,6 +156,7 @@ struct RunOutcome {
   TrackingQuality quality;
   VectorXd frame_means;
   std::string failure;
+  Remedy remedy = Remedy::kNone;
 };
 
 void FillBand(const std::vector<RunOutcome>& outcomes, ComparisonRow* row) {
@@ -177,6 +179,7 @@ void FinishRow(const std::vector<RunOutcome>& outcomes, ComparisonRow* row) {
   for (const RunOutcome& outcome : outcomes) {
     if (!outcome.failure.empty()) {
       row->failure = outcome.failure;
+      row->remedy = outcome.remedy;
       return;
     }
   }
@@ -207,6 +210,9 @@ RunOutcome Perform(const Run& run, const Comparison& comparison, const Field& fi
       row->result = std::move(result);
       row->distances = std::move(distances);
     }
+  } catch (const Error& error) {
+    outcome.failure = error.what();
+    outcome.remedy = error.remedy();
   } catch (const std::exception& error) {
     outcome.failure = error.what();
   }
@@ -310,6 +316,7 @@ Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
   for (std::size_t i = 0; i < results.size(); ++i) {
     ComparisonRow& row = comparison.rows[i];
     row.mapping = std::move(results[i].mapping);
+    row.warnings = std::move(results[i].warnings);
     row.result = std::move(results[i].result);
     field.rows.push_back(&row);
     field.joints.push_back(JointsOf(only, row.result.trajectory));
