@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/version.h"
@@ -99,7 +100,7 @@ int main(int argc, char** argv) {
     LogError(error.what());
     return mmm_converter::kMisused;
   } catch (const mmm_converter::Error& error) {
-    LogError(error.what());
+    LogError(mmm_converter::WithAdvice(error));
     return mmm_converter::kFailed;
   } catch (const std::exception& error) {
     LogError(fmt::format("unexpected: {}", error.what()));

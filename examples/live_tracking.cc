@@ -42,7 +42,7 @@ class Stream {
 // What is tracked, from labels alone.
 TrackingSetup MakeSetup(const Stream& stream, const ConverterConfig& config, double height) {
   const auto reference =
-      std::make_shared<const KinematicModel>(ReadMmmModel(DataFile("models/mmm.xml")).model);
+      std::make_shared<const KinematicModel>(ReadMmmModel(DataFile("models/mmm.xml")));
   return MakeTrackingSetup({.names = stream.labels(), .source = "the stream"}, reference, config,
                            {.size = WinterScaling{height, 70, {}}});
 }

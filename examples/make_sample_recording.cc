@@ -25,7 +25,7 @@ constexpr double kMass = 75;     // [kg]
 constexpr int kSeed = 1;
 
 void MakeSampleRecording(const std::string& model_file, const std::string& folder) {
-  const KinematicModel model = ScaleWinter(ReadMmmModel(model_file).model, {kHeight, kMass, {}});
+  const KinematicModel model = ScaleWinter(ReadMmmModel(model_file), {kHeight, kMass, {}});
   const PoseTrajectory truth = MakeHandstand(model);
 
   // Markers as real recordings show them: 28 mm off the model's places, on soft tissue, with noise.

@@ -15,6 +15,7 @@
 #include "MMMConverterS2KF/batch/entry_conversion.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 
 namespace mmm_converter {
@@ -86,7 +87,7 @@ class BatchRunner {
     } catch (const std::bad_alloc&) {
       reason = entry.request.input.file + ": there is not enough memory for it; use fewer --jobs";
     } catch (const Error& error) {
-      reason = error.what();
+      reason = WithAdvice(error);
     } catch (const std::exception& error) {
       reason = fmt::format("{}: unexpected: {}", entry.request.input.file, error.what());
     }

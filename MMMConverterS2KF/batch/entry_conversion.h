@@ -9,11 +9,14 @@
 
 namespace mmm_converter {
 
-/// Converts an entry; writes nothing. request: the entry's, prepared, and given its outputs.
+/// Converts an entry; writes nothing. request: RequestOf the entry.
 /// goes_on: asked between frames; false ends it with an Error.
 /// @throws Error
-ConversionReport ConvertEntry(const BatchEntry& entry, const BatchFolder& folder,
-                              ConversionRequest* request, const std::function<bool()>& goes_on);
+ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore& read_before,
+                              const std::function<bool()>& goes_on);
+
+/// An entry's request with its outputs.
+ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder);
 
 /// Writes the page of a conversion. @throws WriteError
 void WritePage(const BatchEntry& entry, const ConversionReport& report, BatchFolder* folder);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "MMMConverterS2KF/batch/subjects_table.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/processor_config.h"
@@ -67,7 +68,7 @@ class Scanner {
     Visit(folder_);
     for (const auto& [name, row] : rows_) {
       if (row.is_used) continue;
-      scan_.warnings.push_back(
+      scan_.warnings.Add(
           fmt::format("{}: there is no recording in or at \"{}\"", subjects_file_.string(), name));
     }
     if (scan_.recordings == 0) {
@@ -94,8 +95,7 @@ class Scanner {
       entries.push_back(*entry);
     }
     if (failure) {
-      scan_.warnings.push_back(
-          fmt::format("{}: can't be read: {}", folder.string(), failure.message()));
+      scan_.warnings.Add(fmt::format("{}: can't be read: {}", folder.string(), failure.message()));
     }
     std::sort(entries.begin(), entries.end());
     return entries;
@@ -140,7 +140,7 @@ class Scanner {
         recordings->push_back({file.filename().string(), {}, {}});
       }
     } catch (const Error& error) {
-      scan_.warnings.emplace_back(error.what());
+      scan_.warnings.Add(WithAdvice(error));
     }
   }
 

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "common/support/warnings.h"
+
 namespace mmm_converter {
 
 struct Scan {
   std::string manifest;  ///< text of a <Batch> file
   int recordings = 0;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Looks for recordings in a folder and the folders in it: C3D, TRC, and MMM motions with markers.

@@ -33,24 +33,23 @@ std::string HashProgram() {
 
 SharedInputs::SharedInputs() : program_(HashProgram()) {}
 
-void SharedInputs::Prepare(ConversionRequest* request) {
+ReadBefore SharedInputs::ReadFor(const ConversionRequest& request) {
   const std::scoped_lock lock(mutex_);
-  const std::string model_file = ModelFile(request->input);
-  auto& model = models_[model_file];
-  if (!model) model = std::make_shared<LoadedModel>(ReadModelFile(model_file));
-  request->input.model = model;
-  const ConverterRequest& converter = request->converter;
+  auto& model = models_[ModelFile(request.input)];
+  if (!model.value) model = ReadModelOnce(request.input);
+  const ConverterRequest& converter = request.converter;
   auto& choice = choices_[converter.config + '\n' + converter.plugin_file];
-  if (!choice) choice = std::make_shared<ConverterChoice>(ChooseConverter(converter));
-  request->choice = choice;
+  if (!choice.value) choice = ChooseOnce(converter);
+  return {model, choice, {}};
 }
 
-std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConversionRequest& request) {
-  const ConverterConfig& config = request.choice->config;
+std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterChoice& choice) {
+  const ConversionRequest& request = entry.request;
+  const ConverterConfig& config = choice.config;
   ContentHash hash;
   hash.AddPart(program_);
-  hash.AddPart(FileHash(request.choice->plugin->path()));
-  hash.AddPart(request.choice->text);
+  hash.AddPart(FileHash(choice.plugin->path()));
+  hash.AddPart(choice.text);
   hash.AddPart(FileHash(ModelFile(request.input)));
   hash.AddPart(fs::path(request.input.file).filename().string());
   for (const auto& [name, value] : entry.settings) {

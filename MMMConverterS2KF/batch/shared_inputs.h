@@ -16,23 +16,23 @@ class SharedInputs {
  public:
   SharedInputs();
 
-  /// Gives an entry's request its model and converter.
+  /// The model and the converter of an entry's request.
   /// @throws Error where one of them can't be read.
-  void Prepare(ConversionRequest* request);
+  ReadBefore ReadFor(const ConversionRequest& request);
 
   /// Hash of all that the outputs of an entry depend on, except the recording's bytes: this program
   /// with its libraries and marker sets, the plugin, the configuration, the model, the subject, the
-  /// attributes. `request` is prepared.
+  /// attributes.
   /// @throws Error where a file can't be read.
-  std::string Fingerprint(const BatchEntry& entry, const ConversionRequest& request);
+  std::string Fingerprint(const BatchEntry& entry, const ConverterChoice& choice);
 
  private:
   std::string FileHash(const std::string& path);
 
   std::string program_;  // hash
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const LoadedModel>> models_;
-  std::map<std::string, std::shared_ptr<const ConverterChoice>> choices_;
+  std::map<std::string, WithWarnings<std::shared_ptr<const LoadedModel>>> models_;
+  std::map<std::string, WithWarnings<std::shared_ptr<const ConverterChoice>>> choices_;
   std::map<std::string, std::string> hashes_;
 };
 

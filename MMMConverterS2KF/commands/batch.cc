@@ -196,7 +196,7 @@ int PrintScan(const Arguments& arguments) {
                                  *arguments.positional()));
   }
   const Scan scan = ScanFolder(*arguments.Get("scan"), arguments.Get("subjects").value_or(""));
-  for (const std::string& warning : scan.warnings) LogWarning(warning);
+  LogWarnings(scan.warnings);
   std::cout << scan.manifest;
   return 0;
 }

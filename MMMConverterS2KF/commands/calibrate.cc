@@ -145,13 +145,15 @@ int RunCalibrate(const std::vector<std::string>& words) {
   StartLog(arguments.Get("log").value_or("info"));
   const CalibrationRequest request = MakeRequest(arguments);
   const std::string output = OutputFile(arguments);
-  const ConverterChoice choice = ChooseConverter(request.converter);
+  Warnings of_choice;
+  ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
   CheckOutputs(arguments, request, choice);
   ProgressBar bar("recordings read");
   const CalibrationReport report =
-      RunCalibration(request, choice.config, [&](int done, int all) { bar.Show(done, all); });
+      RunCalibration(request, {std::move(choice.config), std::move(of_choice)},
+                     [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
-  for (const std::string& warning : report.warnings) LogWarning(warning);
+  LogWarnings(report.warnings);
   const std::string& model_file = report.recordings.front().input.model_file;
   const Subject& subject = report.result.subject;
   if (const auto file = arguments.Get("model-out")) {

@@ -132,7 +132,7 @@ int RunCheckDynamics(const std::vector<std::string>& words) {
   plan.Read(motion.model_file);
   plan.Check();
   const DynamicsReport report = CheckDynamics(std::move(motion), options);
-  for (const std::string& warning : report.motion.warnings) LogWarning(warning);
+  LogWarnings(report.motion.warnings);
   WriteFiles(arguments, report);
   std::cout << FormatDynamicsSummary(report);
   return report.plausibility.judgement == Judgement::kImplausible ? kImplausible : 0;

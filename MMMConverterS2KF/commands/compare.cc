@@ -116,7 +116,7 @@ void CheckOutputs(const Arguments& arguments, const std::vector<Contender>& cont
 
 std::vector<Trial> MakeTrials(const Arguments& arguments, const ConverterConfig& config) {
   std::vector<Trial> trials;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const std::vector<std::string>& files = arguments.positionals();
   for (std::size_t i = 0; i < files.size(); ++i) {
     const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
@@ -124,7 +124,7 @@ std::vector<Trial> MakeTrials(const Arguments& arguments, const ConverterConfig&
     trials.push_back(
         MakeTrial(MakeInputRequest(own, files[i]), truth == "-" ? "" : truth, config, &warnings));
   }
-  for (const std::string& warning : warnings) LogWarning(warning);
+  LogWarnings(warnings);
   return trials;
 }
 

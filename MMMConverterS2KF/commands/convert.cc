@@ -142,11 +142,11 @@ void CheckFitsAllMotions(const Arguments& arguments) {
   }
 }
 
-void LogWarnings(const AllMotions& all) {
-  for (const std::string& warning : all.warnings) LogWarning(warning);
+void LogWarningsOf(const AllMotions& all) {
+  LogWarnings(all.warnings);
   for (const MotionOutcome& outcome : all.motions) {
     if (!outcome.report) continue;
-    for (const std::string& warning : outcome.report->warnings) {
+    for (const std::string& warning : outcome.report->warnings.texts()) {
       LogWarning(fmt::format("motion {}: {}", outcome.name, warning));
     }
   }
@@ -161,7 +161,7 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   });
   bar.Clear();
   WriteAllMotions(request, &all);
-  LogWarnings(all);
+  LogWarningsOf(all);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatAllMotionsJson(all));
   }
@@ -198,7 +198,7 @@ int RunConvert(const std::vector<std::string>& words) {
   });
   bar.Clear();
   WriteConversion(request, &report);
-  for (const std::string& warning : report.warnings) LogWarning(warning);
+  LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatSummaryJson(report));
   }

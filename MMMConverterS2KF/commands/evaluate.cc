@@ -53,12 +53,12 @@ std::vector<OptionGroup> Options() {
 
 std::vector<Trial> ReadOthers(const Arguments& arguments) {
   std::vector<Trial> trials;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   for (const std::string& file : arguments.positionals()) {
     trials.push_back(
         MakeTrial(MakeInputRequest(arguments, file), "", ConverterConfig(), &warnings));
   }
-  for (const std::string& warning : warnings) LogWarning(warning);
+  LogWarnings(warnings);
   return trials;
 }
 

@@ -66,14 +66,14 @@ int RunExportUrdf(const std::vector<std::string>& words) {
   NameInputs(request, &plan);
   plan.Write(*output);
   plan.Check();
-  Input input = ReadModel(request);
+  Warnings warnings;
+  Input input = ReadModel(request, {}, &warnings);
   ConverterConfig config;
   MatchModel(request, &input, &config);
-  const Person person = FindKnownPerson(request.person, *input.reference, config, &input.warnings);
+  const Person person = FindKnownPerson(request.person, *input.reference, config, &warnings);
   const KinematicModel model = ScaleModel(*input.reference, ScalingOf(person, config));
-  const UrdfText urdf = FormatUrdf(model, Describe(input.model_file, person));
-  input.warnings.insert(input.warnings.end(), urdf.warnings.begin(), urdf.warnings.end());
-  for (const std::string& warning : input.warnings) LogWarning(warning);
+  const UrdfText urdf = FormatUrdf(model, Describe(input.model_file, person), &warnings);
+  LogWarnings(warnings);
   if (!urdf.renamed.empty()) LogInfo(urdf.renamed);
   WriteFileAtomically(*output, urdf.xml);
   std::cout << fmt::format("{}: {}; {} links, {} joints that turn, {} markers, {:.6g} kg\n",

@@ -59,8 +59,9 @@ Description DescribeRecording(const std::string& file, const Arguments& argument
   options.subject = arguments.Get("subject").value_or("");
   options.unit = arguments.Get("unit");
   if (const auto axis = arguments.Get("up")) options.up_axis = ParseUpAxis(*axis);
-  const Recording recording = ReadRecording(file, options);
-  for (const std::string& warning : recording.warnings) LogWarning(warning);
+  Warnings warnings;
+  const Recording recording = ReadRecording(file, options, &warnings);
+  LogWarnings(warnings);
   const MarkerSequence& markers = recording.markers;
   Description description;
   description.text = fmt::format(
@@ -85,14 +86,15 @@ Description DescribeRecording(const std::string& file, const Arguments& argument
                {"subjects", recording.subjects},
                {"subject", recording.subject},
                {"labels", Json::parse(FormatMarkersJson(markers))},
-               {"warnings", recording.warnings}};
+               {"warnings", warnings.texts()}};
   description.json = Dump(json);
   return description;
 }
 
 Description DescribeMotions(const std::string& file) {
-  const MmmMotionFile motions = ReadMmmMotionFile(file);
-  for (const std::string& warning : motions.warnings) LogWarning(warning);
+  Warnings warnings;
+  const MmmMotionFile motions = ReadMmmMotionFile(file, &warnings);
+  LogWarnings(warnings);
   Description description;
   description.text = fmt::format("{}: MMM {} file, {} motion{}\n", file, motions.version,
                                  motions.motions.size(), motions.motions.size() == 1 ? "" : "s");
@@ -101,7 +103,7 @@ Description DescribeMotions(const std::string& file) {
                {"format", "MMM " + motions.version},
                {"name", motions.name},
                {"motions", Json::array()},
-               {"warnings", motions.warnings}};
+               {"warnings", warnings.texts()}};
   for (const MmmMotion& motion : motions.motions) {
     const PoseTrajectory& poses = motion.trajectory;
     description.text += fmt::format(
@@ -132,8 +134,9 @@ Description DescribeMotions(const std::string& file) {
 }
 
 Description DescribeModel(const std::string& file) {
-  const LoadedModel parsed = ReadModelFile(file);
-  for (const std::string& warning : parsed.warnings) LogWarning(warning);
+  Warnings warnings;
+  const LoadedModel parsed = ReadModelFile(file, &warnings);
+  LogWarnings(warnings);
   const KinematicModel& model = parsed.model;
   Description description;
   description.text = fmt::format(
@@ -148,7 +151,7 @@ Description DescribeModel(const std::string& file) {
                {"joints", Json::array()},
                {"markers", Json::array()},
                {"node_sets", Json::array()},
-               {"warnings", parsed.warnings}};
+               {"warnings", warnings.texts()}};
   for (int j = 0; j < model.num_joints(); ++j) {
     const Segment& joint = model.joint(j);
     description.text += IsEndless(joint) ? fmt::format("  {:<24} without limits\n", joint.name)
@@ -175,8 +178,9 @@ Description DescribeModel(const std::string& file) {
 }
 
 Description DescribeConfig(const std::string& file) {
-  const ConverterConfig config = ReadConverterConfig(file);
-  for (const std::string& warning : config.warnings) LogWarning(warning);
+  Warnings warnings;
+  const ConverterConfig config = ReadConverterConfig(file, &warnings);
+  LogWarnings(warnings);
   std::vector<std::string> elements;
   for (const XmlElement& element : config.plugin_elements) elements.push_back(element.name);
   const std::string mapping = config.marker_pairs.empty()
@@ -193,7 +197,7 @@ Description DescribeConfig(const std::string& file) {
                 {"marker_mapping", mapping},
                 {"joints", joints},
                 {"elements", elements},
-                {"warnings", config.warnings}})};
+                {"warnings", warnings.texts()}})};
 }
 
 Description DescribePlugin(const std::string& file) {

@@ -51,12 +51,12 @@ struct Solutions {
   std::vector<Finished> results;
 };
 
-void AddSolution(const Trial& trial, const MarkerMapping& mapping, const std::string& file,
+void AddSolution(const Trial& trial, const Finished& unsolved, const std::string& file,
                  MmmMotion motion, Solutions* solutions) {
   Contender contender;
   contender.name = std::filesystem::path(file).filename().string();
   contender.configuration = fmt::format("The motion \"{}\" of {}", motion.name, file);
-  Finished finished{mapping, {}};
+  Finished finished = unsolved;
   finished.result.trajectory = AlignFrames(motion.trajectory, trial.markers, file);
   solutions->contenders.push_back(std::move(contender));
   solutions->results.push_back(std::move(finished));
@@ -72,17 +72,19 @@ Comparison CompareSolutions(const Arguments& arguments) {
     if (!request.person.height) request.person.height = motions.back().height;
     if (!request.person.mass) request.person.mass = motions.back().mass;
   }
-  std::vector<std::string> warnings;
+  Warnings warnings;
   Trial trial = MakeTrial(request, "", ConverterConfig(), &warnings);
   if (!trial.failure.empty()) throw Error(trial.failure);
-  for (const std::string& warning : warnings) LogWarning(warning);
+  LogWarnings(warnings);
   ConverterConfig config;
   TakeMarkerSet(request, &config);
-  const TrackingSetup setup =
-      MatchMarkers(LabelsOf(trial.markers, request.file), trial.model, config);
+  Finished unsolved;
+  unsolved.mapping = MatchMarkers(LabelsOf(trial.markers, request.file), trial.model, config,
+                                  &unsolved.warnings)
+                         .mapping;
   Solutions solutions;
   for (std::size_t i = 1; i < files.size(); ++i) {
-    AddSolution(trial, setup.mapping, files[i], std::move(motions[i - 1]), &solutions);
+    AddSolution(trial, unsolved, files[i], std::move(motions[i - 1]), &solutions);
   }
   std::vector<Trial> trials = {std::move(trial)};
   MakeNamesUnique(&trials, &solutions.contenders);

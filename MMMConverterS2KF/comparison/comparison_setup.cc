@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -28,13 +29,13 @@ void NumberRepeatedNames(std::vector<Named>* items) {
 }
 
 void TakeModel(const InputRequest& request, ConverterConfig config, Input* read, Trial* trial,
-               std::vector<std::string>* warnings) {
+               Warnings* warnings) {
   MatchModel(request, read, &config);
   const Input& input = *read;
   const Recording& recording = input.recording;
-  TrackingSetup setup =
-      MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference, config);
-  warnings->insert(warnings->end(), setup.mapping.warnings.begin(), setup.mapping.warnings.end());
+  TrackingSetup setup = MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference,
+                                     config, nullptr);  // each row says it
+  WarnOfFreeJoints(setup, config, warnings);
   const Person person = FindPerson(request.person, setup, recording, config, warnings);
   ScaleToPerson(ScalingOf(person, config), &setup);
   trial->model = setup.model;
@@ -47,12 +48,12 @@ Contender MakeContender(const std::string& config) {
   Contender contender;
   contender.name = config.empty() ? "s2kf_default" : fs::path(config).stem().string();
   try {
-    ConverterChoice choice = ChooseConverter({config, "", ""});
+    ConverterChoice choice = ChooseConverter({config, "", ""}, nullptr);
     contender.config = std::move(choice.config);
     contender.configuration = std::move(choice.text);
     contender.plugin = std::move(choice.plugin);
   } catch (const Error& error) {
-    contender.failure = error.what();
+    contender.failure = WithAdvice(error);
   }
   return contender;
 }
@@ -62,12 +63,14 @@ void NameInputs(const Contender& contender, OutputPlan* plan) {
 }
 
 Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
-                std::vector<std::string>* warnings) {
+                Warnings* warnings) {
   Trial trial;
   trial.name = fs::path(request.file).filename().string();
   try {
-    Input input = ReadInput(request);
-    warnings->insert(warnings->end(), input.warnings.begin(), input.warnings.end());
+    Warnings of_input;
+    Input input = ReadInput(request, {}, &of_input);
+    warnings->Append(of_input);
+    const WarningContext context(warnings, request.file, input.recording.motion);
     if (!truth_file.empty()) {
       const MmmMotion truth = ReadPostures(truth_file, input.recording.motion);
       trial.truth = AlignFrames(truth.trajectory, input.recording.markers, truth_file);
@@ -79,7 +82,7 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
     TakeModel(request, config, &input, &trial, warnings);
     trial.markers = std::move(input.recording.markers);
   } catch (const Error& error) {
-    trial.failure = error.what();
+    trial.failure = WithAdvice(error);
   }
   return trial;
 }

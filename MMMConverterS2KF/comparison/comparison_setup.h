@@ -8,6 +8,7 @@
 #include "MMMConverterS2KF/input/input.h"
 #include "common/evaluate/comparison.h"
 #include "common/io/mmm/mmm_motion.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -23,7 +24,7 @@ void NameInputs(const Contender& contender, OutputPlan* plan);
 /// A recording; its person's height is estimated with the markers and joints of `config` where
 /// nothing tells it. truth_file: MMM motion that the markers were made from; may be empty.
 Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
-                std::vector<std::string>* warnings);
+                Warnings* warnings);
 
 /// Names that are there several times get a number.
 void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders);

@@ -155,7 +155,7 @@ std::vector<Experiment> Evaluate(
     const EvaluationRequest& request,
     const std::function<void(const std::string&, int, int)>& progress) {
   const auto model = std::make_shared<KinematicModel>(
-      ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")).model, {kHeight, kMass, {}}));
+      ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")), {kHeight, kMass, {}}));
   const Trial handstand = MakeHandstandTrial(model, 1);
   Stages stages(progress);
 

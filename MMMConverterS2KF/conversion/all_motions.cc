@@ -5,31 +5,15 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
-#include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/motion/marker_residuals.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/support/error.h"
-#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-ConversionRequest RequestFor(const ConversionRequest& request, Recording recording,
-                             const std::shared_ptr<const ConverterChoice>& choice) {
-  ConversionRequest own = request;
-  own.input.reading.motion = recording.motion;
-  own.input.recording = std::make_shared<const Recording>(std::move(recording));
-  own.choice = choice;
-  own.motion_name.clear();
-  own.is_one_of_all = true;
-  return own;
-}
 
 void CheckFormat(const ConversionRequest& request, const ConverterChoice& choice,
                  const Recording& recording) {
@@ -42,23 +26,10 @@ void CheckFormat(const ConversionRequest& request, const ConverterChoice& choice
                   recording.file, recording.format, format));
 }
 
-MotionOutcome ConvertOne(const ConversionRequest& request,
-                         const std::function<bool(int, int)>& progress) {
-  MotionOutcome outcome;
-  outcome.name = request.input.recording->motion;
-  if (request.input.recording->markers.num_labels() == 0) return outcome;
-  try {
-    outcome.report = RunConversion(request, progress);
-  } catch (const Error& error) {
-    outcome.failure = error.what();
-  }
-  return outcome;
-}
-
 // Names are what tells motions that are written apart.
-void CheckNames(const std::vector<Recording>& recordings) {
+void CheckNames(const std::vector<WithWarnings<Recording>>& recordings) {
   std::set<std::string> names;
-  for (const Recording& recording : recordings) {
+  for (const auto& [recording, warnings] : recordings) {
     const bool has_markers = recording.markers.num_labels() > 0;
     if (!has_markers || names.insert(recording.motion).second) continue;
     throw Error(
@@ -67,16 +38,48 @@ void CheckNames(const std::vector<Recording>& recordings) {
   }
 }
 
+// A motion, what is planned for it (nothing where it has no markers), or why it can't be converted.
+struct PlannedMotion {
+  std::string name;
+  std::optional<ConversionPlan> plan;
+  std::string failure;
+};
+
+PlannedMotion PlanMotion(const ConversionRequest& request, const ReadBefore& read_before) {
+  PlannedMotion planned;
+  const Recording& recording = *read_before.motion.value;
+  planned.name = recording.motion;
+  if (recording.markers.num_labels() == 0) return planned;
+  try {
+    planned.plan = PlanConversion(request, read_before);
+  } catch (const Error& error) {
+    planned.failure = WithAdvice(error);
+  }
+  return planned;
+}
+
 // Fails what takes the model of a motion before it, as "a b" does of "a_b".
-void CheckModelIsOwn(std::set<std::string>* models, MotionOutcome* outcome) {
-  if (!outcome->report || !outcome->report->object) return;
-  const ConversionReport& report = *outcome->report;
-  if (!report.object->has_motions_name || models->insert(report.input.model_file).second) return;
-  outcome->failure = fmt::format(
+void CheckModelIsOwn(std::set<std::string>* models, PlannedMotion* planned) {
+  if (!planned->plan || !planned->plan->object) return;
+  const ObjectModel& object = *planned->plan->object;
+  if (!object.has_motions_name || models->insert(object.file).second) return;
+  planned->failure = fmt::format(
       "{}: is the model of a motion before this one; give them names that differ in letters and "
       "digits",
-      report.input.model_file);
-  outcome->report.reset();
+      object.file);
+  planned->plan.reset();
+}
+
+MotionOutcome Convert(PlannedMotion planned, bool self_calibrate,
+                      const std::function<bool(int, int)>& progress) {
+  MotionOutcome outcome = {planned.name, std::nullopt, planned.failure};
+  if (!planned.plan) return outcome;
+  try {
+    outcome.report = CarryOut(std::move(*planned.plan), self_calibrate, progress);
+  } catch (const Error& error) {
+    outcome.failure = WithAdvice(error);
+  }
+  return outcome;
 }
 
 std::string WhyNone(const AllMotions& all) {
@@ -87,24 +90,6 @@ std::string WhyNone(const AllMotions& all) {
     }
   }
   return reasons.empty() ? ": none has markers" : reasons;
-}
-
-std::string DescribeModel(const ConversionReport& report) {
-  if (!report.object) {
-    return fmt::format("{} joints", report.result.trajectory.joint_names.size());
-  }
-  const std::string file = report.object->is_built() ? ": " + report.input.model_file : "";
-  return "object, " + DescribeObjectModel(*report.object) + file;
-}
-
-std::string DescribeOutcome(const MotionOutcome& outcome) {
-  if (!outcome.failure.empty()) return "not converted";
-  if (!outcome.report) return "has no markers; left as it is";
-  const ConversionReport& report = *outcome.report;
-  const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
-  return fmt::format("{} frames, {} markers, mean distance {:.1f} mm, max {:.1f}; {}",
-                     report.input.recording.markers.num_frames(), report.setup.assignments().size(),
-                     1e3 * distance.mean, 1e3 * distance.max, DescribeModel(report));
 }
 
 }  // namespace
@@ -119,30 +104,34 @@ std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
 
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress) {
-  OutputPlan outputs;
-  outputs.Write(request.output);
-  for (const std::string& output : request.more_outputs) outputs.Write(output);
-  outputs.Check();
   AllMotions all;
-  std::vector<Recording> recordings =
+  std::vector<WithWarnings<Recording>> recordings =
       ReadAllMotions(request.input.file, request.input.reading, &all.warnings);
-  const auto choice = std::make_shared<const ConverterChoice>(ChooseConverter(request.converter));
   CheckNames(recordings);
-  ConversionRequest of_each = request;
-  of_each.input.model = ReadModel(request.input).model;
+  ReadBefore read_before = {ReadModelOnce(request.input), ChooseOnce(request.converter), {}};
   std::set<std::string> models;
-  for (Recording& recording : recordings) {
-    CheckFormat(request, *choice, recording);
-    MotionOutcome outcome = ConvertOne(RequestFor(of_each, std::move(recording), choice), progress);
-    CheckModelIsOwn(&models, &outcome);
-    all.motions.push_back(std::move(outcome));
+  std::vector<PlannedMotion> motions;
+  motions.reserve(recordings.size());
+  for (auto& [recording, warnings] : recordings) {
+    CheckFormat(request, *read_before.choice.value, recording);
+    read_before.motion = {std::make_shared<const Recording>(std::move(recording)),
+                          std::move(warnings)};
+    motions.push_back(PlanMotion(request, read_before));
+    CheckModelIsOwn(&models, &motions.back());
+  }
+  std::vector<const ConversionPlan*> plans;
+  for (const PlannedMotion& motion : motions) {
+    if (motion.plan) plans.push_back(&*motion.plan);
+  }
+  if (!plans.empty()) CheckOutputs(request, plans);
+  for (PlannedMotion& motion : motions) {
+    all.motions.push_back(Convert(std::move(motion), request.self_calibrate, progress));
   }
   const std::vector<const ConversionReport*> reports = ReportsOf(all);
   if (reports.empty()) {
     throw Error(
         fmt::format("{}: no motion could be converted{}", request.input.file, WhyNone(all)));
   }
-  CheckOutputs(request, reports);
   all.output = reports.front()->output;
   return all;
 }
@@ -155,28 +144,6 @@ void WriteAllMotions(const ConversionRequest& request, AllMotions* all) {
     reports.push_back(&*outcome.report);
   }
   WriteMotions(request, reports);
-}
-
-std::string FormatAllMotions(const AllMotions& all) {
-  std::size_t width = 0;
-  for (const MotionOutcome& outcome : all.motions) width = std::max(width, outcome.name.size());
-  std::string text;
-  for (const MotionOutcome& outcome : all.motions) {
-    text += fmt::format("{:<{}}  {}\n", outcome.name, width, DescribeOutcome(outcome));
-  }
-  return text + fmt::format("written to {}\n", all.output);
-}
-
-std::string FormatAllMotionsJson(const AllMotions& all) {
-  Json motions = Json::array();
-  for (const MotionOutcome& outcome : all.motions) {
-    motions.push_back({{"name", outcome.name},
-                       {"failure", outcome.failure.empty() ? Json(nullptr) : Json(outcome.failure)},
-                       {"summary", outcome.report ? Json::parse(FormatSummaryJson(*outcome.report))
-                                                  : Json(nullptr)}});
-  }
-  const Json json = {{"output", all.output}, {"motions", motions}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace mmm_converter

@@ -18,7 +18,7 @@ struct MotionOutcome {
 };
 
 struct AllMotions {
-  std::vector<std::string> warnings;   ///< of the file as a whole; the others are in reports
+  Warnings warnings;                   ///< of the file as a whole; the others are in reports
   std::vector<MotionOutcome> motions;  ///< in the file's order
   std::string output;
 };
@@ -35,11 +35,5 @@ std::vector<const ConversionReport*> ReportsOf(const AllMotions& all);
 
 /// Writes the models of the objects, and one file with all motions.
 void WriteAllMotions(const ConversionRequest& request, AllMotions* all);
-
-/// A line for each motion, and one for the file.
-std::string FormatAllMotions(const AllMotions& all);
-
-/// As JSON: the summary of each motion (FormatSummaryJson), or why there is none.
-std::string FormatAllMotionsJson(const AllMotions& all);
 
 }  // namespace mmm_converter

@@ -3,71 +3,65 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 namespace {
 
-void AddWarnings(const std::vector<std::string>& more, ConversionReport* report) {
-  report->warnings.insert(report->warnings.end(), more.begin(), more.end());
-}
-
 // The person as the recording itself shows them.
-void SelfCalibrate(const ConverterConfig& config, ConversionReport* report) {
-  if (config.model_processor == "None") {
-    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
-  }
+void SelfCalibrate(ConversionReport* report) {
   const Recording& recording = report->input.recording;
   const std::string file = std::filesystem::path(recording.file).filename().string();
   TrackingSetup& setup = report->setup;
   report->calibration =
       CalibratePerson(*setup.model, setup.joints, {{file, &recording.markers, setup.assignments()}},
-                      report->person, SubjectName(report->input));
-  AddWarnings(report->calibration->warnings, report);
+                      report->person, SubjectName(report->input), &report->warnings);
   report->person.subject = std::make_shared<Subject>(report->calibration->subject);
   setup.model =
       std::make_shared<KinematicModel>(FitToSubject(*setup.model, report->calibration->subject));
 }
 
-// Models that are built go into the folder given, else into one beside the output.
-std::string FolderOfNewModels(const ConversionRequest& request, const ConversionReport& report) {
-  std::error_code failure;
-  if (!request.object_models.empty()) return request.object_models;
-  if (!request.builds_models || std::filesystem::is_other(report.output, failure)) return "";
-  return std::filesystem::path(report.output).replace_extension().string() + "_objects";
+void CheckHasSubject(const ConversionRequest& request, const ConversionPlan& plan) {
+  const bool is_calibrated = request.self_calibrate && !plan.object;
+  if (is_calibrated && plan.converter.config.model_processor == "None") {
+    throw Error(WhyUnscaled(plan.converter.config) +
+                ", but a subject is relative to the scaled one");
+  }
+  if (is_calibrated || plan.person.subject) return;
+  if (!request.subject_output.empty()) {
+    throw Error("--subject-out " + request.subject_output + ": a rigid object is no subject");
+  }
+  if (!request.model_output.empty()) {
+    throw Error(
+        fmt::format("--model-out {}: no subject is known whose model that would be; use "
+                    "--self-calibrate or --subject-file",
+                    request.model_output));
+  }
 }
 
-void TakeObject(const ConversionRequest& request, ConversionReport* report) {
+// Of one of several motions of a file the request's person and model are those of its persons.
+ObjectRequest ObjectRequestOf(const ConversionRequest& request, const ConversionPlan& plan,
+                              bool is_one_of_several) {
+  std::error_code failure;
   ObjectRequest object;
   object.is_object = request.is_object;
-  object.is_person =
-      !request.is_one_of_all && (IsGiven(request.input.person) || request.self_calibrate);
-  object.name = report->motion_name;
+  object.is_person = !is_one_of_several && (IsGiven(request.input.person) || request.self_calibrate);
+  object.name = plan.motion_name;
   object.models = request.object_models;
-  object.new_models = FolderOfNewModels(request, *report);
-  object.has_model_given = !request.input.model_file.empty() && !request.is_one_of_all;
-  const std::size_t known = report->input.warnings.size();
-  report->object = TakeObject(object, &report->input, &report->converter.config);
-  AddWarnings({report->input.warnings.begin() + static_cast<std::ptrdiff_t>(known),
-               report->input.warnings.end()},
-              report);
-}
-
-// Configurations know how far markers stray from a model of a person. On an object nothing moves
-// under them: with a tenth of that, KIT's recordings of objects have innovations of the size that
-// the filter expects (NIS over its degrees of freedom 0.2 to 1.3; with all of it, 0.01).
-void TrustMarkersOfObject(MarkerMapping* mapping) {
-  constexpr double kNoiseOfObjects = 0.1;
-  for (MarkerAssignment& assignment : mapping->assignments) {
-    assignment.noise_scale *= kNoiseOfObjects;
+  object.new_models = request.object_models;
+  if (object.new_models.empty() && !std::filesystem::is_other(plan.output, failure)) {
+    object.new_models = std::filesystem::path(plan.output).replace_extension().string() + "_objects";
   }
+  object.has_model_given = !is_one_of_several && !request.input.model_file.empty();
+  return object;
 }
 
 void WritePerson(const ConversionReport& report) {
@@ -81,82 +75,86 @@ void WritePerson(const ConversionReport& report) {
   }
 }
 
-void CheckHasSubject(const ConversionRequest& request, const ConversionReport& report) {
-  if (report.person.subject) return;
-  if (!request.subject_output.empty()) {
-    throw Error("--subject-out " + request.subject_output + ": a rigid object is no subject");
-  }
-  if (!request.model_output.empty()) {
-    throw Error(
-        fmt::format("--model-out {}: no subject is known whose model that would be; use "
-                    "--self-calibrate or --subject-file",
-                    request.model_output));
-  }
-}
-
 }  // namespace
 
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
+  ConversionPlan plan;
+  Warnings* warnings = &plan.warnings;
+  plan.input = ReadInput(request.input, read_before, warnings);
+  const Recording& recording = plan.input.recording;
+  const WarningContext context(warnings, recording.file, recording.motion);
+  plan.converter = TakeConverter(request.converter, read_before, warnings);
+  ConverterConfig& config = plan.converter.config;
+  MatchModel(request.input, &plan.input, &config);
+  if (request.self_calibrate) config.subject_file.clear();
+  const bool is_one_of_several = read_before.motion.value != nullptr;
+  ChooseMotionOutput(request, is_one_of_several, &plan);
+  plan.object = FindObject(ObjectRequestOf(request, plan, is_one_of_several), plan.input, config,
+                           warnings);
+  if (plan.object) {
+    UseModel(*plan.object, &plan.input);
+    config = ConfigOfObject(plan.input, config);
+  }
+
+  plan.setup =
+      MatchMarkers(LabelsOf(recording.markers, recording.file), plan.input.reference, config,
+                   warnings);
+  WarnOfFreeJoints(plan.setup, config, warnings);
+  CheckDeterminesPose(plan.input, plan.setup.mapping);
+  if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
+  const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
+  plan.person = FindPerson(person, plan.setup, recording, config, warnings);
+  ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
+  CheckHasSubject(request, plan);
+  plan.subject_output = request.subject_output;
+  plan.model_output = request.model_output;
+  return plan;
+}
+
 void CheckOutputs(const ConversionRequest& request,
-                  const std::vector<const ConversionReport*>& reports) {
-  OutputPlan plan;
-  NameInputs(request.input, &plan);
-  for (const ConversionReport* report : reports) {
-    NameInputs(report->converter, &plan);
-    plan.Read(report->person.subject_file);
-    if (report->object && report->object->is_built()) {
-      plan.WriteIntoFolder(report->input.model_file);
+                  const std::vector<const ConversionPlan*>& plans) {
+  OutputPlan outputs;
+  NameInputs(request.input, &outputs);
+  for (const ConversionPlan* plan : plans) {
+    NameInputs(plan->converter, &outputs);
+    outputs.Read(plan->person.subject_file);
+    if (plan->object && plan->object->is_built()) {
+      outputs.WriteIntoFolder(plan->input.model_file);
     } else {
-      plan.Read(report->input.model_file);
+      outputs.Read(plan->input.model_file);
     }
   }
-  plan.Rewrite(reports.front()->output, request.input.file);
-  plan.Write(request.subject_output);
-  plan.Write(request.model_output);
-  for (const auto& [unused, file] : request.exports) plan.Write(file);
-  for (const std::string& file : request.more_outputs) plan.Write(file);
-  plan.Check();
+  outputs.Rewrite(plans.front()->output, request.input.file);
+  outputs.Write(request.subject_output);
+  outputs.Write(request.model_output);
+  for (const auto& [unused, file] : request.exports) outputs.Write(file);
+  for (const std::string& file : request.more_outputs) outputs.Write(file);
+  outputs.Check();
+}
+
+ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
+                          const std::function<bool(int, int)>& progress) {
+  ConversionReport report{std::move(plan), {}, {}};
+  const MarkerSequence& markers = report.input.recording.markers;
+  const WarningContext context(&report.warnings, report.input.recording.file,
+                               report.input.recording.motion);
+  if (self_calibrate && !report.object) SelfCalibrate(&report);
+  const auto converter =
+      report.converter.plugin->factory().Create(report.setup, report.converter.config);
+  report.result = converter->Convert(markers, [&](int done) {
+    return !progress || progress(done, markers.num_frames());
+  });
+  if (report.object) {
+    JudgeObject(report.input, report.setup.mapping, report.result.residuals, &report.warnings);
+  }
+  return report;
 }
 
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<bool(int, int)>& progress) {
-  ConversionReport report;
-  report.input = ReadInput(request.input);
-  AddWarnings(report.input.warnings, &report);
-  report.converter = request.choice ? *request.choice : ChooseConverter(request.converter);
-  AddWarnings(report.converter.config.warnings, &report);
-  ConverterConfig& config = report.converter.config;
-  MatchModel(request.input, &report.input, &config);
-  if (request.self_calibrate) config.subject_file.clear();
-  report.output_format =
-      request.output_format.empty() ? config.output_format : request.output_format;
-  report.output = ChooseOutput(request, report);
-  report.motion_name = ChooseMotionName(request, report.input.recording);
-
-  TakeObject(request, &report);
-  const Recording& recording = report.input.recording;
-  TrackingSetup& setup = report.setup;
-  setup = MatchMarkers(LabelsOf(recording.markers, recording.file), report.input.reference, config);
-  AddWarnings(setup.mapping.warnings, &report);
-  CheckDeterminesPose(report.input, setup.mapping);
-  if (report.object) TrustMarkersOfObject(&setup.mapping);
-  const PersonRequest person = report.object ? PersonRequest() : request.input.person;
-  report.person = FindPerson(person, setup, recording, config, &report.warnings);
-  ScaleToPerson(ScalingOf(report.person, config), &setup);
-
-  if (request.self_calibrate && !report.object) SelfCalibrate(config, &report);
-  CheckHasSubject(request, report);
-  if (!request.is_one_of_all) CheckOutputs(request, {&report});
-  report.subject_output = request.subject_output;
-  report.model_output = request.model_output;
-
-  const auto converter = report.converter.plugin->factory().Create(setup, config);
-  report.result = converter->Convert(recording.markers, [&](int done) {
-    return !progress || progress(done, recording.markers.num_frames());
-  });
-  if (report.object) {
-    AddWarnings(JudgeObject(report.input, setup.mapping, report.result.residuals), &report);
-  }
-  return report;
+  ConversionPlan plan = PlanConversion(request, {});
+  CheckOutputs(request, {&plan});
+  return CarryOut(std::move(plan), request.self_calibrate, progress);
 }
 
 void WriteObjectModel(const ConversionReport& report) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
 #include "common/convert/motion_converter.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -21,8 +21,7 @@ namespace mmm_converter {
 struct ConversionRequest {
   InputRequest input;
   ConverterRequest converter;
-  std::shared_ptr<const ConverterChoice> choice;  ///< for it, where that was made before
-  std::string output;                             ///< input stem + "_mmm.xml", beside the input
+  std::string output;                     ///< input stem + "_mmm.xml", beside the input
   std::string output_format;              ///< "2.0" or "1.0"; empty: what the configuration says
   std::string motion_name;                ///< to write
   std::string model_path;                 ///< to write, as it is
@@ -32,37 +31,46 @@ struct ConversionRequest {
   ExportFiles exports;                    ///< for other programs
   std::vector<std::string> more_outputs;  ///< that the caller writes
   bool is_object = false;                 ///< of a rigid object, whatever the file says
-  bool builds_models = true;              ///< of objects that have none; else these are an Error
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
-  bool is_one_of_all = false;  ///< of the file's motions; the model named is that of persons
 };
 
-/// Everything that a summary tells.
-struct ConversionReport {
+/// All that is decided before the first frame is tracked.
+struct ConversionPlan {
   Input input;
   ConverterChoice converter;
   Person person;
   std::optional<ObjectModel> object;  ///< what is tracked, where it is no person
   TrackingSetup setup;
-  std::optional<CalibrationResult> calibration;  ///< of this recording
-  ConversionResult result;
   std::string output, output_format, motion_name;
   std::string subject_output, model_output;  ///< empty: not written
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
-/// Reads the recording, loads and scales the model, matches the markers, calibrates where asked to,
-/// and converts; writes nothing. progress(done, all): frames; may be empty; returning false ends it
-/// with an Error.
-/// @throws Error
-ConversionReport RunConversion(const ConversionRequest& request,
-                               const std::function<bool(int, int)>& progress);
+/// A plan that has been carried out.
+struct ConversionReport : ConversionPlan {
+  std::optional<CalibrationResult> calibration;  ///< of this recording
+  ConversionResult result;
+};
 
-/// Before anything is written, of one motion or of all.
+/// Reads the recording, the model and the configuration, matches the markers and finds the person.
+/// @throws Error
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before);
+
+/// Before any further work, of one motion or of all of a file.
 /// @throws Error where an output is a file that is read, two are the same, or one can't be written.
 void CheckOutputs(const ConversionRequest& request,
-                  const std::vector<const ConversionReport*>& reports);
+                  const std::vector<const ConversionPlan*>& plans);
+
+/// Calibrates where asked to, and tracks; writes nothing. progress(done, all): frames; may be empty;
+/// returning false ends it with an Error.
+/// @throws Error
+ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
+                          const std::function<bool(int, int)>& progress);
+
+/// PlanConversion, CheckOutputs and CarryOut.
+ConversionReport RunConversion(const ConversionRequest& request,
+                               const std::function<bool(int, int)>& progress);
 
 /// Writes the model of an object, where that is new. @throws Error
 void WriteObjectModel(const ConversionReport& report);

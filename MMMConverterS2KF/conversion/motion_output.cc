@@ -67,7 +67,7 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
     return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
   }
   if (recording.num_motions > 1) {
-    first.warnings.push_back(
+    first.warnings.Add(
         fmt::format("{}: has {} motions; the output has the converted one "
                     "only (MMM 2.0 in and out keeps all)",
                     request.input.file, recording.num_motions));
@@ -76,30 +76,34 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
   return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
+std::string DefaultOutput(const fs::path& input) {
+  return (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
+}
+
+std::string NameOf(const Recording& recording) {
+  if (!recording.motion.empty()) return recording.motion;
+  if (!recording.subject.empty()) return recording.subject;
+  return fs::path(recording.file).stem().string();
+}
+
 }  // namespace
 
-std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report) {
-  std::string output = request.output;
-  if (output.empty()) {
-    const fs::path input = request.input.file;
-    output = (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
-  }
+void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
+                        ConversionPlan* plan) {
+  const Recording& recording = plan->input.recording;
+  plan->output_format = request.output_format.empty() ? plan->converter.config.output_format
+                                                      : request.output_format;
+  plan->output = request.output.empty() ? DefaultOutput(request.input.file) : request.output;
   std::error_code failure;
-  const bool keeps_all = IsMmm2(report.input.recording) && report.output_format != "1.0";
-  if (!keeps_all && fs::equivalent(output, request.input.file, failure)) {
+  const bool keeps_all = IsMmm2(recording) && plan->output_format != "1.0";
+  if (!keeps_all && fs::equivalent(plan->output, request.input.file, failure)) {
     throw Error(
         fmt::format("{}: is the recording itself, which would be lost; give another file "
                     "with -o",
-                    output));
+                    plan->output));
   }
-  return output;
-}
-
-std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording) {
-  if (!request.motion_name.empty()) return request.motion_name;
-  if (!recording.motion.empty()) return recording.motion;
-  if (!recording.subject.empty()) return recording.subject;
-  return fs::path(request.input.file).stem().string();
+  const std::string& wanted = is_one_of_several ? "" : request.motion_name;
+  plan->motion_name = wanted.empty() ? NameOf(recording) : wanted;
 }
 
 void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {

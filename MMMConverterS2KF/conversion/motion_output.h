@@ -8,12 +8,11 @@
 
 namespace mmm_converter {
 
-/// Where the motion goes: request.output, or else the input's stem + "_mmm.xml" beside it.
+/// Where the motion goes (as asked for, else the input's stem + "_mmm.xml" beside it), in which format, and what it is
+/// called (as asked for, else as in the recording, else as the file; of several motions of a file each as it is).
 /// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
-std::string ChooseOutput(const ConversionRequest& request, const ConversionReport& report);
-
-/// What the motion is called: as asked for, else as in the recording, else as the file.
-std::string ChooseMotionName(const ConversionRequest& request, const Recording& recording);
+void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
+                        ConversionPlan* plan);
 
 /// Writes the results of one recording to their common output; several must be motions of an
 /// MMM 2.0 file that are written as such. Of an MMM 2.0 recording, all other motions and sensors

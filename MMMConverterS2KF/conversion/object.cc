@@ -73,14 +73,6 @@ bool IsFile(const std::string& path) {
   return fs::is_regular_file(path, failure);
 }
 
-void UseModel(const std::string& file, LoadedModel model, Input* input) {
-  input->model = std::make_shared<const LoadedModel>(std::move(model));
-  const std::vector<std::string>& warnings = input->model->warnings;
-  input->warnings.insert(input->warnings.end(), warnings.begin(), warnings.end());
-  input->model_file = file;
-  input->reference = std::shared_ptr<const KinematicModel>(input->model, &input->model->model);
-}
-
 // Labels are the names of the model's markers, with or without MMM's prefix.
 std::vector<MarkerPair> OwnPairs(const KinematicModel& model) {
   constexpr std::string_view kPrefix = "MARKER_";
@@ -120,26 +112,28 @@ std::string WhyNotItsModel(const LoadedModel& model, const Input& input,
 }
 
 // The file that the motion names, if it is there and can be tracked.
-bool UseNamedModel(const std::string& name, const ConverterConfig& config, Input* input) {
-  const Recording& recording = input->recording;
-  if (recording.model_path.empty()) return false;
+std::optional<ObjectModel> FindNamedModel(const std::string& name, const ConverterConfig& config,
+                                          const Input& input, Warnings* warnings) {
+  const Recording& recording = input.recording;
+  if (recording.model_path.empty()) return std::nullopt;
   const std::string file =
       (fs::path(recording.file).parent_path() / recording.model_path).lexically_normal().string();
-  if (!IsFile(file)) return false;
+  if (!IsFile(file)) return std::nullopt;
   std::string reason;
   try {
-    LoadedModel model = ReadModelFile(file);
-    reason = WhyNotItsModel(model, *input, config);
+    Warnings of_model;
+    auto model = std::make_shared<const LoadedModel>(ReadModelFile(file, &of_model));
+    reason = WhyNotItsModel(*model, input, config);
     if (reason.empty()) {
-      UseModel(file, std::move(model), input);
-      return true;
+      warnings->Append(of_model);
+      return ObjectModel{"named by the motion", "", 0, false, file, std::move(model)};
     }
   } catch (const Error& error) {
     reason = error.what();
   }
-  input->warnings.push_back(
-      fmt::format("{}, the model that the motion {} names, is not used: {}", file, name, reason));
-  return false;
+  warnings->Add(fmt::format("{}, the model that the motion {} names, is not used: {}", file, name,
+                            reason));
+  return std::nullopt;
 }
 
 KinematicModel ModelOf(const std::string& name, const RigidShape& shape,
@@ -156,11 +150,12 @@ KinematicModel ModelOf(const std::string& name, const RigidShape& shape,
   return KinematicModel(description);
 }
 
-void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape, Input* input) {
-  const std::vector<std::string>& labels = input->recording.markers.labels();
+void WarnOfUnplacedMarkers(const std::string& name, const RigidShape& shape,
+                           const Recording& recording, Warnings* warnings) {
+  const std::vector<std::string>& labels = recording.markers.labels();
   for (int i = 0; i < static_cast<int>(labels.size()); ++i) {
     if (std::count(shape.labels.begin(), shape.labels.end(), i) > 0) continue;
-    input->warnings.push_back(fmt::format(
+    warnings->Add(fmt::format(
         "motion {}: marker {} is left out of the model: it could not be placed by three "
         "others",
         name, labels[i]));
@@ -189,11 +184,12 @@ RigidShape ShapeOf(const Recording& recording) {
   }
 }
 
-ObjectModel BuildModel(const std::string& file, const std::string& name, Input* input) {
+ObjectModel BuildModel(const std::string& file, const std::string& name, const Input& input,
+                       Warnings* warnings) {
   CheckIsBuilt(file);
-  const Recording& recording = input->recording;
+  const Recording& recording = input.recording;
   const RigidShape shape = ShapeOf(recording);
-  WarnOfUnplacedMarkers(name, shape, input);
+  WarnOfUnplacedMarkers(name, shape, recording, warnings);
   ObjectModel built;
   built.has_motions_name = true;
   built.source = fmt::format("built from {} frames", shape.frames);
@@ -205,44 +201,33 @@ ObjectModel BuildModel(const std::string& file, const std::string& name, Input* 
                   "markers.",
                   kBuilt, name, fs::path(recording.file).filename().string(), shape.frames,
                   1e3 * shape.distance));
-  MmmModel model = ParseMmmModel(built.text, file);
-  UseModel(file, {std::move(model.model), true, {}, std::move(model.warnings)}, input);
+  built.file = file;
+  built.model = std::make_shared<const LoadedModel>(
+      LoadedModel{ParseMmmModel(built.text, file, warnings), true, {}});
   return built;
 }
 
-ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& config, Input* input) {
+ObjectModel FindModel(const ObjectRequest& request, const ConverterConfig& config,
+                      const Input& input, Warnings* warnings) {
   const std::string file_name = FileNameOf(request.name);
   if (!request.models.empty()) {
     const std::string file = (fs::path(request.models) / file_name).string();
     if (IsFile(file)) {
-      LoadedModel model = ReadModelFile(file);
-      const std::string reason = WhyNotItsModel(model, *input, config);
+      auto model = std::make_shared<const LoadedModel>(ReadModelFile(file, warnings));
+      const std::string reason = WhyNotItsModel(*model, input, config);
       if (!reason.empty()) {
         throw Error(fmt::format("{}: {}; take it out of the folder to have one built from them",
                                 file, reason));
       }
-      UseModel(file, std::move(model), input);
-      return {"in " + request.models, "", 0, true};
+      return {"in " + request.models, "", 0, true, file, std::move(model)};
     }
   }
-  if (UseNamedModel(request.name, config, input)) return {"named by the motion", "", 0, false};
+  if (auto named = FindNamedModel(request.name, config, input, warnings)) return *named;
   if (request.new_models.empty()) {
-    throw Error(
-        fmt::format("{}: the motion {} is of a rigid object without a model, and there is no "
-                    "folder for one that is built (convert --object-models DIR)",
-                    input->recording.file, request.name));
+    throw Error(WhyNoModel(input.recording.file, request.name));
   }
-  return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input);
-}
-
-// A configuration is written for persons.
-void AdaptToObject(const Input& input, ConverterConfig* config) {
-  config->model_processor = "None";
-  config->subject_file.clear();
-  config->joints.clear();
-  config->joint_set = "auto";
-  const std::vector<MarkerPair> pairs = PairsOfObject(*input.reference, input, *config);
-  config->marker_pairs = pairs.empty() ? OwnPairs(*input.reference) : pairs;
+  return BuildModel((fs::path(request.new_models) / file_name).string(), request.name, input,
+                    warnings);
 }
 
 // Of the markers that are tracked, in the model [m].
@@ -257,24 +242,53 @@ Eigen::Matrix3Xd PlacesOf(const Input& input, const MarkerMapping& mapping) {
 
 }  // namespace
 
-std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
-                                      ConverterConfig* config) {
-  std::optional<ObjectModel> object;
+std::string WhyNoModel(const std::string& file, const std::string& motion) {
+  return fmt::format(
+      "{}: the motion {} is of a rigid object without a model, and there is no folder for one that "
+      "is built (convert --object-models DIR)",
+      file, motion);
+}
+
+std::optional<ObjectModel> FindObject(const ObjectRequest& request, const Input& input,
+                                      const ConverterConfig& config, Warnings* warnings) {
   if (request.has_model_given) {
-    const int joints = input->reference->num_joints();
+    const int joints = input.reference->num_joints();
     if (joints > 0 && request.is_object) {
       throw Error(fmt::format("{}: --object: the model has {} joints; give one without, or none",
-                              input->model_file, joints));
+                              input.model_file, joints));
     }
     if (joints > 0) return std::nullopt;
-    object = ObjectModel{"given", "", 0, false};
-  } else {
-    const bool is_person = request.is_person || IsPersonsRecording(*input, *config);
-    if (!request.is_object && is_person) return std::nullopt;
-    object = FindModel(request, *config, input);
+    return ObjectModel{"given", "", 0, false, input.model_file, input.model};
   }
-  AdaptToObject(*input, config);
-  return object;
+  const bool is_person = request.is_person || IsPersonsRecording(input, config);
+  if (!request.is_object && is_person) return std::nullopt;
+  return FindModel(request, config, input, warnings);
+}
+
+void UseModel(const ObjectModel& object, Input* input) {
+  if (input->model == object.model) return;  // with the markers that a marker set places
+  input->model_file = object.file;
+  input->model = object.model;
+  input->reference = std::shared_ptr<const KinematicModel>(input->model, &input->model->model);
+}
+
+ConverterConfig ConfigOfObject(const Input& input, ConverterConfig config) {
+  config.model_processor = "None";
+  config.subject_file.clear();
+  config.joints.clear();
+  config.joint_set = "auto";
+  const std::vector<MarkerPair> pairs = PairsOfObject(*input.reference, input, config);
+  config.marker_pairs = pairs.empty() ? OwnPairs(*input.reference) : pairs;
+  return config;
+}
+
+void TrustMarkersOfObject(MarkerMapping* mapping) {
+  // With a tenth, KIT's recordings of objects have innovations of the size that the filter expects
+  // (NIS over its degrees of freedom 0.2 to 1.3; with all of it, 0.01).
+  constexpr double kNoiseOfObjects = 0.1;
+  for (MarkerAssignment& assignment : mapping->assignments) {
+    assignment.noise_scale *= kNoiseOfObjects;
+  }
 }
 
 std::string DescribeObjectModel(const ObjectModel& object) {
@@ -302,28 +316,26 @@ void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping) {
                   count < kFewestMarkers ? "are too few" : "stand on a line"));
 }
 
-std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
-                                     const Eigen::MatrixXd& residuals) {
+void JudgeObject(const Input& input, const MarkerMapping& mapping, const Eigen::MatrixXd& residuals,
+                 Warnings* warnings) {
   constexpr double kHardlyTold = 0.05;  // [rad]
   const Eigen::Matrix3Xd places = PlacesOf(input, mapping);
   const double radius = RadiusOf(places);
   const double beside_line = DistanceFromLine(places);
   const double distance = SummarizeResiduals(residuals).mean;
   if (distance > kMostStray * radius) {
-    return {
+    warnings->Add(
         fmt::format("{}: the markers are {:.1f} mm from this model, whose radius is {:.0f} mm "
                     "(both on average); is it this object's?",
-                    input.model_file, 1e3 * distance, 1e3 * radius)};
-  }
-  if (distance > kHardlyTold * beside_line) {
-    return {
+                    input.model_file, 1e3 * distance, 1e3 * radius));
+  } else if (distance > kHardlyTold * beside_line) {
+    warnings->Add(
         fmt::format("{}: the markers are {:.1f} mm (root mean square) beside a line, and {:.1f} "
                     "mm from their places on average: turns about that line are hardly known, "
                     "to about {:.0f} degrees",
                     input.model_file, 1e3 * beside_line, 1e3 * distance,
-                    distance / beside_line * 180 / EIGEN_PI)};
+                    distance / beside_line * 180 / EIGEN_PI));
   }
-  return {};
 }
 
 }  // namespace mmm_converter

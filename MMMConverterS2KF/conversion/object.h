@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "MMMConverterS2KF/input/input.h"
 #include "common/convert/converter_config.h"
 #include "common/convert/marker_mapping.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -29,19 +31,33 @@ struct ObjectModel {
   std::string text;     ///< of the file to write at Input::model_file; empty: that is there already
   double distance = 0;  ///< of the markers from a built shape, root mean square [m]
   bool has_motions_name = false;  ///< the file is called as the motion: no other motion may have it
+  std::string file;
+  std::shared_ptr<const LoadedModel> model;  ///< of that file
   bool is_built() const { return !text.empty(); }
 };
 
 /// The recorded thing, where it is an object rather than a person: the user says so; the model
 /// given has no joints; or none is given and the recording is an MMM motion that states neither a
-/// height nor joints, with labels that no marker set of persons knows. Its model then becomes the
-/// input's: the one given, else the one of its name in request.models, else the file that the
-/// motion names if that is there and can be tracked, else one that is built from the markers
-/// (EstimateRigidShape). What the configuration says of persons (scaling, subject, joints, a
-/// mapping to other markers) is taken out of it.
+/// height nor joints, with labels that no marker set of persons knows. Its model is the one given,
+/// else the one of its name in request.models, else the file that the motion names if that is there
+/// and can be tracked, else one that is built from the markers (EstimateRigidShape).
 /// @throws Error
-std::optional<ObjectModel> TakeObject(const ObjectRequest& request, Input* input,
-                                      ConverterConfig* config);
+std::optional<ObjectModel> FindObject(const ObjectRequest& request, const Input& input,
+                                      const ConverterConfig& config, Warnings* warnings);
+
+/// Makes the object's model the input's.
+void UseModel(const ObjectModel& object, Input* input);
+
+/// A configuration without what it says of persons: scaling, subject, joints, a mapping to other
+/// markers than those of the input's model.
+ConverterConfig ConfigOfObject(const Input& input, ConverterConfig config);
+
+/// Configurations know how far markers stray from a model of a person; on an object nothing moves
+/// under them.
+void TrustMarkersOfObject(MarkerMapping* mapping);
+
+/// For messages: the motion needs a model, and none may be built.
+std::string WhyNoModel(const std::string& file, const std::string& motion);
 
 /// Where it is from, and how near a built one is to its markers.
 std::string DescribeObjectModel(const ObjectModel& object);
@@ -49,10 +65,10 @@ std::string DescribeObjectModel(const ObjectModel& object);
 /// @throws Error where the mapped markers of an object do not determine its pose.
 void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping);
 
-/// What a user should know of the track of an object: that the markers are far from the model, as
-/// those of another object would be, or that they hardly tell turns about the line that they are
-/// nearly on. residuals: markers x frames [m].
-std::vector<std::string> JudgeObject(const Input& input, const MarkerMapping& mapping,
-                                     const Eigen::MatrixXd& residuals);
+/// Warns of what a user should know of the track of an object: that the markers are far from the
+/// model, as those of another object would be, or that they hardly tell turns about the line that
+/// they are nearly on. residuals: markers x frames [m].
+void JudgeObject(const Input& input, const MarkerMapping& mapping, const Eigen::MatrixXd& residuals,
+                 Warnings* warnings);
 
 }  // namespace mmm_converter

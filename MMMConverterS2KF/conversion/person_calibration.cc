@@ -19,27 +19,19 @@ constexpr double kSameHeight = 1e-6;  // [m]; files have at least 6 digits
 
 std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
 
-// What is said of several recordings is said once.
-void Append(const std::vector<std::string>& more, std::vector<std::string>* all) {
-  for (const std::string& text : more) {
-    if (std::find(all->begin(), all->end(), text) == all->end()) all->push_back(text);
-  }
-}
-
 CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
-                         std::vector<std::string>* warnings) {
+                         Warnings* warnings) {
   CalibrationInput one;
-  one.input = ReadInput(request);
+  one.input = ReadInput(request, {}, warnings);
+  const WarningContext context(warnings, request.file, one.input.recording.motion);
   MatchModel(request, &one.input, matched);
   const ConverterConfig& config = *matched;
   if (config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }
   const Recording& recording = one.input.recording;
-  one.setup =
-      MatchMarkers(LabelsOf(recording.markers, recording.file), one.input.reference, config);
-  Append(one.input.warnings, warnings);
-  Append(one.setup.mapping.warnings, warnings);
+  one.setup = MatchMarkers(LabelsOf(recording.markers, recording.file), one.input.reference, config,
+                           warnings);
   return one;
 }
 
@@ -74,8 +66,10 @@ std::string SubjectName(const Input& input) {
 
 CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
                                   const std::vector<CalibrationRecording>& recordings,
-                                  const Person& person, const std::string& name) {
-  CalibrationResult result = CalibrateSubject(scaled, joints, recordings, CalibrationOptions());
+                                  const Person& person, const std::string& name,
+                                  Warnings* warnings) {
+  CalibrationResult result =
+      CalibrateSubject(scaled, joints, recordings, CalibrationOptions(), warnings);
   result.subject.name = name;
   result.subject.model = scaled.name();
   result.subject.height = person.height.value;
@@ -86,16 +80,20 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
   return result;
 }
 
-CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterConfig config,
+CalibrationReport RunCalibration(const CalibrationRequest& request,
+                                 WithWarnings<ConverterConfig> configuration,
                                  const std::function<void(int, int)>& progress) {
   CalibrationReport report;
-  Append(config.warnings, &report.warnings);
+  report.warnings = std::move(configuration.warnings);
+  ConverterConfig& config = configuration.value;
   config.subject_file.clear();  // it is what is estimated
   const int num_inputs = static_cast<int>(request.inputs.size());
   report.recordings.reserve(request.inputs.size());
   for (int i = 0; i < num_inputs; ++i) {
     if (progress) progress(i, num_inputs);
-    report.recordings.push_back(ReadOne(request.inputs[i], &config, &report.warnings));
+    Warnings warnings;  // what is said of several recordings is said once
+    report.recordings.push_back(ReadOne(request.inputs[i], &config, &warnings));
+    report.warnings.AppendNew(warnings);
   }
   CheckOnePerson(request, report.recordings);
   const Input& first = report.recordings.front().input;
@@ -109,9 +107,11 @@ CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterCon
     recordings.push_back({FileName(one.input.recording.file), &one.input.recording.markers,
                           one.setup.assignments()});
   }
-  report.result = CalibratePerson(*setup.model, setup.joints, recordings, report.person,
-                                  request.name.empty() ? SubjectName(first) : request.name);
-  Append(report.result.warnings, &report.warnings);
+  Warnings warnings;
+  report.result =
+      CalibratePerson(*setup.model, setup.joints, recordings, report.person,
+                      request.name.empty() ? SubjectName(first) : request.name, &warnings);
+  report.warnings.AppendNew(warnings);
   report.person.subject = std::make_shared<Subject>(report.result.subject);
   report.model =
       std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));

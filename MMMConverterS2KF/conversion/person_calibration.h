@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/input/person.h"
 #include "common/calibrate/calibration.h"
 #include "common/convert/tracking_setup.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -33,13 +34,14 @@ struct CalibrationReport {
   Person person;                                ///< with the subject
   std::shared_ptr<const KinematicModel> model;  ///< fitted to the subject
   CalibrationResult result;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Reads the recordings, matches their markers, scales the model and estimates what is left.
-/// config: names markers and joints. progress(done, all): recordings read.
+/// configuration: names markers and joints. progress(done, all): recordings read.
 /// @throws Error; where recordings tell too little, with what is missing.
-CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterConfig config,
+CalibrationReport RunCalibration(const CalibrationRequest& request,
+                                 WithWarnings<ConverterConfig> configuration,
                                  const std::function<void(int, int)>& progress);
 
 /// CalibrateSubject for a person whose height and mass are known: the result's subject is complete,
@@ -47,7 +49,8 @@ CalibrationReport RunCalibration(const CalibrationRequest& request, ConverterCon
 /// scaled: by the person's height and mass, of `reference`.
 CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
                                   const std::vector<CalibrationRecording>& recordings,
-                                  const Person& person, const std::string& name);
+                                  const Person& person, const std::string& name,
+                                  Warnings* warnings);
 
 /// What a subject file says of the program.
 std::string SubjectProgram();

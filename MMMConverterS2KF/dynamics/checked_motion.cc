@@ -53,14 +53,13 @@ MmmMotion ReadChosenMotion(const std::string& file, const std::string& name) {
       fmt::format("{}: has no motion \"{}\" with joint angles; there is {}", file, name, there));
 }
 
-std::string ChooseModel(const InputRequest& request, const MmmMotion& motion,
-                        std::vector<std::string>* warnings) {
+std::string ChooseModel(const InputRequest& request, const MmmMotion& motion, Warnings* warnings) {
   if (!request.model_file.empty() || motion.model_path.empty()) return ModelFile(request);
   const fs::path named = fs::path(request.file).parent_path() / motion.model_path;
   std::error_code failure;
   if (fs::is_regular_file(named, failure)) return named.lexically_normal().string();
   std::string shipped = ModelFile(request);
-  warnings->push_back(
+  warnings->Add(
       fmt::format("{}: names the model {}, which is not there; {} is taken (--model gives another)",
                   request.file, motion.model_path, shipped));
   return shipped;
@@ -118,7 +117,7 @@ bool IsHeightKnown(const PersonRequest& person, const MmmMotion& motion) {
 
 CheckedMotion ReadCheckedMotion(const InputRequest& request) {
   MmmMotion motion = ReadChosenMotion(request.file, request.reading.motion);
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const std::string model_file = ChooseModel(request, motion, &warnings);
   if (!warnings.empty() && !IsHeightKnown(request.person, motion)) {
     throw Error(
@@ -126,8 +125,7 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
                     "by; give the model with --model, or a person's height with --height",
                     request.file, motion.model_path));
   }
-  LoadedModel loaded = ReadModelFile(model_file);
-  warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+  LoadedModel loaded = ReadModelFile(model_file, &warnings);
   ConverterConfig config;
   if (!loaded.is_reference) config.model_processor = "None";
   if (loaded.is_reference && !IsHeightKnown(request.person, motion)) {

@@ -8,6 +8,7 @@
 #include "MMMConverterS2KF/input/person.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -22,7 +23,7 @@ struct CheckedMotion {
   /// All numbers finite; with the frames before and behind those that are checked, as far as they
   /// are known.
   PoseTrajectory trajectory;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   int begin = 0;  ///< of trajectory: frames [begin, end) are checked
   int end = 0;
 };

@@ -37,10 +37,10 @@ std::optional<std::string> ConfigFile(const ConverterRequest& request,
 }
 
 void ReadConfig(const ConverterRequest& request, const std::string& converter,
-                ConverterChoice* choice) {
+                ConverterChoice* choice, Warnings* warnings) {
   ConverterConfig& config = choice->config;
   if (const auto file = ConfigFile(request, converter)) {
-    config = ReadConverterConfig(*file);
+    config = ReadConverterConfig(*file, warnings);
     choice->text = ReadFileContent(*file);
   } else {
     config.file = "defaults of " + converter;
@@ -56,7 +56,7 @@ void ReadConfig(const ConverterRequest& request, const std::string& converter,
 
 }  // namespace
 
-ConverterChoice ChooseConverter(const ConverterRequest& request) {
+ConverterChoice ChooseConverter(const ConverterRequest& request, Warnings* warnings) {
   ConverterChoice choice;
   std::string converter = request.converter;
   if (!request.plugin_file.empty()) {
@@ -68,7 +68,7 @@ ConverterChoice ChooseConverter(const ConverterRequest& request) {
     }
     converter = name;
   }
-  ReadConfig(request, converter, &choice);
+  ReadConfig(request, converter, &choice, warnings);
   if (!choice.plugin) {
     choice.plugin = std::make_shared<LoadedPlugin>(LoadPluginByName(choice.config.type));
   }
@@ -82,6 +82,13 @@ void NameInputs(const ConverterChoice& choice, OutputPlan* plan) {
   plan->Read(config.subject_file);
   plan->Read((fs::path(config.file).parent_path() / config.marker_set).string());
   if (choice.plugin) plan->Read(choice.plugin->path());
+}
+
+WithWarnings<std::shared_ptr<const ConverterChoice>> ChooseOnce(const ConverterRequest& request) {
+  WithWarnings<std::shared_ptr<const ConverterChoice>> choice;
+  choice.value =
+      std::make_shared<const ConverterChoice>(ChooseConverter(request, &choice.warnings));
+  return choice;
 }
 
 }  // namespace mmm_converter

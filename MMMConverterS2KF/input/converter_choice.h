@@ -7,6 +7,7 @@
 #include "common/convert/converter_config.h"
 #include "common/convert/plugin_loader.h"
 #include "common/support/output_plan.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -24,7 +25,10 @@ struct ConverterChoice {
 };
 
 /// @throws Error where there is no such file or plugin, or they do not belong together.
-ConverterChoice ChooseConverter(const ConverterRequest& request);
+ConverterChoice ChooseConverter(const ConverterRequest& request, Warnings* warnings);
+
+/// The choice for several conversions. @throws Error as ChooseConverter.
+WithWarnings<std::shared_ptr<const ConverterChoice>> ChooseOnce(const ConverterRequest& request);
 
 /// Says in the plan which files the choice is from, and which its configuration names.
 void NameInputs(const ConverterChoice& choice, OutputPlan* plan);

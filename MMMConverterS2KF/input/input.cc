@@ -43,26 +43,45 @@ void NameInputs(const InputRequest& request, OutputPlan* plan) {
   plan->Read(request.person.subject_file);
 }
 
-Input ReadModel(const InputRequest& request) {
+Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {
   Input input;
   input.model_file = ModelFile(request);
-  input.model = request.model
-                    ? request.model
-                    : std::make_shared<const LoadedModel>(ReadModelFile(input.model_file));
-  input.warnings = input.model->warnings;
+  if (read_before.model.value) {
+    input.model = read_before.model.value;
+    warnings->Append(read_before.model.warnings);
+  } else {
+    input.model = std::make_shared<const LoadedModel>(ReadModelFile(input.model_file, warnings));
+  }
   input.reference = std::shared_ptr<const KinematicModel>(input.model, &input.model->model);
   return input;
 }
 
-Input ReadInput(const InputRequest& request) {
-  Recording recording =
-      request.recording ? *request.recording : ReadRecording(request.file, request.reading);
-  Input input = ReadModel(request);
-  input.warnings.insert(input.warnings.begin(), recording.warnings.begin(),
-                        recording.warnings.end());
+WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request) {
+  WithWarnings<std::shared_ptr<const LoadedModel>> model;
+  model.value =
+      std::make_shared<const LoadedModel>(ReadModelFile(ModelFile(request), &model.warnings));
+  return model;
+}
+
+Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {
+  Recording recording;
+  if (read_before.motion.value) {
+    recording = *read_before.motion.value;
+    warnings->Append(read_before.motion.warnings);
+  } else {
+    recording = ReadRecording(request.file, request.reading, warnings);
+  }
+  Input input = ReadModel(request, read_before, warnings);
   input.recording = std::move(recording);
   TakeFrames(request, &input);
   return input;
+}
+
+ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
+                              Warnings* warnings) {
+  if (!read_before.choice.value) return ChooseConverter(request, warnings);
+  warnings->Append(read_before.choice.warnings);
+  return *read_before.choice.value;
 }
 
 void TakeMarkerSet(const InputRequest& request, ConverterConfig* config) {

@@ -8,11 +8,13 @@
 
 #include "MMMConverterS2KF/input/person.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/input/converter_choice.h"
 #include "common/convert/converter_config.h"
 #include "common/io/model_file.h"
 #include "common/io/recording/recording.h"
 #include "common/model/kinematic_model.h"
 #include "common/support/output_plan.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -20,13 +22,19 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::shared_ptr<const Recording> recording;  ///< of that file, where it has been read before
-  std::optional<int> first_frame;              ///< counted from 0
-  std::optional<int> end_frame;                ///< the frame behind the last
-  std::string model_file;                      ///< reference model, or a URDF
-  std::shared_ptr<const LoadedModel> model;    ///< of that file, where it has been read before
-  std::string marker_set;                      ///< file or name; comes before the configuration's
+  std::optional<int> first_frame;                            ///< counted from 0
+  std::optional<int> end_frame;                              ///< the frame behind the last
+  std::string model_file;                                    ///< reference model, or a URDF
+  std::string marker_set;  ///< file or name; comes before the configuration's
   PersonRequest person;
+};
+
+/// What has been read for a request before: for all recordings of a batch, or for all motions of a
+/// file. Null: is read.
+struct ReadBefore {
+  WithWarnings<std::shared_ptr<const LoadedModel>> model = {};
+  WithWarnings<std::shared_ptr<const ConverterChoice>> choice = {};
+  WithWarnings<std::shared_ptr<const Recording>> motion = {};  ///< one of several of the file
 };
 
 struct Input {
@@ -35,7 +43,6 @@ struct Input {
   std::string model_file;
   std::shared_ptr<const LoadedModel> model;         ///< of that file
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
-  std::vector<std::string> warnings;
 };
 
 /// Says in the plan which files the request names.
@@ -46,10 +53,18 @@ std::string ModelFile(const InputRequest& request);
 
 /// The model only; no recording.
 /// @throws Error
-Input ReadModel(const InputRequest& request);
+Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
+
+/// The model for several inputs: to be ReadBefore::model.
+/// @throws Error
+WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request);
 
 /// @throws Error
-Input ReadInput(const InputRequest& request);
+Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
+
+/// ChooseConverter. @throws Error
+ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
+                              Warnings* warnings);
 
 /// The request's marker set instead of the configuration's, where it names one.
 void TakeMarkerSet(const InputRequest& request, ConverterConfig* config);

@@ -48,7 +48,7 @@ void CheckLength(const char* what, const std::optional<double>& given, std::opti
 
 // Another mass changes no length.
 void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
-                 const Recording& recording, Person* person, std::vector<std::string>* warnings) {
+                 const Recording& recording, Person* person, Warnings* warnings) {
   const Subject& subject = *person->subject;
   const std::string& file = person->subject_file;
   const auto height = request.height ? request.height : processor.height;
@@ -60,12 +60,12 @@ void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
   person->hand_length = subject.hand_length;
   const auto mass = Choose(request.mass, processor.mass, request.processor_file, std::nullopt);
   if (mass && !AreEqual(mass->value, subject.mass)) {
-    warnings->push_back(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
-                                    subject.mass, mass->value, mass->source));
+    warnings->Add(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
+                              subject.mass, mass->value, mass->source));
     person->mass = *mass;
   }
   if (recording.height && !AreEqual(*recording.height, subject.height)) {
-    warnings->push_back(
+    warnings->Add(
         fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
                     "same person?",
                     file, *recording.height, subject.height));
@@ -88,7 +88,7 @@ void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
 Person Find(const PersonRequest& request, const KinematicModel& reference,
             const Recording& recording, const ConverterConfig& config,
             const std::function<PersonValue()>& estimate_height,
-            std::vector<std::string>* warnings) {
+            Warnings* warnings) {
   Person person;
   ProcessorConfig processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
@@ -104,13 +104,13 @@ Person Find(const PersonRequest& request, const KinematicModel& reference,
 }
 
 Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config,
-                     std::vector<std::string>* warnings) {
+                     Warnings* warnings) {
   if (!request.subject_file.empty()) {
     throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
                             WhyUnscaled(config), request.subject_file));
   }
   if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
-    warnings->push_back(WhyUnscaled(config) + "; height, mass and hand length are left out");
+    warnings->Add(WhyUnscaled(config) + "; height, mass and hand length are left out");
   }
   Person person;
   person.height = {0, "model is not scaled"};
@@ -139,14 +139,14 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
 
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
                   const Recording& recording, const ConverterConfig& config,
-                  std::vector<std::string>* warnings) {
+                  Warnings* warnings) {
   if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
   const auto estimate = [&] { return Estimate(setup, recording.markers); };
   return Find(request, *setup.model, recording, config, estimate, warnings);
 }
 
 Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
-                       const ConverterConfig& config, std::vector<std::string>* warnings) {
+                       const ConverterConfig& config, Warnings* warnings) {
   constexpr const char* kUnknown =
       "how tall and heavy is the person? Give --height and --mass, --person or --subject-file";
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));

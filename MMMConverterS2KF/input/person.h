@@ -11,6 +11,7 @@
 #include "common/io/recording/recording.h"
 #include "common/model/kinematic_model.h"
 #include "common/model/subject.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -52,11 +53,11 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 ///         its segment scales are relative to.
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
                   const Recording& recording, const ConverterConfig& config,
-                  std::vector<std::string>* warnings);
+                  Warnings* warnings);
 
 /// As FindPerson without a recording: nothing is estimated or assumed.
 /// @throws Error; also where height or mass are not known, or the model is not scaled.
 Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
-                       const ConverterConfig& config, std::vector<std::string>* warnings);
+                       const ConverterConfig& config, Warnings* warnings);
 
 }  // namespace mmm_converter

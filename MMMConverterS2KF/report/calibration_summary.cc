@@ -161,7 +161,7 @@ std::string FormatCalibrationJson(const CalibrationReport& report, const std::st
                      {"mass_source", report.person.mass.source},
                      {"calibration", Json::parse(FormatCalibrationFigures(result))},
                      {"subject", Json::parse(FormatSubjectJson(result.subject))},
-                     {"warnings", report.warnings}};
+                     {"warnings", report.warnings.texts()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
@@ -79,7 +80,7 @@ Json DescribeContender(const Contender& contender) {
 Json DescribeRow(const Comparison& comparison, const ComparisonRow& row) {
   Json json = {{"trial", comparison.trials[row.trial].name},
                {"contender", comparison.contenders[row.contender].name},
-               {"failure", TextOrNull(row.failure)}};
+               {"failure", TextOrNull(WithAdvice(row.failure, row.remedy))}};
   if (!row.failure.empty()) return json;
   json.update(ToJson(row.quality));
   json["runs"] = Json::array();

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <span>
 
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
@@ -170,7 +171,7 @@ std::string FormatComparisonTable(const Comparison& comparison) {
   for (const ComparisonRow& row : comparison.rows) {
     if (row.failure.empty()) continue;
     text += fmt::format("failed: {} on {}: {}\n", comparison.contenders[row.contender].name,
-                        comparison.trials[row.trial].name, row.failure);
+                        comparison.trials[row.trial].name, WithAdvice(row.failure, row.remedy));
   }
   return text;
 }
@@ -181,7 +182,8 @@ std::string FormatComparisonCsv(const Comparison& comparison) {
   text += '\n';
   for (const ComparisonRow& row : comparison.rows) {
     text += fmt::format("{},{},{}", CsvText(comparison.trials[row.trial].name),
-                        CsvText(comparison.contenders[row.contender].name), CsvText(row.failure));
+                        CsvText(comparison.contenders[row.contender].name),
+                        CsvText(WithAdvice(row.failure, row.remedy)));
     const Eigen::VectorXd& optimum = comparison.grounds[row.trial].optimum;
     const double mean =
         kMillimetres * Mean({optimum.data(), static_cast<std::size_t>(optimum.size())});

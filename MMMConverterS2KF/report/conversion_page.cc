@@ -31,7 +31,8 @@ Comparison MakeComparison(const ConversionReport& report) {
   contender.name = std::filesystem::path(report.converter.config.file).stem().string();
   contender.configuration = report.converter.text;
   contender.config = report.converter.config;
-  return CompareFinished(std::move(trial), {contender}, {{report.setup.mapping, report.result}});
+  return CompareFinished(std::move(trial), {contender},
+                         {{report.setup.mapping, report.warnings, report.result}});
 }
 
 }  // namespace

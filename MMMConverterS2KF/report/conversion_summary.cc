@@ -303,7 +303,7 @@ std::string FormatSummaryJson(const ConversionReport& report) {
       {"nis_over_degrees_of_freedom", Number(MeanNis(report))},
       {"wrong_markers", WrongMarkersJson(report)},
       {"ms_per_frame", {{"median", Number(Median(times))}, {"p99", Number(Percentile(times, 99))}}},
-      {"warnings", report.warnings}};
+      {"warnings", report.warnings.texts()}};
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

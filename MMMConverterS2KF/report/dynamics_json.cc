@@ -169,7 +169,7 @@ std::string FormatDynamicsJson(const DynamicsReport& report) {
                      {"checks", DescribeChecks(judged.checks)},
                      {"verdict", Name(judged.judgement)},
                      {"sentence", DynamicsSentence(report)},
-                     {"warnings", report.motion.warnings}};
+                     {"warnings", report.motion.warnings.texts()}};
   // File names may hold bytes that are no UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

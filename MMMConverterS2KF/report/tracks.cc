@@ -8,6 +8,7 @@
 
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
@@ -143,8 +144,8 @@ json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
 json RowJson(const Trial& trial, const ComparisonRow& row) {
   json out = {{"trial", row.trial},
               {"contender", row.contender},
-              {"failure", row.failure},
-              {"warnings", row.setup.mapping.warnings},
+              {"failure", WithAdvice(row.failure, row.remedy)},
+              {"warnings", row.warnings.texts()},
               {"ignored", row.setup.mapping.ignored_labels},
               {"absent", row.setup.mapping.absent_markers}};
   if (!row.failure.empty()) return out;

@@ -31,6 +31,9 @@ void StartLog(const std::string& level) {
 
 void LogError(const std::string& message) { spdlog::error("{}", message); }
 void LogWarning(const std::string& message) { spdlog::warn("{}", message); }
+void LogWarnings(const Warnings& warnings) {
+  for (const Warning& warning : warnings.all()) LogWarning(warning.text);
+}
 void LogInfo(const std::string& message) { spdlog::info("{}", message); }
 
 }  // namespace mmm_converter

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "common/support/warnings.h"
+
 namespace mmm_converter {
 
 /// Levels that --log takes.
@@ -14,6 +16,8 @@ void StartLog(const std::string& level);
 
 void LogError(const std::string& message);
 void LogWarning(const std::string& message);
+/// Each of them. @see LogWarning
+void LogWarnings(const Warnings& warnings);
 void LogInfo(const std::string& message);
 
 }  // namespace mmm_converter

@@ -72,8 +72,7 @@ VectorXd JointRanges(const std::vector<CalibrationFrame>& frames) {
 }
 
 void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
-                   const std::vector<CalibrationFrame>& frames,
-                   std::vector<std::string>* warnings) {
+                   const std::vector<CalibrationFrame>& frames, Warnings* warnings) {
   const VectorXd ranges = JointRanges(frames);
   Eigen::Index widest = 0;
   if (ranges.maxCoeff(&widest) < kStillRange) {
@@ -85,10 +84,10 @@ void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
   }
   const auto still = (ranges.array() < kLeastRange).count();
   if (still > 0) {
-    warnings->push_back(fmt::format(
-        "{} of {} joints move by less than {:.0f} degrees: what sits around them stays near the "
-        "model's",
-        still, ranges.size(), kDegrees * kLeastRange));
+    Warn(warnings, fmt::format("{} of {} joints move by less than {:.0f} degrees: what sits around "
+                               "them stays near the "
+                               "model's",
+                               still, ranges.size(), kDegrees * kLeastRange));
   }
 }
 
@@ -130,7 +129,7 @@ Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const Bo
   return subject;
 }
 
-void WarnOfSubject(const Subject& subject, std::vector<std::string>* warnings) {
+void WarnOfSubject(const Subject& subject, Warnings* warnings) {
   std::vector<std::string> open;
   for (const SegmentScale& scale : subject.scales) {
     if (Observability(scale.standard_deviation, scale.prior_deviation) < kLeastObservability) {
@@ -138,15 +137,16 @@ void WarnOfSubject(const Subject& subject, std::vector<std::string>* warnings) {
     }
   }
   if (!open.empty()) {
-    warnings->push_back(
-        fmt::format("not determined by the recordings, left near the model's: length of {}",
-                    fmt::join(open, ", ")));
+    Warn(warnings,
+         fmt::format("not determined by the recordings, left near the model's: length of {}",
+                     fmt::join(open, ", ")));
   }
   for (const MarkerOffset& offset : subject.offsets) {
     if (offset.offset.norm() > kFarOffset) {
-      warnings->push_back(fmt::format(
-          "{} sits {:.0f} mm from where the model has it; is it the marker of that name?",
-          offset.marker, 1000 * offset.offset.norm()));
+      Warn(warnings,
+           fmt::format(
+               "{} sits {:.0f} mm from where the model has it; is it the marker of that name?",
+               offset.marker, 1000 * offset.offset.norm()));
     }
   }
 }
@@ -155,8 +155,7 @@ void WarnOfSubject(const Subject& subject, std::vector<std::string>* warnings) {
 void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints,
                     const std::vector<int>& markers,
                     const std::vector<CalibrationRecording>& recordings,
-                    const std::vector<CalibrationFrame>& frames,
-                    std::vector<std::string>* warnings) {
+                    const std::vector<CalibrationFrame>& frames, Warnings* warnings) {
   if (recordings.size() < 2) return;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     std::vector<CalibrationFrame> own;
@@ -166,10 +165,11 @@ void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints
     const Eigen::Matrix3Xd shifts = MedianResiduals(fitted, joints, markers, own);
     const auto moved = (shifts.colwise().norm().array() > kMovedMarker).count();
     if (static_cast<double>(moved) < kMovedShare * static_cast<double>(shifts.cols())) continue;
-    warnings->push_back(fmt::format(
-        "{}: {} of {} markers sit more than {:.0f} mm from where the recordings together have "
-        "them; were markers put on anew in between? Calibrate each session by itself",
-        recordings[r].name, moved, shifts.cols(), 1000 * kMovedMarker));
+    Warn(warnings,
+         fmt::format(
+             "{}: {} of {} markers sit more than {:.0f} mm from where the recordings together have "
+             "them; were markers put on anew in between? Calibrate each session by itself",
+             recordings[r].name, moved, shifts.cols(), 1000 * kMovedMarker));
   }
 }
 
@@ -177,14 +177,14 @@ void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints
 
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
                                    const std::vector<CalibrationRecording>& recordings,
-                                   const CalibrationOptions& options) {
+                                   const CalibrationOptions& options, Warnings* warnings) {
   const std::vector<int> markers = UsedMarkers(recordings);
   std::vector<CalibrationFrame> frames = FramesOf(recordings, markers);
   BodyKinematics kinematics(model, joints, markers);
   Body body = kinematics.ModelBody();
   CalibrationResult result;
   const OffsetsInTurns first = FitOffsetsInTurns(model, joints, markers, &frames);
-  CheckMovement(model, joints, frames, &result.warnings);
+  CheckMovement(model, joints, frames, warnings);
   body.offsets = first.offsets;
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const BodyFitResult fit =
@@ -197,17 +197,17 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
     });
     result.subject.sources.push_back({recordings[r].name, static_cast<int>(taken)});
   }
-  WarnOfSubject(result.subject, &result.warnings);
+  WarnOfSubject(result.subject, warnings);
   if (!fit.converged) {
-    result.warnings.push_back(fmt::format(
-        "the estimate was still changing after {} steps; a recording with more movement settles "
-        "it",
-        fit.iterations));
+    Warn(warnings, fmt::format("the estimate was still changing after {} steps; a recording with "
+                               "more movement settles "
+                               "it",
+                               fit.iterations));
   }
   const KinematicModel fitted = FitToSubject(model, result.subject);
   result.distance_before = first.distance_before.mean();
   result.distance_after = FitPostures(fitted, joints, markers, &frames).mean();
-  WarnOfSessions(fitted, joints, markers, recordings, frames, &result.warnings);
+  WarnOfSessions(fitted, joints, markers, recordings, frames, warnings);
   result.frames = static_cast<int>(chosen.size());
   result.iterations = fit.iterations;
   return result;

@@ -9,6 +9,7 @@
 #include "common/model/kinematic_model.h"
 #include "common/model/subject.h"
 #include "common/motion/marker_sequence.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -34,15 +35,15 @@ struct CalibrationResult {
   double distance_after = 0;   ///< the same for the subject's model [m]
   int frames = 0;
   int iterations = 0;
-  std::vector<std::string> warnings;  ///< what the recordings do not determine, wrong markers
 };
 
 /// Estimates postures, marker offsets and segment scales jointly over frames chosen for how much
-/// they differ. joints: the tracked ones, indices of model, which is scaled by height.
+/// they differ. joints: the tracked ones, indices of model, which is scaled by height. warnings:
+/// what the recordings do not determine, and wrong markers.
 /// @throws Error where the recordings are too short or too still to tell marker offsets from
 ///         posture; the message names what is missing.
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
                                    const std::vector<CalibrationRecording>& recordings,
-                                   const CalibrationOptions& options);
+                                   const CalibrationOptions& options, Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

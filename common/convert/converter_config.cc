@@ -23,7 +23,8 @@ constexpr double kLargestNoiseScale = 100;
 // there, what is unknown is a warning.
 class ConfigReader {
  public:
-  ConfigReader(const XmlElement& root, const std::string& file) : root_(root), diagnostics_(file) {}
+  ConfigReader(const XmlElement& root, const std::string& file, Warnings* warnings)
+      : root_(root), diagnostics_(file, warnings) {}
 
   ConverterConfig Read() {
     if (root_.name != "ConverterConfig") {
@@ -49,7 +50,6 @@ class ConfigReader {
     }
     if (is_foreign_) LeaveOutForeignSettings();
     diagnostics_.ThrowIfErrors();
-    config_.warnings = diagnostics_.warnings();
     return std::move(config_);
   }
 
@@ -257,12 +257,13 @@ class ConfigReader {
 
 }  // namespace
 
-ConverterConfig ParseConverterConfig(const std::string& xml, const std::string& file) {
-  return ConfigReader(ParseXml(xml, file), file).Read();
+ConverterConfig ParseConverterConfig(const std::string& xml, const std::string& file,
+                                     Warnings* warnings) {
+  return ConfigReader(ParseXml(xml, file), file, warnings).Read();
 }
 
-ConverterConfig ReadConverterConfig(const std::string& path) {
-  return ParseConverterConfig(ReadFileContent(path, kMaxConfigBytes), path);
+ConverterConfig ReadConverterConfig(const std::string& path, Warnings* warnings) {
+  return ParseConverterConfig(ReadFileContent(path, kMaxConfigBytes), path, warnings);
 }
 
 }  // namespace mmm_converter

@@ -9,6 +9,7 @@
 #include "common/convert/marker_set.h"
 #include "common/convert/settings.h"
 #include "common/io/xml/xml_document.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -32,16 +33,16 @@ struct ConverterConfig {
   int joint_set_line = 0;
   std::string output_format = "2.0";  ///< Output@format: version of MMM's motion format to write
   std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
-  std::vector<std::string> warnings;
 };
 
 /// Reads KIT's shape too: of a configuration for another converter of KIT's ("NloptConverter") the
 /// marker mapping and joints are taken, the rest is left out with a warning, and type is empty.
 /// @throws Error with file and line for anything that is not well-formed or not allowed.
-ConverterConfig ReadConverterConfig(const std::string& path);
+ConverterConfig ReadConverterConfig(const std::string& path, Warnings* warnings = nullptr);
 
 /// As ReadConverterConfig, from text; `file` is only named in messages.
-ConverterConfig ParseConverterConfig(const std::string& xml, const std::string& file);
+ConverterConfig ParseConverterConfig(const std::string& xml, const std::string& file,
+                                     Warnings* warnings = nullptr);
 
 /// The joints to track, as indices of the model, in output order: config.joints, or else those of
 /// joint_set, which is "mmm44" or "mmm40" (the joints of KIT's motions since 2016 and before),

@@ -94,7 +94,7 @@ Eigen::VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments) {
 }
 
 MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs, const MarkerLabels& labels,
-                                   const KinematicModel& model) {
+                                   const KinematicModel& model, Warnings* warnings) {
   CheckPairs(pairs, model);
   const std::map<std::string, int> indices = IndicesByName(labels.names);
   MarkerMapping mapping;
@@ -106,13 +106,13 @@ MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs, const M
     if (label == indices.end() || by_marker.contains(marker)) continue;
     const std::string& name = labels.names[label->second];
     if (!labels.seen.empty() && !labels.seen[label->second]) {
-      mapping.warnings.push_back(fmt::format("marker {} is not seen in any frame", name));
+      Warn(warnings, fmt::format("marker {} is not seen in any frame", name));
       continue;
     }
     by_marker[marker] = {label->second, marker, pair.noise_scale};
     used.insert(name);
     if (!pair.warning.empty()) {
-      mapping.warnings.push_back(fmt::format("{} as {}: {}", name, pair.target, pair.warning));
+      Warn(warnings, fmt::format("{} as {}: {}", name, pair.target, pair.warning));
     }
   }
   if (by_marker.empty()) ThrowNoMatch(pairs, labels);

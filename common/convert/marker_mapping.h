@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/support/warnings.h"
+
 namespace mmm_converter {
 
 class KinematicModel;
@@ -40,7 +42,6 @@ struct MarkerMapping {
   std::vector<MarkerAssignment> assignments;  ///< by model marker index, each marker at most once
   std::vector<std::string> ignored_labels;    ///< in the recording, not mapped
   std::vector<std::string> absent_markers;    ///< mapped, but not seen in the recording
-  std::vector<std::string> warnings;
 };
 
 /// Of each assignment, in their order.
@@ -54,6 +55,6 @@ Eigen::VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments);
 /// to
 ///         two markers, or a target is not a marker of the model.
 MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs, const MarkerLabels& labels,
-                                   const KinematicModel& model);
+                                   const KinematicModel& model, Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

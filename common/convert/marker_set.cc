@@ -244,12 +244,14 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const Marke
   std::vector<std::string> names;
   names.reserve(sets.size());
   for (const MarkerSet& set : sets) names.push_back(set.name);
-  throw Error(fmt::format(
-      "{}no marker set ({}) knows three labels of the recording, which has {}; "
-      "name links of the URDF <label>_marker, or say which labels stand for which markers "
-      "and where these are: --marker-set FILE, or a configuration with a MarkerMapping",
-      labels.source.empty() ? "" : labels.source + ": ", fmt::join(names, ", "),
-      FirstNames(labels.names)));
+  throw Error(
+      fmt::format(
+          "{}no marker set ({}) knows three labels of the recording, which has {}; "
+          "name links of the URDF <label>_marker, or say which labels stand for which markers "
+          "and where these are, in the configuration or in a marker set",
+          labels.source.empty() ? "" : labels.source + ": ", fmt::join(names, ", "),
+          FirstNames(labels.names)),
+      Remedy::kMarkerSet);
 }
 
 }  // namespace mmm_converter

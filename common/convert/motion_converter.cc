@@ -42,11 +42,12 @@ int FindFirstFrame(const MarkerSequence& recording, const TrackingSetup& setup) 
     if (seen >= kFewestMarkers) return k;
     most = std::max(most, seen);
   }
-  throw Error(fmt::format(
-      "no frame{} shows {} mapped markers (at most {} of {} are seen); {}check the "
-      "marker mapping",
-      is_object ? "" : " of the first second", kFewestMarkers, most, setup.assignments().size(),
-      is_object ? "" : "start at a later frame with --frames, or "));
+  throw Error(
+      fmt::format("no frame{} shows {} mapped markers (at most {} of {} are seen); check the "
+                  "marker mapping{}",
+                  is_object ? "" : " of the first second", kFewestMarkers, most,
+                  setup.assignments().size(), is_object ? "" : ", or start at a later frame"),
+      is_object ? Remedy::kNone : Remedy::kFrames);
 }
 
 // Fills one frame of a result from what a converter says of it.

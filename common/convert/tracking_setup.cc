@@ -13,36 +13,35 @@ namespace {
 
 bool IsScaled(const ConverterConfig& config) { return config.model_processor != "None"; }
 
-// Of tracked joints that no marker moves.
-void WarnOfFreeJoints(TrackingSetup* setup) {
+}  // namespace
+
+void WarnOfFreeJoints(const TrackingSetup& setup, const ConverterConfig& config,
+                      Warnings* warnings) {
   constexpr std::size_t kShown = 5;
-  const MarkerKinematics kinematics(*setup->model, setup->joints,
-                                    MarkerIndices(setup->assignments()));
+  if (IsScaled(config)) return;
+  const MarkerKinematics kinematics(*setup.model, setup.joints, MarkerIndices(setup.assignments()));
   std::vector<std::string> names;
   for (int j = 0; j < kinematics.num_joints(); ++j) {
     bool is_moving = false;
     for (int m = 0; m < kinematics.num_markers(); ++m) is_moving |= kinematics.Moves(j, m);
-    if (!is_moving) names.push_back(setup->model->joint(kinematics.joints()[j]).name);
+    if (!is_moving) names.push_back(setup.model->joint(kinematics.joints()[j]).name);
   }
   if (names.empty()) return;
-  setup->mapping.warnings.push_back(fmt::format(
+  Warn(warnings, fmt::format(
       "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
       "known: {}",
       names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
 }
 
-}  // namespace
-
 TrackingSetup MatchMarkers(const MarkerLabels& labels,
                            std::shared_ptr<const KinematicModel> reference,
-                           const ConverterConfig& config) {
+                           const ConverterConfig& config, Warnings* warnings) {
   TrackingSetup setup;
   setup.model = std::move(reference);
   const std::vector<MarkerPair> pairs =
       ResolveMarkerPairs(config, labels, *setup.model, &setup.marker_set);
-  setup.mapping = ResolveMarkerMapping(pairs, labels, *setup.model);
+  setup.mapping = ResolveMarkerMapping(pairs, labels, *setup.model, warnings);
   setup.joints = ResolveJoints(config, *setup.model);
-  if (!IsScaled(config)) WarnOfFreeJoints(&setup);
   return setup;
 }
 
@@ -64,8 +63,10 @@ void ScaleToPerson(const PersonScaling& person, TrackingSetup* setup) {
 
 TrackingSetup MakeTrackingSetup(const MarkerLabels& labels,
                                 std::shared_ptr<const KinematicModel> reference,
-                                const ConverterConfig& config, const PersonScaling& person) {
-  TrackingSetup setup = MatchMarkers(labels, std::move(reference), config);
+                                const ConverterConfig& config, const PersonScaling& person,
+                                Warnings* warnings) {
+  TrackingSetup setup = MatchMarkers(labels, std::move(reference), config, warnings);
+  WarnOfFreeJoints(setup, config, warnings);
   if (IsScaled(config)) ScaleToPerson(person, &setup);
   return setup;
 }

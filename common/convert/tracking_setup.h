@@ -12,6 +12,7 @@
 #include "common/model/kinematic_model.h"
 #include "common/model/model_scaling.h"
 #include "common/model/subject.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -36,7 +37,11 @@ struct PersonScaling {
 /// @throws Error as these.
 TrackingSetup MatchMarkers(const MarkerLabels& labels,
                            std::shared_ptr<const KinematicModel> reference,
-                           const ConverterConfig& config);
+                           const ConverterConfig& config, Warnings* warnings = nullptr);
+
+/// Of a model that is not scaled: warns of tracked joints that no assigned marker moves.
+void WarnOfFreeJoints(const TrackingSetup& setup, const ConverterConfig& config,
+                      Warnings* warnings);
 
 /// EstimateHeight with the joints and markers of a setup that MatchMarkers made.
 /// @throws Error where no frame shows at least ten of the markers.
@@ -54,6 +59,7 @@ void ScaleToPerson(const PersonScaling& person, TrackingSetup* setup);
 /// @throws Error as MatchMarkers and ScaleModel.
 TrackingSetup MakeTrackingSetup(const MarkerLabels& labels,
                                 std::shared_ptr<const KinematicModel> reference,
-                                const ConverterConfig& config, const PersonScaling& person);
+                                const ConverterConfig& config, const PersonScaling& person,
+                                Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

@@ -31,9 +31,11 @@ void ResolveRow(const Trial& trial, const Contender& contender, ComparisonRow* r
   row->failure = trial.failure.empty() ? contender.failure : trial.failure;
   if (!row->failure.empty()) return;
   try {
-    row->setup = MatchMarkers(LabelsOf(trial.markers), trial.model, contender.config);
+    row->setup =
+        MatchMarkers(LabelsOf(trial.markers), trial.model, contender.config, &row->warnings);
   } catch (const Error& error) {
     row->failure = error.what();
+    row->remedy = error.remedy();
   }
 }
 
@@ -149,6 +151,7 @@ struct RunOutcome {
   TrackingQuality quality;
   VectorXd frame_means;
   std::string failure;
+  Remedy remedy = Remedy::kNone;
 };
 
 void FillBand(const std::vector<RunOutcome>& outcomes, ComparisonRow* row) {
@@ -171,6 +174,7 @@ void FinishRow(const std::vector<RunOutcome>& outcomes, ComparisonRow* row) {
   for (const RunOutcome& outcome : outcomes) {
     if (!outcome.failure.empty()) {
       row->failure = outcome.failure;
+      row->remedy = outcome.remedy;
       return;
     }
   }
@@ -199,6 +203,9 @@ RunOutcome Perform(const Run& run, const Comparison& comparison, const Field& fi
       row->result = std::move(result);
       row->distances = std::move(distances);
     }
+  } catch (const Error& error) {
+    outcome.failure = error.what();
+    outcome.remedy = error.remedy();
   } catch (const std::exception& error) {
     outcome.failure = error.what();
   }
@@ -298,6 +305,7 @@ Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
   Field field;
   for (std::size_t i = 0; i < results.size(); ++i) {
     ComparisonRow& row = comparison.rows[i];
+    row.warnings = std::move(results[i].warnings);
     row.result = std::move(results[i].result);
     row.setup = {only.model, JointsOf(only, row.result.trajectory), std::move(results[i].mapping)};
     field.rows.push_back(&row);

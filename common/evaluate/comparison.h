@@ -18,6 +18,8 @@
 #include "common/model/subject.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
+#include "common/support/error.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -63,8 +65,10 @@ struct CommonGround {
 struct ComparisonRow {
   int trial = 0;
   int contender = 0;
-  std::string failure;                ///< why there is no result; empty: there is one
-  TrackingSetup setup;                ///< on the trial's model
+  std::string failure;            ///< why there is no result; empty: there is one
+  Remedy remedy = Remedy::kNone;  ///< of the failure
+  TrackingSetup setup;            ///< on the trial's model
+  Warnings warnings;                  ///< of the mapping
   TrackingQuality quality;            ///< of all runs
   std::vector<TrackingQuality> runs;  ///< one for each
   ConversionResult result;            ///< of the first run
@@ -98,6 +102,7 @@ Comparison Compare(std::vector<Trial> trials, std::vector<Contender> contenders,
 /// A finished result: a motion of the trial's model, a posture for each of its frames.
 struct Finished {
   MarkerMapping mapping;
+  Warnings warnings;  ///< of the mapping
   ConversionResult result;
 };
 

@@ -61,7 +61,8 @@ HeightEstimate EstimateHeight(const KinematicModel& reference, const std::vector
   std::vector<FittedFrame> frames = ChooseFrames(labels, recording);
   if (frames.empty()) {
     throw Error("the body height can't be estimated: no frame shows at least " +
-                std::to_string(kLeastMarkers) + " mapped markers; give it, e.g. --height 1.75");
+                    std::to_string(kLeastMarkers) + " mapped markers; give it",
+                Remedy::kHeight);
   }
   const Eigen::VectorXd scale = Eigen::VectorXd::Ones(static_cast<int>(markers.size()));
   PostureFitOptions options;

@@ -16,15 +16,13 @@ bool IsUrdf(const std::string& content) {
 
 }  // namespace
 
-LoadedModel ReadModelFile(const std::string& path) {
+LoadedModel ReadModelFile(const std::string& path, Warnings* warnings) {
   const std::string content = ReadFileContent(path, kMaxModelBytes);
   if (IsUrdf(content)) {
-    UrdfModel urdf = ParseUrdfModel(content, path);
-    return {std::move(urdf.model), false, std::move(urdf.segment_of_link),
-            std::move(urdf.warnings)};
+    UrdfModel urdf = ParseUrdfModel(content, path, warnings);
+    return {std::move(urdf.model), false, std::move(urdf.segment_of_link)};
   }
-  MmmModel mmm = ParseMmmModel(content, path);
-  return {std::move(mmm.model), true, {}, std::move(mmm.warnings)};
+  return {ParseMmmModel(content, path, warnings), true, {}};
 }
 
 }  // namespace mmm_converter

@@ -3,9 +3,9 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "common/model/kinematic_model.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -15,12 +15,11 @@ struct LoadedModel {
   /// Of a person of 1 m and 1 kg (MMM), to be scaled. Otherwise as large as it is (URDF).
   bool is_reference = true;
   std::map<std::string, std::string> segment_of_link;  ///< of a URDF: segment names of its links
-  std::vector<std::string> warnings;                   ///< each as `file:line: message`
 };
 
 /// Reads an MMM or Simox model (<Robot> of <RobotNode>) or a URDF (<robot> of <link>), told by its
 /// content.
 /// @throws Error as ReadMmmModel and ReadUrdfModel.
-LoadedModel ReadModelFile(const std::string& path);
+LoadedModel ReadModelFile(const std::string& path, Warnings* warnings);
 
 }  // namespace mmm_converter

@@ -12,16 +12,17 @@ namespace mmm_converter {
 namespace {
 
 void CheckRange(const char* what, double value, const char* unit, double low, double high,
-                const char* advice) {
+                const char* advice, Remedy remedy = Remedy::kNone) {
   if (value >= low && value <= high) return;  // false for NaN
   throw Error(fmt::format("{} {} {} is outside {} to {} {}; {}", what, value, unit, low, high, unit,
-                          advice));
+                          advice),
+              remedy);
 }
 
 void CheckPerson(const WinterScaling& person) {
-  CheckRange("height", person.height, "m", kLeastHeight, kLargestHeight,
-             "give metres, e.g. --height 1.75");
-  CheckRange("mass", person.mass, "kg", kLeastMass, kLargestMass, "give kilograms, e.g. --mass 70");
+  CheckRange("height", person.height, "m", kLeastHeight, kLargestHeight, "give metres",
+             Remedy::kHeight);
+  CheckRange("mass", person.mass, "kg", kLeastMass, kLargestMass, "give kilograms", Remedy::kMass);
   if (person.hand_length) {
     CheckRange("hand length", *person.hand_length, "m", kLeastHandLength, kLargestHandLength,
                "give metres, e.g. 0.18 (<HandLength> in an MMM file is in cm)");

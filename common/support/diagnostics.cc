@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "common/support/error.h"
-
 namespace mmm_converter {
 namespace {
 
@@ -17,12 +15,14 @@ std::string Located(const std::string& file, int line, const std::string& messag
 
 }  // namespace
 
-void Diagnostics::AddError(int line, const std::string& message) {
+void Diagnostics::AddError(int line, const std::string& message, Remedy remedy) {
   errors_.push_back(Located(file_, line, message));
+  if (remedy_ == Remedy::kNone) remedy_ = remedy;
 }
 
 void Diagnostics::AddWarning(int line, const std::string& message) {
-  warnings_.push_back(Located(file_, line, message));
+  const WarningContext context(warnings_, file_);
+  Warn(warnings_, Located(file_, line, message));
 }
 
 void Diagnostics::ThrowIfErrors() const {
@@ -33,7 +33,7 @@ void Diagnostics::ThrowIfErrors() const {
   if (errors_.size() > kMostErrorsShown) {
     text += fmt::format("\n{}: {} more errors", file_, errors_.size() - kMostErrorsShown);
   }
-  throw Error(text);
+  throw Error(text, remedy_);
 }
 
 }  // namespace mmm_converter

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "common/support/error.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -10,9 +14,12 @@ namespace mmm_converter {
 /// thrown together, one a line, each as `file:line: message` (`file: message` where line is 0).
 class Diagnostics {
  public:
-  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
+  /// warnings: where AddWarning adds to, at once; may be null.
+  explicit Diagnostics(std::string file, Warnings* warnings = nullptr)
+      : file_(std::move(file)), warnings_(warnings) {}
 
-  void AddError(int line, const std::string& message);
+  /// remedy: shown for the file as a whole, the first that there is.
+  void AddError(int line, const std::string& message, Remedy remedy = Remedy::kNone);
   void AddWarning(int line, const std::string& message);
 
   /// @throws Error with all errors so far, if there are any.
@@ -20,12 +27,12 @@ class Diagnostics {
 
   const std::string& file() const { return file_; }
   const std::vector<std::string>& errors() const { return errors_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   std::string file_;
   std::vector<std::string> errors_;
-  std::vector<std::string> warnings_;
+  Warnings* warnings_;
+  Remedy remedy_ = Remedy::kNone;
 };
 
 }  // namespace mmm_converter

@@ -10,7 +10,8 @@
 
 namespace mmm_converter {
 
-Error::Error(const std::string& message) : std::runtime_error(message) {}
+Error::Error(const std::string& message, Remedy remedy)
+    : std::runtime_error(message), remedy_(remedy) {}
 Error::~Error() = default;
 
 WriteError::WriteError(const std::string& path, int error_number)

@@ -57,7 +57,7 @@ TEST_F(ScanTest, KitsTreeWithMotionsBesideTheRecordings) {
   Write("kit/readme.txt", "x");
   const Scan scan = Run();
   EXPECT_EQ(scan.recordings, 4);
-  EXPECT_THAT(scan.warnings, IsEmpty());
+  EXPECT_THAT(scan.warnings.texts(), IsEmpty());
   const BatchManifest manifest = Manifest(scan);
   EXPECT_EQ(manifest.name, "kit");
   ASSERT_EQ(manifest.entries.size(), 4U);
@@ -85,8 +85,8 @@ TEST_F(ScanTest, ATableSaysWhoTheyAre) {
                                   "a/,1.7,,persons/anna.xml,\"Anna, \"\"A\"\"\"\r\n\r\n"
                                   "./a/2,1.8,80,,\nnowhere,1.9,90,,\n");
   const Scan scan = Run(table);
-  ASSERT_EQ(scan.warnings.size(), 1U);
-  EXPECT_THAT(scan.warnings[0], HasSubstr("there is no recording in or at \"nowhere\""));
+  ASSERT_EQ(scan.warnings.all().size(), 1U);
+  EXPECT_THAT(scan.warnings.texts()[0], HasSubstr("there is no recording in or at \"nowhere\""));
   const BatchManifest manifest = Manifest(scan);
   ASSERT_EQ(manifest.entries.size(), 3U);
   EXPECT_FALSE(manifest.entries[0].request.input.person.height);
@@ -113,8 +113,8 @@ TEST_F(ScanTest, BadMotionsAreWarnings) {
         "<MMM><ModelProcessorConfig><Height>tall</Height></ModelProcessorConfig></MMM>");
   const Scan scan = Run();
   EXPECT_EQ(scan.recordings, 1);
-  ASSERT_EQ(scan.warnings.size(), 1U);
-  EXPECT_THAT(scan.warnings[0], HasSubstr("walk.xml"));
+  ASSERT_EQ(scan.warnings.all().size(), 1U);
+  EXPECT_THAT(scan.warnings.texts()[0], HasSubstr("walk.xml"));
 }
 
 TEST_F(ScanTest, SaysWhatIsWrong) {

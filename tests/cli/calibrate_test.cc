@@ -29,7 +29,7 @@ using testing::WriteText;
 using Json = nlohmann::json;
 
 Subject ReadResult(const std::string& file) {
-  return ReadSubject(file, ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model);
+  return ReadSubject(file, ReadMmmModel(SourcePath("xml_config/models/mmm.xml")));
 }
 
 std::string LastLine(const std::string& text) {
@@ -77,7 +77,9 @@ TEST(Calibrate, WritesThePersonTheModelThePageAndTheSummary) {
   EXPECT_LT(json["calibration"]["distance_after_mm"], 6.4);
   EXPECT_THAT(ReadText(folder + "/page.html"),
               AllOf(HasSubstr("The person \\\"the gymnast\\\""), HasSubstr("\"subject\"")));
-  EXPECT_THAT(ReadMmmModel(folder + "/model.xml").warnings, SizeIs(0));
+  Warnings warnings;
+  ReadMmmModel(folder + "/model.xml", &warnings);
+  EXPECT_THAT(warnings.texts(), SizeIs(0));
 }
 
 TEST(Calibrate, GoesBesideTheFirstRecording) {

@@ -34,7 +34,7 @@ constexpr double kMass = 75;
 constexpr double kRate = 100;
 
 KinematicModel Person() {
-  return ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model,
+  return ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")),
                      {kHeight, kMass, std::nullopt});
 }
 

@@ -114,9 +114,8 @@ void ExpectMotOf(const PoseTrajectory& trajectory, const StrictTable& mot) {
 // The measured markers are the motion's; the model's are those of the scaled model in its postures.
 void ExpectTrcOf(const Converted& converted, const std::map<std::string, std::string>& pairs) {
   const StrictTrc& trc = converted.trc;
-  const KinematicModel model =
-      ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model,
-                  {1.8, 75, std::nullopt});
+  const KinematicModel model = ScaleWinter(
+      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.8, 75, std::nullopt});
   ASSERT_EQ(trc.times.size(), converted.trajectory.postures.size());
   for (int k = 0; k < converted.trajectory.num_frames(); ++k) {
     EXPECT_NEAR(trc.times[k], converted.trajectory.time(k), 1e-9);

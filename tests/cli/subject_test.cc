@@ -50,8 +50,8 @@ Subject Nobody() {
 
 /// Whose markers sit where they sit on average in the sample, at its true postures.
 Subject Gymnast() {
-  const KinematicModel model = ScaleWinter(
-      ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model, {1.8, 75, std::nullopt});
+  const KinematicModel model =
+      ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")), {1.8, 75, std::nullopt});
   const MarkerSequence markers = ReadRecording(Handstand(), {}).markers;
   const PoseTrajectory truth = ReadMmmMotionFile(Truth()).motions.at(0).trajectory;
   Subject subject = Nobody();

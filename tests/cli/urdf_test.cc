@@ -278,7 +278,7 @@ void ExpectSameMarkers(const KinematicModel& model, const std::string& urdf) {
   EXPECT_NEAR(read.total_mass(), model.total_mass(), 1e-9);  // [kg], rounding of a sum
 }
 
-KinematicModel Reference() { return ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model; }
+KinematicModel Reference() { return ReadMmmModel(SourcePath("xml_config/models/mmm.xml")); }
 
 TEST(ExportUrdf, WritesTheScaledModelThatCheckUrdfAccepts) {
   const std::string urdf = TestFolder() + "/anna.urdf";

@@ -41,21 +41,21 @@ TEST(SampleRecordingTest, SaysThatItIsSynthetic) {
 }
 
 TEST(SampleRecordingTest, ShowsTheTrueMotionWithRealisticMarkers) {
-  const Recording recording = ReadRecording(SourcePath("examples/handstand.c3d"), {});
+  Warnings warnings;
+  const Recording recording = ReadRecording(SourcePath("examples/handstand.c3d"), {}, &warnings);
   ASSERT_EQ(recording.markers.num_labels(), 53);
   ASSERT_EQ(recording.markers.num_frames(), 675);
   EXPECT_EQ(recording.markers.rate(), 100);
   EXPECT_EQ(recording.up_axis, UpAxis::kZ);
-  EXPECT_TRUE(recording.warnings.empty());
+  EXPECT_TRUE(warnings.empty());
 
   const MmmMotionFile file = ReadMmmMotionFile(SourcePath("examples/handstand_true.xml"));
   ASSERT_EQ(file.motions.size(), 1U);
   const MmmMotion& truth = file.motions[0];
   ASSERT_EQ(truth.trajectory.num_frames(), 675);
   ASSERT_EQ(truth.trajectory.joint_names, KitJointNames());
-  const KinematicModel model =
-      ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model,
-                  {truth.height.value(), truth.mass.value(), {}});
+  const KinematicModel model = ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")),
+                                           {truth.height.value(), truth.mass.value(), {}});
   const MarkerSequence expected =
       SynthesizeMarkers(model, truth.trajectory, {0, 0, 0.25, 0}, 1);  // no errors
   ASSERT_EQ(recording.markers.labels(), expected.labels());

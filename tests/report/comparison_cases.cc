@@ -98,7 +98,7 @@ Comparison HostileComparison() {
   trial.name = kHostileText;
   trial.subject = std::make_shared<Subject>(HostileSubject(model));
   Finished finished = AsFinished(model, motion);
-  finished.mapping.warnings = {kHostileText};
+  finished.warnings.Add(kHostileText);
   finished.mapping.ignored_labels = {kHostileText};
   finished.mapping.absent_markers = {kHostileText};
   Comparison comparison =
@@ -122,7 +122,7 @@ Comparison FailedComparison() {
 
 Comparison LongComparison() {
   const std::string file = MMM_CONVERTER_SOURCE_DIR "/xml_config/models/mmm.xml";
-  const KinematicModel model = ScaleWinter(ReadMmmModel(file).model, {1.8, 75, {}});
+  const KinematicModel model = ScaleWinter(ReadMmmModel(file), {1.8, 75, {}});
   const PoseTrajectory handstand = MakeHandstand(model);
   PoseTrajectory motion = handstand;
   constexpr int kFrames = 6000;

@@ -37,7 +37,7 @@ Vector3d DrawVector(double deviation, SeededRandom* random) {
 }  // namespace
 
 KinematicModel ScaledReferenceModel(double height) {
-  return ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model, {height, 70, {}});
+  return ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")), {height, 70, {}});
 }
 
 std::vector<int> TrackedJoints(const KinematicModel& model) {

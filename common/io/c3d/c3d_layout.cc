@@ -32,18 +32,17 @@ std::optional<std::uint64_t> TrialField(const C3dParameters& parameters, const c
 
 bool IsScale(double scale) { return std::isfinite(scale) && scale != 0; }
 
-double SignedScale(const C3dHeader& header, const C3dParameters& parameters,
-                   std::vector<std::string>* warnings) {
+double SignedScale(const C3dHeader& header, const C3dParameters& parameters, Warnings* warnings) {
   if (IsScale(header.scale)) return header.scale;
   const double scale = parameters.Number("POINT", "SCALE").value_or(0);
   if (IsScale(scale)) return scale;
-  warnings->push_back("no scale in header or POINT:SCALE; coordinates are read as floats");
+  Warn(warnings, "no scale in header or POINT:SCALE; coordinates are read as floats");
   return -1;
 }
 
 std::uint64_t DataStart(const C3dHeader& header, const C3dParameters& parameters,
                         std::uint64_t section_start, int section_blocks, std::uint64_t file_size,
-                        std::vector<std::string>* warnings) {
+                        Warnings* warnings) {
   const std::uint64_t by_header =
       C3dDataStartOfHeader(header, section_start, section_blocks, file_size);
   if (by_header != 0) return by_header;
@@ -53,8 +52,8 @@ std::uint64_t DataStart(const C3dHeader& header, const C3dParameters& parameters
   if (block >= 2 && (block - 1) * kBlock >= parameters_end && (block - 1) * kBlock < file_size) {
     start = (block - 1) * kBlock;
   }
-  warnings->push_back(fmt::format("the header says that data start in block {}; read from block {}",
-                                  header.data_block, start / kBlock + 1));
+  Warn(warnings, fmt::format("the header says that data start in block {}; read from block {}",
+                             header.data_block, start / kBlock + 1));
   return start;
 }
 
@@ -77,7 +76,7 @@ std::uint64_t FrameBytes(std::uint64_t points, const C3dHeader& header, bool flo
 }
 
 int Points(const C3dHeader& header, const C3dParameters& parameters, bool floats,
-           std::uint64_t frames, std::uint64_t room, std::vector<std::string>* warnings) {
+           std::uint64_t frames, std::uint64_t room, Warnings* warnings) {
   const std::uint64_t used = Count(parameters, "USED").value_or(0);
   const std::uint64_t said = header.points;
   if (used == 0 || used == said || used > kFullWord) return header.points;
@@ -87,8 +86,8 @@ int Points(const C3dHeader& header, const C3dParameters& parameters, bool floats
   };
   const bool by_header = fits(said, frames) || (!fits(used, frames) && fits(said, 1));
   const int points = static_cast<int>(by_header ? said : used);
-  warnings->push_back(
-      fmt::format("the header says {} points, POINT:USED {}; read as {}", said, used, points));
+  Warn(warnings,
+       fmt::format("the header says {} points, POINT:USED {}; read as {}", said, used, points));
   return points;
 }
 
@@ -124,7 +123,7 @@ std::uint64_t C3dDataStartOfHeader(const C3dHeader& header, std::uint64_t sectio
 
 C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& parameters,
                            C3dProcessor processor, std::uint64_t section_start, int section_blocks,
-                           std::uint64_t file_size, std::vector<std::string>* warnings) {
+                           std::uint64_t file_size, Warnings* warnings) {
   C3dLayout layout;
   layout.processor = processor;
   const double scale = SignedScale(header, parameters, warnings);
@@ -146,7 +145,7 @@ C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& paramet
   if (layout.points == 0) return layout;
   const std::uint64_t held = room / layout.frame_bytes;
   if (declared > held) {
-    warnings->push_back(fmt::format("truncated: declares {} frames, holds {}", declared, held));
+    Warn(warnings, fmt::format("truncated: declares {} frames, holds {}", declared, held));
   }
   layout.frames =
       static_cast<int>(std::min<std::uint64_t>({declared, held, std::numeric_limits<int>::max()}));

@@ -8,6 +8,7 @@
 
 #include "common/io/c3d/c3d_numbers.h"
 #include "common/io/c3d/c3d_parameters.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -46,6 +47,6 @@ std::uint64_t C3dDataStartOfHeader(const C3dHeader& header, std::uint64_t sectio
 /// section_start, file_size: bytes. Leaves frames and points 0 where none can be made out.
 C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& parameters,
                            C3dProcessor processor, std::uint64_t section_start, int section_blocks,
-                           std::uint64_t file_size, std::vector<std::string>* warnings);
+                           std::uint64_t file_size, Warnings* warnings);
 
 }  // namespace mmm_converter

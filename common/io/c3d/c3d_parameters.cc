@@ -74,7 +74,7 @@ struct Step {
 
 /// Where a record's offset leads to, or else where its size ends: neither can be trusted alone.
 Step NextRecord(Bytes section, const Record& record, std::size_t by_size, C3dProcessor processor,
-                std::vector<std::string>* warnings) {
+                Warnings* warnings) {
   if (record.offset == 0) return {by_size, std::nullopt};
   const std::size_t by_offset = record.offset_at + record.offset;
   const bool forward = record.offset >= 2 && by_offset <= section.size();
@@ -85,12 +85,12 @@ Step NextRecord(Bytes section, const Record& record, std::size_t by_size, C3dPro
     if (!step.record && !into_itself && IsEnd(section, by_offset)) return step;
   }
   if (auto next = ReadRecord(section, by_size, processor)) {
-    warnings->push_back(fmt::format("parameter {}: the offset {} to the next one is wrong",
-                                    record.name, static_cast<std::int16_t>(record.offset)));
+    Warn(warnings, fmt::format("parameter {}: the offset {} to the next one is wrong", record.name,
+                               static_cast<std::int16_t>(record.offset)));
     return {by_size, std::move(next)};
   }
   if (forward && IsEnd(section, by_offset)) return {by_offset, std::nullopt};
-  warnings->push_back(fmt::format("parameters behind {} can't be read", record.name));
+  Warn(warnings, fmt::format("parameters behind {} can't be read", record.name));
   return {by_size, std::nullopt};
 }
 
@@ -154,8 +154,7 @@ std::string C3dParameter::Text() const {
   return texts.empty() ? std::string() : texts.front();
 }
 
-C3dParameters::C3dParameters(Bytes section, C3dProcessor processor,
-                             std::vector<std::string>* warnings) {
+C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* warnings) {
   std::map<int, std::string> groups;
   std::vector<int> group_ids;
   end_ = 4;  // the section's own header
@@ -177,7 +176,7 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor,
       group_ids.push_back(record->id);
       parameters_.push_back(std::move(*parameter));
     } else {
-      warnings->push_back(fmt::format("parameter {} can't be read", record->name));
+      Warn(warnings, fmt::format("parameter {} can't be read", record->name));
     }
     record = std::move(next.record);
   }
@@ -187,8 +186,8 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor,
     if (group != groups.end()) parameters_[i].group = group->second;
     const auto& [group_name, name] = std::tie(parameters_[i].group, parameters_[i].name);
     if (!names.emplace(group_name, name).second) {
-      warnings->push_back(
-          fmt::format("parameter {}:{} is there twice; the first is used", group_name, name));
+      Warn(warnings,
+           fmt::format("parameter {}:{} is there twice; the first is used", group_name, name));
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/io/c3d/c3d_numbers.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -32,8 +33,7 @@ class C3dParameters {
  public:
   /// section: from the first byte of the parameter section to where it ends at the latest (data or
   /// end of file). Never reads beyond; whatever is broken is left out and named in warnings.
-  C3dParameters(std::span<const unsigned char> section, C3dProcessor processor,
-                std::vector<std::string>* warnings);
+  C3dParameters(std::span<const unsigned char> section, C3dProcessor processor, Warnings* warnings);
 
   /// Names in upper case. nullptr: there is none. The first of equal ones.
   const C3dParameter* Find(std::string_view group, std::string_view name) const;

@@ -21,10 +21,10 @@ constexpr std::uint64_t kMaxLeadingZeros = 64 * kBlock;
 constexpr std::uint64_t kMaxSectionBytes = 65536 * kBlock;
 constexpr std::uint64_t kBufferBytes = 1 << 20;
 
-C3dProcessor ProcessorOf(int byte, const std::string& path, std::vector<std::string>* warnings) {
+C3dProcessor ProcessorOf(int byte, const std::string& path, Warnings* warnings) {
   if (byte >= 84 && byte <= 86) return static_cast<C3dProcessor>(byte);
   if (byte >= 1 && byte <= 3) {
-    warnings->push_back(fmt::format("processor type {} is read as {}", byte, byte + 83));
+    Warn(warnings, fmt::format("processor type {} is read as {}", byte, byte + 83));
     return static_cast<C3dProcessor>(byte + 83);
   }
   throw Error(fmt::format(
@@ -34,9 +34,9 @@ C3dProcessor ProcessorOf(int byte, const std::string& path, std::vector<std::str
 
 /// One name for each point: as listed, numbered where the list says nothing or a name twice.
 std::vector<std::string> PointNames(std::vector<std::string> names, std::size_t points,
-                                    std::vector<std::string>* warnings) {
+                                    Warnings* warnings) {
   if (names.size() != points) {
-    warnings->push_back(fmt::format("{} labels for {} points", names.size(), points));
+    Warn(warnings, fmt::format("{} labels for {} points", names.size(), points));
   }
   names.resize(points);
   std::set<std::string> seen;
@@ -49,7 +49,7 @@ std::vector<std::string> PointNames(std::vector<std::string> names, std::size_t 
     seen.insert(names[i]);
   }
   if (!repeated.empty()) {
-    warnings->push_back("labels that are there twice; the first is used:" + repeated);
+    Warn(warnings, "labels that are there twice; the first is used:" + repeated);
   }
   return names;
 }
@@ -69,7 +69,8 @@ std::vector<std::string> ListedNames(const C3dParameters& parameters) {
 
 }  // namespace
 
-C3dReader::C3dReader(const std::string& path) : path_(path) {
+C3dReader::C3dReader(const std::string& path, Warnings* warnings) : path_(path) {
+  const WarningContext context(warnings, path);
   const std::uint64_t file_size = RegularFileSize(path);
   stream_.open(path, std::ios::binary);
   if (!stream_) throw Error(fmt::format("{}: can't be opened", path));
@@ -88,16 +89,16 @@ C3dReader::C3dReader(const std::string& path) : path_(path) {
                             file_size, base_ + std::max(section_start, kBlock)));
   }
   const auto section_header = ReadBytes(section_start, 4);
-  const C3dProcessor processor = ProcessorOf(section_header[3], path, &info_.warnings);
+  const C3dProcessor processor = ProcessorOf(section_header[3], path, warnings);
   const C3dHeader header = ReadC3dHeader(header_bytes, processor);
   const std::uint64_t data_start =
       C3dDataStartOfHeader(header, section_start, section_header[2], size);
   const std::uint64_t section_end =
       data_start > section_start ? data_start : std::min(size, section_start + kMaxSectionBytes);
   const auto section = ReadBytes(section_start, section_end - section_start);
-  const C3dParameters parameters(section, processor, &info_.warnings);
+  const C3dParameters parameters(section, processor, warnings);
   info_.layout = ResolveC3dLayout(header, parameters, processor, section_start, section_header[2],
-                                  size, &info_.warnings);
+                                  size, warnings);
   if (info_.layout.points == 0) throw Error(fmt::format("{}: the file holds no points", path));
   if (info_.layout.frames == 0) {
     throw Error(
@@ -107,7 +108,7 @@ C3dReader::C3dReader(const std::string& path) : path_(path) {
                     size - std::min(size, info_.layout.data_start)));
   }
   info_.unit = parameters.Text("POINT", "UNITS");
-  info_.labels = PointNames(ListedNames(parameters), info_.layout.points, &info_.warnings);
+  info_.labels = PointNames(ListedNames(parameters), info_.layout.points, warnings);
   for (const char* kind :
        {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS", "MODELED_MARKERS"}) {
     for (std::string& name : parameters.TextList("POINT", kind)) {

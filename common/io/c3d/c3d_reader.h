@@ -8,6 +8,7 @@
 
 #include "common/io/c3d/c3d_layout.h"
 #include "common/motion/marker_sequence.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -19,7 +20,6 @@ struct C3dInfo {
   std::vector<std::string> outputs;  ///< labels that the file lists as angles, forces, powers, ...
   std::vector<std::string> label_prefixes;  ///< SUBJECTS:LABEL_PREFIXES
   std::string comment;                      ///< MANUFACTURER:COMMENT
-  std::vector<std::string> warnings;
 };
 
 /// A point of a frame as it is stored.
@@ -35,7 +35,7 @@ struct C3dPoint {
 class C3dReader {
  public:
   /// @throws Error (not a C3D file, cut in header or parameters, no point, no whole frame).
-  explicit C3dReader(const std::string& path);
+  explicit C3dReader(const std::string& path, Warnings* warnings = nullptr);
 
   const C3dInfo& info() const { return info_; }
 

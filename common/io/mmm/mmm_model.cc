@@ -22,10 +22,10 @@ constexpr const char* kFloatingRoot = "root_joint";
 
 class ModelBuilder {
  public:
-  ModelBuilder(const XmlElement& robot, const std::string& file)
-      : robot_(robot), diagnostics_(file) {}
+  ModelBuilder(const XmlElement& robot, const std::string& file, Warnings* warnings)
+      : robot_(robot), diagnostics_(file, warnings) {}
 
-  MmmModel Build();
+  KinematicModel Build();
 
  private:
   void ReadNodes();
@@ -272,30 +272,30 @@ ModelDescription ModelBuilder::Describe(int root) {
   return description;
 }
 
-MmmModel ModelBuilder::Build() {
+KinematicModel ModelBuilder::Build() {
   ReadNodes();
   LinkChildren();
   const int root = nodes_.empty() ? -1 : FindFloatingRoot();
   diagnostics_.ThrowIfErrors();
   CheckPrismaticLengths();
-  KinematicModel model(Describe(root));
-  return {std::move(model), diagnostics_.warnings()};
+  return KinematicModel(Describe(root));
 }
 
 }  // namespace
 
-MmmModel ParseMmmModel(std::string_view content, const std::string& file) {
+KinematicModel ParseMmmModel(std::string_view content, const std::string& file,
+                             Warnings* warnings) {
   const XmlElement robot = ParseXml(content, file);
   if (!robot.Is("Robot")) {
     throw Error(fmt::format("{}:{}: not a model: expected <Robot>, found <{}>{}", file, robot.line,
                             robot.name,
                             robot.Is("MMM") ? "; this is a motion, give the model file" : ""));
   }
-  return ModelBuilder(robot, file).Build();
+  return ModelBuilder(robot, file, warnings).Build();
 }
 
-MmmModel ReadMmmModel(const std::string& path) {
-  return ParseMmmModel(ReadFileContent(path, kMaxModelBytes), path);
+KinematicModel ReadMmmModel(const std::string& path, Warnings* warnings) {
+  return ParseMmmModel(ReadFileContent(path, kMaxModelBytes), path, warnings);
 }
 
 }  // namespace mmm_converter

@@ -59,7 +59,7 @@ class ModelEditor {
  public:
   ModelEditor(const std::string& content, const std::string& file, const Subject& subject)
       : content_(content), file_(file) {
-    const KinematicModel model = ParseMmmModel(content, file).model;
+    const KinematicModel model = ParseMmmModel(content, file);
     const WinterScaling person{subject.height, subject.mass, subject.hand_length};
     FitToSubject(model, subject);  // throws where a name is unknown
     for (const SegmentScale& scale : subject.scales) scales_[scale.segment] = scale.scale;

@@ -11,6 +11,7 @@
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 #include "common/support/text_pieces.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -36,7 +37,6 @@ struct MmmMotionFile {
   std::string version;  ///< "1.0" or "2.0"
   std::string name;     ///< of the recording; 2.0 only, may be empty
   std::vector<MmmMotion> motions;
-  std::vector<std::string> warnings;  ///< file:line: message
 
   const MmmMotion* Find(std::string_view motion_name) const;  ///< the first; nullptr: none
 };
@@ -48,10 +48,12 @@ bool LooksLikeMmmMotion(std::string_view content);
 /// @throws Error with all problems as `file:line: ...`: not XML, no <MMM>, a malformed number, a
 /// time that runs
 ///         backwards, a duplicate joint or marker, gaps that would blow up memory.
-MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file);
+MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file,
+                                 Warnings* warnings = nullptr);
 
 /// @throws Error as ReadFileContent and ParseMmmMotionFile.
-MmmMotionFile ReadMmmMotionFile(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
+MmmMotionFile ReadMmmMotionFile(const std::string& path, Warnings* warnings = nullptr,
+                                std::size_t max_bytes = kMaxFileBytes);
 
 /// What is written as one <Motion>. Lengths are written in mm with 4 decimals, angles in rad with
 /// 8, times in s with 9, without trailing zeros; reading that back and writing it again gives the

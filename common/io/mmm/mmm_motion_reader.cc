@@ -242,11 +242,11 @@ MmmMotion ReadMotion(LongXml& xml, const XmlElement& element, Budget* budget,
   return motion;
 }
 
-MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file) {
+MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file, Warnings* warnings) {
   constexpr int kHighestLevel = 3;  // MMM / Motion / MotionFrames / MotionFrame
   LongXml xml(content, file, {std::begin(kManyElements), std::end(kManyElements)}, kHighestLevel);
   const XmlElement& root = xml.root();
-  Diagnostics diagnostics(file);
+  Diagnostics diagnostics(file, warnings);
   if (!root.Is("MMM")) {
     diagnostics.AddError(root.line,
                          fmt::format("the root is <{}>; an MMM motion has <MMM>{}", root.name,
@@ -267,7 +267,6 @@ MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file) {
   xml.CheckTheRest();
   if (result.motions.empty()) diagnostics.AddError(root.line, "there is no <Motion>");
   diagnostics.ThrowIfErrors();
-  result.warnings = diagnostics.warnings();
   return result;
 }
 
@@ -283,12 +282,14 @@ bool LooksLikeMmmMotion(std::string_view content) {
   return EqualIgnoringCase(RootName(content), "MMM");
 }
 
-MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file) {
-  return ReadMotions(BytesOf(content), file);
+MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file,
+                                 Warnings* warnings) {
+  return ReadMotions(BytesOf(content), file, warnings);
 }
 
-MmmMotionFile ReadMmmMotionFile(const std::string& path, std::size_t max_bytes) {
-  return ReadMotions(BytesOfFile(path, max_bytes), path);
+MmmMotionFile ReadMmmMotionFile(const std::string& path, Warnings* warnings,
+                                std::size_t max_bytes) {
+  return ReadMotions(BytesOfFile(path, max_bytes), path, warnings);
 }
 
 }  // namespace mmm_converter

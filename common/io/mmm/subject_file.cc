@@ -73,8 +73,8 @@ class SubjectReader {
   }
 
  private:
-  void Fail(const XmlElement& at, const std::string& message) {
-    diagnostics_.AddError(at.line, fmt::format("<{}>: {}", at.name, message));
+  void Fail(const XmlElement& at, const std::string& message, Remedy remedy = Remedy::kNone) {
+    diagnostics_.AddError(at.line, fmt::format("<{}>: {}", at.name, message), remedy);
   }
 
   void ReadPerson() {
@@ -82,9 +82,11 @@ class SubjectReader {
     if (const std::string* name = root_.FindAttribute("name")) subject_.name = *name;
     if (const std::string* name = root_.FindAttribute("model")) subject_.model = *name;
     if (subject_.model != model_.name()) {
-      Fail(root_, fmt::format("is a subject of the model \"{}\", this model is \"{}\"; give the "
-                              "subject's with --model",
-                              subject_.model, model_.name()));
+      Fail(root_,
+           fmt::format("is a subject of the model \"{}\", this model is \"{}\"; give the "
+                       "model of the subject",
+                       subject_.model, model_.name()),
+           Remedy::kModel);
     }
     subject_.height = Needed(root_, "height_m", {kLeastHeight, kLargestHeight});
     subject_.mass = Needed(root_, "mass_kg", {kLeastMass, kLargestMass});

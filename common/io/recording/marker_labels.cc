@@ -85,8 +85,7 @@ std::set<std::string> BoneAxes(const std::vector<std::string>& labels) {
 /// What is left when everything that is no marker is gone.
 std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
                                const std::vector<std::string>& outputs,
-                               const std::vector<std::string>& prefixes,
-                               std::vector<std::string>* warnings) {
+                               const std::vector<std::string>& prefixes, Warnings* warnings) {
   const std::set<std::string> no_markers(outputs.begin(), outputs.end());
   const std::set<std::string> axes = BoneAxes(labels);
   std::vector<Label> markers;
@@ -99,17 +98,17 @@ std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
     } else if (axes.contains(labels[i]) || no_markers.contains(labels[i])) {
       ++computed;
       if (FindBodyRegion(label.name)) {
-        warnings->push_back(
-            fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
+        Warn(warnings,
+             fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
       }
     } else {
       markers.push_back(std::move(label));
     }
   }
-  if (unlabelled > 0) warnings->push_back(fmt::format("{} unlabelled points left out", unlabelled));
+  if (unlabelled > 0) Warn(warnings, fmt::format("{} unlabelled points left out", unlabelled));
   if (computed > 0) {
-    warnings->push_back(
-        fmt::format("{} computed points (angles, forces, bone axes, ...) left out", computed));
+    Warn(warnings,
+         fmt::format("{} computed points (angles, forces, bone axes, ...) left out", computed));
   }
   return markers;
 }
@@ -179,8 +178,9 @@ Group ChooseGroup(const std::vector<Group>& groups, const std::string& subject,
   if (persons.empty()) {
     if (auto merged = Merge(groups)) return *merged;
   }
-  throw Error(fmt::format("{}: there are several subjects: {}; choose one of them (--subject NAME)",
-                          file, Names(persons.empty() ? groups : persons)));
+  throw Error(fmt::format("{}: there are several subjects: {}; choose one of them", file,
+                          Names(persons.empty() ? groups : persons)),
+              Remedy::kSubjectPrefix);
 }
 
 }  // namespace
@@ -209,10 +209,11 @@ std::optional<BodyRegion> FindBodyRegion(std::string_view label) {
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,
                             const std::vector<std::string>& label_prefixes,
-                            const std::string& subject, const std::string& file) {
+                            const std::string& subject, const std::string& file,
+                            Warnings* warnings) {
   LabelSelection selection;
   const std::vector<Group> groups =
-      GroupByPrefix(KeepMarkers(labels, outputs, label_prefixes, &selection.warnings));
+      GroupByPrefix(KeepMarkers(labels, outputs, label_prefixes, warnings));
   const Group chosen = ChooseGroup(groups, subject, file);
   selection.subject = chosen.prefix;
   std::vector<Group> others;
@@ -223,7 +224,7 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
     if (group.prefix != chosen.prefix) others.push_back(group);
   }
   if (chosen.labels.size() < num_markers) {
-    selection.warnings.push_back(fmt::format("markers left out: those of {}", Names(others)));
+    Warn(warnings, fmt::format("markers left out: those of {}", Names(others)));
   }
   for (const Label& label : chosen.labels) {
     selection.indices.push_back(label.index);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/support/warnings.h"
+
 namespace mmm_converter {
 
 /// Labels are compared without case, blanks and punctuation: "R.Knee Medial" is "rkneemedial".
@@ -24,7 +26,6 @@ struct LabelSelection {
   std::vector<std::string> labels;    ///< without prefix
   std::vector<std::string> subjects;  ///< all prefixes of the file
   std::string subject;                ///< the one chosen; empty: labels without prefix
-  std::vector<std::string> warnings;
 };
 
 /// Leaves out unlabelled points (*12), what outputs lists, and the bone axes of Plug-in Gait (xxxO,
@@ -35,6 +36,7 @@ struct LabelSelection {
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,
                             const std::vector<std::string>& label_prefixes,
-                            const std::string& subject, const std::string& file);
+                            const std::string& subject, const std::string& file,
+                            Warnings* warnings);
 
 }  // namespace mmm_converter

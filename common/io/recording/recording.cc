@@ -30,14 +30,6 @@ bool IsText(std::string_view start) {
   });
 }
 
-void Append(const std::vector<std::string>& from, std::vector<std::string>* to) {
-  to->insert(to->end(), from.begin(), from.end());
-}
-
-void Warn(const std::string& warning, Recording* recording) {
-  if (!warning.empty()) recording->warnings.push_back(warning);
-}
-
 bool SeesAnything(const MarkerSequence& markers) {
   for (int k = 0; k < markers.num_frames(); ++k) {
     if (!markers.frame(k).array().isNaN().all()) return true;
@@ -47,7 +39,6 @@ bool SeesAnything(const MarkerSequence& markers) {
 
 /// Takes the labels over and throws if none is left.
 void TakeSelection(const LabelSelection& selection, Recording* recording) {
-  Append(selection.warnings, &recording->warnings);
   recording->subjects = selection.subjects;
   recording->subject = selection.subject;
   if (selection.labels.empty()) {
@@ -57,55 +48,54 @@ void TakeSelection(const LabelSelection& selection, Recording* recording) {
 
 /// From file units and axes to metres and z up.
 void BringToMetresAndZUp(const std::string& said_unit, const ReadRecordingOptions& options,
-                         Recording* recording) {
+                         Recording* recording, Warnings* warnings) {
   const UnitDecision unit =
       options.unit ? ParseUnit(*options.unit) : DecideUnit(recording->markers, said_unit);
   recording->unit = unit.unit;
   recording->unit_was_guessed = unit.guessed;
-  Warn(unit.warning, recording);
+  if (!unit.warning.empty()) Warn(warnings, unit.warning);
   if (options.up_axis) {
     recording->up_axis = *options.up_axis;
   } else {
     const UpAxisDecision up = DecideUpAxis(recording->markers);
     recording->up_axis = up.axis;
     recording->up_axis_was_decided = up.decided;
-    Warn(up.warning, recording);
+    if (!up.warning.empty()) Warn(warnings, up.warning);
   }
   ToMetresAndZUp(unit.metres, recording->up_axis, &recording->markers);
 }
 
-void ReadC3d(const ReadRecordingOptions& options, Recording* recording) {
-  C3dReader reader(recording->file);
+void ReadC3d(const ReadRecordingOptions& options, Recording* recording, Warnings* warnings) {
+  C3dReader reader(recording->file, warnings);
   const C3dInfo& info = reader.info();
   recording->format = "C3D";
   recording->first_frame = info.layout.first_frame;
   recording->comment = info.comment;
-  Append(info.warnings, &recording->warnings);
   const double rate = options.rate.value_or(info.layout.rate);
   if (!(rate > 0)) {
-    throw Error(fmt::format("{}: gives no frame rate; give it (--rate HZ)", recording->file));
+    throw Error(fmt::format("{}: gives no frame rate; give it", recording->file), Remedy::kRate);
   }
   const LabelSelection selection = SelectLabels(info.labels, info.outputs, info.label_prefixes,
-                                                options.subject, recording->file);
+                                                options.subject, recording->file, warnings);
   TakeSelection(selection, recording);
   recording->markers =
       reader.ReadPoints(selection.indices, selection.labels, rate, options.ignore_residuals);
   if (!SeesAnything(recording->markers)) {
-    throw Error(
-        fmt::format("{}: no marker is marked valid in any frame; if they are good "
-                    "nevertheless, ignore the marks (--ignore-residuals)",
-                    recording->file));
+    throw Error(fmt::format("{}: no marker is marked valid in any frame; if they are good "
+                            "nevertheless, ignore the marks",
+                            recording->file),
+                Remedy::kIgnoreResiduals);
   }
-  BringToMetresAndZUp(info.unit, options, recording);
+  BringToMetresAndZUp(info.unit, options, recording, warnings);
 }
 
-void ReadTrc(std::string_view content, const ReadRecordingOptions& options, Recording* recording) {
-  const TrcFile trc = ParseTrc(content, recording->file);
+void ReadTrc(std::string_view content, const ReadRecordingOptions& options, Recording* recording,
+             Warnings* warnings) {
+  const TrcFile trc = ParseTrc(content, recording->file, warnings);
   recording->format = "TRC";
   recording->first_frame = trc.first_frame;
-  Append(trc.warnings, &recording->warnings);
   const LabelSelection selection =
-      SelectLabels(trc.markers.labels(), {}, {}, options.subject, recording->file);
+      SelectLabels(trc.markers.labels(), {}, {}, options.subject, recording->file, warnings);
   TakeSelection(selection, recording);
   const double rate = options.rate.value_or(trc.markers.rate());
   recording->markers =
@@ -116,7 +106,7 @@ void ReadTrc(std::string_view content, const ReadRecordingOptions& options, Reco
   if (!SeesAnything(recording->markers)) {
     throw Error(fmt::format("{}: no marker is seen in any frame", recording->file));
   }
-  BringToMetresAndZUp(trc.unit, options, recording);
+  BringToMetresAndZUp(trc.unit, options, recording, warnings);
 }
 
 /// Which motion: the one asked for, or the one with most markers.
@@ -152,15 +142,16 @@ std::ptrdiff_t ChooseMotion(const MmmMotionFile& mmm, const std::string& wanted,
                             file, list));
   }
   if (unclear) {
-    throw Error(fmt::format("{}: there are several motions: {}; choose one of them (--motion NAME)",
-                            file, list));
+    throw Error(fmt::format("{}: there are several motions: {}; choose one of them", file, list),
+                Remedy::kMotion);
   }
   return most - mmm.motions.data();
 }
 
 /// Takes the markers out of the motion.
 Recording TakeMotion(const MmmMotionFile& mmm, const ReadRecordingOptions& options,
-                     const std::string& file, MmmMotion* motion) {
+                     const std::string& file, MmmMotion* motion, Warnings* warnings) {
+  const WarningContext context(warnings, file, motion->name);
   Recording recording;
   recording.file = file;
   recording.format = "MMM " + mmm.version;
@@ -174,7 +165,7 @@ Recording TakeMotion(const MmmMotionFile& mmm, const ReadRecordingOptions& optio
   recording.model_path = motion->model_path;
   recording.markers = std::move(motion->markers);
   recording.unit = "mm";
-  if (options.unit) Warn("MMM files are always in mm; the unit given is not used", &recording);
+  if (options.unit) Warn(warnings, "MMM files are always in mm; the unit given is not used");
   if (options.up_axis) {
     recording.up_axis = *options.up_axis;
     ToMetresAndZUp(1, recording.up_axis, &recording.markers);
@@ -182,20 +173,20 @@ Recording TakeMotion(const MmmMotionFile& mmm, const ReadRecordingOptions& optio
   return recording;
 }
 
-void ReadMmm(const ReadRecordingOptions& options, Recording* recording) {
-  MmmMotionFile mmm = ReadMmmMotionFile(recording->file);
+void ReadMmm(const ReadRecordingOptions& options, Recording* recording, Warnings* warnings) {
+  MmmMotionFile mmm = ReadMmmMotionFile(recording->file, warnings);
   MmmMotion* motion = &mmm.motions[ChooseMotion(mmm, options.motion, recording->file)];
-  *recording = TakeMotion(mmm, options, recording->file, motion);
-  recording->warnings.insert(recording->warnings.begin(), mmm.warnings.begin(), mmm.warnings.end());
+  *recording = TakeMotion(mmm, options, recording->file, motion, warnings);
 }
 
-void ReadText(std::string_view start, const ReadRecordingOptions& options, Recording* recording) {
+void ReadText(std::string_view start, const ReadRecordingOptions& options, Recording* recording,
+              Warnings* warnings) {
   const std::string& file = recording->file;
   const bool markup =
       Trim(start.substr(start.starts_with("\xEF\xBB\xBF") ? 3 : 0)).starts_with('<');
   if (markup) {
     const std::string head = ReadFileStart(file, kMostBytesBeforeTheRoot);
-    if (LooksLikeMmmMotion(head)) return ReadMmm(options, recording);
+    if (LooksLikeMmmMotion(head)) return ReadMmm(options, recording, warnings);
     throw Error(
         fmt::format("{}: is XML or a web page with the root <{}>, not an MMM motion (<MMM>)", file,
                     RootName(head).substr(0, 40)));
@@ -204,7 +195,7 @@ void ReadText(std::string_view start, const ReadRecordingOptions& options, Recor
     throw Error(fmt::format(
         "{}: is a Git LFS pointer, not the file itself; fetch that one (git lfs pull)", file));
   }
-  if (LooksLikeTrc(start)) return ReadTrc(ReadFileContent(file), options, recording);
+  if (LooksLikeTrc(start)) return ReadTrc(ReadFileContent(file), options, recording, warnings);
   throw Error(fmt::format("{}: is text, but neither a TRC file nor an MMM motion", file));
 }
 
@@ -221,34 +212,35 @@ UpAxis ParseUpAxis(const std::string& text) {
   throw Error(fmt::format("unknown up axis \"{}\"; use x, y, z, -x, -y or -z", text));
 }
 
-Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options) {
+Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options,
+                        Warnings* warnings) {
   if (options.rate && !(*options.rate > 0)) {
     throw Error(fmt::format("a frame rate of {} Hz; it must be above 0", *options.rate));
   }
+  const WarningContext context(warnings, path);
   Recording recording;
   recording.file = path;
   const std::string start = ReadFileStart(path, 4096);
   if (IsText(start)) {
-    ReadText(start, options, &recording);
+    ReadText(start, options, &recording, warnings);
   } else {
-    ReadC3d(options, &recording);
+    ReadC3d(options, &recording, warnings);
   }
   return recording;
 }
 
-std::vector<Recording> ReadAllMotions(const std::string& path, const ReadRecordingOptions& options,
-                                      std::vector<std::string>* warnings) {
+std::vector<WithWarnings<Recording>> ReadAllMotions(const std::string& path,
+                                                    const ReadRecordingOptions& options,
+                                                    Warnings* warnings) {
   if (!LooksLikeMmmMotion(ReadFileStart(path, kMostBytesBeforeTheRoot))) {
     throw Error(
         fmt::format("{}: is not an MMM motion file; only these have several motions", path));
   }
-  MmmMotionFile mmm = ReadMmmMotionFile(path);
-  std::vector<Recording> recordings;
-  recordings.reserve(mmm.motions.size());
-  for (MmmMotion& motion : mmm.motions) {
-    recordings.push_back(TakeMotion(mmm, options, path, &motion));
+  MmmMotionFile mmm = ReadMmmMotionFile(path, warnings);
+  std::vector<WithWarnings<Recording>> recordings(mmm.motions.size());
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    recordings[i].value = TakeMotion(mmm, options, path, &mmm.motions[i], &recordings[i].warnings);
   }
-  *warnings = mmm.warnings;
   return recordings;
 }
 

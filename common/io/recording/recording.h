@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/motion/marker_sequence.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -44,18 +45,20 @@ struct Recording {
   std::optional<double> hand_length;  ///< [m], MMM files
   std::string model_path;             ///< MMM files: the model as the file names it
   std::string comment;                ///< C3D files of this project: what they say of themselves
-  std::vector<std::string> warnings;
 };
 
 /// Reads a C3D, TRC or MMM motion file; the format is told from the content, not the name.
 /// @throws Error (no such file, empty, not a recording, no whole frame, several subjects or motions
 /// and none chosen: the message lists them).
-Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options);
+Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options,
+                        Warnings* warnings = nullptr);
 
 /// All motions of an MMM motion file, in its order; those without markers have no labels.
-/// options.motion does not count. warnings: what there is to say of the file as a whole.
+/// options.motion does not count. warnings: what there is to say of the file as a whole; what there
+/// is to say of a motion stands beside it.
 /// @throws Error as ReadRecording, and for a file of another format.
-std::vector<Recording> ReadAllMotions(const std::string& path, const ReadRecordingOptions& options,
-                                      std::vector<std::string>* warnings);
+std::vector<WithWarnings<Recording>> ReadAllMotions(const std::string& path,
+                                                    const ReadRecordingOptions& options,
+                                                    Warnings* warnings);
 
 }  // namespace mmm_converter

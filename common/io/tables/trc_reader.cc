@@ -190,7 +190,7 @@ Rows ReadRows(LineReader* lines, const Columns& columns, char separator, const s
 }
 
 double ChooseRate(const Header& header, const Rows& rows, const std::string& file,
-                  std::vector<std::string>* warnings) {
+                  Warnings* warnings) {
   const std::optional<double> by_times = RateOf(rows.times);
   const bool said = std::isfinite(header.rate) && header.rate > 0;
   if (!said && !by_times) {
@@ -200,9 +200,8 @@ double ChooseRate(const Header& header, const Rows& rows, const std::string& fil
   if (!said) return *by_times;
   // Times are rounded, over a whole file to far less than that.
   if (!by_times || std::abs(*by_times / header.rate - 1) < 0.01) return header.rate;
-  warnings->push_back(
-      fmt::format("DataRate says {} Hz, the time column {:.6g} Hz; the latter is used", header.rate,
-                  *by_times));
+  Warn(warnings, fmt::format("DataRate says {} Hz, the time column {:.6g} Hz; the latter is used",
+                             header.rate, *by_times));
   return *by_times;
 }
 
@@ -219,7 +218,8 @@ bool LooksLikeTrc(std::string_view content) {
   return false;
 }
 
-TrcFile ParseTrc(std::string_view content, const std::string& file) {
+TrcFile ParseTrc(std::string_view content, const std::string& file, Warnings* warnings) {
+  const WarningContext context(warnings, file);
   if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
   LineReader lines(content);
   Header header;
@@ -246,21 +246,19 @@ TrcFile ParseTrc(std::string_view content, const std::string& file) {
   trc.unit = header.unit;
   trc.first_frame = rows.first_frame;
   const double first_time = std::isfinite(rows.times.front()) ? rows.times.front() : 0;
-  const double rate = ChooseRate(header, rows, file, &trc.warnings);
+  const double rate = ChooseRate(header, rows, file, warnings);
   const int frames = static_cast<int>(rows.times.size());
   trc.markers = MarkerSequence(columns.labels, frames, rate, first_time);
   std::copy(rows.coordinates.begin(), rows.coordinates.end(), trc.markers.frame(0).data());
   if (std::isfinite(header.frames) && header.frames != frames) {
-    trc.warnings.push_back(
-        fmt::format("NumFrames says {}, there are {} rows", header.frames, frames));
+    Warn(warnings, fmt::format("NumFrames says {}, there are {} rows", header.frames, frames));
   }
   if (std::isfinite(header.markers) && header.markers != trc.markers.num_labels()) {
-    trc.warnings.push_back(fmt::format("NumMarkers says {}, there are {} labels", header.markers,
-                                       trc.markers.num_labels()));
+    Warn(warnings, fmt::format("NumMarkers says {}, there are {} labels", header.markers,
+                               trc.markers.num_labels()));
   }
   if (rows.unreadable_cells > 0) {
-    trc.warnings.push_back(
-        fmt::format("{} cells are not numbers; read as missing", rows.unreadable_cells));
+    Warn(warnings, fmt::format("{} cells are not numbers; read as missing", rows.unreadable_cells));
   }
   return trc;
 }

@@ -192,20 +192,19 @@ UrdfModel ModelBuilder::Build() {
   }
   WarnOf(slides_, "(prismatic): held, sliding is not tracked");
   WarnOf(stiff_, "(revolute with equal limits): does not turn");
-  return {KinematicModel(std::move(description_)), std::move(segment_of_link_),
-          diagnostics_.warnings()};
+  return {KinematicModel(std::move(description_)), std::move(segment_of_link_)};
 }
 
 }  // namespace
 
-UrdfModel ParseUrdfModel(std::string_view content, const std::string& file) {
-  Diagnostics diagnostics(file);
+UrdfModel ParseUrdfModel(std::string_view content, const std::string& file, Warnings* warnings) {
+  Diagnostics diagnostics(file, warnings);
   const UrdfDocument document = ParseUrdf(content, &diagnostics);
   return ModelBuilder(document, &diagnostics).Build();
 }
 
-UrdfModel ReadUrdfModel(const std::string& path) {
-  return ParseUrdfModel(ReadFileContent(path, kMaxModelBytes), path);
+UrdfModel ReadUrdfModel(const std::string& path, Warnings* warnings) {
+  return ParseUrdfModel(ReadFileContent(path, kMaxModelBytes), path, warnings);
 }
 
 }  // namespace mmm_converter

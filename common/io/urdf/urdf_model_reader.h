@@ -4,9 +4,9 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "common/model/kinematic_model.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -14,7 +14,6 @@ struct UrdfModel {
   /// A segment for each link, named by the joint that carries it; the root by its link.
   KinematicModel model;
   std::map<std::string, std::string> segment_of_link;
-  std::vector<std::string> warnings;  ///< each as `file:line: message`
 };
 
 /// Reads a URDF (urdfdom). Its root floats. Fixed links called `<label>_marker` are markers
@@ -24,9 +23,10 @@ struct UrdfModel {
 /// their limit nearest to it. A warning names each of these. Markers below a mimic joint, which
 /// would pull all else towards where it is held, are left out, with a warning too.
 /// @throws Error as ParseUrdf, and for planar and floating joints.
-UrdfModel ReadUrdfModel(const std::string& path);
+UrdfModel ReadUrdfModel(const std::string& path, Warnings* warnings = nullptr);
 
 /// As ReadUrdfModel; `file` is only named in messages.
-UrdfModel ParseUrdfModel(std::string_view content, const std::string& file);
+UrdfModel ParseUrdfModel(std::string_view content, const std::string& file,
+                         Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

@@ -84,8 +84,8 @@ std::string Limits(const Segment& joint) {
 
 class UrdfWriter {
  public:
-  UrdfWriter(const KinematicModel& model, std::string comment)
-      : model_(model), comment_(std::move(comment)) {}
+  UrdfWriter(const KinematicModel& model, std::string comment, Warnings* warnings)
+      : model_(model), comment_(std::move(comment)), warnings_(warnings) {}
 
   UrdfText Write();
 
@@ -104,6 +104,7 @@ class UrdfWriter {
   std::set<std::string> taken_links_, taken_joints_;
   std::vector<std::string> links_, joints_;  ///< of the segments
   std::vector<std::string> renamed_;
+  Warnings* warnings_;
   UrdfText urdf_;
 };
 
@@ -130,17 +131,17 @@ void UrdfWriter::CheckInertia(const Segment& segment) {
           .eigenvalues();
   const double rounding = 1e-6 * moments.cwiseAbs().maxCoeff();  // models have 6 digits
   if (moments[0] > rounding && moments[2] <= moments[0] + moments[1] + rounding) return;
-  urdf_.warnings.push_back(fmt::format(
-      "model node '{}': no body of {:.4g} kg has its inertia (principal moments {:.4g}, {:.4g} and "
-      "{:.4g} kg m^2), which is written as it is; simulators may refuse it",
-      segment.name, segment.mass, moments[0], moments[1], moments[2]));
+  Warn(warnings_, fmt::format("model node '{}': no body of {:.4g} kg has its inertia (principal "
+                              "moments {:.4g}, {:.4g} and "
+                              "{:.4g} kg m^2), which is written as it is; simulators may refuse it",
+                              segment.name, segment.mass, moments[0], moments[1], moments[2]));
 }
 
 std::string UrdfWriter::Inertial(const Segment& segment) {
   if (segment.mass <= 0) {
     if (!segment.inertia.isZero(0)) {
-      urdf_.warnings.push_back(
-          fmt::format("model node '{}': has no mass; its inertia is left out", segment.name));
+      Warn(warnings_,
+           fmt::format("model node '{}': has no mass; its inertia is left out", segment.name));
     }
     return "";
   }
@@ -217,8 +218,8 @@ UrdfText UrdfWriter::Write() {
 
 }  // namespace
 
-UrdfText FormatUrdf(const KinematicModel& model, const std::string& comment) {
-  return UrdfWriter(model, comment).Write();
+UrdfText FormatUrdf(const KinematicModel& model, const std::string& comment, Warnings* warnings) {
+  return UrdfWriter(model, comment, warnings).Write();
 }
 
 }  // namespace mmm_converter

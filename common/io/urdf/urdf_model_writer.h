@@ -2,16 +2,15 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "common/model/kinematic_model.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
 struct UrdfText {
   std::string xml;
-  std::vector<std::string> warnings;  ///< what simulators may refuse
-  std::string renamed;                ///< which names were changed; empty: none
+  std::string renamed;  ///< which names were changed; empty: none
 };
 
 /// The model as a URDF that ReadUrdfModel reads back with the same kinematics, limits, masses and
@@ -20,6 +19,8 @@ struct UrdfText {
 /// `<marker>_marker`. What does not turn (prismatic nodes too) is fixed; limits of effort and
 /// velocity, which a model does not have, are large numbers. Shapes: cylinders from joint to joint,
 /// spheres for markers and for what ends a chain. comment: stands at the beginning; may be empty.
-UrdfText FormatUrdf(const KinematicModel& model, const std::string& comment);
+/// warnings: what simulators may refuse.
+UrdfText FormatUrdf(const KinematicModel& model, const std::string& comment,
+                    Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

@@ -32,6 +32,7 @@ std::string ErrorOf(const std::string& inside) {
 }
 
 TEST(ConverterConfig, TakesTheShapeOfKit) {
+  Warnings warnings;
   const ConverterConfig config = ParseConverterConfig(
       "<?xml version='1.0' encoding='UTF-8'?>\n"
       "<ConverterConfig type='NloptConverter'>\n"
@@ -44,7 +45,7 @@ TEST(ConverterConfig, TakesTheShapeOfKit) {
       "  </Model>\n"
       "  <Strategy/>\n"
       "</ConverterConfig>",
-      "c.xml");
+      "c.xml", &warnings);
   EXPECT_EQ(config.type, "");
   EXPECT_EQ(config.model_processor, "Winter");
   ASSERT_EQ(config.marker_pairs.size(), 2u);
@@ -52,17 +53,19 @@ TEST(ConverterConfig, TakesTheShapeOfKit) {
   EXPECT_EQ(config.marker_pairs[1].target, "MARKER_L3");
   EXPECT_EQ(config.marker_pairs[1].noise_scale, 1);
   EXPECT_THAT(config.plugin_elements, IsEmpty());
-  EXPECT_THAT(config.warnings, ElementsAre(HasSubstr("c.xml:6:"), HasSubstr("c.xml:8:"),
-                                           HasSubstr("left out are Strategy")));
+  EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("c.xml:6:"), HasSubstr("c.xml:8:"),
+                                            HasSubstr("left out are Strategy")));
 }
 
 TEST(ConverterConfig, ReadsAllThatIsShared) {
+  Warnings warnings;
   const ConverterConfig config = Parse(
       "<Model name='None'>\n"
       "<MarkerMapping><Mapping source=' C7 ' target='MARKER_C7' "
       "noiseScale='2.5'/></MarkerMapping>\n"
       "<Joints><Joint name='LKx_joint'/>\n<Joint name='RKx_joint'/></Joints></Model>\n"
-      "<Filter type='ekf'/><Noise/>");
+      "<Filter type='ekf'/><Noise/>",
+      &warnings);
   EXPECT_EQ(config.file, "c.xml");
   EXPECT_EQ(config.type, "S2KFConverter");
   EXPECT_EQ(config.model_processor, "None");
@@ -74,7 +77,7 @@ TEST(ConverterConfig, ReadsAllThatIsShared) {
   EXPECT_EQ(config.joints[1].line, 5);
   ASSERT_EQ(config.plugin_elements.size(), 2u);
   EXPECT_EQ(config.plugin_elements[0].name, "Filter");
-  EXPECT_THAT(config.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
 }
 
 TEST(ConverterConfig, EverythingButTheTypeCanBeLeftOut) {
@@ -176,7 +179,7 @@ TEST(ResolveJoints, KnowsSets) {
 }
 
 TEST(ResolveJoints, KnowsTheJointsOfKitsMotions) {
-  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
   const auto names = [&](const std::string& set) {
     ConverterConfig config;
     config.joint_set = set;
@@ -224,7 +227,7 @@ TEST(ResolveMarkerPairs, TakesTheConfigurationsOwnList) {
 }
 
 TEST(ResolveMarkerPairs, ChoosesAmongTheShippedSets) {
-  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
   ConverterConfig config;
   std::string name;
   const auto pairs = ResolveMarkerPairs(config, {{"LAEL", "LAOL", "C7"}}, model, &name);

@@ -46,9 +46,10 @@ std::string MessageOf(const std::vector<MarkerPair>& pairs, const MarkerSequence
 }
 
 TEST(MarkerMapping, ResolvesByMarkerWithoutCaseBlanksAndPrefix) {
+  Warnings warnings;
   const MarkerMapping mapping = ResolveMarkerMapping(
       {{"R Knee", "MARKER_C"}, {"Anna:lfhd", "MARKER_A", 2}, {"gone", "MARKER_B"}},
-      LabelsOf(MakeRecording({"other", "LFHD", "r.knee"})), MakeModel());
+      LabelsOf(MakeRecording({"other", "LFHD", "r.knee"})), MakeModel(), &warnings);
   ASSERT_EQ(mapping.assignments.size(), 2u);
   EXPECT_EQ(mapping.assignments[0].label, 1);
   EXPECT_EQ(mapping.assignments[0].marker, 0);
@@ -57,21 +58,22 @@ TEST(MarkerMapping, ResolvesByMarkerWithoutCaseBlanksAndPrefix) {
   EXPECT_EQ(mapping.assignments[1].marker, 2);
   EXPECT_THAT(mapping.ignored_labels, ElementsAre("other"));
   EXPECT_THAT(mapping.absent_markers, ElementsAre("MARKER_B"));
-  EXPECT_THAT(mapping.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
 }
 
 TEST(MarkerMapping, TakesTheFirstSubstituteThatIsSeen) {
+  Warnings warnings;
   const MarkerMapping mapping =
       ResolveMarkerMapping({{"X1", "MARKER_A"},
                             {"TIB", "MARKER_A", 3, "worn anywhere"},
                             {"SHN", "MARKER_A", 3},
                             {"X2", "MARKER_B"}},
-                           LabelsOf(MakeRecording({"X1", "SHN", "TIB", "X2"})), MakeModel());
+                           LabelsOf(MakeRecording({"X1", "SHN", "TIB", "X2"})), MakeModel(), &warnings);
   ASSERT_EQ(mapping.assignments.size(), 1u);
   EXPECT_EQ(mapping.assignments[0].label, 2);
   EXPECT_THAT(mapping.ignored_labels, ElementsAre("X1", "SHN", "X2"));
   EXPECT_THAT(mapping.absent_markers, ElementsAre("MARKER_B"));
-  EXPECT_THAT(mapping.warnings,
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(HasSubstr("X1 is not seen"), HasSubstr("TIB as MARKER_A: worn anywhere"),
                           HasSubstr("X2 is not seen")));
 }

@@ -26,9 +26,7 @@ std::vector<MarkerSet> ShippedSets() {
   return ReadMarkerSets(SourcePath("xml_config/marker_sets"));
 }
 
-KinematicModel ShippedModel() {
-  return ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model;
-}
+KinematicModel ShippedModel() { return ReadMmmModel(SourcePath("xml_config/models/mmm.xml")); }
 
 std::string MessageOf(const std::string& xml) {
   const std::string path = testing::TestFolder() + "/set.xml";
@@ -43,7 +41,7 @@ std::string MessageOf(const std::string& xml) {
 
 /// The mapping of the chosen set.
 MarkerMapping MapRecording(const std::string& file, std::string* set_name,
-                           const std::string& subject = "") {
+                           const std::string& subject = "", Warnings* warnings = nullptr) {
   ReadRecordingOptions options;
   options.subject = subject;
   const Recording recording = ReadRecording(SharedData("recordings/" + file), options);
@@ -51,7 +49,7 @@ MarkerMapping MapRecording(const std::string& file, std::string* set_name,
   const MarkerSet& set = ChooseMarkerSet(sets, LabelsOf(recording.markers));
   *set_name = set.name;
   const KinematicModel model = ShippedModel();
-  return ResolveMarkerMapping(PairsInModel(set, model), LabelsOf(recording.markers), model);
+  return ResolveMarkerMapping(PairsInModel(set, model), LabelsOf(recording.markers), model, warnings);
 }
 
 TEST(MarkerSet, ShippedSetsNameMarkersOfTheShippedModel) {
@@ -140,8 +138,9 @@ TEST(MarkerSet, MapsRealRecordings) {
 TEST(MarkerSet, TrustsLessWhatIsWornElsewhereAndSaysSo) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   std::string set;
-  const MarkerMapping mapping = MapRecording("whole_body/85_02.c3d", &set);
-  EXPECT_THAT(mapping.warnings, AllOf(Contains(HasSubstr("LSHN as MARKER_LTIP")),
+  Warnings warnings;
+  const MarkerMapping mapping = MapRecording("whole_body/85_02.c3d", &set, "", &warnings);
+  EXPECT_THAT(warnings.texts(), AllOf(Contains(HasSubstr("LSHN as MARKER_LTIP")),
                                       Contains(HasSubstr("LFIN as MARKER_LHTS")),
                                       Contains(HasSubstr("LWRA as MARKER_LWTS")),
                                       Contains(HasSubstr("LTOE as MARKER_LTOE"))));

@@ -24,7 +24,7 @@ std::vector<std::string> Names(const std::vector<ContactBody>& bodies) {
 }
 
 TEST(GroundContact, ThePersonHasFeetAndHands) {
-  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  const KinematicModel model = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
   const std::vector<ContactBody> bodies = ContactBodies(model);
   EXPECT_THAT(Names(bodies),
               ElementsAre("left foot", "right foot", "left hand", "right hand", "body"));

@@ -184,8 +184,8 @@ TEST(MotionDynamics, RefusesWhatHasNoDynamics) {
 }
 
 KinematicModel Person(double height, double mass) {
-  const MmmModel read = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
-  return ScaleWinter(read.model, {height, mass, {}});
+  const KinematicModel read = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
+  return ScaleWinter(read, {height, mass, {}});
 }
 
 int BodyIndex(const MotionDynamics& dynamics, const std::string& name) {

@@ -216,8 +216,8 @@ void ExpectLawsOfMotion(const KinematicModel& model, double tolerance) {
 TEST(SimbodyDynamics, ObeysTheLawsOfMotionOnAChain) { ExpectLawsOfMotion(testing::Chain(6), 1e-5); }
 
 TEST(SimbodyDynamics, ObeysTheLawsOfMotionOnThePersonsModel) {
-  const MmmModel read = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
-  ExpectLawsOfMotion(ScaleWinter(read.model, {1.75, 70, {}}), 1e-4);
+  const KinematicModel read = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
+  ExpectLawsOfMotion(ScaleWinter(read, {1.75, 70, {}}), 1e-4);
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ class OptimalFitTest : public ::testing::Test {
                             markers);
   }
 
-  const KinematicModel model_ = ScaleWinter(
-      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model, {1.8, 75, {}});
+  const KinematicModel model_ =
+      ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.8, 75, {}});
   PoseTrajectory motion_;
   std::vector<int> indices_;
 };

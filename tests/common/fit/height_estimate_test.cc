@@ -28,7 +28,7 @@ class HeightEstimateTest : public ::testing::Test {
     return EstimateHeight(model_, joints_, markers_, markers_, recording);
   }
 
-  KinematicModel model_ = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model;
+  KinematicModel model_ = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
   std::vector<int> joints_;
   std::vector<int> markers_;
 };
@@ -56,7 +56,7 @@ TEST_F(HeightEstimateTest, TooFewMarkersAreAnError) {
     Estimate(1.75, MarkerErrors{});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("--height"), std::string::npos);
+    EXPECT_EQ(error.remedy(), Remedy::kHeight);
   }
 }
 

@@ -92,9 +92,8 @@ TEST(FitToSubject, MovesMarkersAfterScaling) {
 }
 
 TEST(FitToSubject, OfTheShippedModelMovesWhatHangsBelow) {
-  const KinematicModel scaled =
-      ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model,
-                  {1.75, 70, std::nullopt});
+  const KinematicModel scaled = ScaleWinter(
+      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.75, 70, std::nullopt});
   Subject subject = Somebody(scaled.name());
   subject.scales = {{"LKsegment_joint", 1.05, 0, 0}};
   const KinematicModel fitted = FitToSubject(scaled, subject);

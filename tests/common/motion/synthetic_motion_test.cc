@@ -63,8 +63,8 @@ class SyntheticMotionTest : public ::testing::Test {
     }
   }
 
-  const KinematicModel model_ = ScaleWinter(
-      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model, {1.8, 75, {}});
+  const KinematicModel model_ =
+      ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.8, 75, {}});
 };
 
 TEST_F(SyntheticMotionTest, HandstandGoesUpsideDownAndBack) {
@@ -114,8 +114,8 @@ TEST_F(SyntheticMotionTest, CartwheelTurnsOnceThroughPitch) {
 }
 
 TEST_F(SyntheticMotionTest, ScaleWithTheModel) {
-  const KinematicModel small = ScaleWinter(
-      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model, {1.2, 30, {}});
+  const KinematicModel small =
+      ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.2, 30, {}});
   const Posture a = MakeHandstand(model_).postures[300];
   const Posture b = MakeHandstand(small).postures[300];
   EXPECT_LT((a.position / 1.8 - b.position / 1.2).norm(), 1e-12);

@@ -12,7 +12,7 @@
 
 int main() {
   const mmm_converter::KinematicModel model =
-      mmm_converter::ReadMmmModel(mmm_converter::DataFile("models/mmm.xml")).model;
+      mmm_converter::ReadMmmModel(mmm_converter::DataFile("models/mmm.xml"));
   const Eigen::Matrix3Xd p_WM =
       mmm_converter::MarkerPositions(model, mmm_converter::ZeroPosture(model));
   std::cout << model.name() << ": " << p_WM.cols() << " markers, " << model.num_joints()

@@ -54,12 +54,12 @@ class Section {
     return *this;
   }
   C3dParameters Parse() {
-    warnings.clear();
+    warnings = Warnings();
     return {std::span(reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size()),
             C3dProcessor::kIntel, &warnings};
   }
 
-  std::vector<std::string> warnings;
+  Warnings warnings;
 
  private:
   Section& Record(int id, const std::string& name, const std::string& content, int offset) {
@@ -83,7 +83,7 @@ TEST(C3dParameters, FindsParametersThatComeBeforeTheirGroup) {
   EXPECT_EQ(parameters.Number("POINT", "FRAMES"), 40000);  // words are unsigned
   EXPECT_EQ(parameters.Number("POINT", "UNITS"), std::nullopt);
   EXPECT_EQ(parameters.Find("ANALOG", "UNITS"), nullptr);
-  EXPECT_THAT(section.warnings, IsEmpty());
+  EXPECT_THAT(section.warnings.texts(), IsEmpty());
 }
 
 TEST(C3dParameters, ContinuesLabels) {
@@ -98,7 +98,7 @@ TEST(C3dParameters, KeepsTheFirstOfEqualNames) {
   Section section;
   section.Group(1, "POINT").Word(1, "USED", {3}).Word(1, "USED", {4});
   EXPECT_EQ(section.Parse().Number("POINT", "USED"), 3);
-  EXPECT_THAT(section.warnings, ElementsAre(HasSubstr("POINT:USED is there twice")));
+  EXPECT_THAT(section.warnings.texts(), ElementsAre(HasSubstr("POINT:USED is there twice")));
 }
 
 TEST(C3dParameters, PassesWrongOffsetsAndSizes) {
@@ -108,7 +108,7 @@ TEST(C3dParameters, PassesWrongOffsetsAndSizes) {
     const C3dParameters parameters = section.Parse();
     EXPECT_EQ(parameters.Number("POINT", "USED"), 3) << offset;
     EXPECT_EQ(parameters.Text("POINT", "UNITS"), "mm") << offset;
-    EXPECT_THAT(section.warnings, Contains(HasSubstr("UNITS: the offset"))) << offset;
+    EXPECT_THAT(section.warnings.texts(), Contains(HasSubstr("UNITS: the offset"))) << offset;
   }
   Section longer;  // claims 4 texts, has 2: its offset is right
   longer.Group(1, "POINT").Parameter(1, "LABELS", -1, {2, 4}, "A B ", 2 + 4 + 4 + 1);
@@ -128,7 +128,7 @@ TEST(C3dParameters, RefusesNonsense) {
   Section type;
   type.Group(1, "POINT").Parameter(1, "A", 9, {1}, "x", -1).Word(1, "B", {1});
   EXPECT_EQ(type.Parse().Number("POINT", "B"), 1);
-  EXPECT_THAT(type.warnings, ElementsAre(HasSubstr("A can't be read")));
+  EXPECT_THAT(type.warnings.texts(), ElementsAre(HasSubstr("A can't be read")));
   Section name;  // length -128
   name.Word(1, "B", {1}).Append("\x80\x01" + std::string(200, 'x'));
   EXPECT_EQ(name.Parse().Number("", "B"), 1);  // an orphan
@@ -148,7 +148,7 @@ int FramesOf(Section section, int header_frames) {
                          .scale = -1,
                          .data_block = 3,
                          .rate = 100};
-  std::vector<std::string> warnings;
+  Warnings warnings;
   return ResolveC3dLayout(header, section.Parse(), C3dProcessor::kIntel, 512, 1, 1024 + 16 * 100000,
                           &warnings)
       .frames;

@@ -40,9 +40,10 @@ MarkerSequence MakeSequence(int labels, int frames) {
 void ExpectRoundTrip(const MarkerSequence& sequence, const C3dWriteOptions& options) {
   const std::string path = TempPath("round_trip.c3d");
   WriteC3d(path, sequence, options);
-  C3dReader reader(path);
+  Warnings warnings;
+  C3dReader reader(path, &warnings);
   const C3dInfo& info = reader.info();
-  EXPECT_THAT(info.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
   EXPECT_EQ(info.labels, sequence.labels());
   EXPECT_EQ(info.layout.frames, sequence.num_frames());
   EXPECT_EQ(info.layout.rate, sequence.rate());

@@ -28,9 +28,10 @@ std::string Model(const std::string& arm, const std::string& more = "") {
 }
 
 Segment ReadArm(const std::string& arm) {
-  const MmmModel read = ParseMmmModel(Model(arm), "m.xml");
-  EXPECT_THAT(read.warnings, IsEmpty());
-  return read.model.segments().at(1);
+  Warnings warnings;
+  const KinematicModel read = ParseMmmModel(Model(arm), "m.xml", &warnings);
+  EXPECT_THAT(warnings.texts(), IsEmpty());
+  return read.segments().at(1);
 }
 
 std::string ErrorOf(const std::string& xml) {
@@ -105,23 +106,25 @@ TEST(MmmModel, ReadsPhysics) {
 }
 
 TEST(MmmModel, ReadsPositionSensorsAndSkipsWhatItDoesNotKnow) {
-  const MmmModel read = ParseMmmModel(
+  Warnings warnings;
+  const KinematicModel read = ParseMmmModel(
       Model("<Sensor type='position' name='M1'><Transform><Translation x='1' y='2' "
             "z='3'/></Transform>"
             "</Sensor><Sensor type='imu' name='I'/><Sensor type='Position' name='M2'/>"
             "<Visualization><File type='inventor'>arm.iv</File></Visualization><Nonsense/>",
             "<SomethingNew/>"),
-      "m.xml");
-  EXPECT_THAT(read.warnings, IsEmpty());
-  EXPECT_EQ(read.model.name(), "Test");
-  ASSERT_EQ(read.model.markers().size(), 2u);
-  EXPECT_EQ(read.model.markers()[0].segment, 1);
-  EXPECT_TRUE(read.model.markers()[0].p_SM.isApprox(Eigen::Vector3d(0.001, 0.002, 0.003), 1e-15));
-  EXPECT_EQ(read.model.markers()[1].p_SM, Eigen::Vector3d::Zero());
+      "m.xml", &warnings);
+  EXPECT_THAT(warnings.texts(), IsEmpty());
+  EXPECT_EQ(read.name(), "Test");
+  ASSERT_EQ(read.markers().size(), 2u);
+  EXPECT_EQ(read.markers()[0].segment, 1);
+  EXPECT_TRUE(read.markers()[0].p_SM.isApprox(Eigen::Vector3d(0.001, 0.002, 0.003), 1e-15));
+  EXPECT_EQ(read.markers()[1].p_SM, Eigen::Vector3d::Zero());
 }
 
 TEST(MmmModel, DropsVirtualNodesAboveTheRootAlsoFromNodeSets) {
-  const MmmModel read = ParseMmmModel(
+  Warnings warnings;
+  const KinematicModel read = ParseMmmModel(
       "<Robot RootNode='Virtual_Root'><RobotNode name='leg'/>"
       "<RobotNode name='root_joint'><Children><Child name='leg'/></Children></RobotNode>"
       "<RobotNode name='Virtual_X'><Joint type='prismatic'><TranslationDirection x='1' y='0' "
@@ -130,42 +133,44 @@ TEST(MmmModel, DropsVirtualNodesAboveTheRootAlsoFromNodeSets) {
       "<RobotNode name='Virtual_Root'><Child name='Virtual_X'/></RobotNode>"
       "<RobotNodeSet name='All'><Node name='Virtual_X'/><Node name='root_joint'/><Node name='leg'/>"
       "</RobotNodeSet></Robot>",
-      "m.xml");
-  EXPECT_THAT(read.warnings, IsEmpty());
-  ASSERT_EQ(read.model.segments().size(), 2u);
-  EXPECT_EQ(read.model.segments()[0].name, "root_joint");
-  EXPECT_THAT(read.model.node_sets().at("All"), ElementsAre("root_joint", "leg"));
+      "m.xml", &warnings);
+  EXPECT_THAT(warnings.texts(), IsEmpty());
+  ASSERT_EQ(read.segments().size(), 2u);
+  EXPECT_EQ(read.segments()[0].name, "root_joint");
+  EXPECT_THAT(read.node_sets().at("All"), ElementsAre("root_joint", "leg"));
 }
 
 TEST(MmmModel, FindsTheRootOfAModelThatDoesNotNameIt) {
-  const MmmModel read = ParseMmmModel(
+  const KinematicModel read = ParseMmmModel(
       "<Robot><RobotNode name='a'/><RobotNode name='b'><Child name='a'/></RobotNode></Robot>",
       "m.xml");
-  EXPECT_EQ(read.model.segments()[0].name, "b");
+  EXPECT_EQ(read.segments()[0].name, "b");
 }
 
 TEST(MmmModel, WarnsOfADamagedSegmentLength) {
-  const MmmModel read = ParseMmmModel(
+  Warnings warnings;
+  const KinematicModel read = ParseMmmModel(
       Model("<Transform><Translation x='0' y='0' z='120'/></Transform><Joint type='prismatic'>"
             "<translationdirection x='0' y='0' z='1'/><limits lo='0' hi='60' units='mm'/></Joint>"),
-      "m.xml");
-  ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_THAT(read.warnings[0],
+      "m.xml", &warnings);
+  ASSERT_EQ(warnings.all().size(), 1u);
+  EXPECT_THAT(warnings.texts()[0],
               AllOf(HasSubstr("m.xml:3: node 'arm'"), HasSubstr("120 mm"), HasSubstr("60 mm")));
 }
 
 TEST(MmmModel, WarnsOfWhatItLeavesOut) {
-  const MmmModel read = ParseMmmModel(
+  Warnings warnings;
+  const KinematicModel read = ParseMmmModel(
       Model(
           "",
           "<RobotNode name='loose'/><RobotNodeSet name='S'>\n<Node name='none'/><Node name='arm'/>"
           "</RobotNodeSet>"),
-      "m.xml");
-  EXPECT_THAT(read.warnings,
+      "m.xml", &warnings);
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(HasSubstr("m.xml:4: node 'loose' is not connected with the root"),
                           HasSubstr("m.xml:5: node set 'S': 'none' is not a node")));
-  EXPECT_EQ(read.model.segments().size(), 2u);
-  EXPECT_THAT(read.model.node_sets().at("S"), ElementsAre("arm"));
+  EXPECT_EQ(read.segments().size(), 2u);
+  EXPECT_THAT(read.node_sets().at("S"), ElementsAre("arm"));
 }
 
 TEST(MmmModel, RefusesWhatIsNoTree) {
@@ -277,7 +282,7 @@ TEST(MmmModel, SurvivesALongChain) {
            "'/></RobotNode>";
   }
   const std::string end = "<RobotNode name='20000'/></Robot>";
-  EXPECT_EQ(ParseMmmModel(xml + end, "m.xml").model.segments().size(), 20001u);
+  EXPECT_EQ(ParseMmmModel(xml + end, "m.xml").segments().size(), 20001u);
   EXPECT_THAT(ErrorOf(xml + "<RobotNode name='20000'><Child name='0'/></RobotNode></Robot>"),
               HasSubstr("circle"));
 }

@@ -42,9 +42,10 @@ std::string Marker(const std::string& time, const std::string& name, const std::
 
 TEST(MmmMotionReader, RealLegacyFiles) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
-  const MmmMotionFile file = ReadMmmMotionFile(testing::LegacyStandingFile());
+  Warnings warnings;
+  const MmmMotionFile file = ReadMmmMotionFile(testing::LegacyStandingFile(), &warnings);
   EXPECT_EQ(file.version, "1.0");
-  EXPECT_THAT(file.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
   ASSERT_THAT(file.motions, SizeIs(1));
   const MmmMotion& motion = file.motions[0];
   EXPECT_EQ(motion.name, "subject_id_314");
@@ -76,12 +77,13 @@ TEST(MmmMotionReader, RealLegacyFiles) {
 TEST(MmmMotionReader, SeveralKinematicSensorsBecomeOneTrajectory) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile old = ReadMmmMotionFile(testing::LegacyWalkingFile());
-  const MmmMotionFile file = ReadMmmMotionFile(testing::WalkingFile());
+  Warnings warnings;
+  const MmmMotionFile file = ReadMmmMotionFile(testing::WalkingFile(), &warnings);
   EXPECT_EQ(file.version, "2.0");
   EXPECT_EQ(file.name, "walking_medium01_motion395");
   // The file's second sensor has eight timestamps twice.
-  ASSERT_THAT(file.warnings, SizeIs(1));
-  EXPECT_THAT(file.warnings[0], HasSubstr("8 measurements repeat the time"));
+  ASSERT_THAT(warnings.texts(), SizeIs(1));
+  EXPECT_THAT(warnings.texts()[0], HasSubstr("8 measurements repeat the time"));
   const PoseTrajectory& a = old.motions[0].trajectory;
   const PoseTrajectory& b = file.motions[0].trajectory;
   EXPECT_EQ(b.rate, 100);
@@ -101,8 +103,9 @@ TEST(MmmMotionReader, SeveralKinematicSensorsBecomeOneTrajectory) {
 
 TEST(MmmMotionReader, RealFilesWithMarkersAndObjects) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
-  const MmmMotionFile file = ReadMmmMotionFile(testing::StirringFile());
-  EXPECT_THAT(file.warnings, IsEmpty());
+  Warnings warnings;
+  const MmmMotionFile file = ReadMmmMotionFile(testing::StirringFile(), &warnings);
+  EXPECT_THAT(warnings.texts(), IsEmpty());
   std::vector<std::string> names;
   for (const MmmMotion& motion : file.motions) names.push_back(motion.name);
   EXPECT_THAT(names, ElementsAre("true_cup_large", "true_tablespoon", "true_kitchen_sideboard",
@@ -166,7 +169,8 @@ TEST(MmmMotionReader, MissingFramesAreNaNMarkersAndInterpolatedPostures) {
       "<Measurement timestep='0.01'/><Measurement/>"
       "<Measurement timestep='0.03'><MarkerPosition name='B'> 4 5 nan</MarkerPosition>"
       "<MarkerPosition name=' A'>-1e1 0 1</MarkerPosition></Measurement></Data></Sensor>");
-  const MmmMotionFile file = ParseMmmMotionFile(xml, "walk.xml");
+  Warnings warnings;
+  const MmmMotionFile file = ParseMmmMotionFile(xml, "walk.xml", &warnings);
   const PoseTrajectory& trajectory = file.motions[0].trajectory;
   EXPECT_EQ(trajectory.rate, 100);
   EXPECT_EQ(trajectory.first_time, 1);
@@ -178,8 +182,8 @@ TEST(MmmMotionReader, MissingFramesAreNaNMarkersAndInterpolatedPostures) {
   EXPECT_NEAR(trajectory.postures[1].joint_angles[0], 1.5, kRounding);
   EXPECT_EQ(trajectory.postures[2].joint_angles[0], 2);
   EXPECT_TRUE(std::isnan(trajectory.postures[3].joint_angles[0]));
-  ASSERT_THAT(file.warnings, SizeIs(1));
-  EXPECT_THAT(file.warnings[0], HasSubstr("NaN, or outside of their sensor's time"));
+  ASSERT_THAT(warnings.texts(), SizeIs(1));
+  EXPECT_THAT(warnings.texts()[0], HasSubstr("NaN, or outside of their sensor's time"));
 
   const MarkerSequence& markers = file.motions[0].markers;
   EXPECT_THAT(markers.labels(), ElementsAre("A", "B"));

@@ -89,10 +89,11 @@ TEST_P(MmmMotionWriter, ReadsItsOwn20BackAndWritesTheSameBytes) {
   const PoseTrajectory trajectory = Tumbling(GetParam(), 5.79);
   const MarkerSequence markers = SomeMarkers(GetParam(), 5.79);
   const std::string text = Join(FormatMmmMotion2(Output(trajectory, &markers)));
-  const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
+  Warnings warnings;
+  const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml", &warnings);
   EXPECT_EQ(file.version, "2.0");
   EXPECT_EQ(file.name, "tumbling <1>");
-  EXPECT_THAT(file.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
   ASSERT_EQ(file.motions.size(), 1u);
   const MmmMotion& motion = file.motions[0];
   EXPECT_EQ(motion.name, "subject & co");
@@ -119,9 +120,10 @@ TEST_P(MmmMotionWriter, ReadsItsOwn20BackAndWritesTheSameBytes) {
 TEST_P(MmmMotionWriter, ReadsItsOwn10BackAndWritesTheSameBytes) {
   const PoseTrajectory trajectory = Tumbling(GetParam(), 0);
   const std::string text = Join(FormatMmmMotion1(Output(trajectory, nullptr)));
-  const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
+  Warnings warnings;
+  const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml", &warnings);
   EXPECT_EQ(file.version, "1.0");
-  EXPECT_THAT(file.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
   EXPECT_EQ(file.motions[0].height, 1.755);
   EXPECT_EQ(file.motions[0].model_path, "../models/o'mmm.xml");
   ExpectSame(trajectory, file.motions[0].trajectory);

@@ -27,9 +27,10 @@ constexpr const char* kModel2014 = "mmm/models/mmm_2014_82nodes_52markers.xml";
 constexpr const char* kModel22 = "mmm/models/mmm_v2.2_133nodes_53markers.xml";
 
 KinematicModel ReadWithoutWarnings(const std::string& path) {
-  MmmModel read = ReadMmmModel(path);
-  EXPECT_THAT(read.warnings, IsEmpty());
-  return std::move(read.model);
+  Warnings warnings;
+  KinematicModel read = ReadMmmModel(path, &warnings);
+  EXPECT_THAT(warnings.texts(), IsEmpty());
+  return read;
 }
 
 int Count(const KinematicModel& model, JointType type) {

@@ -23,6 +23,15 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+Remedy RemedyOf(const std::string& path) {
+  try {
+    ReadRecording(path, {});
+  } catch (const Error& error) {
+    return error.remedy();
+  }
+  return Remedy::kNone;
+}
+
 std::string MessageOf(const std::string& path, const ReadRecordingOptions& options = {}) {
   try {
     ReadRecording(path, options);
@@ -38,8 +47,9 @@ std::string WriteTemp(const std::string& name, const std::string& content) {
   return path;
 }
 
-Recording ReadSynthetic(const std::string& name, const ReadRecordingOptions& options = {}) {
-  return ReadRecording(SharedData("recordings/synthetic/" + name), options);
+Recording ReadSynthetic(const std::string& name, const ReadRecordingOptions& options = {},
+                        Warnings* warnings = nullptr) {
+  return ReadRecording(SharedData("recordings/synthetic/" + name), options, warnings);
 }
 
 /// Largest distance between equal markers and frames; infinite where one of them is not seen.
@@ -54,13 +64,14 @@ double LargestDistance(const MarkerSequence& a, const MarkerSequence& b) {
 
 TEST(Recording, IsInMetresAndZUpWhateverTheFileHas) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
-  const Recording reference = ReadSynthetic("kit53_intel_float.c3d");
+  Warnings warnings;
+  const Recording reference = ReadSynthetic("kit53_intel_float.c3d", {}, &warnings);
   EXPECT_EQ(reference.format, "C3D");
   EXPECT_EQ(reference.unit, "mm");
   EXPECT_TRUE(reference.up_axis_was_decided);
   EXPECT_EQ(reference.up_axis, UpAxis::kZ);
   EXPECT_EQ(reference.subject, "");
-  EXPECT_THAT(reference.warnings, ElementsAre());
+  EXPECT_THAT(warnings.texts(), ElementsAre());
   const Eigen::Vector3d c7 = reference.markers.frame(0).col(reference.markers.FindLabel("C7"));
   EXPECT_TRUE(c7.isApprox(Eigen::Vector3d(0.114158, -0.251796, 1.39602), 1e-6));  // float
 
@@ -147,10 +158,11 @@ TEST(Recording, ChecksTheUnit) {
   MarkerSequence markers = ReadSynthetic("kit53_intel_float.c3d").markers;
   ToMetresAndZUp(0.001, UpAxis::kZ, &markers);  // a file that says mm, with metres inside
   WriteC3d(path, markers);
-  const Recording guessed = ReadRecording(path, {});
+  Warnings warnings;
+  const Recording guessed = ReadRecording(path, {}, &warnings);
   EXPECT_EQ(guessed.unit, "m");
   EXPECT_TRUE(guessed.unit_was_guessed);
-  EXPECT_THAT(guessed.warnings, Contains(HasSubstr("the file says mm; read as m")));
+  EXPECT_THAT(warnings.texts(), Contains(HasSubstr("the file says mm; read as m")));
   const Recording forced = ReadRecording(path, {.unit = "mm"});
   EXPECT_FALSE(forced.unit_was_guessed);
   EXPECT_NEAR(forced.markers.frame(0)(2, 0), 0.00139602, 1e-9);  // float
@@ -164,7 +176,8 @@ TEST(Recording, ChecksTheUnit) {
 TEST(Recording, LetsTheUserChooseASubject) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string path = SharedData("recordings/synthetic/kit53_two_subjects_same_labels.c3d");
-  EXPECT_THAT(MessageOf(path), AllOf(HasSubstr("several subjects: A, B"), HasSubstr("--subject")));
+  EXPECT_THAT(MessageOf(path), HasSubstr("several subjects: A, B; choose one"));
+  EXPECT_EQ(RemedyOf(path), Remedy::kSubjectPrefix);
   ReadRecordingOptions options;
   options.subject = "b";
   const Recording b = ReadRecording(path, options);
@@ -189,23 +202,25 @@ TEST(Recording, TakesThePersonNotTheObject) {
   for (int k = 0; k < 2; ++k) markers.frame(k).setConstant(0.5);
   const std::string path = testing::TestFolder() + "/anna_and_box.c3d";
   WriteC3d(path, markers);
-  const Recording recording = ReadRecording(path, {});
+  Warnings warnings;
+  const Recording recording = ReadRecording(path, {}, &warnings);
   EXPECT_EQ(recording.subject, "Anna");
   EXPECT_EQ(recording.markers.num_labels(), 8);
-  EXPECT_THAT(recording.warnings, Contains(HasSubstr("those of Box")));
+  EXPECT_THAT(warnings.texts(), Contains(HasSubstr("those of Box")));
 }
 
 TEST(Recording, LeavesOutWhatIsNoMarker) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
+  Warnings warnings;
   const Recording gait =
-      ReadRecording(SharedData("recordings/whole_body/pycgm_movement_trial.c3d"), {});
+      ReadRecording(SharedData("recordings/whole_body/pycgm_movement_trial.c3d"), {}, &warnings);
   EXPECT_EQ(gait.markers.num_labels(), 39);
   EXPECT_EQ(gait.markers.FindLabel("LTIP"), -1);  // the tibia axis of Plug-in Gait
   EXPECT_EQ(gait.markers.FindLabel("*115"), -1);
   EXPECT_NE(gait.markers.FindLabel("LTIB"), -1);
   EXPECT_EQ(gait.first_frame, 695);
-  EXPECT_THAT(gait.warnings, AllOf(Contains(HasSubstr("LTIP is a computed point")),
-                                   Contains(HasSubstr("unlabelled points left out"))));
+  EXPECT_THAT(warnings.texts(), AllOf(Contains(HasSubstr("LTIP is a computed point")),
+                                      Contains(HasSubstr("unlabelled points left out"))));
   // KIT's LTIP is a marker.
   EXPECT_NE(ReadSynthetic("kit53_intel_float.c3d").markers.FindLabel("LTIP"), -1);
 }

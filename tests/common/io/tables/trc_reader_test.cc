@@ -33,24 +33,26 @@ std::string MessageOf(const std::string& text) {
 }
 
 TEST(TrcReader, ReadsAPlainFile) {
+  Warnings warnings;
   const TrcFile trc =
       ParseTrc(std::string(kHeader) + kLabels +
                    "\n1\t0.00\t1\t2\t3\t4\t5\t6\n2\t0.01\t7\t8\t9\t-1.5e1\t11\t12\n",
-               "walk.trc");
+               "walk.trc", &warnings);
   EXPECT_THAT(trc.markers.labels(), ElementsAre("C7", "R Knee"));
   EXPECT_EQ(trc.markers.rate(), 100);
   EXPECT_EQ(trc.unit, "mm");
   EXPECT_EQ(trc.first_frame, 1);
   ASSERT_EQ(trc.markers.num_frames(), 2);
   EXPECT_EQ(trc.markers.frame(1).col(1), Eigen::Vector3d(-15, 11, 12));
-  EXPECT_THAT(trc.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
 }
 
 TEST(TrcReader, KeepsColumnsOfMissingMarkers) {
+  Warnings warnings;
   const TrcFile trc = ParseTrc(std::string(kHeader) + kLabels +
                                    "5\t0.5\t\t\t\t4\t5\t6\n6\t0.51\tNaN\tNaN\tNaN\t \t \t \n"
                                    "7\t0.52\t0\t0\t0\t4\t5\n8\t0.53\t9999999\t1\t1\t4\t5\t6\t\t\n",
-                               "walk.trc");
+                               "walk.trc", &warnings);
   ASSERT_EQ(trc.markers.num_frames(), 4);
   EXPECT_EQ(trc.first_frame, 5);
   EXPECT_EQ(trc.markers.first_time(), 0.5);
@@ -58,7 +60,7 @@ TEST(TrcReader, KeepsColumnsOfMissingMarkers) {
     EXPECT_FALSE(IsSeen(trc.markers.frame(k).col(0))) << k;
     EXPECT_EQ(IsSeen(trc.markers.frame(k).col(1)), k == 0 || k == 3) << k;
   }
-  EXPECT_THAT(trc.warnings, ElementsAre(HasSubstr("NumFrames says 2, there are 4")));
+  EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("NumFrames says 2, there are 4")));
 }
 
 TEST(TrcReader, UnderstandsWindowsLinesCommasAndDecimalCommas) {
@@ -77,11 +79,12 @@ TEST(TrcReader, UnderstandsWindowsLinesCommasAndDecimalCommas) {
 }
 
 TEST(TrcReader, PrefersTheTimeColumnToAWrongRate) {
+  Warnings warnings;
   const TrcFile trc = ParseTrc(
       std::string(kHeader) + kLabels + "1\t0.0\t1\t2\t3\t4\t5\t6\n2\t0.1\t7\t8\t9\t1\t2\t3\n",
-      "walk.trc");
+      "walk.trc", &warnings);
   EXPECT_DOUBLE_EQ(trc.markers.rate(), 10);
-  EXPECT_THAT(trc.warnings, Contains(HasSubstr("DataRate says 100 Hz")));
+  EXPECT_THAT(warnings.texts(), Contains(HasSubstr("DataRate says 100 Hz")));
 }
 
 TEST(TrcReader, SaysWhatIsMissing) {

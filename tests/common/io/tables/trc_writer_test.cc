@@ -84,11 +84,12 @@ TEST(TrcWriterTest, TheModelsMarkersStandBehindUnderTheirLabels) {
 
 TEST(TrcWriterTest, OurReaderHasTheMarkersBack) {
   const MarkerSequence measured = Measured();
+  Warnings warnings;
   const TrcFile trc =
-      ParseTrc(Join(FormatTrc({"a.trc", 41, &measured, {}, nullptr, nullptr})), "a.trc");
+      ParseTrc(Join(FormatTrc({"a.trc", 41, &measured, {}, nullptr, nullptr})), "a.trc", &warnings);
   EXPECT_EQ(trc.unit, "mm");
   EXPECT_EQ(trc.first_frame, 41);
-  EXPECT_THAT(trc.warnings, ElementsAre());
+  EXPECT_THAT(warnings.texts(), ElementsAre());
   EXPECT_EQ(trc.markers.rate(), 120);
   EXPECT_EQ(trc.markers.first_time(), 0.25);
   EXPECT_EQ(trc.markers.frame(2).col(0), Eigen::Vector3d(1000, 3000, -2000));

@@ -58,6 +58,7 @@ std::string MessageOf(const std::string& urdf) {
 constexpr const char* kLimit = "<limit lower='-1' upper='2' effort='1' velocity='1'/>";
 
 TEST(UrdfModel, HasTreeLimitsMassesAndMarkers) {
+  Warnings warnings;
   const UrdfModel read = ParseUrdfModel(
       Robot(
           "<link name='base'><inertial><origin xyz='0.1 0 0' rpy='0 0 1.5707963267948966'/>"
@@ -68,7 +69,7 @@ TEST(UrdfModel, HasTreeLimitsMassesAndMarkers) {
           Joint("shoulder", "revolute", "base", "arm",
                 "<origin xyz='0 \t 0\n 1' rpy='0 0 0'/><axis xyz='0 0 2'/>" + std::string(kLimit)) +
           Joint("c7", "fixed", "arm", "C7_marker", "<origin xyz='0.5 0 0' rpy='1 1 1'/>")),
-      "r.urdf");
+      "r.urdf", &warnings);
   const KinematicModel& model = read.model;
   EXPECT_EQ(model.name(), "r");
   ASSERT_EQ(model.segments().size(), 2u);
@@ -90,27 +91,29 @@ TEST(UrdfModel, HasTreeLimitsMassesAndMarkers) {
   EXPECT_TRUE(
       MarkerPositions(model, posture).col(0).isApprox(Eigen::Vector3d(0, 0.5, 1), kRounding));
   EXPECT_EQ(read.segment_of_link.at("arm"), "shoulder");
-  EXPECT_THAT(read.warnings, IsEmpty());
+  EXPECT_THAT(warnings.texts(), IsEmpty());
 }
 
 TEST(UrdfModel, HumanoidIsRead) {
-  const LoadedModel read = ReadModelFile(Humanoid());
+  Warnings warnings;
+  const LoadedModel read = ReadModelFile(Humanoid(), &warnings);
   EXPECT_FALSE(read.is_reference);
   EXPECT_EQ(read.model.name(), "humanoid");
   EXPECT_EQ(read.model.num_joints(), 31);
   EXPECT_EQ(read.model.markers().size(), 47u);
   EXPECT_NEAR(read.model.total_mass(), 59.8, 1e-12);  // rounding of a sum
   EXPECT_EQ(read.model.joint(read.model.FindJoint("left_knee")).upper, 2.4);
-  EXPECT_THAT(read.warnings,
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(AllOf(HasSubstr("left_finger_follower"), HasSubstr("mimic")),
                           AllOf(HasSubstr("joint lift"), HasSubstr("prismatic"))));
 }
 
 TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
   const auto held = [](const std::string& type, const std::string& more) {
-    UrdfModel read = ParseUrdfModel(Hinge(type, "<axis xyz='0 0 1'/>" + more), "r.urdf");
+    Warnings warnings;
+    UrdfModel read = ParseUrdfModel(Hinge(type, "<axis xyz='0 0 1'/>" + more), "r.urdf", &warnings);
     EXPECT_EQ(read.model.num_joints(), 0);
-    EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("r.urdf: joint j (")));
+    EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("r.urdf: joint j (")));
     return read.model.segments()[1].X_PF;
   };
   const std::string limit = "<limit effort='1' velocity='1' ";
@@ -121,27 +124,29 @@ TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
 }
 
 TEST(UrdfModel, MimicJointsAreHeldAndMarkersBelowThemLeftOut) {
+  Warnings warnings;
   const UrdfModel read = ParseUrdfModel(
       Robot("<link name='a'/><link name='b'/><link name='c'/><link name='L_marker'/><link "
             "name='M_marker'/>" +
             Joint("k", "continuous", "a", "b") +
             Joint("j", "continuous", "b", "c", "<mimic joint='k' multiplier='2' offset='0.3'/>") +
             Joint("l", "fixed", "b", "L_marker") + Joint("m", "fixed", "c", "M_marker")),
-      "r.urdf");
+      "r.urdf", &warnings);
   ASSERT_EQ(read.model.num_joints(), 1);
   const Segment& held = read.model.segments()[read.model.FindSegment("j")];
   EXPECT_NEAR(Eigen::AngleAxisd(held.X_PF.linear()).angle(), 0.3, kRounding);
   ASSERT_EQ(read.model.markers().size(), 1u);
   EXPECT_EQ(read.model.markers()[0].name, "L");
-  EXPECT_THAT(read.warnings,
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(HasSubstr("joint j (mimic): held"),
                           HasSubstr("below joint j (mimic) a marker is not used: M")));
 }
 
 TEST(UrdfModel, MissingLimitsCountAsZero) {
+  Warnings warnings;
   const UrdfModel read =
-      ParseUrdfModel(Hinge("revolute", "<limit effort='1' velocity='1'/>"), "r.urdf");
-  EXPECT_THAT(read.warnings,
+      ParseUrdfModel(Hinge("revolute", "<limit effort='1' velocity='1'/>"), "r.urdf", &warnings);
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(HasSubstr("r.urdf:3: joint 'j': <limit> has no lower and no upper, which "
                                     "URDF takes for 0"),
                           HasSubstr("joint j (revolute with equal limits)")));
@@ -151,9 +156,10 @@ TEST(UrdfModel, EndlessJointsHaveNoLimits) {
   for (const std::string& urdf :
        {Hinge("continuous", ""),
         Hinge("revolute", "<limit lower='-1e16' upper='1e16' effort='1' velocity='1'/>")}) {
-    const UrdfModel read = ParseUrdfModel(urdf, "r.urdf");
+    Warnings warnings;
+    const UrdfModel read = ParseUrdfModel(urdf, "r.urdf", &warnings);
     EXPECT_TRUE(IsEndless(read.model.joint(0)));
-    EXPECT_THAT(read.warnings, IsEmpty());
+    EXPECT_THAT(warnings.texts(), IsEmpty());
     const std::string again = FormatUrdf(read.model, "").xml;
     EXPECT_THAT(again, HasSubstr("type=\"continuous\""));
     EXPECT_TRUE(IsEndless(ParseUrdfModel(again, "again.urdf").model.joint(0)));
@@ -182,11 +188,12 @@ TEST(UrdfModel, RootMayBeCalledAsAJoint) {
 }
 
 TEST(UrdfModel, ImpossibleInertiaIsNamed) {
+  Warnings warnings;
   const UrdfModel read = ParseUrdfModel(
       Robot("<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
             "iyz='0' izz='3'/></inertial></link>"),
-      "r.urdf");
-  EXPECT_THAT(read.warnings,
+      "r.urdf", &warnings);
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(AllOf(HasSubstr("r.urdf:2: link 'a': no body has its inertia"))));
 }
 

@@ -72,8 +72,8 @@ void ExpectReadBack(const KinematicModel& model) {
 }
 
 TEST(UrdfWriter, ShippedModelOfAPersonIsReadBackTheSame) {
-  const KinematicModel model = ScaleWinter(
-      ReadMmmModel(SourcePath("xml_config/models/mmm.xml")).model, {1.75, 70, std::nullopt});
+  const KinematicModel model =
+      ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")), {1.75, 70, std::nullopt});
   EXPECT_THAT(FormatUrdf(model, "").renamed,
               HasSubstr("underscores were needed: \"Hand L Root\" as Hand_L_Root, "));
   ExpectReadBack(model);
@@ -84,8 +84,7 @@ TEST(UrdfWriter, RealModelsAreReadBackTheSame) {
   for (const char* file : {"mmm/models/mmm_2014_82nodes_52markers.xml",
                            "mmm/models/mmm_v2.2_133nodes_53markers.xml"}) {
     SCOPED_TRACE(file);
-    ExpectReadBack(
-        ScaleWinter(ReadMmmModel(testing::SharedData(file)).model, {1.6, 55, std::nullopt}));
+    ExpectReadBack(ScaleWinter(ReadMmmModel(testing::SharedData(file)), {1.6, 55, std::nullopt}));
   }
 }
 
@@ -142,8 +141,9 @@ TEST(UrdfWriter, WhatAUrdfCanNotHoldIsSaid) {
   description.segments[3].inertia.diagonal() << 1, 1, 3;
   description.markers = {{"C 7", 3, Eigen::Vector3d::Zero()}};
   const KinematicModel model(std::move(description));
-  const UrdfText urdf = FormatUrdf(model, "-- with -- hyphens --");
-  EXPECT_THAT(urdf.warnings,
+  Warnings warnings;
+  const UrdfText urdf = FormatUrdf(model, "-- with -- hyphens --", &warnings);
+  EXPECT_THAT(warnings.texts(),
               ElementsAre(HasSubstr("model node 'b': has no mass; its inertia is left out"),
                           HasSubstr("model node 'left/arm': no body of 1 kg has its inertia")));
   EXPECT_THAT(urdf.renamed, HasSubstr("\"b_link\" as b_link_, \"left arm\" as left_arm, "
