@@ -11,8 +11,8 @@
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
-#include "MMMConverterS2KF/batch/batch_result.h"
 #include "MMMConverterS2KF/batch/entry_conversion.h"
+#include "MMMConverterS2KF/batch/entry_result.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
@@ -26,11 +26,11 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string DescribeShortly(const std::string& result) {
-  const ResultFigures figures = ReadFigures(result);
-  return fmt::format("{} frames, {:.1f} mm, {:.2f} s{}", figures.frames, figures.mean_distance_mm,
-                     figures.seconds,
-                     figures.warnings > 0 ? fmt::format(", {} warnings", figures.warnings) : "");
+std::string DescribeShortly(const EntryResult& result) {
+  const std::size_t warnings = result.figures->warnings.size();
+  return fmt::format("{} frames, {:.1f} mm, {:.2f} s{}", result.figures->frames,
+                     result.figures->mean_mm, result.seconds,
+                     warnings > 0 ? fmt::format(", {} warnings", warnings) : "");
 }
 
 class BatchRunner {
@@ -100,8 +100,9 @@ class BatchRunner {
     const JournalRecord& record = found->second;
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     if (options_.reports.all) outputs.push_back(PagePath(entry.id));
-    return record.converted && record.fingerprint == fingerprint &&
-           folder_.IsComplete(record, outputs) && IsRecordingUnchanged(entry, record);
+    return record.result.converted() && record.fingerprint == fingerprint &&
+           AreModelsUnchanged(entry, record) && folder_.IsComplete(record, outputs) &&
+           IsRecordingUnchanged(entry, record);
   }
 
   // Of a recording that is not there any more there is nothing better than what was made of it.
@@ -117,7 +118,6 @@ class BatchRunner {
                Clock::time_point start) {
     JournalRecord record;
     record.id = entry.id;
-    record.converted = true;
     record.fingerprint = fingerprint;
     const std::string& file = request.input.file;
     record.recording = InspectFile(file);
@@ -133,8 +133,9 @@ class BatchRunner {
       WritePage(entry, report, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
+    record.models = InspectNamedModels(report);
     record.outputs = folder_.Inspect(outputs);
-    record.result = FormatResult(report, SecondsSince(start));
+    record.result = Converted(report, SecondsSince(start));
     NoteConverted(record);
   }
 
@@ -156,7 +157,7 @@ class BatchRunner {
     JournalRecord record;
     record.id = entry.id;
     record.fingerprint = fingerprint;
-    record.result = FormatFailure(reason, seconds);
+    record.result = Failed(reason, seconds);
     const std::scoped_lock lock(mutex_);
     ++outcome_.failed;
     progress_->Failed(fmt::format("{}: {}", entry.id, reason));

@@ -5,20 +5,15 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
-#include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/motion/marker_residuals.h"
 #include "common/support/error.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 ConversionRequest RequestFor(const ConversionRequest& request, Recording recording,
                              const std::shared_ptr<const ConverterChoice>& choice) {
@@ -89,24 +84,6 @@ std::string WhyNone(const AllMotions& all) {
   return reasons.empty() ? ": none has markers" : reasons;
 }
 
-std::string DescribeModel(const ConversionReport& report) {
-  if (!report.object) {
-    return fmt::format("{} joints", report.result.trajectory.joint_names.size());
-  }
-  const std::string file = report.object->is_built() ? ": " + report.input.model_file : "";
-  return "object, " + DescribeObjectModel(*report.object) + file;
-}
-
-std::string DescribeOutcome(const MotionOutcome& outcome) {
-  if (!outcome.failure.empty()) return "not converted";
-  if (!outcome.report) return "has no markers; left as it is";
-  const ConversionReport& report = *outcome.report;
-  const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
-  return fmt::format("{} frames, {} markers, mean distance {:.1f} mm, max {:.1f}; {}",
-                     report.input.recording.markers.num_frames(), report.mapping.assignments.size(),
-                     1e3 * distance.mean, 1e3 * distance.max, DescribeModel(report));
-}
-
 }  // namespace
 
 std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
@@ -155,28 +132,6 @@ void WriteAllMotions(const ConversionRequest& request, AllMotions* all) {
     reports.push_back(&*outcome.report);
   }
   WriteMotions(request, reports);
-}
-
-std::string FormatAllMotions(const AllMotions& all) {
-  std::size_t width = 0;
-  for (const MotionOutcome& outcome : all.motions) width = std::max(width, outcome.name.size());
-  std::string text;
-  for (const MotionOutcome& outcome : all.motions) {
-    text += fmt::format("{:<{}}  {}\n", outcome.name, width, DescribeOutcome(outcome));
-  }
-  return text + fmt::format("written to {}\n", all.output);
-}
-
-std::string FormatAllMotionsJson(const AllMotions& all) {
-  Json motions = Json::array();
-  for (const MotionOutcome& outcome : all.motions) {
-    motions.push_back({{"name", outcome.name},
-                       {"failure", outcome.failure.empty() ? Json(nullptr) : Json(outcome.failure)},
-                       {"summary", outcome.report ? Json::parse(FormatSummaryJson(*outcome.report))
-                                                  : Json(nullptr)}});
-  }
-  const Json json = {{"output", all.output}, {"motions", motions}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace mmm_converter

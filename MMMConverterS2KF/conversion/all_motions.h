@@ -36,10 +36,4 @@ std::vector<const ConversionReport*> ReportsOf(const AllMotions& all);
 /// Writes the models of the objects, and one file with all motions.
 void WriteAllMotions(const ConversionRequest& request, AllMotions* all);
 
-/// A line for each motion, and one for the file.
-std::string FormatAllMotions(const AllMotions& all);
-
-/// As JSON: the summary of each motion (FormatSummaryJson), or why there is none.
-std::string FormatAllMotionsJson(const AllMotions& all);
-
 }  // namespace mmm_converter

@@ -6,18 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
+#include "MMMConverterS2KF/report/units.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kMillimetres = 1000;  // in a metre
-constexpr double kMilliseconds = 1000;
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kPercent = 100;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A figure in the unit that its name says.

@@ -14,15 +14,14 @@ namespace mmm_converter {
 namespace {
 
 using Eigen::MatrixXd;
-using nlohmann::json;
 
-json Floats(const MatrixXd& numbers) { return ToJson<json>(PackFloats(numbers)); }
-json Quantised(const MatrixXd& numbers) { return ToJson<json>(PackQuantised(numbers)); }
+Json Floats(const MatrixXd& numbers) { return ToJson(PackFloats(numbers)); }
+Json Quantised(const MatrixXd& numbers) { return ToJson(PackQuantised(numbers)); }
 
-json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-json ModelJson(const KinematicModel& model) {
-  json segments = json::array();
+Json ModelJson(const KinematicModel& model) {
+  Json segments = Json::array();
   for (const Segment& segment : model.segments()) {
     const Eigen::Quaterniond q(segment.X_PF.linear());
     segments.push_back({{"name", segment.name},
@@ -32,13 +31,13 @@ json ModelJson(const KinematicModel& model) {
                         {"axis", VectorJson(segment.axis)},
                         {"joint", segment.joint}});
   }
-  json markers = json::array();
+  Json markers = Json::array();
   for (const ModelMarker& marker : model.markers()) {
     markers.push_back({{"name", marker.name},
                        {"segment", marker.segment},
                        {"position", VectorJson(marker.p_SM)}});
   }
-  json joints = json::array();
+  Json joints = Json::array();
   for (int i = 0; i < model.num_joints(); ++i) {
     const Segment& joint = model.joint(i);
     joints.push_back({{"name", joint.name}, {"lower", joint.lower}, {"upper", joint.upper}});
@@ -46,7 +45,7 @@ json ModelJson(const KinematicModel& model) {
   return {{"segments", segments}, {"markers", markers}, {"joints", joints}};
 }
 
-json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
+Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   const int frames = trajectory.num_frames();
   const auto num_joints = static_cast<Eigen::Index>(trajectory.joint_names.size());
   MatrixXd position(3, frames);
@@ -58,10 +57,10 @@ json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
     orientation.col(k) = posture.orientation.coeffs();
     angles.row(k) = posture.joint_angles.transpose();
   }
-  json joints = json::array();
+  Json joints = Json::array();
   for (const std::string& name : trajectory.joint_names) joints.push_back(model.FindJoint(name));
   // Position and orientation: a frame's components beside each other.
-  json motion = {{"joints", joints},
+  Json motion = {{"joints", joints},
                  {"position", Quantised(position)},
                  {"orientation", Quantised(orientation)},
                  {"angles", Quantised(angles)}};
@@ -72,12 +71,12 @@ json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   return motion;
 }
 
-json TrialJson(const Trial& trial, const CommonGround& ground) {
-  json out = {{"name", trial.name}, {"failure", trial.failure}};
+Json TrialJson(const Trial& trial, const CommonGround& ground) {
+  Json out = {{"name", trial.name}, {"failure", trial.failure}};
   if (!trial.model || ground.labels.empty()) return out;
   const int frames = trial.markers.num_frames();
   const auto num_labels = static_cast<Eigen::Index>(ground.labels.size());
-  json labels = json::array();
+  Json labels = Json::array();
   for (const int label : ground.labels) labels.push_back(trial.markers.labels()[label]);
   MatrixXd positions(3 * num_labels, frames);
   for (int k = 0; k < frames; ++k) {
@@ -91,11 +90,11 @@ json TrialJson(const Trial& trial, const CommonGround& ground) {
               {"markers", ground.markers},
               {"model", ModelJson(*trial.model)},
               {"positions", Quantised(positions)},  // a frame's markers beside each other
-              {"hidden", ToJson<json>(PackBits(ground.hidden.transpose()))},
+              {"hidden", ToJson(PackBits(ground.hidden.transpose()))},
               {"optimum", Floats(ground.optimum)},
               {"mean_hidden", Floats(ground.mean_hidden)},
               {"most_hidden", Floats(ground.most_hidden)}});
-  if (trial.subject) out["subject"] = json::parse(FormatSubjectJson(*trial.subject));
+  if (trial.subject) out["subject"] = ToJson(*trial.subject);
   if (trial.truth && trial.truth->num_frames() == frames) {
     out["truth"] = MotionJson(*trial.model, *trial.truth);
   }
@@ -104,7 +103,7 @@ json TrialJson(const Trial& trial, const CommonGround& ground) {
 
 /// NIS over its degrees of freedom, and what 95 of 100 frames of a consistent filter stay within;
 /// NaN where no marker was seen or the converter states none.
-void AddNis(const ConversionResult& result, json* out) {
+void AddNis(const ConversionResult& result, Json* out) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   MatrixXd nis = MatrixXd::Constant(3, static_cast<Eigen::Index>(result.frames.size()), kNaN);
   std::map<int, std::pair<double, double>> bands;
@@ -124,13 +123,13 @@ void AddNis(const ConversionResult& result, json* out) {
   (*out)["nis_high"] = Floats(nis.row(2));
 }
 
-json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
-  json incidents = json::array();
+Json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
+  Json incidents = Json::array();
   const auto label = [&](int assignment) {
     return trial.markers.labels()[row.mapping.assignments[assignment].label];
   };
   for (const MarkerIncident& incident : row.result.incidents) {
-    json labels = {label(incident.assignment)};
+    Json labels = {label(incident.assignment)};
     if (incident.other >= 0) labels.push_back(label(incident.other));
     incidents.push_back({{"kind", Name(incident.kind)},
                          {"labels", labels},
@@ -140,8 +139,8 @@ json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
   return incidents;
 }
 
-json RowJson(const Trial& trial, const ComparisonRow& row) {
-  json out = {{"trial", row.trial},
+Json RowJson(const Trial& trial, const ComparisonRow& row) {
+  Json out = {{"trial", row.trial},
               {"contender", row.contender},
               {"failure", row.failure},
               {"warnings", row.mapping.warnings},
@@ -164,23 +163,22 @@ json RowJson(const Trial& trial, const ComparisonRow& row) {
 
 }  // namespace
 
-std::string FormatTracks(const Comparison& comparison) {
-  json trials = json::array();
+Json TracksJson(const Comparison& comparison) {
+  Json trials = Json::array();
   for (std::size_t i = 0; i < comparison.trials.size(); ++i) {
     trials.push_back(TrialJson(comparison.trials[i], comparison.grounds[i]));
   }
-  json contenders = json::array();
+  Json contenders = Json::array();
   for (const Contender& contender : comparison.contenders) {
     contenders.push_back({{"name", contender.name},
                           {"configuration", contender.configuration},
                           {"failure", contender.failure}});
   }
-  json rows = json::array();
+  Json rows = Json::array();
   for (const ComparisonRow& row : comparison.rows) {
     rows.push_back(RowJson(comparison.trials[row.trial], row));
   }
-  const json tracks = {{"trials", trials}, {"contenders", contenders}, {"rows", rows}};
-  return tracks.dump(-1, ' ', false, json::error_handler_t::replace);
+  return {{"trials", trials}, {"contenders", contenders}, {"rows", rows}};
 }
 
 }  // namespace mmm_converter
