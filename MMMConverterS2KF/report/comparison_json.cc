@@ -47,14 +47,16 @@ Json DescribeOptions(const ComparisonOptions& options) {
 Json DescribeTrial(const Trial& trial, const CommonGround& ground) {
   const Eigen::VectorXd& optimum = ground.optimum;
   const std::span values(optimum.data(), static_cast<std::size_t>(optimum.size()));
-  return {{"name", trial.name},
-          {"frames", trial.markers.num_frames()},
-          {"rate_hz", Number(trial.markers.rate())},
-          {"compared_markers", ground.labels.size()},
-          {"compared_joints", ground.joints.size()},
-          {"optimum_mm", Number(kMillimetres * Mean(values))},
-          {"has_truth", trial.truth.has_value()},
-          {"failure", TextOrNull(trial.failure)}};
+  Json json = {{"name", trial.name},
+               {"frames", trial.markers.num_frames()},
+               {"rate_hz", Number(trial.markers.rate())},
+               {"compared_markers", ground.labels.size()},
+               {"compared_joints", ground.joints.size()},
+               {"optimum_mm", Number(kMillimetres * Mean(values))},
+               {"has_truth", trial.truth.has_value()},
+               {"failure", TextOrNull(trial.failure)}};
+  if (ground.optimum_every > 1) json["optimum_every"] = ground.optimum_every;
+  return json;
 }
 
 Json DescribeContender(const Contender& contender) {

@@ -121,10 +121,12 @@ std::string FormatTrial(const Comparison& comparison, int trial, std::size_t nam
   const MarkerSequence& markers = comparison.trials[trial].markers;
   const std::span optimum(ground.optimum.data(), static_cast<std::size_t>(ground.optimum.size()));
   return fmt::format(
-             "{}: {} frames at {:g} Hz; {} markers and {} joints compared{}; optimum {:.2f} mm\n",
+             "{}: {} frames at {:g} Hz; {} markers and {} joints compared{}; optimum {:.2f} mm{}\n",
              comparison.trials[trial].name, markers.num_frames(), markers.rate(),
              ground.labels.size(), ground.joints.size(), DescribeHiding(comparison.options),
-             kMillimetres * Mean(optimum)) +
+             kMillimetres * Mean(optimum),
+             ground.optimum_every > 1 ? fmt::format(" (of one in {} frames)", ground.optimum_every)
+                                      : "") +
          FormatLines(lines, name_width);
 }
 

@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "MMMConverterS2KF/report/drawn_frames.h"
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/math/statistics.h"
+#include "common/motion/marker_residuals.h"
 
 namespace mmm_converter {
 namespace {
@@ -47,15 +49,18 @@ Json ModelJson(const KinematicModel& model) {
 
 Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   const int frames = trajectory.num_frames();
+  const DrawnFrames drawn(frames);
   const auto num_joints = static_cast<Eigen::Index>(trajectory.joint_names.size());
-  MatrixXd position(3, frames);
-  MatrixXd orientation(4, frames);
+  MatrixXd position(3, drawn.count());
+  MatrixXd orientation(4, drawn.count());
+  for (int i = 0; i < drawn.count(); ++i) {
+    const Posture& posture = trajectory.postures[drawn.frame(i)];
+    position.col(i) = posture.position;
+    orientation.col(i) = posture.orientation.coeffs();
+  }
   MatrixXd angles(frames, num_joints);
   for (int k = 0; k < frames; ++k) {
-    const Posture& posture = trajectory.postures[k];
-    position.col(k) = posture.position;
-    orientation.col(k) = posture.orientation.coeffs();
-    angles.row(k) = posture.joint_angles.transpose();
+    angles.row(k) = trajectory.postures[k].joint_angles.transpose();
   }
   Json joints = Json::array();
   for (const std::string& name : trajectory.joint_names) joints.push_back(model.FindJoint(name));
@@ -63,10 +68,14 @@ Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   Json motion = {{"joints", joints},
                  {"position", Quantised(position)},
                  {"orientation", Quantised(orientation)},
-                 {"angles", Quantised(angles)}};
+                 {"angles", Quantised(drawn.Of(angles))}};
+  if (!drawn.are_all()) {
+    motion["angles_least"] = Quantised(drawn.LeastOf(angles));
+    motion["angles_most"] = Quantised(drawn.MostOf(angles));
+  }
   const MatrixXd& deviations = trajectory.standard_deviations;
   if (deviations.cols() == frames && deviations.rows() == 6 + num_joints) {
-    motion["deviations"] = Quantised(deviations.bottomRows(num_joints).transpose());
+    motion["deviations"] = Quantised(drawn.Of(deviations.bottomRows(num_joints).transpose()));
   }
   return motion;
 }
@@ -78,22 +87,27 @@ Json TrialJson(const Trial& trial, const CommonGround& ground) {
   const auto num_labels = static_cast<Eigen::Index>(ground.labels.size());
   Json labels = Json::array();
   for (const int label : ground.labels) labels.push_back(trial.markers.labels()[label]);
-  MatrixXd positions(3 * num_labels, frames);
-  for (int k = 0; k < frames; ++k) {
-    const Eigen::Matrix3Xd markers = trial.markers.frame(k)(Eigen::all, ground.labels);
-    positions.col(k) = markers.reshaped();
+  const DrawnFrames drawn(frames);
+  MatrixXd positions(3 * num_labels, drawn.count());
+  for (int i = 0; i < drawn.count(); ++i) {
+    const Eigen::Matrix3Xd markers = trial.markers.frame(drawn.frame(i))(Eigen::all, ground.labels);
+    positions.col(i) = markers.reshaped();
   }
-  out.update({{"frames", frames},
+  const HiddenMarkers hidden =
+      ground.hidden(Eigen::all, Eigen::seqN(0, drawn.count(), drawn.every()));
+  out.update({{"frames", drawn.count()},
+              {"every", drawn.every()},
+              {"optimum_every", ground.optimum_every},
               {"rate", trial.markers.rate()},
               {"first_time", trial.markers.first_time()},
               {"labels", labels},
               {"markers", ground.markers},
               {"model", ModelJson(*trial.model)},
               {"positions", Quantised(positions)},  // a frame's markers beside each other
-              {"hidden", ToJson(PackBits(ground.hidden.transpose()))},
-              {"optimum", Floats(ground.optimum)},
-              {"mean_hidden", Floats(ground.mean_hidden)},
-              {"most_hidden", Floats(ground.most_hidden)}});
+              {"hidden", ToJson(PackBits(hidden.transpose()))},
+              {"optimum", Floats(drawn.Of(ground.optimum))},
+              {"mean_hidden", Floats(drawn.Of(ground.mean_hidden))},
+              {"most_hidden", Floats(drawn.MostOf(ground.most_hidden))}});
   if (trial.subject) out["subject"] = ToJson(*trial.subject);
   if (trial.truth && trial.truth->num_frames() == frames) {
     out["truth"] = MotionJson(*trial.model, *trial.truth);
@@ -103,11 +117,11 @@ Json TrialJson(const Trial& trial, const CommonGround& ground) {
 
 /// NIS over its degrees of freedom, and what 95 of 100 frames of a consistent filter stay within;
 /// NaN where no marker was seen or the converter states none.
-void AddNis(const ConversionResult& result, Json* out) {
+void AddNis(const ConversionResult& result, int frames, Json* out) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  MatrixXd nis = MatrixXd::Constant(3, static_cast<Eigen::Index>(result.frames.size()), kNaN);
+  MatrixXd nis = MatrixXd::Constant(frames, 3, kNaN);
   std::map<int, std::pair<double, double>> bands;
-  for (Eigen::Index k = 0; k < nis.cols(); ++k) {
+  for (std::size_t k = 0; k < result.frames.size(); ++k) {
     const FrameDiagnostic& frame = result.frames[k];
     const int degrees = 3 * frame.markers_seen;
     if (degrees == 0 || frame.nis <= 0) continue;
@@ -116,11 +130,16 @@ void AddNis(const ConversionResult& result, Json* out) {
       low = ChiSquareQuantile(0.025, degrees) / degrees;
       high = ChiSquareQuantile(0.975, degrees) / degrees;
     }
-    nis.col(k) << frame.nis, low, high;
+    nis.row(static_cast<Eigen::Index>(k)) << frame.nis, low, high;
   }
-  (*out)["nis"] = Floats(nis.row(0));
-  (*out)["nis_low"] = Floats(nis.row(1));
-  (*out)["nis_high"] = Floats(nis.row(2));
+  const DrawnFrames drawn(frames);
+  const MatrixXd shown = drawn.Of(nis);
+  (*out)["nis"] = Floats(shown.col(0));
+  (*out)["nis_low"] = Floats(shown.col(1));
+  (*out)["nis_high"] = Floats(shown.col(2));
+  if (drawn.are_all()) return;
+  (*out)["nis_least"] = Floats(drawn.LeastOf(nis.col(0)));
+  (*out)["nis_most"] = Floats(drawn.MostOf(nis.col(0)));
 }
 
 Json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
@@ -147,17 +166,29 @@ Json RowJson(const Trial& trial, const ComparisonRow& row) {
               {"ignored", row.mapping.ignored_labels},
               {"absent", row.mapping.absent_markers}};
   if (!row.failure.empty()) return out;
-  Eigen::VectorXd seconds(row.result.frames.size());
-  for (Eigen::Index k = 0; k < seconds.size(); ++k) seconds[k] = row.result.frames[k].seconds;
+  const DrawnFrames drawn(trial.markers.num_frames());
+  Eigen::VectorXd seconds = Eigen::VectorXd::Zero(trial.markers.num_frames());
+  for (std::size_t k = 0; k < row.result.frames.size(); ++k) {
+    seconds[static_cast<Eigen::Index>(k)] = row.result.frames[k].seconds;
+  }
   out.update({{"incidents", IncidentsJson(trial, row)},
               {"motion", MotionJson(*trial.model, row.result.trajectory)},
-              {"distances", Quantised(row.distances.transpose())},
-              {"mean", Floats(row.mean_distance)},
-              {"p05", Floats(row.p05_distance)},
-              {"p95", Floats(row.p95_distance)},
-              {"max", Floats(row.max_distance)},
-              {"seconds", Floats(seconds)}});
-  AddNis(row.result, &out);
+              {"distances", Quantised(drawn.Of(row.distances.transpose()))},
+              {"mean", Floats(drawn.Of(row.mean_distance))},
+              {"p05", Floats(drawn.LeastOf(row.p05_distance))},
+              {"p95", Floats(drawn.MostOf(row.p95_distance))},
+              {"max", Floats(drawn.MostOf(row.max_distance))},
+              {"seconds", Floats(drawn.Of(seconds))}});
+  if (!drawn.are_all()) {
+    out["seconds_least"] = Floats(drawn.LeastOf(seconds));
+    out["seconds_most"] = Floats(drawn.MostOf(seconds));
+    Json means = Json::array();
+    for (const ResidualSummary& label : SummarizeEachMarker(row.distances)) {
+      means.push_back(label.mean);
+    }
+    out["label_means"] = means;
+  }
+  AddNis(row.result, trial.markers.num_frames(), &out);
   return out;
 }
 

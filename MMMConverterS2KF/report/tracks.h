@@ -7,7 +7,8 @@
 namespace mmm_converter {
 
 /// What the page draws of a comparison: models, measured markers, postures, distances.
-/// Arrays are PackedArrays, in SI units, with frames running fastest unless said otherwise.
+/// Arrays are PackedArrays, in SI units, of the DrawnFrames; frames run fastest unless said
+/// otherwise.
 Json TracksJson(const Comparison& comparison);
 
 }  // namespace mmm_converter
