@@ -11,8 +11,8 @@
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
-#include "MMMConverterS2KF/batch/batch_result.h"
 #include "MMMConverterS2KF/batch/entry_conversion.h"
+#include "MMMConverterS2KF/batch/entry_result.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
 #include "MMMConverterS2KF/terminal/advice.h"
@@ -27,11 +27,11 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string DescribeShortly(const std::string& result) {
-  const ResultFigures figures = ReadFigures(result);
-  return fmt::format("{} frames, {:.1f} mm, {:.2f} s{}", figures.frames, figures.mean_distance_mm,
-                     figures.seconds,
-                     figures.warnings > 0 ? fmt::format(", {} warnings", figures.warnings) : "");
+std::string DescribeShortly(const EntryResult& result) {
+  const std::size_t warnings = result.figures->warnings.size();
+  return fmt::format("{} frames, {:.1f} mm, {:.2f} s{}", result.figures->frames,
+                     result.figures->mean_mm, result.seconds,
+                     warnings > 0 ? fmt::format(", {} warnings", warnings) : "");
 }
 
 class BatchRunner {
@@ -75,12 +75,11 @@ class BatchRunner {
     std::string fingerprint;
     std::string reason;
     try {
-      ConversionRequest request = entry.request;
-      inputs_.Prepare(&request);
-      fingerprint = inputs_.Fingerprint(entry, request);
+      const ReadBefore read_before = inputs_.ReadFor(entry.request);
+      fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
       for (const std::string& output : folder_.OutputsOf(entry)) folder_.MakeReady(output);
       if (IsDone(entry, fingerprint)) return NoteUnchanged();
-      return Convert(entry, std::move(request), fingerprint, start);
+      return Convert(entry, read_before, fingerprint, start);
     } catch (const WriteError& error) {
       if (error.concerns_disk()) return End(error.what());
       reason = error.what();
@@ -101,8 +100,9 @@ class BatchRunner {
     const JournalRecord& record = found->second;
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     if (options_.reports.all) outputs.push_back(PagePath(entry.id));
-    return record.converted && record.fingerprint == fingerprint &&
-           folder_.IsComplete(record, outputs) && IsRecordingUnchanged(entry, record);
+    return record.result.converted() && record.fingerprint == fingerprint &&
+           AreModelsUnchanged(entry, record) && folder_.IsComplete(record, outputs) &&
+           IsRecordingUnchanged(entry, record);
   }
 
   // Of a recording that is not there any more there is nothing better than what was made of it.
@@ -114,11 +114,11 @@ class BatchRunner {
     }
   }
 
-  void Convert(const BatchEntry& entry, ConversionRequest request, const std::string& fingerprint,
-               Clock::time_point start) {
+  void Convert(const BatchEntry& entry, const ReadBefore& read_before,
+               const std::string& fingerprint, Clock::time_point start) {
+    const ConversionRequest request = RequestOf(entry, folder_);
     JournalRecord record;
     record.id = entry.id;
-    record.converted = true;
     record.fingerprint = fingerprint;
     const std::string& file = request.input.file;
     record.recording = InspectFile(file);
@@ -127,15 +127,16 @@ class BatchRunner {
     const auto part = memory_.Take(file, bytes);
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     ConversionReport report =
-        ConvertEntry(entry, folder_, &request, [this] { return !IsEnding(); });
+        ConvertEntry(request, read_before, [this] { return !IsEnding(); });
     folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     WriteConversion(request, &report);
     if (options_.reports.all) {
       WritePage(entry, report, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
+    record.models = InspectNamedModels(report);
     record.outputs = folder_.Inspect(outputs);
-    record.result = FormatResult(report, SecondsSince(start));
+    record.result = Converted(report, SecondsSince(start));
     NoteConverted(record);
   }
 
@@ -157,7 +158,7 @@ class BatchRunner {
     JournalRecord record;
     record.id = entry.id;
     record.fingerprint = fingerprint;
-    record.result = FormatFailure(reason, seconds);
+    record.result = Failed(reason, seconds);
     const std::scoped_lock lock(mutex_);
     ++outcome_.failed;
     progress_->Failed(fmt::format("{}: {}", entry.id, reason));

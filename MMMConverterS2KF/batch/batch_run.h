@@ -42,19 +42,4 @@ struct BatchOutcome {
 BatchOutcome ConvertBatch(const BatchManifest& manifest, const BatchOptions& options,
                           BatchProgress* progress);
 
-/// The whole manifest's results, as the journals of the output folder have them.
-struct BatchResults {
-  int converted = 0, failed = 0, missing = 0;
-  long frames = 0;
-  double recorded_seconds = 0;  ///< length of all recordings
-  double seconds = 0;           ///< spent on them, over all jobs
-  double mean_distance_mm = 0;  ///< over the frames
-};
-
-/// Writes the pages that are asked for and not there yet, results.jsonl, results.csv and index.html
-/// into the output folder.
-/// @throws Error
-BatchResults WriteBatchResults(const BatchManifest& manifest, const BatchOptions& options,
-                               BatchProgress* progress);
-
 }  // namespace mmm_converter

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/batch/entry_conversion.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
+
+namespace fs = std::filesystem;
 
 ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder) {
   ConversionRequest request = entry.request;
@@ -26,6 +31,26 @@ ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore
   }
   CheckOutputs(request, {&plan});
   return CarryOut(std::move(plan), request.self_calibrate, [&](int, int) { return goes_on(); });
+}
+
+std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {
+  const Recording& recording = report.input.recording;
+  if (!report.object || recording.model_path.empty()) return {};
+  const fs::path folder = fs::path(recording.file).parent_path();
+  const std::string named = (folder / recording.model_path).lexically_normal().string();
+  if (report.input.model_file != named) return {};
+  return {{recording.model_path, InspectFile(named)}};
+}
+
+bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record) {
+  const fs::path folder = fs::path(entry.request.input.file).parent_path();
+  try {
+    return std::all_of(record.models.begin(), record.models.end(), [&](const auto& model) {
+      return IsUnchanged((folder / model.first).string(), model.second);
+    });
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 void WritePage(const BatchEntry& entry, const ConversionReport& report, BatchFolder* folder) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
 #include "MMMConverterS2KF/batch/manifest.h"
@@ -17,6 +19,14 @@ ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore
 
 /// An entry's request with its outputs.
 ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder);
+
+/// The model that the recording of an object names, by path relative to the recording's folder:
+/// what a fingerprint does not have, as only reading the recording tells. None: it names none.
+/// @throws Error where it can't be read.
+std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report);
+
+/// Whether these are as they were; one that is gone is not.
+bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record);
 
 /// Writes the page of a conversion. @throws WriteError
 void WritePage(const BatchEntry& entry, const ConversionReport& report, BatchFolder* folder);

@@ -15,7 +15,6 @@ namespace mmm_converter {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kBegin = "journal";
 constexpr const char* kEnd = ".jsonl";
@@ -29,9 +28,21 @@ Json ToJson(const FileState& state) {
   return {{"bytes", state.bytes}, {"modified_ns", state.modified}, {"hash", state.hash}};
 }
 
+Json ToJson(const std::map<std::string, FileState>& states) {
+  Json json = Json::object();
+  for (const auto& [path, state] : states) json[path] = ToJson(state);
+  return json;
+}
+
 FileState ParseState(const Json& json) {
   return {json.at("bytes").get<std::uint64_t>(), json.at("modified_ns").get<std::int64_t>(),
           json.at("hash").get<std::string>()};
+}
+
+std::map<std::string, FileState> ParseStates(const Json& json) {
+  std::map<std::string, FileState> states;
+  for (const auto& [path, state] : json.items()) states[path] = ParseState(state);
+  return states;
 }
 
 std::optional<JournalRecord> ParseRecord(std::string_view line) {
@@ -40,13 +51,11 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
     JournalRecord record;
     record.id = json.at("id").get<std::string>();
     record.time = json.at("time_ms").get<std::int64_t>();
-    record.converted = json.at("converted").get<bool>();
     record.fingerprint = json.at("fingerprint").get<std::string>();
     record.recording = ParseState(json.at("recording"));
-    for (const auto& [path, state] : json.at("outputs").items()) {
-      record.outputs[path] = ParseState(state);
-    }
-    record.result = json.at("result").dump();
+    if (json.contains("models")) record.models = ParseStates(json.at("models"));
+    record.outputs = ParseStates(json.at("outputs"));
+    record.result = ParseEntryResult(json.at("result"));
     return record;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
@@ -60,17 +69,15 @@ Journal::Journal(const std::string& folder, int shard, int shards)
 
 void Journal::Append(const JournalRecord& record) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  Json outputs = Json::object();
-  for (const auto& [path, state] : record.outputs) outputs[path] = ToJson(state);
-  const Json line = {
-      {"id", record.id},
-      {"time_ms", std::chrono::duration_cast<std::chrono::milliseconds>(now).count()},
-      {"converted", record.converted},
-      {"fingerprint", record.fingerprint},
-      {"recording", ToJson(record.recording)},
-      {"outputs", outputs},
-      {"result", Json::parse(record.result)}};
-  file_.Append(line.dump(-1, ' ', false, Json::error_handler_t::replace));
+  Json line = {{"id", record.id},
+               {"time_ms", std::chrono::duration_cast<std::chrono::milliseconds>(now).count()},
+               {"converted", record.result.converted()},
+               {"fingerprint", record.fingerprint},
+               {"recording", ToJson(record.recording)},
+               {"outputs", ToJson(record.outputs)},
+               {"result", ToJson(record.result)}};
+  if (!record.models.empty()) line["models"] = ToJson(record.models);
+  file_.Append(FormatJsonLine(line));
 }
 
 std::unordered_map<std::string, JournalRecord> ReadJournals(const std::string& folder) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "MMMConverterS2KF/batch/entry_result.h"
 #include "MMMConverterS2KF/batch/file_state.h"
 #include "common/support/line_file.h"
 
@@ -14,12 +15,13 @@ namespace mmm_converter {
 /// What a journal says of an entry that has ended: converted, or failed.
 struct JournalRecord {
   std::string id;
-  std::int64_t time = 0;  ///< when it ended [ms since 1970]
-  bool converted = false;
-  std::string fingerprint;                   ///< see SharedInputs
-  FileState recording;                       ///< of converted ones
+  std::int64_t time = 0;    ///< when it ended [ms since 1970]
+  std::string fingerprint;  ///< see SharedInputs
+  FileState recording;      ///< of converted ones
+  /// Models that the recording names, and that were used; by path relative to its folder.
+  std::map<std::string, FileState> models;
   std::map<std::string, FileState> outputs;  ///< by path in the output folder
-  std::string result;                        ///< JSON object, see batch_result.h
+  EntryResult result;
 };
 
 /// The file to which one shard's process adds a line when an entry has ended (JSON lines). Lines

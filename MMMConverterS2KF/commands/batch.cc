@@ -9,6 +9,7 @@
 #include "MMMConverterS2KF/batch/batch_run.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/manifest.h"
+#include "MMMConverterS2KF/batch/result_files.h"
 #include "MMMConverterS2KF/batch/scan.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
@@ -159,8 +160,9 @@ int Merge(const BatchManifest& manifest, const BatchOptions& options) {
 
 void WarnOfEarlierRun(const std::string& folder) {
   const auto records = ReadJournals(folder);
-  const auto ended = std::count_if(records.begin(), records.end(),
-                                   [](const auto& record) { return record.second.converted; });
+  const auto ended = std::count_if(records.begin(), records.end(), [](const auto& record) {
+    return record.second.result.converted();
+  });
   if (ended == 0) return;
   LogWarning(fmt::format(
       "{}: an earlier run has converted {} recordings; all are converted anew, --resume would keep "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/comparison/comparison_setup.h"
@@ -161,7 +162,7 @@ int RunCalibrate(const std::vector<std::string>& words) {
   }
   WriteFileAtomically(output, FormatSubject(subject, SubjectProgram()));
   if (const auto file = arguments.Get("summary")) {
-    WriteFileAtomically(*file, FormatCalibrationJson(report, output));
+    WriteFileAtomically(*file, FormatJson(ToJson(report, output)));
   }
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatCalibrationReport(arguments, report));

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
@@ -102,11 +103,10 @@ void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
   const std::string summary = arguments.Get("summary").value_or("");
   const std::string page = arguments.Get("report").value_or("");
   const CheckedMotion& motion = report.motion;
-  const std::string json = FormatDynamicsJson(report);
-  if (!summary.empty()) WriteFileAtomically(summary, json);
+  if (!summary.empty()) WriteFileAtomically(summary, FormatJson(ToJson(report)));
   if (page.empty()) return;
   const std::string title = std::filesystem::path(motion.file).filename().string();
-  WriteFileAtomically(page, FormatDynamicsPage(title, json, report.dynamics, report.plausibility));
+  WriteFileAtomically(page, FormatDynamicsPage(title, report));
 }
 
 }  // namespace

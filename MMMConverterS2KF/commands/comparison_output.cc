@@ -2,6 +2,7 @@
 #include "MMMConverterS2KF/commands/comparison_output.h"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/comparison_json.h"
 #include "MMMConverterS2KF/report/comparison_plot.h"
@@ -27,7 +28,7 @@ void NameOutputs(const Arguments& arguments, OutputPlan* plan) {
 void WriteComparison(const Arguments& arguments, const std::string& title,
                      const Comparison& comparison) {
   if (const auto file = arguments.Get("json")) {
-    WriteFileAtomically(*file, FormatComparisonJson(comparison));
+    WriteFileAtomically(*file, FormatJson(ToJson(comparison)));
   }
   if (const auto file = arguments.Get("csv")) {
     WriteFileAtomically(*file, FormatComparisonCsv(comparison));

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/conversion/all_motions.h"
 #include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/conversion/exporters.h"
+#include "MMMConverterS2KF/report/all_motions_summary.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
@@ -163,7 +165,7 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   WriteAllMotions(request, &all);
   LogWarningsOf(all);
   if (const auto file = arguments.Get("summary")) {
-    WriteFileAtomically(*file, FormatAllMotionsJson(all));
+    WriteFileAtomically(*file, FormatJson(ToJson(all)));
   }
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatConversionPage(ReportsOf(all)));
@@ -200,7 +202,7 @@ int RunConvert(const std::vector<std::string>& words) {
   WriteConversion(request, &report);
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
-    WriteFileAtomically(*file, FormatSummaryJson(report));
+    WriteFileAtomically(*file, FormatJson(ToJson(report)));
   }
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatConversionPage({&report}));

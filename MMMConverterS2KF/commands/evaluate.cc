@@ -81,15 +81,15 @@ void CheckOutputs(const Arguments& arguments, const std::string& folder) {
 
 void WriteFiles(const std::string& folder, const std::vector<Experiment>& experiments) {
   std::vector<ReportSection> sections;
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  Json json = Json::object();
   for (const Experiment& experiment : experiments) {
     const Comparison& comparison = experiment.comparison;
     sections.push_back({experiment.title, experiment.text, &comparison});
-    json[experiment.name] = nlohmann::ordered_json::parse(FormatComparisonJson(comparison));
+    json[experiment.name] = ToJson(comparison);
     WriteFileAtomically(ScriptFile(folder, experiment.name),
                         FormatComparisonPlot(comparison, experiment.name));
   }
-  WriteFileAtomically(FiguresFile(folder), json.dump(2) + "\n");
+  WriteFileAtomically(FiguresFile(folder), FormatJson(json));
   WriteFileAtomically(PageFile(folder), FormatReport("Evaluation", sections));
 }
 

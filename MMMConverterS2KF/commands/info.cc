@@ -23,8 +23,6 @@
 namespace mmm_converter {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 const std::vector<OptionGroup> kOptions = {
     {"Options",
      {{"json", "", "machine-readable", ""},
@@ -49,10 +47,6 @@ struct Description {
   std::string text;
   std::string json;
 };
-
-std::string Dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 Description DescribeRecording(const std::string& file, const Arguments& arguments) {
   ReadRecordingOptions options;
@@ -85,9 +79,9 @@ Description DescribeRecording(const std::string& file, const Arguments& argument
                {"up_axis_decided_from_markers", recording.up_axis_was_decided},
                {"subjects", recording.subjects},
                {"subject", recording.subject},
-               {"labels", Json::parse(FormatMarkersJson(markers))},
-               {"warnings", warnings.texts()}};
-  description.json = Dump(json);
+               {"labels", ToJson(markers)},
+               {"warnings", recording.warnings}};
+  description.json = FormatJson(json);
   return description;
 }
 
@@ -126,10 +120,10 @@ Description DescribeMotions(const std::string& file) {
                   {"joints", poses.joint_names},
                   {"marker_frames", motion.markers.num_frames()},
                   {"marker_rate_hz", motion.markers.rate()},
-                  {"labels", Json::parse(FormatMarkersJson(motion.markers))}};
+                  {"labels", ToJson(motion.markers)}};
     json["motions"].push_back(entry);
   }
-  description.json = Dump(json);
+  description.json = FormatJson(json);
   return description;
 }
 
@@ -173,7 +167,7 @@ Description DescribeModel(const std::string& file) {
   for (const auto& [name, unused] : model.node_sets()) {
     json["node_sets"].push_back(name);
   }
-  description.json = Dump(json);
+  description.json = FormatJson(json);
   return description;
 }
 
@@ -191,13 +185,13 @@ Description DescribeConfig(const std::string& file) {
   return {fmt::format("{}: configuration for {}\nmapping    {}\njoints     {}\nsettings   {}\n",
                       file, config.type.empty() ? "another converter" : config.type, mapping,
                       joints, JoinNames(elements, ", ")),
-          Dump({{"kind", "configuration"},
-                {"file", file},
-                {"converter", config.type},
-                {"marker_mapping", mapping},
-                {"joints", joints},
-                {"elements", elements},
-                {"warnings", warnings.texts()}})};
+          FormatJson({{"kind", "configuration"},
+                      {"file", file},
+                      {"converter", config.type},
+                      {"marker_mapping", mapping},
+                      {"joints", joints},
+                      {"elements", elements},
+                      {"warnings", config.warnings}})};
 }
 
 Description DescribePlugin(const std::string& file) {
@@ -205,11 +199,11 @@ Description DescribePlugin(const std::string& file) {
   const MotionConverterFactory& factory = plugin.factory();
   return {fmt::format("{}: converter plugin\nname       {}\nversion    {}\nwhat       {}\n", file,
                       factory.name(), plugin.version(), factory.description()),
-          Dump({{"kind", "plugin"},
-                {"file", file},
-                {"name", factory.name()},
-                {"version", plugin.version()},
-                {"description", factory.description()}})};
+          FormatJson({{"kind", "plugin"},
+                      {"file", file},
+                      {"name", factory.name()},
+                      {"version", plugin.version()},
+                      {"description", factory.description()}})};
 }
 
 // The kind is told from the content.

@@ -10,16 +10,9 @@
 
 #include "MMMConverterS2KF/report/html.h"
 #include "MMMConverterS2KF/report/page_sources.h"
-#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string Dump(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 // A member of all entries, each as JSON; "null" where an entry has none.
 struct Column {
@@ -36,7 +29,7 @@ class Columns {
     if (value.is_null()) return;
     const auto [place, is_new] = places_.emplace(name, columns_.size());
     if (is_new) columns_.push_back({name, std::vector<std::string>(num_entries_, "null")});
-    columns_[place->second].values[entry] = Dump(value);
+    columns_[place->second].values[entry] = FormatJsonLine(value);
   }
 
   const std::vector<Column>& columns() const { return columns_; }
@@ -106,22 +99,13 @@ std::string FormatColumn(const Column& column) {
   return indexed.size() < listed.size() ? indexed : listed;
 }
 
-std::string FormatEntries(const std::vector<std::string>& results) {
+std::string FormatEntries(const std::vector<Json>& results) {
   Columns columns(results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const Json result = Json::parse(results[i], nullptr, false);
-    if (!result.is_object()) {
-      throw Error(fmt::format(
-          "results of the batch, entry {}: expected a JSON object as in a line of results.jsonl, "
-          "found \"{}\"; run the batch again to write its results anew",
-          i + 1, results[i].substr(0, 60)));
-    }
-    AddEntry(result, i, &columns);
-  }
+  for (std::size_t i = 0; i < results.size(); ++i) AddEntry(results[i], i, &columns);
   std::string formatted;
   for (const Column& column : columns.columns()) {
     if (!formatted.empty()) formatted += ",\n";
-    formatted += Dump(column.name) + ":" + FormatColumn(column);
+    formatted += FormatJsonLine(column.name) + ":" + FormatColumn(column);
   }
   return fmt::format("{{\"program\":\"MMMConverterS2KF {}\",\"entries\":{},\"columns\":{{\n{}}}}}",
                      MMM_CONVERTER_VERSION, results.size(), formatted);
@@ -129,7 +113,7 @@ std::string FormatEntries(const std::vector<std::string>& results) {
 
 }  // namespace
 
-std::string FormatBatchIndex(const std::string& title, const std::vector<std::string>& results) {
+std::string FormatBatchIndex(const std::string& title, const std::vector<Json>& results) {
   const std::string data = DataBlock("batch", FormatEntries(results));
   return FormatPage({.title = title,
                      .styles = IndexStyles(),

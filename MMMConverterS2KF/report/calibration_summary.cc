@@ -9,15 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/subject_json.h"
+#include "MMMConverterS2KF/report/units.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr double kMillimetres = 1000;   // in a metre
-constexpr double kPercent = 100;        // in 1
 constexpr double kChanged = 0.01;       // of a scale, to be told
 constexpr double kUndetermined = 0.5;   // observability: more is assumed than measured
 constexpr std::size_t kNamesShown = 6;  // in a line
@@ -141,7 +138,7 @@ std::string FormatCalibrationSummary(const CalibrationReport& report, const std:
                     kMillimetres * result.distance_before);
 }
 
-std::string FormatCalibrationJson(const CalibrationReport& report, const std::string& file) {
+Json ToJson(const CalibrationReport& report, const std::string& file) {
   const CalibrationResult& result = report.result;
   Json recordings = Json::array();
   for (const CalibrationInput& one : report.recordings) {
@@ -153,24 +150,22 @@ std::string FormatCalibrationJson(const CalibrationReport& report, const std::st
                           {"ignored", one.setup.mapping.ignored_labels},
                           {"absent", one.setup.mapping.absent_markers}});
   }
-  const Json json = {{"program", SubjectProgram()},
-                     {"output", file},
-                     {"recordings", recordings},
-                     {"model", report.recordings.front().input.model_file},
-                     {"height_source", report.person.height.source},
-                     {"mass_source", report.person.mass.source},
-                     {"calibration", Json::parse(FormatCalibrationFigures(result))},
-                     {"subject", Json::parse(FormatSubjectJson(result.subject))},
-                     {"warnings", report.warnings.texts()}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return {{"program", SubjectProgram()},
+          {"output", file},
+          {"recordings", recordings},
+          {"model", report.recordings.front().input.model_file},
+          {"height_source", report.person.height.source},
+          {"mass_source", report.person.mass.source},
+          {"calibration", ToJson(result)},
+          {"subject", ToJson(result.subject)},
+          {"warnings", report.warnings.texts()}};
 }
 
-std::string FormatCalibrationFigures(const CalibrationResult& result) {
-  const Json json = {{"frames", result.frames},
-                     {"iterations", result.iterations},
-                     {"distance_before_mm", kMillimetres * result.distance_before},
-                     {"distance_after_mm", kMillimetres * result.distance_after}};
-  return json.dump();
+Json ToJson(const CalibrationResult& result) {
+  return {{"frames", result.frames},
+          {"iterations", result.iterations},
+          {"distance_before_mm", kMillimetres * result.distance_before},
+          {"distance_after_mm", kMillimetres * result.distance_after}};
 }
 
 }  // namespace mmm_converter

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/report/json.h"
 
 namespace mmm_converter {
 
@@ -13,10 +14,10 @@ std::string FormatSubjectSummary(const Subject& subject);
 /// A calibration in a dozen lines; the last is a sentence. file: the subject's.
 std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file);
 
-/// Its figures as JSON: frames, iterations, distance_before_mm and distance_after_mm.
-std::string FormatCalibrationFigures(const CalibrationResult& result);
+/// The same as JSON; README.md says what is in it.
+Json ToJson(const CalibrationReport& report, const std::string& file);
 
-/// A calibration as JSON; the README says what is in it.
-std::string FormatCalibrationJson(const CalibrationReport& report, const std::string& file);
+/// Frames, iterations, distance_before_mm and distance_after_mm.
+Json ToJson(const CalibrationResult& result);
 
 }  // namespace mmm_converter

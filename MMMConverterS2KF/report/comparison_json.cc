@@ -3,27 +3,14 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <span>
 
 #include "MMMConverterS2KF/terminal/advice.h"
+#include "MMMConverterS2KF/report/units.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr double kMillimetres = 1000;  // in a metre
-constexpr double kMilliseconds = 1000;
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-// Four decimals; JSON has no NaN.
-Json Number(double value) {
-  return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json(nullptr);
-}
-
-Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json ToJson(const DistanceFigures& distance) {
   if (std::isnan(distance.mean)) return nullptr;
@@ -61,14 +48,16 @@ Json DescribeOptions(const ComparisonOptions& options) {
 Json DescribeTrial(const Trial& trial, const CommonGround& ground) {
   const Eigen::VectorXd& optimum = ground.optimum;
   const std::span values(optimum.data(), static_cast<std::size_t>(optimum.size()));
-  return {{"name", trial.name},
-          {"frames", trial.markers.num_frames()},
-          {"rate_hz", Number(trial.markers.rate())},
-          {"compared_markers", ground.labels.size()},
-          {"compared_joints", ground.joints.size()},
-          {"optimum_mm", Number(kMillimetres * Mean(values))},
-          {"has_truth", trial.truth.has_value()},
-          {"failure", TextOrNull(trial.failure)}};
+  Json json = {{"name", trial.name},
+               {"frames", trial.markers.num_frames()},
+               {"rate_hz", Number(trial.markers.rate())},
+               {"compared_markers", ground.labels.size()},
+               {"compared_joints", ground.joints.size()},
+               {"optimum_mm", Number(kMillimetres * Mean(values))},
+               {"has_truth", trial.truth.has_value()},
+               {"failure", TextOrNull(trial.failure)}};
+  if (ground.optimum_every > 1) json["optimum_every"] = ground.optimum_every;
+  return json;
 }
 
 Json DescribeContender(const Contender& contender) {
@@ -90,7 +79,7 @@ Json DescribeRow(const Comparison& comparison, const ComparisonRow& row) {
 
 }  // namespace
 
-std::string FormatComparisonJson(const Comparison& comparison) {
+Json ToJson(const Comparison& comparison) {
   Json trials = Json::array();
   Json contenders = Json::array();
   Json rows = Json::array();
@@ -101,13 +90,11 @@ std::string FormatComparisonJson(const Comparison& comparison) {
     contenders.push_back(DescribeContender(contender));
   }
   for (const ComparisonRow& row : comparison.rows) rows.push_back(DescribeRow(comparison, row));
-  const Json json = {{"program", "MMMConverterS2KF " MMM_CONVERTER_VERSION},
-                     {"options", DescribeOptions(comparison.options)},
-                     {"trials", trials},
-                     {"contenders", contenders},
-                     {"rows", rows}};
-  // File names may hold bytes that are no UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return {{"program", "MMMConverterS2KF " MMM_CONVERTER_VERSION},
+          {"options", DescribeOptions(comparison.options)},
+          {"trials", trials},
+          {"contenders", contenders},
+          {"rows", rows}};
 }
 
 }  // namespace mmm_converter

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
+#include "MMMConverterS2KF/report/json.h"
 #include "common/evaluate/comparison.h"
 
 namespace mmm_converter {
 
-/// All figures of a comparison as JSON; the application's README says what is in it. What there is
-/// no number for is null.
-std::string FormatComparisonJson(const Comparison& comparison);
+/// All figures of a comparison; README.md says what is in it. What there is no number for is null.
+Json ToJson(const Comparison& comparison);
 
 }  // namespace mmm_converter

@@ -5,10 +5,10 @@
 
 #include <vector>
 
+#include "MMMConverterS2KF/report/units.h"
+
 namespace mmm_converter {
 namespace {
-
-constexpr double kMillimetres = 1000;  // in a metre
 
 // A text in gnuplot's double quotes; control characters would end it.
 std::string Quote(const std::string& text) {

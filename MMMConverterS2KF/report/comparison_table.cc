@@ -6,19 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
 #include "MMMConverterS2KF/terminal/advice.h"
+#include "MMMConverterS2KF/report/units.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kMillimetres = 1000;  // in a metre
-constexpr double kMilliseconds = 1000;
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kPercent = 100;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A figure in the unit that its name says.
@@ -126,10 +122,12 @@ std::string FormatTrial(const Comparison& comparison, int trial, std::size_t nam
   const MarkerSequence& markers = comparison.trials[trial].markers;
   const std::span optimum(ground.optimum.data(), static_cast<std::size_t>(ground.optimum.size()));
   return fmt::format(
-             "{}: {} frames at {:g} Hz; {} markers and {} joints compared{}; optimum {:.2f} mm\n",
+             "{}: {} frames at {:g} Hz; {} markers and {} joints compared{}; optimum {:.2f} mm{}\n",
              comparison.trials[trial].name, markers.num_frames(), markers.rate(),
              ground.labels.size(), ground.joints.size(), DescribeHiding(comparison.options),
-             kMillimetres * Mean(optimum)) +
+             kMillimetres * Mean(optimum),
+             ground.optimum_every > 1 ? fmt::format(" (of one in {} frames)", ground.optimum_every)
+                                      : "") +
          FormatLines(lines, name_width);
 }
 

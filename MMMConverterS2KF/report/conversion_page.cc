@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/report/report.h"
+#include "MMMConverterS2KF/report/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -18,7 +19,8 @@ std::string DescribeCalibration(const ConversionReport& report) {
       "The person \"{}\" was calibrated on {} frames of this recording: the best postures leave "
       "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
       report.person.subject->name, report.calibration->frames,
-      1e3 * report.calibration->distance_after, 1e3 * report.calibration->distance_before);
+      kMillimetres * report.calibration->distance_after,
+      kMillimetres * report.calibration->distance_before);
 }
 
 Comparison MakeComparison(const ConversionReport& report) {

@@ -5,112 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/calibration_summary.h"
-#include "MMMConverterS2KF/report/subject_json.h"
-#include "common/math/statistics.h"
-#include "common/motion/marker_residuals.h"
+#include "MMMConverterS2KF/report/conversion_figures.h"
+#include "MMMConverterS2KF/report/units.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr double kMillimetres = 1000;  // in a metre
-constexpr double kMilliseconds = 1000;
-
-std::vector<double> FrameTimes(const ConversionReport& report) {
-  std::vector<double> times;
-  for (const FrameDiagnostic& frame : report.result.frames) {
-    if (frame.seconds > 0) times.push_back(kMilliseconds * frame.seconds);
-  }
-  return times;
-}
-
-template <typename Predicate>
-int CountFrames(const ConversionReport& report, Predicate is_counted) {
-  return static_cast<int>(
-      std::count_if(report.result.frames.begin(), report.result.frames.end(), is_counted));
-}
-
-int FramesNotConverged(const ConversionReport& report) {
-  return CountFrames(report, [](const FrameDiagnostic& f) { return !f.converged; });
-}
-
-/// The mean over the frames in which the converter states one; NaN where it never does.
-double MeanNis(const ConversionReport& report) {
-  std::vector<double> values;
-  for (const FrameDiagnostic& frame : report.result.frames) {
-    if (frame.nis > 0) values.push_back(frame.nis);
-  }
-  return Mean(values);
-}
-
-int FramesReassembled(const ConversionReport& report) {
-  return CountFrames(report, [](const FrameDiagnostic& f) { return f.reassembled; });
-}
-
-// Four decimals; JSON has no NaN.
-Json Number(double value) {
-  return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json(nullptr);
-}
-
-Json ToJson(const ResidualSummary& distance) {
-  return {{"mean", Number(kMillimetres * distance.mean)},
-          {"p95", Number(kMillimetres * distance.p95)},
-          {"max", Number(kMillimetres * distance.max)}};
-}
-
-Json DescribeInput(const ConversionReport& report) {
-  const Recording& recording = report.input.recording;
-  return {{"file", recording.file},
-          {"format", recording.format},
-          {"subject", recording.subject},
-          {"motion", recording.motion},
-          {"unit", recording.unit},
-          {"unit_guessed", recording.unit_was_guessed},
-          {"up_axis", Name(recording.up_axis)},
-          {"up_axis_decided_from_markers", recording.up_axis_was_decided},
-          {"first_frame", report.input.first_frame},
-          {"labels", recording.markers.labels()}};
-}
-
-Json DescribePerson(const ConversionReport& report) {
-  if (report.object) return nullptr;
-  Json person = {{"height_m", Number(report.person.height.value)},
-                 {"height_source", report.person.height.source},
-                 {"mass_kg", Number(report.person.mass.value)},
-                 {"mass_source", report.person.mass.source}};
-  if (report.person.hand_length) person["hand_length_m"] = Number(*report.person.hand_length);
-  return person;
-}
-
-Json DescribeMarkers(const ConversionReport& report) {
-  Json used = Json::array();
-  const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
-  for (std::size_t i = 0; i < report.setup.assignments().size(); ++i) {
-    const MarkerAssignment& assignment = report.setup.assignments()[i];
-    used.push_back({{"label", report.input.recording.markers.labels()[assignment.label]},
-                    {"marker", report.setup.model->markers()[assignment.marker].name},
-                    {"noise_scale", assignment.noise_scale},
-                    {"frames_seen", distances[i].seen},
-                    {"distance_mm", ToJson(distances[i])}});
-  }
-  return {{"set", report.setup.marker_set},
-          {"used", used},
-          {"ignored", report.setup.mapping.ignored_labels},
-          {"absent", report.setup.mapping.absent_markers}};
-}
-
-std::string WorstMarkers(const ConversionReport& report) {
+// Label and mean distance [mm] of the three that are farthest off.
+std::string WorstMarkers(const ConversionReport& report, const ConversionFigures& figures) {
   std::vector<std::pair<double, std::string>> means;
-  const std::vector<ResidualSummary> distances = SummarizeEachMarker(report.result.residuals);
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    const double mean = kMillimetres * distances[i].mean;
-    const int label = report.setup.assignments()[i].label;
-    if (!std::isnan(mean)) means.emplace_back(mean, report.input.recording.markers.labels()[label]);
+  for (std::size_t i = 0; i < figures.of_markers.size(); ++i) {
+    const double mean = kMillimetres * figures.of_markers[i].mean;
+    if (!std::isnan(mean)) means.emplace_back(mean, LabelOf(report, static_cast<int>(i)));
   }
   std::sort(means.rbegin(), means.rend());
   means.resize(std::min<std::size_t>(means.size(), 3));
@@ -118,28 +27,6 @@ std::string WorstMarkers(const ConversionReport& report) {
   texts.reserve(means.size());
   for (const auto& [mean, label] : means) texts.push_back(fmt::format("{} {:.1f}", label, mean));
   return JoinNames(texts, ", ");
-}
-
-// Label of an assignment.
-const std::string& LabelOf(const ConversionReport& report, int assignment) {
-  const int label = report.setup.assignments()[assignment].label;
-  return report.input.recording.markers.labels()[label];
-}
-
-Json WrongMarkersJson(const ConversionReport& report) {
-  Json incidents = Json::array();
-  const MarkerSequence& markers = report.input.recording.markers;
-  for (const MarkerIncident& incident : report.result.incidents) {
-    Json labels = {LabelOf(report, incident.assignment)};
-    if (incident.other >= 0) labels.push_back(LabelOf(report, incident.other));
-    incidents.push_back({{"kind", Name(incident.kind)},
-                         {"labels", labels},
-                         {"first_frame", report.input.first_frame + incident.first_frame},
-                         {"last_frame", report.input.first_frame + incident.last_frame},
-                         {"first_s", Number(markers.time(incident.first_frame))},
-                         {"last_s", Number(markers.time(incident.last_frame))}});
-  }
-  return incidents;
 }
 
 // A line for each incident, the longest first.
@@ -213,35 +100,12 @@ std::string DescribeSubjectOutput(const ConversionReport& report) {
   return text + ". The subject's model: " + report.model_output + "\n";
 }
 
-Json ObjectJson(const ConversionReport& report) {
-  if (!report.object) return nullptr;
-  return {
-      {"model_source", report.object->source},
-      {"model_is_new", report.object->is_built()},
-      {"shape_distance_mm",
-       report.object->is_built() ? Number(kMillimetres * report.object->distance) : Json(nullptr)}};
-}
-
-Json SubjectJson(const ConversionReport& report) {
-  if (!report.person.subject) return nullptr;
-  Json json = {{"file", report.person.subject_file},
-               {"subject_output", report.subject_output},
-               {"model_output", report.model_output},
-               {"calibration", nullptr}};
-  if (report.calibration) {
-    json["calibration"] = Json::parse(FormatCalibrationFigures(*report.calibration));
-  }
-  json.update(Json::parse(FormatSubjectJson(*report.person.subject)));
-  return json;
-}
-
 }  // namespace
 
 std::string FormatSummary(const ConversionReport& report) {
   const Recording& recording = report.input.recording;
   const MarkerSequence& markers = recording.markers;
-  const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
-  const std::vector<double> times = FrameTimes(report);
+  const ConversionFigures figures = MeasureConversion(report);
   std::string text;
   text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
@@ -257,54 +121,22 @@ std::string FormatSummary(const ConversionReport& report) {
       fmt::format("markers    {}{}\n", DescribeMarkersShortly(report.setup.mapping),
                   report.setup.marker_set.empty() ? "" : ", marker set " + report.setup.marker_set);
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
-                      kMillimetres * distance.mean, kMillimetres * distance.p95,
-                      kMillimetres * distance.max, WorstMarkers(report));
+                      kMillimetres * figures.distance.mean, kMillimetres * figures.distance.p95,
+                      kMillimetres * figures.distance.max, WorstMarkers(report, figures));
   text += fmt::format("frames     {} with missing markers, {} not converged, {} taken up anew\n",
-                      FramesWithMissingMarkers(report.result.residuals), FramesNotConverged(report),
-                      FramesReassembled(report));
+                      figures.frames_with_missing_markers, figures.frames_not_converged,
+                      figures.frames_reassembled);
   if (const auto scale = report.result.noise_scale) {
     text +=
         fmt::format("noise      process noise times {:.3g}, chosen from the recording\n", *scale);
   }
   text += DescribeWrongMarkers(report);
-  text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", Median(times),
-                      Percentile(times, 99));
+  text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", figures.median_ms,
+                      figures.p99_ms);
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
                       report.motion_name);
   text += DescribeSubjectOutput(report);
   return text;
-}
-
-std::string FormatSummaryJson(const ConversionReport& report) {
-  const MarkerSequence& markers = report.input.recording.markers;
-  const std::vector<double> times = FrameTimes(report);
-  const Json summary = {
-      {"input", DescribeInput(report)},
-      {"frames", markers.num_frames()},
-      {"rate_hz", markers.rate()},
-      {"output", report.output},
-      {"output_format", report.output_format},
-      {"motion", report.motion_name},
-      {"model", report.input.model_file},
-      {"person", DescribePerson(report)},
-      {"object", ObjectJson(report)},
-      {"subject", SubjectJson(report)},
-      {"converter", report.converter.config.type},
-      {"plugin", report.converter.plugin->path()},
-      {"configuration", report.converter.config.file},
-      {"joints", report.result.trajectory.joint_names},
-      {"markers", DescribeMarkers(report)},
-      {"distance_mm", ToJson(SummarizeResiduals(report.result.residuals))},
-      {"frames_with_missing_markers", FramesWithMissingMarkers(report.result.residuals)},
-      {"frames_not_converged", FramesNotConverged(report)},
-      {"frames_reassembled", FramesReassembled(report)},
-      {"noise_scale",
-       report.result.noise_scale ? Number(*report.result.noise_scale) : Json(nullptr)},
-      {"nis_over_degrees_of_freedom", Number(MeanNis(report))},
-      {"wrong_markers", WrongMarkersJson(report)},
-      {"ms_per_frame", {{"median", Number(Median(times))}, {"p99", Number(Percentile(times, 99))}}},
-      {"warnings", report.warnings.texts()}};
-  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace mmm_converter

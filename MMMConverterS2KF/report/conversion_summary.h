@@ -4,13 +4,14 @@
 #include <string>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/report/json.h"
 
 namespace mmm_converter {
 
 /// A conversion in a dozen lines, for people.
 std::string FormatSummary(const ConversionReport& report);
 
-/// A conversion as JSON; the README says what is in it.
-std::string FormatSummaryJson(const ConversionReport& report);
+/// The same as JSON; README.md says what is in it.
+Json ToJson(const ConversionReport& report);
 
 }  // namespace mmm_converter

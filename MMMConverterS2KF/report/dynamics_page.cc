@@ -13,15 +13,14 @@ namespace mmm_converter {
 namespace {
 
 using Eigen::MatrixXd;
-using nlohmann::json;
 
 constexpr std::size_t kShownJoints = 8;  // as many as the page has colours
 
 // Row by row: a whole series after the other.
-json Series(const MatrixXd& rows) { return ToJson<json>(PackFloats(rows.transpose())); }
+Json Series(const MatrixXd& rows) { return ToJson(PackFloats(rows.transpose())); }
 
-json ContactsJson(const MotionDynamics& dynamics) {
-  json bodies = json::array();
+Json ContactsJson(const MotionDynamics& dynamics) {
+  Json bodies = Json::array();
   for (std::size_t b = 0; b < dynamics.contact_bodies.size(); ++b) {
     const auto row = static_cast<Eigen::Index>(b);
     if ((dynamics.contacts.row(row).array() == 0).all()) continue;
@@ -32,8 +31,8 @@ json ContactsJson(const MotionDynamics& dynamics) {
 }
 
 // The joints with the largest torques, in the order of the figures.
-json JointsJson(const MotionDynamics& dynamics, const Plausibility& judged) {
-  json joints = json::array();
+Json JointsJson(const MotionDynamics& dynamics, const Plausibility& judged) {
+  Json joints = Json::array();
   for (std::size_t i = 0; i < std::min(kShownJoints, judged.peaks.size()); ++i) {
     const std::string& name = judged.peaks[i].joint;
     if (std::isnan(judged.peaks[i].torque)) break;
@@ -46,28 +45,27 @@ json JointsJson(const MotionDynamics& dynamics, const Plausibility& judged) {
   return joints;
 }
 
-std::string FormatSeries(const MotionDynamics& dynamics, const Plausibility& judged) {
+Json SeriesJson(const MotionDynamics& dynamics, const Plausibility& judged) {
   const Eigen::Matrix3Xd forces = dynamics.residual_force / dynamics.body_weight();
-  const json series = {{"frames", dynamics.num_frames()},
-                       {"rate", dynamics.rate},
-                       {"first_time", dynamics.first_time},
-                       {"vertical_force", Series(forces.row(2))},
-                       {"horizontal_force", Series(forces.topRows<2>().colwise().norm())},
-                       {"height", Series(dynamics.com.row(2))},
-                       {"acceleration", Series(dynamics.com_acceleration)},
-                       {"angular_momentum", Series(dynamics.angular_momentum)},
-                       {"outside_support", Series(dynamics.outside_support.transpose())},
-                       {"contacts", ContactsJson(dynamics)},
-                       {"joints", JointsJson(dynamics, judged)}};
-  return series.dump(-1, ' ', false, json::error_handler_t::replace);
+  return {{"frames", dynamics.num_frames()},
+          {"rate", dynamics.rate},
+          {"first_time", dynamics.first_time},
+          {"vertical_force", Series(forces.row(2))},
+          {"horizontal_force", Series(forces.topRows<2>().colwise().norm())},
+          {"height", Series(dynamics.com.row(2))},
+          {"acceleration", Series(dynamics.com_acceleration)},
+          {"angular_momentum", Series(dynamics.angular_momentum)},
+          {"outside_support", Series(dynamics.outside_support.transpose())},
+          {"contacts", ContactsJson(dynamics)},
+          {"joints", JointsJson(dynamics, judged)}};
 }
 
 }  // namespace
 
-std::string FormatDynamicsPage(const std::string& title, const std::string& figures,
-                               const MotionDynamics& dynamics, const Plausibility& judged) {
+std::string FormatDynamicsPage(const std::string& title, const DynamicsReport& report) {
   const std::string data =
-      DataBlock("figures", figures) + DataBlock("series", FormatSeries(dynamics, judged));
+      DataBlock("figures", FormatJson(ToJson(report))) +
+      DataBlock("series", FormatJsonLine(SeriesJson(report.dynamics, report.plausibility)));
   return FormatPage({.title = title,
                      .styles = DynamicsStyles(),
                      .content = DynamicsContent(),

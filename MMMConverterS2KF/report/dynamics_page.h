@@ -3,14 +3,12 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/dynamics/plausibility.h"
-#include "common/dynamics/motion_dynamics.h"
+#include "MMMConverterS2KF/report/dynamics_summary.h"
 
 namespace mmm_converter {
 
 /// One self-contained HTML page about the dynamics of a motion: checks, and plots with contacts and
-/// flights. figures: the JSON of FormatDynamicsJson.
-std::string FormatDynamicsPage(const std::string& title, const std::string& figures,
-                               const MotionDynamics& dynamics, const Plausibility& judged);
+/// flights.
+std::string FormatDynamicsPage(const std::string& title, const DynamicsReport& report);
 
 }  // namespace mmm_converter

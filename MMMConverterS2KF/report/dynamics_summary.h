@@ -4,6 +4,7 @@
 #include <string>
 
 #include "MMMConverterS2KF/dynamics/dynamics_check.h"
+#include "MMMConverterS2KF/report/json.h"
 
 namespace mmm_converter {
 
@@ -11,7 +12,7 @@ namespace mmm_converter {
 std::string FormatDynamicsSummary(const DynamicsReport& report);
 
 /// All figures as JSON; README.md says what is in it. What there is no number for is null.
-std::string FormatDynamicsJson(const DynamicsReport& report);
+Json ToJson(const DynamicsReport& report);
 
 /// The verdict in one sentence.
 std::string DynamicsSentence(const DynamicsReport& report);

@@ -31,6 +31,7 @@ std::string EscapeHtml(std::string_view text) {
 // < occurs in strings of JSON only, where \u003c says the same.
 std::string DataBlock(std::string_view name, std::string_view json) {
   std::string block = "<script type=\"application/json\" class=\"" + std::string(name) + "\">";
+  block.reserve(block.size() + json.size());
   for (const char c : json) {
     if (c == '<') {
       block += "\\u003c";

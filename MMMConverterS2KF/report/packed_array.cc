@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace mmm_converter {
 namespace {
@@ -20,6 +21,13 @@ void AppendLittleEndian(Unsigned number, std::string* bytes) {
 }
 
 }  // namespace
+
+Json ToJson(const PackedArray& packed) {
+  return {{"type", packed.type},
+          {"scale", packed.scale},
+          {"offset", packed.offset},
+          {"base64", packed.base64}};
+}
 
 PackedArray PackFloats(const Eigen::Ref<const Eigen::MatrixXd>& numbers) {
   std::string bytes;

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "MMMConverterS2KF/report/json.h"
+
 namespace mmm_converter {
 
 /// Numbers as the page reads them: base64 of little-endian values, column by column.
@@ -15,14 +17,8 @@ struct PackedArray {
   std::string base64;
 };
 
-/// As an object of nlohmann's json.
-template <typename Json>
-Json ToJson(const PackedArray& packed) {
-  return {{"type", packed.type},
-          {"scale", packed.scale},
-          {"offset", packed.offset},
-          {"base64", packed.base64}};
-}
+/// As packed.js takes it.
+Json ToJson(const PackedArray& packed);
 
 PackedArray PackFloats(const Eigen::Ref<const Eigen::MatrixXd>& numbers);
 

@@ -14,11 +14,10 @@ namespace {
 std::string FormatData(const std::vector<ReportSection>& sections) {
   std::string blocks;
   for (const ReportSection& section : sections) {
-    const nlohmann::json heading = {{"title", section.title}, {"text", section.text}};
-    blocks += DataBlock("heading",
-                        heading.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-    blocks += DataBlock("figures", FormatComparisonJson(*section.comparison));
-    blocks += DataBlock("tracks", FormatTracks(*section.comparison));
+    blocks +=
+        DataBlock("heading", FormatJsonLine({{"title", section.title}, {"text", section.text}}));
+    blocks += DataBlock("figures", FormatJson(ToJson(*section.comparison)));
+    blocks += DataBlock("tracks", FormatJsonLine(TracksJson(*section.comparison)));
   }
   return blocks;
 }

@@ -1,38 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/subject_json.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/units.h"
 
 namespace mmm_converter {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr int kDecimals = 6;  // as in subject files
 
-constexpr double kMillimetres = 1000;  // in a metre
-
-// Six decimals, as in subject files.
-Json Number(double value) { return std::round(value * 1e6) / 1e6; }
+Json Decimals(double value) { return Number(value, kDecimals); }
 
 Json Millimetres(const Eigen::Vector3d& v) {
-  return {Number(kMillimetres * v.x()), Number(kMillimetres * v.y()), Number(kMillimetres * v.z())};
+  return {Decimals(kMillimetres * v.x()), Decimals(kMillimetres * v.y()),
+          Decimals(kMillimetres * v.z())};
 }
 
 // null: the file does not say what was assumed.
 Json ObservabilityJson(double deviation, double prior) {
-  return prior > 0 ? Number(Observability(deviation, prior)) : Json(nullptr);
+  return prior > 0 ? Decimals(Observability(deviation, prior)) : Json(nullptr);
 }
 
 }  // namespace
 
-std::string FormatSubjectJson(const Subject& subject) {
+Json ToJson(const Subject& subject) {
   Json segments = Json::array();
   for (const SegmentScale& scale : subject.scales) {
     segments.push_back(
         {{"name", scale.segment},
-         {"scale", Number(scale.scale)},
-         {"standard_deviation", Number(scale.standard_deviation)},
-         {"prior_deviation", Number(scale.prior_deviation)},
+         {"scale", Decimals(scale.scale)},
+         {"standard_deviation", Decimals(scale.standard_deviation)},
+         {"prior_deviation", Decimals(scale.prior_deviation)},
          {"observability", ObservabilityJson(scale.standard_deviation, scale.prior_deviation)}});
   }
   Json markers = Json::array();
@@ -40,9 +39,9 @@ std::string FormatSubjectJson(const Subject& subject) {
     markers.push_back(
         {{"name", offset.marker},
          {"offset_mm", Millimetres(offset.offset)},
-         {"distance_mm", Number(kMillimetres * offset.offset.norm())},
+         {"distance_mm", Decimals(kMillimetres * offset.offset.norm())},
          {"standard_deviation_mm", Millimetres(offset.standard_deviations)},
-         {"prior_deviation_mm", Number(kMillimetres * offset.prior_deviation)},
+         {"prior_deviation_mm", Decimals(kMillimetres * offset.prior_deviation)},
          {"frames", offset.frames},
          {"observability", ObservabilityJson(Deviation(offset), offset.prior_deviation)}});
   }
@@ -52,13 +51,13 @@ std::string FormatSubjectJson(const Subject& subject) {
   }
   Json json = {{"name", subject.name},
                {"model", subject.model},
-               {"height_m", Number(subject.height)},
-               {"mass_kg", Number(subject.mass)}};
-  if (subject.hand_length) json["hand_length_m"] = Number(*subject.hand_length);
+               {"height_m", Decimals(subject.height)},
+               {"mass_kg", Decimals(subject.mass)}};
+  if (subject.hand_length) json["hand_length_m"] = Decimals(*subject.hand_length);
   json["segments"] = std::move(segments);
   json["markers"] = std::move(markers);
   json["sources"] = std::move(sources);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json;
 }
 
 }  // namespace mmm_converter

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
+#include "MMMConverterS2KF/report/json.h"
 #include "common/model/subject.h"
 
 namespace mmm_converter {
 
-/// A subject as JSON, for summaries and the page: name, model, height_m, mass_kg, segments (name,
-/// scale, standard_deviation, observability), markers (name, offset_mm, standard_deviation_mm, each
-/// x y z, distance_mm, frames, observability) and sources.
-std::string FormatSubjectJson(const Subject& subject);
+/// A calibrated person, for summaries and the page; README.md says what is in it.
+Json ToJson(const Subject& subject);
 
 }  // namespace mmm_converter

@@ -6,24 +6,25 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "MMMConverterS2KF/report/drawn_frames.h"
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
+#include "common/motion/marker_residuals.h"
 
 namespace mmm_converter {
 namespace {
 
 using Eigen::MatrixXd;
-using nlohmann::json;
 
-json Floats(const MatrixXd& numbers) { return ToJson<json>(PackFloats(numbers)); }
-json Quantised(const MatrixXd& numbers) { return ToJson<json>(PackQuantised(numbers)); }
+Json Floats(const MatrixXd& numbers) { return ToJson(PackFloats(numbers)); }
+Json Quantised(const MatrixXd& numbers) { return ToJson(PackQuantised(numbers)); }
 
-json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-json ModelJson(const KinematicModel& model) {
-  json segments = json::array();
+Json ModelJson(const KinematicModel& model) {
+  Json segments = Json::array();
   for (const Segment& segment : model.segments()) {
     const Eigen::Quaterniond q(segment.X_PF.linear());
     segments.push_back({{"name", segment.name},
@@ -33,13 +34,13 @@ json ModelJson(const KinematicModel& model) {
                         {"axis", VectorJson(segment.axis)},
                         {"joint", segment.joint}});
   }
-  json markers = json::array();
+  Json markers = Json::array();
   for (const ModelMarker& marker : model.markers()) {
     markers.push_back({{"name", marker.name},
                        {"segment", marker.segment},
                        {"position", VectorJson(marker.p_SM)}});
   }
-  json joints = json::array();
+  Json joints = Json::array();
   for (int i = 0; i < model.num_joints(); ++i) {
     const Segment& joint = model.joint(i);
     joints.push_back({{"name", joint.name}, {"lower", joint.lower}, {"upper", joint.upper}});
@@ -47,56 +48,68 @@ json ModelJson(const KinematicModel& model) {
   return {{"segments", segments}, {"markers", markers}, {"joints", joints}};
 }
 
-json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
+Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   const int frames = trajectory.num_frames();
+  const DrawnFrames drawn(frames);
   const auto num_joints = static_cast<Eigen::Index>(trajectory.joint_names.size());
-  MatrixXd position(3, frames);
-  MatrixXd orientation(4, frames);
+  MatrixXd position(3, drawn.count());
+  MatrixXd orientation(4, drawn.count());
+  for (int i = 0; i < drawn.count(); ++i) {
+    const Posture& posture = trajectory.postures[drawn.frame(i)];
+    position.col(i) = posture.position;
+    orientation.col(i) = posture.orientation.coeffs();
+  }
   MatrixXd angles(frames, num_joints);
   for (int k = 0; k < frames; ++k) {
-    const Posture& posture = trajectory.postures[k];
-    position.col(k) = posture.position;
-    orientation.col(k) = posture.orientation.coeffs();
-    angles.row(k) = posture.joint_angles.transpose();
+    angles.row(k) = trajectory.postures[k].joint_angles.transpose();
   }
-  json joints = json::array();
+  Json joints = Json::array();
   for (const std::string& name : trajectory.joint_names) joints.push_back(model.FindJoint(name));
   // Position and orientation: a frame's components beside each other.
-  json motion = {{"joints", joints},
+  Json motion = {{"joints", joints},
                  {"position", Quantised(position)},
                  {"orientation", Quantised(orientation)},
-                 {"angles", Quantised(angles)}};
+                 {"angles", Quantised(drawn.Of(angles))}};
+  if (!drawn.are_all()) {
+    motion["angles_least"] = Quantised(drawn.LeastOf(angles));
+    motion["angles_most"] = Quantised(drawn.MostOf(angles));
+  }
   const MatrixXd& deviations = trajectory.standard_deviations;
   if (deviations.cols() == frames && deviations.rows() == 6 + num_joints) {
-    motion["deviations"] = Quantised(deviations.bottomRows(num_joints).transpose());
+    motion["deviations"] = Quantised(drawn.Of(deviations.bottomRows(num_joints).transpose()));
   }
   return motion;
 }
 
-json TrialJson(const Trial& trial, const CommonGround& ground) {
-  json out = {{"name", trial.name}, {"failure", trial.failure}};
+Json TrialJson(const Trial& trial, const CommonGround& ground) {
+  Json out = {{"name", trial.name}, {"failure", trial.failure}};
   if (!trial.model || ground.labels.empty()) return out;
   const int frames = trial.markers.num_frames();
   const auto num_labels = static_cast<Eigen::Index>(ground.labels.size());
-  json labels = json::array();
+  Json labels = Json::array();
   for (const int label : ground.labels) labels.push_back(trial.markers.labels()[label]);
-  MatrixXd positions(3 * num_labels, frames);
-  for (int k = 0; k < frames; ++k) {
-    const Eigen::Matrix3Xd markers = trial.markers.frame(k)(Eigen::all, ground.labels);
-    positions.col(k) = markers.reshaped();
+  const DrawnFrames drawn(frames);
+  MatrixXd positions(3 * num_labels, drawn.count());
+  for (int i = 0; i < drawn.count(); ++i) {
+    const Eigen::Matrix3Xd markers = trial.markers.frame(drawn.frame(i))(Eigen::all, ground.labels);
+    positions.col(i) = markers.reshaped();
   }
-  out.update({{"frames", frames},
+  const HiddenMarkers hidden =
+      ground.hidden(Eigen::all, Eigen::seqN(0, drawn.count(), drawn.every()));
+  out.update({{"frames", drawn.count()},
+              {"every", drawn.every()},
+              {"optimum_every", ground.optimum_every},
               {"rate", trial.markers.rate()},
               {"first_time", trial.markers.first_time()},
               {"labels", labels},
               {"markers", ground.markers},
               {"model", ModelJson(*trial.model)},
               {"positions", Quantised(positions)},  // a frame's markers beside each other
-              {"hidden", ToJson<json>(PackBits(ground.hidden.transpose()))},
-              {"optimum", Floats(ground.optimum)},
-              {"mean_hidden", Floats(ground.mean_hidden)},
-              {"most_hidden", Floats(ground.most_hidden)}});
-  if (trial.subject) out["subject"] = json::parse(FormatSubjectJson(*trial.subject));
+              {"hidden", ToJson(PackBits(hidden.transpose()))},
+              {"optimum", Floats(drawn.Of(ground.optimum))},
+              {"mean_hidden", Floats(drawn.Of(ground.mean_hidden))},
+              {"most_hidden", Floats(drawn.MostOf(ground.most_hidden))}});
+  if (trial.subject) out["subject"] = ToJson(*trial.subject);
   if (trial.truth && trial.truth->num_frames() == frames) {
     out["truth"] = MotionJson(*trial.model, *trial.truth);
   }
@@ -105,11 +118,11 @@ json TrialJson(const Trial& trial, const CommonGround& ground) {
 
 /// NIS over its degrees of freedom, and what 95 of 100 frames of a consistent filter stay within;
 /// NaN where no marker was seen or the converter states none.
-void AddNis(const ConversionResult& result, json* out) {
+void AddNis(const ConversionResult& result, int frames, Json* out) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  MatrixXd nis = MatrixXd::Constant(3, static_cast<Eigen::Index>(result.frames.size()), kNaN);
+  MatrixXd nis = MatrixXd::Constant(frames, 3, kNaN);
   std::map<int, std::pair<double, double>> bands;
-  for (Eigen::Index k = 0; k < nis.cols(); ++k) {
+  for (std::size_t k = 0; k < result.frames.size(); ++k) {
     const FrameDiagnostic& frame = result.frames[k];
     const int degrees = 3 * frame.markers_seen;
     if (degrees == 0 || frame.nis <= 0) continue;
@@ -118,20 +131,25 @@ void AddNis(const ConversionResult& result, json* out) {
       low = ChiSquareQuantile(0.025, degrees) / degrees;
       high = ChiSquareQuantile(0.975, degrees) / degrees;
     }
-    nis.col(k) << frame.nis, low, high;
+    nis.row(static_cast<Eigen::Index>(k)) << frame.nis, low, high;
   }
-  (*out)["nis"] = Floats(nis.row(0));
-  (*out)["nis_low"] = Floats(nis.row(1));
-  (*out)["nis_high"] = Floats(nis.row(2));
+  const DrawnFrames drawn(frames);
+  const MatrixXd shown = drawn.Of(nis);
+  (*out)["nis"] = Floats(shown.col(0));
+  (*out)["nis_low"] = Floats(shown.col(1));
+  (*out)["nis_high"] = Floats(shown.col(2));
+  if (drawn.are_all()) return;
+  (*out)["nis_least"] = Floats(drawn.LeastOf(nis.col(0)));
+  (*out)["nis_most"] = Floats(drawn.MostOf(nis.col(0)));
 }
 
-json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
-  json incidents = json::array();
+Json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
+  Json incidents = Json::array();
   const auto label = [&](int assignment) {
     return trial.markers.labels()[row.setup.assignments()[assignment].label];
   };
   for (const MarkerIncident& incident : row.result.incidents) {
-    json labels = {label(incident.assignment)};
+    Json labels = {label(incident.assignment)};
     if (incident.other >= 0) labels.push_back(label(incident.other));
     incidents.push_back({{"kind", Name(incident.kind)},
                          {"labels", labels},
@@ -141,47 +159,58 @@ json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
   return incidents;
 }
 
-json RowJson(const Trial& trial, const ComparisonRow& row) {
-  json out = {{"trial", row.trial},
+Json RowJson(const Trial& trial, const ComparisonRow& row) {
+  Json out = {{"trial", row.trial},
               {"contender", row.contender},
               {"failure", WithAdvice(row.failure, row.remedy)},
               {"warnings", row.warnings.texts()},
               {"ignored", row.setup.mapping.ignored_labels},
               {"absent", row.setup.mapping.absent_markers}};
   if (!row.failure.empty()) return out;
-  Eigen::VectorXd seconds(row.result.frames.size());
-  for (Eigen::Index k = 0; k < seconds.size(); ++k) seconds[k] = row.result.frames[k].seconds;
+  const DrawnFrames drawn(trial.markers.num_frames());
+  Eigen::VectorXd seconds = Eigen::VectorXd::Zero(trial.markers.num_frames());
+  for (std::size_t k = 0; k < row.result.frames.size(); ++k) {
+    seconds[static_cast<Eigen::Index>(k)] = row.result.frames[k].seconds;
+  }
   out.update({{"incidents", IncidentsJson(trial, row)},
               {"motion", MotionJson(*trial.model, row.result.trajectory)},
-              {"distances", Quantised(row.distances.transpose())},
-              {"mean", Floats(row.mean_distance)},
-              {"p05", Floats(row.p05_distance)},
-              {"p95", Floats(row.p95_distance)},
-              {"max", Floats(row.max_distance)},
-              {"seconds", Floats(seconds)}});
-  AddNis(row.result, &out);
+              {"distances", Quantised(drawn.Of(row.distances.transpose()))},
+              {"mean", Floats(drawn.Of(row.mean_distance))},
+              {"p05", Floats(drawn.LeastOf(row.p05_distance))},
+              {"p95", Floats(drawn.MostOf(row.p95_distance))},
+              {"max", Floats(drawn.MostOf(row.max_distance))},
+              {"seconds", Floats(drawn.Of(seconds))}});
+  if (!drawn.are_all()) {
+    out["seconds_least"] = Floats(drawn.LeastOf(seconds));
+    out["seconds_most"] = Floats(drawn.MostOf(seconds));
+    Json means = Json::array();
+    for (const ResidualSummary& label : SummarizeEachMarker(row.distances)) {
+      means.push_back(label.mean);
+    }
+    out["label_means"] = means;
+  }
+  AddNis(row.result, trial.markers.num_frames(), &out);
   return out;
 }
 
 }  // namespace
 
-std::string FormatTracks(const Comparison& comparison) {
-  json trials = json::array();
+Json TracksJson(const Comparison& comparison) {
+  Json trials = Json::array();
   for (std::size_t i = 0; i < comparison.trials.size(); ++i) {
     trials.push_back(TrialJson(comparison.trials[i], comparison.grounds[i]));
   }
-  json contenders = json::array();
+  Json contenders = Json::array();
   for (const Contender& contender : comparison.contenders) {
     contenders.push_back({{"name", contender.name},
                           {"configuration", contender.configuration},
                           {"failure", contender.failure}});
   }
-  json rows = json::array();
+  Json rows = Json::array();
   for (const ComparisonRow& row : comparison.rows) {
     rows.push_back(RowJson(comparison.trials[row.trial], row));
   }
-  const json tracks = {{"trials", trials}, {"contenders", contenders}, {"rows", rows}};
-  return tracks.dump(-1, ' ', false, json::error_handler_t::replace);
+  return {{"trials", trials}, {"contenders", contenders}, {"rows", rows}};
 }
 
 }  // namespace mmm_converter

@@ -248,6 +248,35 @@ void FindOptimum(const Trial& trial, const Field& field, CommonGround* ground) {
                                      ground->labels, trial.markers);
 }
 
+// The same for finished results of a long recording, in about the time of kMostOptima fits.
+void SampleOptimum(const Trial& trial, const Field& field, CommonGround* ground) {
+  constexpr int kMostOptima = 2000;
+  const int frames = trial.markers.num_frames();
+  if (frames <= 2 * kMostOptima) return FindOptimum(trial, field, ground);
+  ground->optimum_every = (frames + kMostOptima - 1) / kMostOptima;
+  OptimumSampling sampling;
+  sampling.every = ground->optimum_every;
+  std::vector<VectorXd> means;
+  for (const ComparisonRow* row : field.rows) {
+    sampling.tracked.push_back(&row->result.trajectory);
+    means.push_back(MeanOfEachFrame(row->distances));
+  }
+  std::vector<bool> has_good(means.size());
+  sampling.is_doubtful = [&](int k, double least, double most) {
+    bool is_doubtful = false;
+    for (std::size_t r = 0; r < means.size(); ++r) {
+      const double distance = means[r][k];
+      is_doubtful |= IsLostFrame(distance, least) != IsLostFrame(distance, most);
+      if (has_good[r]) continue;  // only the first is told
+      has_good[r] = IsGoodFrame(distance, least);
+      is_doubtful |= !has_good[r] && IsGoodFrame(distance, most);
+    }
+    return is_doubtful;
+  };
+  ground->optimum = SampledOptimalDistances(*trial.model, field.used_joints, ground->markers,
+                                            ground->labels, trial.markers, sampling);
+}
+
 }  // namespace
 
 int Comparison::num_failures() const {
@@ -313,9 +342,11 @@ Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
   FindUsed(&field);
   FindCommonGround(field, &ground);
   CountHidden(field, only, comparison.options, &ground);
-  FindOptimum(only, field, &ground);
   for (ComparisonRow* row : field.rows) {
     row->distances = MeasureDistances(only, ground, row->result.trajectory);
+  }
+  SampleOptimum(only, field, &ground);
+  for (ComparisonRow* row : field.rows) {
     RunOutcome outcome;
     outcome.frame_means = MeanOfEachFrame(row->distances);
     outcome.quality = MeasureQuality(MakeReference(only, ground, ground.hidden), row->distances,

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "common/model/kinematic_model.h"
 #include "common/motion/marker_sequence.h"
+#include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {
 
@@ -16,5 +18,24 @@ namespace mmm_converter {
 Eigen::VectorXd OptimalDistances(const KinematicModel& model, const std::vector<int>& joints,
                                  const std::vector<int>& markers, const std::vector<int>& labels,
                                  const MarkerSequence& recording);
+
+/// How the optimum of a long recording is found.
+struct OptimumSampling {
+  int every = 1;  ///< frames from one that is fitted to the next
+  /// Motions of the model that were tracked: fits start there, or from the neighbour, where the
+  /// cost is lower.
+  std::vector<const PoseTrajectory*> tracked;
+  /// Called frame by frame, forwards, with what the optimum is at least and at most: whether that
+  /// is too little to know. Of a frame that is fitted, both are its optimum.
+  std::function<bool(int frame, double least, double most)> is_doubtful;
+};
+
+/// OptimalDistances of every n-th frame and of those in doubt; linear between. In doubt, an optimum
+/// is taken to be within a tenth, and the difference of the fitted frames around it, of these.
+Eigen::VectorXd SampledOptimalDistances(const KinematicModel& model, const std::vector<int>& joints,
+                                        const std::vector<int>& markers,
+                                        const std::vector<int>& labels,
+                                        const MarkerSequence& recording,
+                                        const OptimumSampling& sampling);
 
 }  // namespace mmm_converter

@@ -20,11 +20,12 @@ class JournalTest : public ::testing::Test {
   static JournalRecord Record(const std::string& id) {
     JournalRecord record;
     record.id = id;
-    record.converted = true;
     record.fingerprint = "f";
     record.recording = {123, 1700000000123456789, "h"};
     record.outputs = {{"motions/" + id + ".xml", {45, 6, "o"}}};
-    record.result = R"({"state":"converted"})";
+    record.models = {{"../objects/cup.xml", {7, 8, "m"}}};
+    record.result.figures = EntryFigures();
+    record.result.seconds = 0.5;
     return record;
   }
 
@@ -39,7 +40,7 @@ TEST_F(JournalTest, GivesBackWhatWasWritten) {
   const JournalRecord& record = records.at(written.id);
   EXPECT_EQ(record.id, written.id);
   EXPECT_GT(record.time, 0);
-  EXPECT_TRUE(record.converted);
+  EXPECT_TRUE(record.result.converted());
   EXPECT_EQ(record.fingerprint, "f");
   EXPECT_EQ(record.recording.bytes, 123U);
   EXPECT_EQ(record.recording.modified, 1700000000123456789);
@@ -49,20 +50,21 @@ TEST_F(JournalTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(output.bytes, 45U);
   EXPECT_EQ(output.modified, 6);
   EXPECT_EQ(output.hash, "o");
-  EXPECT_EQ(record.result, written.result);
+  EXPECT_EQ(record.models.at("../objects/cup.xml").hash, "m");
+  EXPECT_EQ(record.result.seconds, 0.5);
 }
 
 TEST_F(JournalTest, ShardsHaveTheirOwnAndTheLatestRecordHolds) {
   Journal(folder_, 1, 2).Append(Record("a"));
   Journal(folder_, 2, 2).Append(Record("b"));
   JournalRecord failed = Record("a");
-  failed.converted = false;
+  failed.result = Failed("why", 0);
   Journal(folder_, 1, 1).Append(failed);
   EXPECT_TRUE(fs::exists(folder_ + "/journal.2of2.jsonl"));
   Journal(folder_, 1, 2).Append(Record("c"));  // the first journal is the newest file now
   const auto records = ReadJournals(folder_);
   EXPECT_EQ(records.size(), 3U);
-  EXPECT_FALSE(records.at("a").converted);
+  EXPECT_FALSE(records.at("a").result.converted());
 }
 
 TEST_F(JournalTest, LeavesOutWhatItDoesNotUnderstand) {

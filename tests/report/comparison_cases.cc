@@ -144,4 +144,46 @@ Comparison LongComparison() {
       {AsFinished(model, motion)});
 }
 
+Comparison Repeated(Comparison comparison, int times) {
+  const auto repeat = [&](Eigen::VectorXd* frames) {
+    *frames = frames->replicate(times, 1).eval();
+  };
+  for (std::size_t t = 0; t < comparison.trials.size(); ++t) {
+    MarkerSequence& markers = comparison.trials[t].markers;
+    markers = Lengthen(markers, times * markers.num_frames());
+    CommonGround& ground = comparison.grounds[t];
+    ground.hidden = ground.hidden.replicate(1, times).eval();
+    for (Eigen::VectorXd* frames : {&ground.optimum, &ground.mean_hidden, &ground.most_hidden}) {
+      repeat(frames);
+    }
+  }
+  for (ComparisonRow& row : comparison.rows) {
+    row.distances = row.distances.replicate(1, times).eval();
+    for (Eigen::VectorXd* frames :
+         {&row.mean_distance, &row.p05_distance, &row.p95_distance, &row.max_distance}) {
+      repeat(frames);
+    }
+    PoseTrajectory& motion = row.result.trajectory;
+    motion.standard_deviations = motion.standard_deviations.replicate(1, times).eval();
+    const std::vector<Posture> postures = motion.postures;
+    const std::vector<FrameDiagnostic> diagnostics = row.result.frames;
+    for (int i = 1; i < times; ++i) {
+      motion.postures.insert(motion.postures.end(), postures.begin(), postures.end());
+      row.result.frames.insert(row.result.frames.end(), diagnostics.begin(), diagnostics.end());
+    }
+  }
+  return comparison;
+}
+
+Comparison ThinnedComparison() {
+  const KinematicModel model = StickModel();
+  PoseTrajectory motion = SwayingMotion(model, 13'000);
+  Trial trial = MakeTrial(model, motion);
+  trial.name = "130 s";
+  motion.postures[6502].position.x() += 0.05;  // frames 6501 and 6504 are drawn
+  Contender contender;
+  contender.name = "truth";
+  return CompareFinished(trial, {contender}, {AsFinished(model, motion)});
+}
+
 }  // namespace mmm_converter::testing

@@ -21,4 +21,11 @@ Comparison FailedComparison();
 /// as its result.
 Comparison LongComparison();
 
+/// The comparison with every recording so many times as long: back and forth, and all figures of
+/// frames with it; those of the whole stay.
+Comparison Repeated(Comparison comparison, int times);
+
+/// A stick over 13,000 frames, of which only frame 6502 is 50 mm off.
+Comparison ThinnedComparison();
+
 }  // namespace mmm_converter::testing

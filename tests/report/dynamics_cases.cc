@@ -63,7 +63,7 @@ std::string HostileDynamicsPage() {
   person.mass = {75, text};
   const DynamicsReport report = {
       {text, text, 0, text, person, model, PoseTrajectory(), {text}}, dynamics, judged};
-  return FormatDynamicsPage(text, FormatDynamicsJson(report), dynamics, judged);
+  return FormatDynamicsPage(text, report);
 }
 
 }  // namespace mmm_converter::testing

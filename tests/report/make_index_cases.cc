@@ -2,6 +2,7 @@
 // make_index_cases FOLDER: indices of batches, and results.jsonl of the first, for the browser.
 #include <exception>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,12 @@ namespace {
 void MakeIndices(const std::string& folder) {
   using namespace mmm_converter;
   const auto write = [&](const std::string& name, const std::string& title,
-                         const std::vector<std::string>& results) {
+                         const std::vector<Json>& results) {
     WriteFileAtomically(folder + "/" + name + ".html", FormatBatchIndex(title, results));
   };
-  const std::vector<std::string> results = testing::ManyResults(600);
+  const std::vector<Json> results = testing::ManyResults(600);
   std::string lines;
-  for (const std::string& result : results) lines += result + "\n";
+  for (const Json& result : results) lines += FormatJsonLine(result) + "\n";
   WriteFileAtomically(folder + "/results.jsonl", lines);
   write("index", "kit", results);
   write("hostile", testing::kHostileText, testing::HostileResults());

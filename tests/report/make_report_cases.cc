@@ -19,6 +19,8 @@ void MakeReports(const std::string& folder) {
   WriteFileAtomically(folder + "/hostile.html",
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
   WriteFileAtomically(folder + "/hostile_dynamics.html", testing::HostileDynamicsPage());
+  const Comparison thinned = testing::ThinnedComparison();
+  WriteFileAtomically(folder + "/thinned.html", FormatReport("130 s", {{"130 s", "", &thinned}}));
   const Comparison whole = testing::LongComparison();
   WriteFileAtomically(folder + "/long.html", FormatReport("60 s", {{"60 s", "", &whole}}));
 }

@@ -269,6 +269,21 @@ class ReportPage(PageCase):
         print("[ measured ] ms until the report is ready:",
               self.run_script("return performance.getEntriesByName('ready')[0].startTime"))
 
+    def test_a_page_of_many_frames_says_what_it_draws(self):
+        self.open("thinned.html")
+        self.assertEqual(self.run_script("return mmmReport.frames"), 4334)
+        self.assertIn("Of the 13000 frames one in 3 is drawn", self.text("#thinned"))
+        self.assertTrue(self.find("#thinned").is_displayed())
+        self.run_script("mmmReport.seek(2167)")
+        self.assertIn("65.01 s · frame 6501 of 13000", self.text("#now"))
+        # The peak between two drawn frames is in the band and in the figures.
+        worst = self.text("td[data-figure='distance_mm.worst_frame']")
+        self.assertIn(f"the largest value is {worst} mm", self.text("#distance-peak"))
+        self.open("long.html")
+        self.assertIn("The optimum is computed for one frame in 3", self.text("#thinned"))
+        self.open("convert.html")
+        self.assertFalse(self.find("#thinned").is_displayed())
+
     def test_nothing_is_loaded(self):
         self.open("compare.html")
         self.check_nothing_was_loaded()

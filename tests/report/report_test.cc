@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/comparison_json.h"
+#include "MMMConverterS2KF/report/drawn_frames.h"
 #include "tests/report/comparison_cases.h"
 
 namespace mmm_converter {
@@ -39,8 +42,7 @@ std::string HostilePage() {
 TEST(Report, FiguresAreThoseOfTheJson) {
   const Comparison comparison = testing::HostileComparison();
   const std::string page = FormatReport("title", {{"title", "", &comparison}});
-  EXPECT_EQ(nlohmann::json::parse(Block(page, "figures")),
-            nlohmann::json::parse(FormatComparisonJson(comparison)));
+  EXPECT_EQ(nlohmann::json::parse(Block(page, "figures")), nlohmann::json(ToJson(comparison)));
 }
 
 TEST(Report, HostileTextEndsNoElement) {
@@ -80,6 +82,41 @@ TEST(Report, ALongRecordingStaysSmall) {
   std::cout << "[ measured ] 60 s at 100 Hz: " << static_cast<double>(page.size()) * 1e-6
             << " MB\n";
   EXPECT_LT(page.size(), 8'000'000);
+}
+
+TEST(Report, TenMinutesStaySmall) {
+  const Comparison comparison = testing::Repeated(testing::LongComparison(), 10);
+  ASSERT_EQ(comparison.trials[0].markers.num_frames(), 60'000);
+  const std::string page = FormatReport("10 min", {{"10 min", "", &comparison}});
+  std::cout << "[ measured ] 10 min at 100 Hz: " << static_cast<double>(page.size()) * 1e-6
+            << " MB\n";
+  EXPECT_LT(page.size(), 10'000'000);
+  const auto trial = nlohmann::json::parse(Block(page, "tracks"))["trials"][0];
+  EXPECT_EQ(trial["frames"], 6000);
+  EXPECT_EQ(trial["every"], 10);
+}
+
+TEST(DrawnFrames, AreAllOfAShortRecording) {
+  const DrawnFrames drawn(6000);
+  EXPECT_TRUE(drawn.are_all());
+  EXPECT_EQ(drawn.count(), 6000);
+  EXPECT_EQ(DrawnFrames(0).count(), 0);
+}
+
+TEST(DrawnFrames, KeepTheLeastAndMostOfWhatIsNotDrawn) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const DrawnFrames drawn(6002);  // blocks of two
+  EXPECT_EQ(drawn.every(), 2);
+  EXPECT_EQ(drawn.count(), 3001);
+  EXPECT_EQ(drawn.frame(3000), 6000);
+  Eigen::VectorXd frames = Eigen::VectorXd::Zero(6002);
+  frames.head<6>() << 1, 5, kNaN, -2, kNaN, kNaN;
+  EXPECT_EQ(drawn.Of(frames)(0), 1);
+  EXPECT_EQ(drawn.MostOf(frames)(0), 5);
+  EXPECT_EQ(drawn.LeastOf(frames)(0), 1);
+  EXPECT_TRUE(std::isnan(drawn.Of(frames)(1)));
+  EXPECT_EQ(drawn.LeastOf(frames)(1), -2);
+  EXPECT_TRUE(std::isnan(drawn.MostOf(frames)(2)));
 }
 
 TEST(Report, MayBeEmpty) { EXPECT_THAT(FormatReport("nothing", {}), HasSubstr("nothing</h1>")); }

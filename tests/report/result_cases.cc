@@ -12,8 +12,6 @@
 namespace mmm_converter::testing {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // Four decimals, as in results.jsonl.
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
@@ -71,9 +69,9 @@ Json Converted(const std::string& id, const std::string& group, SeededRandom* ra
 
 }  // namespace
 
-std::vector<std::string> ManyResults(int count) {
+std::vector<Json> ManyResults(int count) {
   SeededRandom random(1);
-  std::vector<std::string> results;
+  std::vector<Json> results;
   results.reserve(count);
   for (int i = 0; i < count; ++i) {
     const std::string group = std::to_string(1000 + i / 40);
@@ -88,12 +86,12 @@ std::vector<std::string> ManyResults(int count) {
       result["warnings"] = {fmt::format("{} frames have no markers at all", i % 7 + 1)};
       result["report"] = "reports/" + id + ".html";
     }
-    results.push_back(result.dump());
+    results.push_back(result);
   }
   return results;
 }
 
-std::vector<std::string> HostileResults() {
+std::vector<Json> HostileResults() {
   const std::string text = kHostileText;
   SeededRandom random(2);
   Json odd = Converted("a b/50%#1?x=\\'\"<", text, &random);  // a path that needs escaping
@@ -102,29 +100,29 @@ std::vector<std::string> HostileResults() {
   odd["metadata"] = {{text, text}, {"__proto__", "session"}, {"constructor", nullptr}};
   odd["worst_marker"] = text;
   odd["distance_mm"] = {{"mean", 1e300}, {"p95", -5}, {"max", nullptr}};
-  std::vector<std::string> results = {odd.dump()};
+  std::vector<Json> results = {odd};
   for (const char* path : {"javascript:window.hacked=3", "JavaScript:alert(1)", "//elsewhere/x",
                            "/etc/x", "https://elsewhere/x", "data:text/html,x", ""}) {
     Json linked = Converted(text + path, text, &random);
     linked["report"] = path;
     linked["motion"] = path;
-    results.push_back(linked.dump());
+    results.push_back(linked);
   }
-  results.push_back(Unconverted(text, text, text).dump());
+  results.push_back(Unconverted(text, text, text));
   Json missing = Unconverted(text, text, text);
   missing["state"] = "missing";
   missing["reason"] = nullptr;
-  results.push_back(missing.dump());
-  results.emplace_back("{}");
-  results.emplace_back(
-      R"({"id":null,"state":"converted","motion":[1],"report":{"a":1},"metadata":[],)"
-      R"("distance_mm":7,"frames":0,"frames_not_converged":0,"warnings":"none",)"
-      R"("__proto__":{"state":"x"},"group":["g"]})");
+  results.push_back(missing);
+  results.push_back(Json::object());
+  results.push_back(
+      Json::parse(R"({"id":null,"state":"converted","motion":[1],"report":{"a":1},"metadata":[],)"
+                  R"("distance_mm":7,"frames":0,"frames_not_converged":0,"warnings":"none",)"
+                  R"("__proto__":{"state":"x"},"group":["g"]})"));
   return results;
 }
 
-std::vector<std::string> FailedResults(int count) {
-  std::vector<std::string> results;
+std::vector<Json> FailedResults(int count) {
+  std::vector<Json> results;
   results.reserve(count);
   for (int i = 0; i < count; ++i) {
     const std::string id = fmt::format("broken/{}", i);

@@ -6,7 +6,7 @@
 class Motion {
   constructor(json) {
     this.joints = json.joints;  // of the model
-    for (const name of ["position", "orientation", "angles", "deviations"]) {
+    for (const name of ["position", "orientation", "angles", "angles_least", "angles_most", "deviations"]) {
       lazily(this, name, json[name]);
     }
   }
@@ -25,7 +25,9 @@ class Track {
     this.incidents = json.incidents || [];
     if (this.failure) return;
     this.motion = new Motion(json.motion);
-    for (const name of ["distances", "mean", "p05", "p95", "max", "seconds", "nis", "nis_low", "nis_high"]) {
+    this.labelMeans = json.label_means || null;
+    for (const name of ["distances", "mean", "p05", "p95", "max", "seconds", "seconds_least", "seconds_most",
+      "nis", "nis_least", "nis_most", "nis_low", "nis_high"]) {
       lazily(this, name, json[name]);
     }
   }
@@ -48,7 +50,8 @@ class Track {
   }
 }
 
-// One recording with the model of its person.
+// One recording with the model of its person. Of a long one every n-th frame is drawn: frames are
+// counted in these; what is called ..._least or ..._most is over the n frames from a drawn one on.
 class Trial {
   constructor(json) {
     this.name = json.name;
@@ -58,7 +61,9 @@ class Trial {
     this.tracks = [];  // of the converters that have a result
     this.failed = [];  // of the others
     if (!this.frames) return;
-    this.rate = json.rate;
+    this.every = json.every;  // frames of the recording for one that is drawn
+    this.rate = json.rate / this.every;
+    this.optimumEvery = json.optimum_every;
     this.firstTime = json.first_time;
     this.markers = json.markers;  // of the model, one for each label
     this.model = json.model;
@@ -71,6 +76,11 @@ class Trial {
 
   time(frame) {
     return this.firstTime + frame / this.rate;
+  }
+
+  // The frame of the recording.
+  recorded(frame) {
+    return frame * this.every;
   }
 
   frameAt(time) {

@@ -3,7 +3,7 @@
 
 // Labels that were wrong for a while.
 function describeIncident(incident, trial) {
-  const time = (frame) => formatNumber(trial.time(frame), 2);
+  const time = (frame) => formatNumber(trial.time(frame / trial.every), 2);
   return `${incident.labels.join(" and ")} ${incident.kind} in frames ${incident.first} to ${incident.last} ` +
     `(${time(incident.first)} to ${time(incident.last)} s)`;
 }

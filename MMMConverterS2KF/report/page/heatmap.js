@@ -60,7 +60,7 @@ class HeatMap {
     this.rows = this.view.trial.labels.map((name, label) => {
       const distances = this.track.distances.subarray(label * frames, (label + 1) * frames);
       const seen = distances.filter((distance) => !Number.isNaN(distance));
-      return {name, label, distances, mean: seen.reduce((sum, one) => sum + one, 0) / seen.length};
+      return {name, label, distances, mean: this.meanOf(label, seen)};
     });
     const order = byId("heat-order").value;
     const last = (mean) => Number.isNaN(mean) ? -1 : mean;
@@ -71,6 +71,13 @@ class HeatMap {
       element("span", {class: "mean"}, formatNumber(1000 * row.mean, 1)))));
     this.drawScale();
     this.redraw();
+  }
+
+  // Over all frames, drawn or not.
+  meanOf(label, seen) {
+    const means = this.track.labelMeans;
+    if (means) return means[label] === null ? NaN : means[label];
+    return seen.reduce((sum, one) => sum + one, 0) / seen.length;
   }
 
   // The frames that are seen: zoomed as the plots.

@@ -17,6 +17,11 @@ class View {
     return this.trial.tracks.filter((track) => this.shown.has(track.contender));
   }
 
+  // Of the recording that is shown, drawn or not.
+  get recordedFrames() {
+    return this.section.figures.trials[this.section.trials.indexOf(this.trial)].frames;
+  }
+
   showSection(index) {
     this.section = this.sections[index];
     this.section.load();
@@ -42,6 +47,8 @@ class View {
     this.frame = 0;
     this.shown = new Set(this.trial.tracks.map((track) => track.contender));
     this.listConverters();
+    replaceContent(byId("thinned"), describeThinning(this.trial, this.recordedFrames));
+    byId("thinned").hidden = this.trial.every === 1 && this.trial.optimumEvery === 1;
     for (const part of this.parts) part.show(this.trial);
     this.refresh();
   }
@@ -87,6 +94,20 @@ class View {
   }
 }
 
+// What a page of a long recording leaves out.
+function describeThinning(trial, frames) {
+  const texts = [];
+  if (trial.every > 1) {
+    texts.push(`Of the ${frames} frames one in ${trial.every} is drawn; bands of the plots reach from the least ` +
+      "to the largest value of all frames. The figures in the table are those of all frames.");
+  }
+  if (trial.optimumEvery > 1) {
+    texts.push(`The optimum is computed for one frame in ${trial.optimumEvery}, and wherever it decides whether a ` +
+      "frame is good or lost; it is linear between these.");
+  }
+  return texts.join(" ");
+}
+
 function listSections(view) {
   byId("program").textContent = view.sections.length ? view.sections[0].figures.program : "";
   replaceContent(byId("summary"), ...view.sections.map((section) =>
@@ -114,6 +135,7 @@ function start() {
   window.mmmReport = {
     figures: view.sections.map((section) => section.figures),
     get frame() { return view.frame; },
+    get every() { return view.trial ? view.trial.every : 1; },
     get frames() { return view.trial ? view.trial.frames : 0; },
     get playing() { return view.player.playing; },
     play: () => view.player.play(),

@@ -100,9 +100,10 @@ class Player {
     const trial = this.view.trial;
     byId("scrub").value = frame;
     const time = `${formatNumber(trial.time(frame), 2)} s`;
-    byId("scrub").setAttribute("aria-valuetext", `frame ${frame}, ${time}`);
+    const recorded = trial.recorded(frame);
+    byId("scrub").setAttribute("aria-valuetext", `frame ${recorded}, ${time}`);
     const hidden = trial.labels.filter((_, label) => trial.isHidden(label, frame)).length;
-    byId("now").textContent = `${time} · frame ${frame} of ${trial.frames}` +
+    byId("now").textContent = `${time} · frame ${recorded} of ${this.view.recordedFrames}` +
       (trial.hidesMarkers ? ` · ${plural(hidden, "marker")} hidden` : "") +
       (this.view.section.figures.options.runs > 1 ? " · the first run" : "");
     if (this.scene && byId("follow").checked) {

@@ -72,10 +72,11 @@ class Plots {
   distanceChart(tracks) {
     const trial = this.view.trial;
     const hasRuns = this.view.section.figures.options.runs > 1;
+    const hasBand = hasRuns || trial.every > 1;
     const lines = [];
     for (const track of tracks) {
       const line = this.lineOf(track, (k) => 1000 * track.mean[k]);
-      if (hasRuns) {
+      if (hasBand) {
         line.band = (k) => [1000 * track.p05[k], 1000 * track.p95[k]];
         lines.push({name: null, colour: line.colour, width: 0.7, values: (k) => 1000 * track.max[k]});
       }
@@ -101,14 +102,16 @@ class Plots {
   timeChart(tracks) {
     // A logarithmic axis knows no 0.
     const lines = tracks.map((track) => Object.assign(
-      this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN), {dash: null, width: 1}));
+      this.lineOf(track, (k) => 1000 * track.seconds[k] || NaN), {dash: null, width: 1},
+      bandOf(track.seconds_least, track.seconds_most, (seconds) => 1000 * seconds || NaN)));
     return new Chart(byId("time-plot"), this.view,
       {lines, unit: "ms", digits: 2, logarithmic: tracks.length > 0, label: "Time per frame, milliseconds, logarithmic"});
   }
 
   nisChart(tracks) {
     const stating = tracks.filter((track) => track.nis.some((nis) => nis > 0));
-    const lines = stating.map((track) => this.lineOf(track, (k) => track.nis[k]));
+    const lines = stating.map((track) => Object.assign(this.lineOf(track, (k) => track.nis[k]),
+      bandOf(track.nis_least, track.nis_most, (nis) => nis)));
     const grey = themeColour("muted");
     for (const track of stating.slice(0, 1)) {
       for (const bound of [track.nis_low, track.nis_high]) {
@@ -138,12 +141,17 @@ class Plots {
     const truth = trial.truth ? series(trial.truth, "angles") : null;
     if (truth) lines.push({name: "truth", colour: themeColour("text"), width: 3, values: truth});
     let hasBand = false;
+    const reach = [];  // of what is not drawn
     for (const track of tracks) {
       const angle = series(track.motion, "angles");
       if (!angle) continue;
       const line = this.lineOf(track, angle);
       const deviation = series(track.motion, "deviations");
-      if (deviation) line.band = (k) => [angle(k) - 2 * deviation(k), angle(k) + 2 * deviation(k)];
+      const least = series(track.motion, "angles_least") || angle;
+      const most = series(track.motion, "angles_most") || angle;
+      if (least !== angle) reach.push({values: least}, {values: most});
+      if (deviation) line.band = (k) => [least(k) - 2 * deviation(k), most(k) + 2 * deviation(k)];
+      else if (least !== angle) line.band = (k) => [least(k), most(k)];
       hasBand = hasBand || Boolean(deviation);
       lines.push(line);
     }
@@ -153,8 +161,13 @@ class Plots {
       (hasBand ? "; the band is ±2 standard deviations, as the converter states them" : "") +
       (truth ? "; the broad line is the true angle" : "") + ".";
     return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,
-      range: withMargin(extremes(lines, trial.frames)), label: `Angle of ${joint.name} over time, degrees`});
+      range: withMargin(extremes([...lines, ...reach], trial.frames)), label: `Angle of ${joint.name} over time, degrees`});
   }
+}
+
+// The band of a line of which not all frames are drawn; none where all are.
+function bandOf(least, most, scaled) {
+  return least && most ? {band: (k) => [scaled(least[k]), scaled(most[k])]} : {};
 }
 
 // The range that is shown, so that rare peaks, such as a slow start, do not press all else flat.

@@ -43,7 +43,7 @@ class Stills {
     this.frames = selectFrames(trial, trial.truth || trial.tracks[0].motion);
     this.buttons = this.frames.map((frame) => {
       const time = `${formatNumber(trial.time(frame), 2)} s`;
-      const button = element("button", {type: "button", class: "still", "aria-label": `Go to ${time}, frame ${frame}`},
+      const button = element("button", {type: "button", class: "still", "aria-label": `Go to ${time}, frame ${trial.recorded(frame)}`},
         this.player.scene ? element("canvas", {width: 300, height: 300}) : null,
         element("span", {}, time));
       button.addEventListener("click", () => this.view.seek(frame));

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "common/evaluate/optimal_fit.h"
+#include "common/motion/marker_synthesis.h"
 #include "tests/support/stick_model.h"
 #include "tests/support/test_plugins.h"
 
@@ -190,6 +194,41 @@ TEST(Comparison, FinishedResultsAreMeasuredTheSameWay) {
   EXPECT_EQ(finished.rows.front().quality.median_seconds, row.quality.median_seconds);
   EXPECT_EQ(finished.grounds.front().optimum, run.grounds.front().optimum);
   EXPECT_FALSE(finished.grounds.front().hidden.any());
+}
+
+TEST(Comparison, VerdictsOnALongRecordingAreThoseOfEveryFrame) {
+  constexpr int kFrames = 5000;
+  const KinematicModel model = testing::StickModel();
+  PoseTrajectory motion;
+  motion.rate = 100;
+  for (int i = 0; i < model.num_joints(); ++i) motion.joint_names.push_back(model.joint(i).name);
+  motion.postures.assign(kFrames, ZeroPosture(model));
+  for (int k = 0; k < kFrames; ++k) {
+    motion.postures[k].joint_angles.setConstant(0.5 * std::sin(0.02 * k));
+  }
+  Trial trial;
+  trial.model = std::make_shared<KinematicModel>(model);
+  trial.markers = SynthesizeMarkers(model, motion, {0.001, 0.0004, 0.25, 0.0001}, 1);
+  Finished finished;
+  for (int i = 0; i < 4; ++i) finished.mapping.assignments.push_back({i, i});
+  // Far off up to frame 100, and in single frames between those that are fitted.
+  for (int k = 0; k < kFrames; ++k) {
+    const bool is_off = k < 100 || k % 1000 == 500 + 1;
+    if (is_off) motion.postures[k].position.x() += 0.3;
+  }
+  finished.result.trajectory = motion;
+  const Comparison comparison = CompareFinished(trial, {Contender{}}, {finished});
+  const CommonGround& ground = comparison.grounds.front();
+  EXPECT_EQ(ground.optimum_every, 3);
+  EXPECT_EQ(comparison.rows.front().quality.first_good, 100);
+  EXPECT_EQ(comparison.rows.front().quality.lost_frames, 105);
+  const std::vector<int> joints = {0, 1};
+  const Eigen::VectorXd exact =
+      OptimalDistances(model, joints, ground.markers, ground.labels, trial.markers);
+  for (int k = 0; k < kFrames; k += ground.optimum_every) {
+    // Fits end where the cost changes by less than a millionth.
+    EXPECT_NEAR(ground.optimum[k], exact[k], 0.01 * exact[k]) << k;
+  }
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/result_files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
-#include "MMMConverterS2KF/batch/batch_result.h"
-#include "MMMConverterS2KF/batch/batch_run.h"
 #include "MMMConverterS2KF/batch/entry_conversion.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
 #include "MMMConverterS2KF/report/batch_index.h"
@@ -31,29 +33,18 @@ class ResultsWriter {
 
   BatchResults Write() {
     WriteWorstPages();
-    std::vector<std::string> lines;
-    lines.reserve(manifest_.entries.size());
-    BatchResults results;
-    double distance = 0;
+    std::vector<ResultRow> rows;
+    std::vector<Json> lines;
     for (std::size_t i = 0; i < current_.size(); ++i) {
-      lines.push_back(Line(manifest_.entries[i], current_[i]));
-      const ResultFigures figures = ReadFigures(lines.back());
-      results.converted += figures.state == "converted";
-      results.failed += figures.state == "failed";
-      results.missing += figures.state == "missing";
-      results.frames += figures.frames;
-      results.recorded_seconds += figures.recorded_seconds;
-      results.seconds += figures.seconds;
-      distance += static_cast<double>(figures.frames) * figures.mean_distance_mm;
+      rows.push_back(Row(manifest_.entries[i], current_[i]));
+      lines.push_back(ToJson(rows.back()));
     }
-    if (results.frames > 0)
-      results.mean_distance_mm = distance / static_cast<double>(results.frames);
     WriteFileAtomically(folder_.Full("results.jsonl"), [&](const TextSink& sink) {
-      for (const std::string& line : lines) sink(line + "\n");
+      for (const Json& line : lines) sink(FormatJsonLine(line) + "\n");
     });
     WriteFileAtomically(folder_.Full("results.csv"), FormatResultsCsv(lines));
     WriteFileAtomically(folder_.Full("index.html"), FormatBatchIndex(manifest_.name, lines));
-    return results;
+    return Summarize(rows);
   }
 
  private:
@@ -62,11 +53,12 @@ class ResultsWriter {
     const auto found = records_.find(entry.id);
     if (found == records_.end()) return nullptr;
     const JournalRecord& record = found->second;
-    if (!record.converted) return &record;
+    if (!record.result.converted()) return &record;
     try {
-      ConversionRequest request = entry.request;
-      inputs_.Prepare(&request);
-      const bool is_current = record.fingerprint == inputs_.Fingerprint(entry, request) &&
+      const ReadBefore read_before = inputs_.ReadFor(entry.request);
+      const std::string fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
+      const bool is_current = record.fingerprint == fingerprint &&
+                              AreModelsUnchanged(entry, record) &&
                               folder_.IsComplete(record, BatchFolder::OutputsOf(entry));
       return is_current ? &record : nullptr;
     } catch (const Error&) {
@@ -74,21 +66,20 @@ class ResultsWriter {
     }
   }
 
-  std::string Line(const BatchEntry& entry, const JournalRecord* record) const {
-    if (record == nullptr) return FormatResultLine(entry, "", "", "");
-    if (!record->converted) return FormatResultLine(entry, record->result, "", "");
+  ResultRow Row(const BatchEntry& entry, const JournalRecord* record) const {
+    if (record == nullptr) return {&entry, std::nullopt, "", ""};
+    if (!record->result.converted()) return {&entry, record->result, "", ""};
     const std::string page = PagePath(entry.id);
-    return FormatResultLine(entry, record->result, MotionPath(entry.id),
-                            folder_.Has(page) ? page : "");
+    return {&entry, record->result, MotionPath(entry.id), folder_.Has(page) ? page : ""};
   }
 
   // Those with the largest mean distance, the largest first.
   std::vector<const BatchEntry*> Worst() const {
     std::vector<std::pair<double, const BatchEntry*>> entries;
     for (std::size_t i = 0; i < current_.size(); ++i) {
-      if (current_[i] == nullptr || !current_[i]->converted) continue;
-      entries.emplace_back(-ReadFigures(current_[i]->result).mean_distance_mm,
-                           &manifest_.entries[i]);
+      if (current_[i] == nullptr || !current_[i]->result.converted()) continue;
+      const double mean = current_[i]->result.figures->mean_mm;
+      entries.emplace_back(std::isnan(mean) ? 0 : -mean, &manifest_.entries[i]);
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -115,13 +106,13 @@ class ResultsWriter {
   void WritePageOf(const BatchEntry& entry) {
     if (InterruptionWatch::Signal() != 0) return;
     try {
-      ConversionRequest request = entry.request;
-      inputs_.Prepare(&request);
+      const ConversionRequest request = RequestOf(entry, folder_);
+      const ReadBefore read_before = inputs_.ReadFor(request);
       const std::string& file = request.input.file;
       const std::uint64_t bytes = ConversionMemory(file, FileSize(file), true);
       const auto part = memory_.Take(file, bytes);
       const auto goes_on = [] { return InterruptionWatch::Signal() == 0; };
-      WritePage(entry, ConvertEntry(entry, folder_, &request, goes_on), &folder_);
+      WritePage(entry, ConvertEntry(request, read_before, goes_on), &folder_);
     } catch (const WriteError&) {
       throw;
     } catch (const Error& error) {
@@ -144,6 +135,44 @@ class ResultsWriter {
 BatchResults WriteBatchResults(const BatchManifest& manifest, const BatchOptions& options,
                                BatchProgress* progress) {
   return ResultsWriter(manifest, options, progress).Write();
+}
+
+Json ToJson(const ResultRow& row) {
+  const Json result = row.result ? ToJson(*row.result)
+                                 : Json{{"state", "missing"}, {"reason", "was not converted yet"}};
+  Json line = {{"id", row.entry->id},
+               {"state", result.at("state")},
+               {"reason", result.at("reason")},
+               {"recording", row.entry->request.input.file},
+               {"group", row.entry->group},
+               {"metadata", row.entry->metadata},
+               {"motion", TextOrNull(row.motion)},
+               {"report", TextOrNull(row.report)}};
+  line.update(result);
+  return line;
+}
+
+BatchResults Summarize(const std::vector<ResultRow>& rows) {
+  BatchResults sum;
+  double distance = 0;
+  for (const ResultRow& row : rows) {
+    if (!row.result) {
+      ++sum.missing;
+      continue;
+    }
+    sum.seconds += row.result->seconds;
+    if (!row.result->converted()) {
+      ++sum.failed;
+      continue;
+    }
+    const EntryFigures& figures = *row.result->figures;
+    ++sum.converted;
+    sum.frames += figures.frames;
+    if (figures.rate > 0) sum.recorded_seconds += figures.frames / figures.rate;
+    if (!std::isnan(figures.mean_mm)) distance += figures.frames * figures.mean_mm;
+  }
+  if (sum.frames > 0) sum.mean_distance_mm = distance / static_cast<double>(sum.frames);
+  return sum;
 }
 
 }  // namespace mmm_converter

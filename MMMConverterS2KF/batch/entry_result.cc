@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/batch/entry_result.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/conversion_figures.h"
+#include "MMMConverterS2KF/report/units.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kMillisecond = 3;  // decimals of seconds
+
+void TakePerson(const ConversionReport& report, EntryFigures* figures) {
+  if (report.object) return;
+  figures->height = report.person.height.value;
+  figures->height_source = report.person.height.source;
+  figures->mass = report.person.mass.value;
+  figures->mass_source = report.person.mass.source;
+  if (report.person.subject) figures->subject = report.person.subject->name;
+}
+
+double ParseNumber(const Json& json) {
+  return json.is_null() ? EntryFigures::kNone : json.get<double>();
+}
+
+std::string ParseText(const Json& json) {
+  return json.is_null() ? std::string() : json.get<std::string>();
+}
+
+EntryFigures ParseFigures(const Json& json) {
+  EntryFigures figures;
+  figures.frames = json.at("frames").get<int>();
+  figures.rate = ParseNumber(json.at("rate_hz"));
+  figures.height = ParseNumber(json.at("height_m"));
+  figures.height_source = ParseText(json.at("height_source"));
+  figures.mass = ParseNumber(json.at("mass_kg"));
+  figures.mass_source = ParseText(json.at("mass_source"));
+  if (!json.at("subject").is_null()) figures.subject = json.at("subject").get<std::string>();
+  figures.converter = json.at("converter").get<std::string>();
+  figures.configuration = json.at("configuration").get<std::string>();
+  figures.markers_used = json.at("markers_used").get<int>();
+  figures.markers_absent = json.at("markers_absent").get<int>();
+  figures.markers_ignored = json.at("markers_ignored").get<int>();
+  figures.mean_mm = ParseNumber(json.at("distance_mm").at("mean"));
+  figures.p95_mm = ParseNumber(json.at("distance_mm").at("p95"));
+  figures.max_mm = ParseNumber(json.at("distance_mm").at("max"));
+  figures.worst_marker = ParseText(json.at("worst_marker"));
+  figures.worst_marker_mm = ParseNumber(json.at("worst_marker_mm"));
+  figures.frames_with_missing_markers = json.at("frames_with_missing_markers").get<int>();
+  figures.frames_not_converged = json.at("frames_not_converged").get<int>();
+  figures.frames_reassembled = json.at("frames_reassembled").get<int>();
+  figures.wrong_markers = json.at("wrong_markers").get<int>();
+  figures.noise_scale = ParseNumber(json.at("noise_scale"));
+  figures.nis = ParseNumber(json.at("nis_over_degrees_of_freedom"));
+  figures.median_ms = ParseNumber(json.at("ms_per_frame").at("median"));
+  figures.p99_ms = ParseNumber(json.at("ms_per_frame").at("p99"));
+  figures.warnings = json.at("warnings").get<std::vector<std::string>>();
+  return figures;
+}
+
+}  // namespace
+
+EntryResult Converted(const ConversionReport& report, double seconds) {
+  const ConversionFigures measured = MeasureConversion(report);
+  EntryFigures figures;
+  figures.frames = report.input.recording.markers.num_frames();
+  figures.rate = report.input.recording.markers.rate();
+  TakePerson(report, &figures);
+  figures.converter = report.converter.config.type;
+  figures.configuration = std::filesystem::path(report.converter.config.file).stem().string();
+  figures.markers_used = static_cast<int>(report.setup.assignments().size());
+  figures.markers_absent = static_cast<int>(report.setup.mapping.absent_markers.size());
+  figures.markers_ignored = static_cast<int>(report.setup.mapping.ignored_labels.size());
+  figures.mean_mm = kMillimetres * measured.distance.mean;
+  figures.p95_mm = kMillimetres * measured.distance.p95;
+  figures.max_mm = kMillimetres * measured.distance.max;
+  if (const int worst = measured.worst_marker; worst >= 0) {
+    figures.worst_marker = LabelOf(report, worst);
+    figures.worst_marker_mm =
+        kMillimetres * measured.of_markers[static_cast<std::size_t>(worst)].mean;
+  }
+  figures.frames_with_missing_markers = measured.frames_with_missing_markers;
+  figures.frames_not_converged = measured.frames_not_converged;
+  figures.frames_reassembled = measured.frames_reassembled;
+  figures.wrong_markers = static_cast<int>(report.result.incidents.size());
+  figures.noise_scale = report.result.noise_scale.value_or(EntryFigures::kNone);
+  figures.nis = measured.nis;
+  figures.median_ms = measured.median_ms;
+  figures.p99_ms = measured.p99_ms;
+  figures.warnings = report.warnings.texts();
+  return {std::move(figures), "", seconds};
+}
+
+EntryResult Failed(const std::string& reason, double seconds) {
+  return {std::nullopt, reason, seconds};
+}
+
+Json ToJson(const EntryResult& result) {
+  const Json seconds = Number(result.seconds, kMillisecond);
+  if (!result.converted()) {
+    return {{"state", "failed"}, {"reason", result.reason}, {"seconds", seconds}};
+  }
+  const EntryFigures& figures = *result.figures;
+  return {
+      {"state", "converted"},
+      {"reason", nullptr},
+      {"frames", figures.frames},
+      {"rate_hz", figures.rate},
+      {"height_m", Number(figures.height)},
+      {"height_source", TextOrNull(figures.height_source)},
+      {"mass_kg", Number(figures.mass)},
+      {"mass_source", TextOrNull(figures.mass_source)},
+      {"subject", figures.subject ? Json(*figures.subject) : Json(nullptr)},
+      {"converter", figures.converter},
+      {"configuration", figures.configuration},
+      {"markers_used", figures.markers_used},
+      {"markers_absent", figures.markers_absent},
+      {"markers_ignored", figures.markers_ignored},
+      {"distance_mm",
+       {{"mean", Number(figures.mean_mm)},
+        {"p95", Number(figures.p95_mm)},
+        {"max", Number(figures.max_mm)}}},
+      {"worst_marker", TextOrNull(figures.worst_marker)},
+      {"worst_marker_mm", Number(figures.worst_marker_mm)},
+      {"frames_with_missing_markers", figures.frames_with_missing_markers},
+      {"frames_not_converged", figures.frames_not_converged},
+      {"frames_reassembled", figures.frames_reassembled},
+      {"wrong_markers", figures.wrong_markers},
+      {"noise_scale", Number(figures.noise_scale)},
+      {"nis_over_degrees_of_freedom", Number(figures.nis)},
+      {"ms_per_frame", {{"median", Number(figures.median_ms)}, {"p99", Number(figures.p99_ms)}}},
+      {"seconds", seconds},
+      {"warnings", figures.warnings}};
+}
+
+EntryResult ParseEntryResult(const Json& json) {
+  EntryResult result;
+  result.reason = ParseText(json.at("reason"));
+  result.seconds = ParseNumber(json.at("seconds"));
+  if (json.at("state") == "converted") result.figures = ParseFigures(json);
+  return result;
+}
+
+}  // namespace mmm_converter

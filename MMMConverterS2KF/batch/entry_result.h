@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/report/json.h"
+
+namespace mmm_converter {
+
+/// Figures of a converted entry. NaN or an empty text: there is none, as of the height of an
+/// object.
+struct EntryFigures {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  int frames = 0;
+  double rate = 0;        ///< [Hz]
+  double height = kNone;  ///< [m]
+  std::string height_source;
+  double mass = kNone;  ///< [kg]
+  std::string mass_source;
+  std::optional<std::string> subject;  ///< its name
+  std::string converter, configuration;
+  int markers_used = 0, markers_absent = 0, markers_ignored = 0;
+  double mean_mm = kNone, p95_mm = kNone, max_mm = kNone;  ///< distance over all markers and frames
+  std::string worst_marker;                                ///< label with the largest mean distance
+  double worst_marker_mm = kNone;
+  int frames_with_missing_markers = 0, frames_not_converged = 0, frames_reassembled = 0;
+  int wrong_markers = 0;
+  double noise_scale = kNone;
+  double nis = kNone;  ///< over its degrees of freedom
+  double median_ms = kNone, p99_ms = kNone;
+  std::vector<std::string> warnings;
+};
+
+/// What became of an entry.
+struct EntryResult {
+  std::optional<EntryFigures> figures;  ///< of a converted entry
+  std::string reason;                   ///< why it failed
+  double seconds = 0;                   ///< all work on it
+
+  bool converted() const { return figures.has_value(); }
+};
+
+EntryResult Converted(const ConversionReport& report, double seconds);
+EntryResult Failed(const std::string& reason, double seconds);
+
+/// As journals and results have it; batch/README.md says what is in it.
+Json ToJson(const EntryResult& result);
+
+/// The same from a journal. @throws nlohmann::json::exception where it is something else.
+EntryResult ParseEntryResult(const Json& json);
+
+}  // namespace mmm_converter

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "common/motion/marker_residuals.h"
+
+namespace mmm_converter {
+
+/// Figures of a conversion that its summary and the results of a batch have alike.
+struct ConversionFigures {
+  ResidualSummary distance;                 ///< over all seen markers and frames [m]
+  std::vector<ResidualSummary> of_markers;  ///< the same of each assignment
+  int worst_marker = -1;                    ///< assignment with the largest mean; -1: none was seen
+  int frames_with_missing_markers = 0;
+  int frames_not_converged = 0;
+  int frames_reassembled = 0;
+  /// NIS over its degrees of freedom, mean over the frames in which the converter states one; NaN:
+  /// it never does.
+  double nis = std::numeric_limits<double>::quiet_NaN();
+  double median_ms = 0, p99_ms = 0;  ///< time of a frame
+};
+
+ConversionFigures MeasureConversion(const ConversionReport& report);
+
+/// The recording's label of an assignment.
+const std::string& LabelOf(const ConversionReport& report, int assignment);
+
+}  // namespace mmm_converter

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/calibration_summary.h"
+#include "MMMConverterS2KF/report/conversion_figures.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/report/subject_json.h"
+#include "MMMConverterS2KF/report/units.h"
+
+namespace mmm_converter {
+namespace {
+
+Json ToJson(const ResidualSummary& distance) {
+  return {{"mean", Number(kMillimetres * distance.mean)},
+          {"p95", Number(kMillimetres * distance.p95)},
+          {"max", Number(kMillimetres * distance.max)}};
+}
+
+Json DescribeInput(const ConversionReport& report) {
+  const Recording& recording = report.input.recording;
+  return {{"file", recording.file},
+          {"format", recording.format},
+          {"subject", recording.subject},
+          {"motion", recording.motion},
+          {"unit", recording.unit},
+          {"unit_guessed", recording.unit_was_guessed},
+          {"up_axis", Name(recording.up_axis)},
+          {"up_axis_decided_from_markers", recording.up_axis_was_decided},
+          {"first_frame", report.input.first_frame},
+          {"labels", recording.markers.labels()}};
+}
+
+Json DescribePerson(const ConversionReport& report) {
+  if (report.object) return nullptr;
+  Json person = {{"height_m", Number(report.person.height.value)},
+                 {"height_source", report.person.height.source},
+                 {"mass_kg", Number(report.person.mass.value)},
+                 {"mass_source", report.person.mass.source}};
+  if (report.person.hand_length) person["hand_length_m"] = Number(*report.person.hand_length);
+  return person;
+}
+
+Json DescribeMarkers(const ConversionReport& report, const ConversionFigures& figures) {
+  Json used = Json::array();
+  for (std::size_t i = 0; i < report.setup.assignments().size(); ++i) {
+    const MarkerAssignment& assignment = report.setup.assignments()[i];
+    used.push_back({{"label", LabelOf(report, static_cast<int>(i))},
+                    {"marker", report.setup.model->markers()[assignment.marker].name},
+                    {"noise_scale", assignment.noise_scale},
+                    {"frames_seen", figures.of_markers[i].seen},
+                    {"distance_mm", ToJson(figures.of_markers[i])}});
+  }
+  return {{"set", report.setup.marker_set},
+          {"used", used},
+          {"ignored", report.setup.mapping.ignored_labels},
+          {"absent", report.setup.mapping.absent_markers}};
+}
+
+Json WrongMarkersJson(const ConversionReport& report) {
+  Json incidents = Json::array();
+  const MarkerSequence& markers = report.input.recording.markers;
+  for (const MarkerIncident& incident : report.result.incidents) {
+    Json labels = {LabelOf(report, incident.assignment)};
+    if (incident.other >= 0) labels.push_back(LabelOf(report, incident.other));
+    incidents.push_back({{"kind", Name(incident.kind)},
+                         {"labels", labels},
+                         {"first_frame", report.input.first_frame + incident.first_frame},
+                         {"last_frame", report.input.first_frame + incident.last_frame},
+                         {"first_s", Number(markers.time(incident.first_frame))},
+                         {"last_s", Number(markers.time(incident.last_frame))}});
+  }
+  return incidents;
+}
+
+Json ObjectJson(const ConversionReport& report) {
+  if (!report.object) return nullptr;
+  return {
+      {"model_source", report.object->source},
+      {"model_is_new", report.object->is_built()},
+      {"shape_distance_mm",
+       report.object->is_built() ? Number(kMillimetres * report.object->distance) : Json(nullptr)}};
+}
+
+Json SubjectJson(const ConversionReport& report) {
+  if (!report.person.subject) return nullptr;
+  Json json = {{"file", report.person.subject_file},
+               {"subject_output", report.subject_output},
+               {"model_output", report.model_output},
+               {"calibration", nullptr}};
+  if (report.calibration) {
+    json["calibration"] = ToJson(*report.calibration);
+  }
+  json.update(ToJson(*report.person.subject));
+  return json;
+}
+
+}  // namespace
+
+Json ToJson(const ConversionReport& report) {
+  const MarkerSequence& markers = report.input.recording.markers;
+  const ConversionFigures figures = MeasureConversion(report);
+  return {
+      {"input", DescribeInput(report)},
+      {"frames", markers.num_frames()},
+      {"rate_hz", markers.rate()},
+      {"output", report.output},
+      {"output_format", report.output_format},
+      {"motion", report.motion_name},
+      {"model", report.input.model_file},
+      {"person", DescribePerson(report)},
+      {"object", ObjectJson(report)},
+      {"subject", SubjectJson(report)},
+      {"converter", report.converter.config.type},
+      {"plugin", report.converter.plugin->path()},
+      {"configuration", report.converter.config.file},
+      {"joints", report.result.trajectory.joint_names},
+      {"markers", DescribeMarkers(report, figures)},
+      {"distance_mm", ToJson(figures.distance)},
+      {"frames_with_missing_markers", figures.frames_with_missing_markers},
+      {"frames_not_converged", figures.frames_not_converged},
+      {"frames_reassembled", figures.frames_reassembled},
+      {"noise_scale",
+       report.result.noise_scale ? Number(*report.result.noise_scale) : Json(nullptr)},
+      {"nis_over_degrees_of_freedom", Number(figures.nis)},
+      {"wrong_markers", WrongMarkersJson(report)},
+      {"ms_per_frame", {{"median", Number(figures.median_ms)}, {"p99", Number(figures.p99_ms)}}},
+      {"warnings", report.warnings.texts()}};
+}
+
+}  // namespace mmm_converter
