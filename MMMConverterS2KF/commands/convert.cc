@@ -55,8 +55,8 @@ constexpr const char* kAllMotions = "all";
 
 constexpr const char* kUsage = R"(MMMConverterS2KF convert INPUT [options]
 Converts the markers of INPUT (C3D, TRC, or an MMM motion with markers) into an MMM motion.
-Of an MMM 2.0 file all other motions are kept; -o may be INPUT then. --motion all converts every
-motion that has markers: persons with the reference model, rigid objects each with its own.
+The other motions of an MMM 2.0 file are kept, and -o may then be INPUT. --motion all converts every
+motion that has markers: persons with the reference model, each rigid object with its own model.
 
 {}MMMMotionConverter's options --inputMotion, --motionName, --converterConfigFile, --outputModelFile,
 --outputModelProcessorConfigFile and --outputMotion stand for INPUT, --motion, -c, --model, --person

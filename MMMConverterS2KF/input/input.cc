@@ -117,7 +117,7 @@ const std::vector<OptionGroup>& InputOptions() {
         {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length",
          "outputModelProcessorConfigFile"},
         {"subject-file", "FILE",
-         "who the person is, from calibrate: height, mass, segment lengths and marker places", ""},
+         "calibrated person: height, mass, segment lengths and marker places", ""},
         {"model", "FILE", "MMM model, or a URDF as it is; default: the shipped MMM model",
          "outputModelFile"},
         {"marker-set", "FILE",

@@ -113,7 +113,7 @@ std::string FormatEntries(const std::vector<std::string>& results) {
     if (!result.is_object()) {
       throw Error(fmt::format(
           "results of the batch, entry {}: expected a JSON object as in a line of results.jsonl, "
-          "found \"{}\"; run the batch again to write its results anew",
+          "found \"{}\"; run the batch again to write its results again",
           i + 1, results[i].substr(0, 60)));
     }
     AddEntry(result, i, &columns);

@@ -259,7 +259,7 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
                       kMillimetres * distance.mean, kMillimetres * distance.p95,
                       kMillimetres * distance.max, WorstMarkers(report));
-  text += fmt::format("frames     {} with missing markers, {} not converged, {} taken up anew\n",
+  text += fmt::format("frames     {} with missing markers, {} not converged, {} reinitialised\n",
                       FramesWithMissingMarkers(report.result.residuals), FramesNotConverged(report),
                       FramesReassembled(report));
   if (const auto scale = report.result.noise_scale) {

@@ -157,7 +157,7 @@ TEST(Calibration, SaysThatMarkersWerePutOnAnew) {
                                            {one.ForCalibration(), other.ForCalibration()}, {})
                               .warnings;
     return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-      return warning.find("put on anew") != std::string::npos;
+      return warning.find("attached again") != std::string::npos;
     });
   };
   EXPECT_FALSE(mentions_session(same));
