@@ -25,11 +25,10 @@ const OptionGroup kFiles = {"Files",
 
 const OptionGroup kMotion = {
     "Motion",
-    {{"motion", "NAME", "of a file with several", ""},
+    {{"motion", "NAME", "the motion to check, if the file has several", ""},
      {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
      {"low-pass", "HZ",
-      "before the motion is differentiated; 0: none, for motions that are smooth; default: 6",
-      ""}}};
+      "cut-off before differentiation; 0: no filter, for smooth motions; default: 6", ""}}};
 
 const OptionGroup kPerson = {
     "Person and model",

@@ -24,8 +24,8 @@ const OptionGroup kFileOptions = {
      {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
      {"report", "FILE", "write a page (HTML) with player and plots", ""},
      {"summary", "FILE", "write a summary as JSON", ""},
-     {"model-path", "PATH", "what the motion says of where its model is; default: relative to it",
-      ""}}};
+     {"model-path", "PATH",
+      "path of the model that is written into the motion; default: relative to the motion", ""}}};
 
 const std::vector<OptionGroup> kOtherOptions = {
     {"Converter",
@@ -41,7 +41,8 @@ const std::vector<OptionGroup> kOtherOptions = {
       {"model-out", "FILE", "of a calibrated person: also write the model, for other MMM programs",
        ""}}},
     {"Objects",
-     {{"object", "", "a rigid object was recorded, no person; MMM motions say so themselves", ""},
+     {{"object", "",
+       "the recording shows a rigid object, not a person; MMM motions state this themselves", ""},
       {"object-models", "DIR",
        "models of rigid objects, DIR/MOTION.xml each; one that is missing is built from its "
        "motion's markers and written there; default: all are built, into OUTPUT without ending + "
