@@ -22,16 +22,16 @@ constexpr int kFailed = 1;
 constexpr int kMisused = 2;
 
 constexpr std::array kCommands = {
-    Command{"convert", "a recording in, an MMM motion out", RunConvert},
-    Command{"batch", "a whole database of recordings, on all cores", RunBatch},
-    Command{"calibrate", "who the person is, from recordings", RunCalibrate},
-    Command{"check-dynamics", "whether a body can move like a motion", RunCheckDynamics},
-    Command{"compare", "converters side by side on recordings", RunCompare},
-    Command{"evaluate", "the paper's evaluation, done anew, with a report", RunEvaluate},
-    Command{"export-urdf", "the model of a person as a URDF, for robotics", RunExportUrdf},
-    Command{"info", "what is in a recording, motion, model, configuration or plugin", RunInfo},
-    Command{"print-config", "a converter's configuration with every setting", RunPrintConfig},
-    Command{"report", "a page that shows finished motions on their recording", RunReport}};
+    Command{"convert", "convert a recording into an MMM motion", RunConvert},
+    Command{"batch", "convert many recordings on all cores", RunBatch},
+    Command{"calibrate", "estimate segment lengths and marker places of a person", RunCalibrate},
+    Command{"check-dynamics", "check whether a body can move like a motion", RunCheckDynamics},
+    Command{"compare", "compare converters on recordings", RunCompare},
+    Command{"evaluate", "repeat the evaluation of the paper", RunEvaluate},
+    Command{"export-urdf", "write the model of a person as a URDF", RunExportUrdf},
+    Command{"info", "describe a recording, motion, model, configuration or plugin", RunInfo},
+    Command{"print-config", "print the configuration of a converter with every setting", RunPrintConfig},
+    Command{"report", "show finished motions and their recording on a page", RunReport}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF {}: motion capture markers to MMM motions
 
@@ -43,12 +43,12 @@ Examples
   MMMConverterS2KF print-config S2KFConverter > my.xml
 
 Environment
-  MMM_CONVERTER_PLUGIN_PATH  folders with more converter plugins, separated by colons
-  MMM_CONVERTER_DATA         folder of models, marker sets and configurations, instead of what is
-                             shipped
-  MMM_CONVERTER_INSTRUCTION_SET  baseline, avx2 or avx512, instead of the best that there is
+  MMM_CONVERTER_PLUGIN_PATH  folders of additional converter plugins, separated by colons
+  MMM_CONVERTER_DATA         folder of models, marker sets and configurations that replaces the
+                             installed one
+  MMM_CONVERTER_INSTRUCTION_SET  baseline, avx2 or avx512, instead of the best available
 
-Exit codes: 0 done, 1 input or conversion failed, 2 not understood
+Exit codes: 0 done, 1 input or conversion failed, 2 the command line is invalid
 )";
 
 void PrintHelp() {

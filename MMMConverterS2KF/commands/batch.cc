@@ -54,12 +54,13 @@ const std::vector<OptionGroup> kOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF batch MANIFEST -o FOLDER [options]
-Converts the recordings of a manifest (XML; print-config batch shows all that it may say). What
-can't be converted fails alone. A run that was ended, however, is taken up again with --resume.
+Converts the recordings of a manifest, an XML file ("print-config batch" prints an example). A
+recording that cannot be converted does not stop the others. --resume continues a run that was
+interrupted.
 
-{}FOLDER has motions/ID.xml, and as asked for reports/, csv/ and subjects/; journal.jsonl, a line for
-each recording that has ended; results.jsonl and results.csv; index.html, the worst first. Exit code
-1 where a recording failed, 128 + the signal's number where one ended the run.
+{}FOLDER contains motions/ID.xml, optionally reports/, csv/ and subjects/; journal.jsonl with a line
+for each finished recording; results.jsonl and results.csv; index.html, sorted by quality, the worst
+first. The exit code is 1 if a recording failed, and 128 + N if signal N interrupted the run.
 
 Examples
   MMMConverterS2KF batch --scan recordings --subjects subjects.csv > manifest.xml
@@ -164,10 +165,11 @@ void WarnOfEarlierRun(const std::string& folder) {
     return record.second.result.converted();
   });
   if (ended == 0) return;
-  LogWarning(fmt::format(
-      "{}: an earlier run has converted {} recordings; all are converted anew, --resume would keep "
-      "what is unchanged",
-      folder, ended));
+  LogWarning(
+      fmt::format("{}: an earlier run has converted {} recordings; all are converted again, "
+                  "--resume would keep "
+                  "what is unchanged",
+                  folder, ended));
 }
 
 int Convert(const BatchManifest& manifest, const BatchOptions& options) {

@@ -37,14 +37,13 @@ const std::vector<OptionGroup> kOwnOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF calibrate RECORDING... [options]
-Estimates who the person is beyond height and mass: the lengths of the segments and where the
-markers sit. Any motions of the person do; the more the joints move, the better. Markers must not
-have been put on anew between the recordings, nor before those that are converted with the result.
-What the recordings do not determine stays where the model has it. convert --subject-file takes the
-result.
+Estimates the lengths of a person's segments and the places of the markers on the body. Any motions
+of the person can be used; the more the joints move, the better. Markers must not be attached again
+between these recordings and those that are converted with the result. What the recordings do not
+determine keeps the values of the scaled model. Use the result with convert --subject-file.
 
-{}The options frames, subject, motion, unit, rate and up may be there once for all recordings, or once
-for each in their order.
+{}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
+for each recording in the same order.
 
 Examples
   MMMConverterS2KF calibrate range_of_motion.c3d --height 1.75 -o anna.xml

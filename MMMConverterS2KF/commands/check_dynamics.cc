@@ -26,11 +26,10 @@ const OptionGroup kFiles = {"Files",
 
 const OptionGroup kMotion = {
     "Motion",
-    {{"motion", "NAME", "of a file with several", ""},
+    {{"motion", "NAME", "the motion to check, if the file has several", ""},
      {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
      {"low-pass", "HZ",
-      "before the motion is differentiated; 0: none, for motions that are smooth; default: 6",
-      ""}}};
+      "cut-off before differentiation; 0: no filter, for smooth motions; default: 6", ""}}};
 
 const OptionGroup kPerson = {
     "Person and model",
@@ -38,7 +37,7 @@ const OptionGroup kPerson = {
      {"mass", "KG", "default: from the motion's file, else 70", ""},
      {"hand-length", "METRES", "default: from the motion's file, else by the height", ""},
      {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
-     {"subject-file", "FILE", "who the person is, from calibrate", ""},
+     {"subject-file", "FILE", "calibrated person, written by calibrate", ""},
      {"model", "FILE",
       "reference model, or a URDF; default: the one that the motion's file names, else the shipped "
       "one",
@@ -50,9 +49,9 @@ const OptionGroup kGeneral = {
      {"help,h", "", "print this help", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
-Whether a body can move like the MMM motion (1.0 or 2.0): centre of mass, momentum, forces, torques
-and power by inverse dynamics (Simbody), beside what physics expects of them. The ground is level,
-and all that touches it is the body; z is up.
+Checks whether a human body can move like an MMM motion (1.0 or 2.0). Computes centre of mass,
+momentum, forces, torques and power by inverse dynamics (Simbody) and compares them with the laws of
+mechanics. Assumes level ground as the only contact of the body; z points up.
 
 {}Checks, and what is plausible
   kinematics   Simbody and this program place the body within {:.0e} m of each other
@@ -64,14 +63,14 @@ and all that touches it is the body; z is up.
   flight       the centre of mass falls with {:g} m/s² ± {:.0f} %; angular momentum about it varies by
                at most {:.0f} % (root mean square)
   torque       at most {:g} N m for each kg of the body, in joints that do not stand on the ground
-Forces, flights and torques are not judged where accelerations are noise (above {:g} body weights
-rms by what the low-pass takes away, or forces above {:g}), or where the rate is too low for the
-low-pass; the ground's checks not on less than {:g} s. The low-pass sees the frames beside --frames;
-the first and last period (1 / HZ) of the whole motion count for no force or torque. Torques are
-told only while nothing below the joint touches the ground: a motion does not say how feet share
-the weight.
+Forces, flights and torques are not judged if accelerations are mostly noise (above {:g} body
+weights rms, estimated from what the low-pass filter removes, or forces above {:g}), or if the frame
+rate is too low for the filter. Ground contact is not judged on less than {:g} s. The filter also uses the
+frames outside of --frames; the first and the last period (1 / HZ) of the whole motion are left out
+of forces and torques. A torque is only known while nothing below the joint touches the ground, as a
+motion does not tell how the feet share the weight.
 
-Exit code 1 where a check is implausible, as for input that can't be read.
+The exit code is 1 if a check is implausible or the input cannot be read.
 
 Examples
   MMMConverterS2KF check-dynamics walk_mmm.xml

@@ -40,16 +40,16 @@ const OptionGroup kGeneral = {"General",
                                {"help,h", "", "print this help", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF compare RECORDING... [options]
-Converts every recording with every configuration and compares the results. Nothing is written but
-what the options below ask for; the table goes to the standard output.
+Converts every recording with every configuration and compares the results. The table is printed;
+files are only written where an option below asks for them.
 
 Distances are between measured and model markers, hidden ones included, over the markers and joints
 that all configurations use. The optimum is the least-squares posture of each frame on its own. A
 frame is good up to 1.2 optimum + 2 mm, lost beyond 2 optimum + 20 mm.
 
-{}The options truth, subject, motion, height, mass, person, subject-file and up may be there once for
-all recordings, or once for each in their order. Exit code 1 where a pair failed; the others are
-compared all the same.
+{}The options truth, subject, motion, height, mass, person, subject-file and up are given once for
+all recordings, or once for each recording in the same order. The exit code is 1 if a conversion failed;
+the others are compared nevertheless.
 
 Examples
   MMMConverterS2KF compare walk.c3d run.c3d --height 1.75 --report comparison.html

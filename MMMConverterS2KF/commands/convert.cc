@@ -26,8 +26,8 @@ const OptionGroup kFileOptions = {
      {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
      {"report", "FILE", "write a page (HTML) with player and plots", ""},
      {"summary", "FILE", "write a summary as JSON", ""},
-     {"model-path", "PATH", "what the motion says of where its model is; default: relative to it",
-      ""}}};
+     {"model-path", "PATH",
+      "path of the model that is written into the motion; default: relative to the motion", ""}}};
 
 const std::vector<OptionGroup> kOtherOptions = {
     {"Converter",
@@ -43,7 +43,8 @@ const std::vector<OptionGroup> kOtherOptions = {
       {"model-out", "FILE", "of a calibrated person: also write the model, for other MMM programs",
        ""}}},
     {"Objects",
-     {{"object", "", "a rigid object was recorded, no person; MMM motions say so themselves", ""},
+     {{"object", "",
+       "the recording shows a rigid object, not a person; MMM motions state this themselves", ""},
       {"object-models", "DIR",
        "models of rigid objects, DIR/MOTION.xml each; one that is missing is built from its "
        "motion's markers and written there; default: all are built, into OUTPUT without ending + "
@@ -57,8 +58,8 @@ constexpr const char* kAllMotions = "all";
 
 constexpr const char* kUsage = R"(MMMConverterS2KF convert INPUT [options]
 Converts the markers of INPUT (C3D, TRC, or an MMM motion with markers) into an MMM motion.
-Of an MMM 2.0 file all other motions are kept; -o may be INPUT then. --motion all converts every
-motion that has markers: persons with the reference model, rigid objects each with its own.
+The other motions of an MMM 2.0 file are kept, and -o may then be INPUT. --motion all converts every
+motion that has markers: persons with the reference model, each rigid object with its own model.
 
 {}MMMMotionConverter's options --inputMotion, --motionName, --converterConfigFile, --outputModelFile,
 --outputModelProcessorConfigFile and --outputMotion stand for INPUT, --motion, -c, --model, --person

@@ -34,9 +34,9 @@ const std::vector<OptionGroup> kOwnOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF evaluate [RECORDING...] [options]
-The evaluation of the paper, done anew: a (synthetic) handstand with all markers and with markers
-that hide at random, tracked by the S2KF in the paper's and in the default configuration, by the UKF
-and EKF, and by framewise fits. Recordings that are named are compared too. One to two minutes on
+Repeats the evaluation of the paper: a synthetic handstand, with all markers and with markers hidden
+at random, is tracked by the S2KF in the paper's and in the default configuration, by the UKF and
+EKF, and by framewise fits. RECORDINGs are compared in addition. This takes one to two minutes on
 two cores. Writes report.html, evaluation.json and a gnuplot script for each experiment into FOLDER.
 
 {}Examples

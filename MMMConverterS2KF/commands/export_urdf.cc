@@ -22,7 +22,7 @@ const std::vector<OptionGroup> kOptions = {
       {"hand-length", "METRES", "default: by the height", ""},
       {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
       {"subject-file", "FILE",
-       "who the person is, from calibrate: height, mass, segment lengths and marker places", ""},
+       "calibrated person: height, mass, segment lengths and marker places", ""},
       {"model", "FILE", "MMM reference model; default: the shipped one", ""},
       {"marker-set", "FILE", "markers of this set are placed on the model", ""}}},
     {"General",
@@ -30,8 +30,8 @@ const std::vector<OptionGroup> kOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF export-urdf --height H --mass M -o FILE [options]
-The MMM model of a person as a URDF: joints with limits, masses, inertia, markers as fixed links
-MARKER_..._marker, simple shapes. convert --model takes it as it takes any URDF.
+Writes the MMM model of a person as a URDF: joints with limits, masses, inertia, simple shapes, and
+markers as fixed links MARKER_..._marker. convert --model reads it like any other URDF.
 
 {}Examples
   MMMConverterS2KF export-urdf --height 1.75 --mass 70 -o anna.urdf

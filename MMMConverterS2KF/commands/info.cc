@@ -26,8 +26,8 @@ namespace {
 const std::vector<OptionGroup> kOptions = {
     {"Options",
      {{"json", "", "machine-readable", ""},
-      {"subject", "NAME", "label prefix to take where a recording has several subjects", ""},
-      {"unit", "mm|cm|m|in", "of the recording, instead of what the file says", ""},
+      {"subject", "NAME", "label prefix of the subject, if a recording has several", ""},
+      {"unit", "mm|cm|m|in", "overrides the unit that the file states", ""},
       {"up", "AXIS", "the recording's axis that points up: x, y, z, -x, -y or -z", ""},
       {"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
       {"version", "", "print this program's version", ""},

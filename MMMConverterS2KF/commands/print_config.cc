@@ -17,8 +17,8 @@ const std::vector<OptionGroup> kOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF print-config NAME
-Prints the configuration of a converter with every setting, documented, at its default; of the name
-batch a manifest for batch.
+Prints the configuration of a converter: every setting with its default and a description. The name
+"batch" prints an example of a manifest for the command batch.
 
 {}Examples
   MMMConverterS2KF print-config S2KFConverter > my.xml

@@ -28,10 +28,11 @@ const std::vector<OptionGroup> kOwnOptions = {
       {"help,h", "", "print this help", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF report RECORDING MOTION... [options]
-A page (HTML, opens without a network) that shows finished MMM motions on the recording that they
-were converted from: player, distances, joint angles. MOTION may be of any program, and may be
-RECORDING itself where that is an MMM file with joint angles. Nothing is converted; for a page of a
-conversion with its uncertainty and times use convert --report, for several compare --report.
+Writes an HTML page that shows finished MMM motions together with the recording that they were
+converted from: a player, marker distances and joint angles. It opens without a network. MOTION may
+come from any program, and may be RECORDING itself if that is an MMM file with joint angles. Nothing
+is converted. For a page with uncertainty and computing times use convert --report; to compare
+several conversions use compare --report.
 
 {}Examples
   MMMConverterS2KF report walk.c3d walk_mmm.xml

@@ -119,15 +119,15 @@ void ParseFrames(const std::string& text, InputRequest* request) {
 const std::vector<OptionGroup>& InputOptions() {
   static const std::vector<OptionGroup> options = {
       {"Recording",
-       {{"subject", "NAME", "label prefix to take where a recording has several subjects", ""},
+       {{"subject", "NAME", "label prefix of the subject, if a recording has several", ""},
         {"motion", "NAME",
-         "of an MMM file: the motion to convert (convert: or all); else: the name of the motion "
-         "that is written",
+         "MMM files: the motion to convert (convert: or all); other files: the name of the "
+         "written motion",
          "motionName"},
         {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
-        {"unit", "mm|cm|m|in", "instead of what the file says", ""},
-        {"rate", "HZ", "instead of what the file says", ""},
-        {"ignore-residuals", "", "of a C3D file: take also points that it marks as invalid", ""},
+        {"unit", "mm|cm|m|in", "overrides the unit that the file states", ""},
+        {"rate", "HZ", "overrides the frame rate that the file states", ""},
+        {"ignore-residuals", "", "C3D files: also use points that the file marks as invalid", ""},
         {"up", "AXIS", "the file's axis that points up: x, y, z, -x, -y or -z", ""}}},
       {"Person and model",
        {{"height", "METRES", "default: from the files, else estimated from the markers", ""},
@@ -136,11 +136,11 @@ const std::vector<OptionGroup>& InputOptions() {
         {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length",
          "outputModelProcessorConfigFile"},
         {"subject-file", "FILE",
-         "who the person is, from calibrate: height, mass, segment lengths and marker places", ""},
+         "calibrated person: height, mass, segment lengths and marker places", ""},
         {"model", "FILE", "MMM model, or a URDF as it is; default: the shipped MMM model",
          "outputModelFile"},
         {"marker-set", "FILE",
-         "which labels stand for which markers, and where these are; default: what the "
+         "assigns labels to model markers, and can place these; default: what the "
          "configuration says",
          ""}}}};
   return options;

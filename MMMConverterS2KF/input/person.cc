@@ -42,7 +42,7 @@ void CheckLength(const char* what, const std::optional<double>& given, std::opti
   if (!given || (own && AreEqual(*given, *own))) return;
   throw Error(
       fmt::format("{}: is calibrated for {} {}, not for {:g} m: its segment scales are relative to "
-                  "it; leave the {} out, or calibrate anew with it",
+                  "it; leave the {} out, or calibrate again with it",
                   file, what, own ? fmt::format("{:g} m", *own) : "by the height", *given, what));
 }
 

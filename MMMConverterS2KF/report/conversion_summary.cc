@@ -123,7 +123,7 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
                       kMillimetres * figures.distance.mean, kMillimetres * figures.distance.p95,
                       kMillimetres * figures.distance.max, WorstMarkers(report, figures));
-  text += fmt::format("frames     {} with missing markers, {} not converged, {} taken up anew\n",
+  text += fmt::format("frames     {} with missing markers, {} not converged, {} reinitialised\n",
                       figures.frames_with_missing_markers, figures.frames_not_converged,
                       figures.frames_reassembled);
   if (const auto scale = report.result.noise_scale) {

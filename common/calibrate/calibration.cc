@@ -31,7 +31,7 @@ constexpr double kLeastObservability = 0.5;
 // Wands included, nobody wears a marker farther than this from where the model has it [m].
 constexpr double kFarOffset = 0.2;
 
-// So many markers of a recording that are this far from their place in all were put on anew [m].
+// So many markers of a recording that are this far from their place in all were attached again [m].
 constexpr double kMovedMarker = 0.005;
 constexpr double kMovedShare = 0.25;
 
@@ -168,7 +168,7 @@ void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints
     Warn(warnings,
          fmt::format(
              "{}: {} of {} markers sit more than {:.0f} mm from where the recordings together have "
-             "them; were markers put on anew in between? Calibrate each session by itself",
+             "them; were markers attached again in between? Calibrate each session separately",
              recordings[r].name, moved, shifts.cols(), 1000 * kMovedMarker));
   }
 }

@@ -75,7 +75,7 @@ LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).s
   if (version_ != kConverterInterfaceVersion) {
     throw Error(
         fmt::format("{}: was built against interface version \"{}\", this program has "
-                    "\"{}\"; build the plugin anew",
+                    "\"{}\"; rebuild the plugin",
                     path, version_, kConverterInterfaceVersion));
   }
   factory_.reset(get_factory());

@@ -24,11 +24,13 @@ constexpr double kPi = std::numbers::pi;
 /// [rad]. Joints that no channel moves rest in a relaxed posture.
 using Keyframes = std::map<std::string, std::vector<double>>;
 
+enum class Support { kToes, kFingertips, kPalms };
+
 /// From `begin` until the next one: nodes whose mean stands still.
 struct Contact {
   double begin;  // [s]; the support is handed over during kHandOver around it
   std::vector<std::string> nodes;
-  bool is_hand;
+  Support support;
 };
 constexpr double kHandOver = 0.3;  // [s]
 
@@ -106,8 +108,9 @@ class Choreography {
     }
     const auto X_WS = SegmentPoses(model, rest_);
     const double sole = X_WS[NodeIndex(model, "LeftFootHeight_joint")].translation().z();
-    foot_height_ = X_WS[NodeIndex(model, "LFx_joint")].translation().z() - sole;
-    hand_height_ = -0.2 * sole;  // the wrist above the tips of a straight hand
+    heights_[Support::kToes] = X_WS[NodeIndex(model, "LFx_joint")].translation().z() - sole;
+    heights_[Support::kFingertips] = -0.2 * sole;  // the wrist above the tips of a straight hand
+    heights_[Support::kPalms] = -0.055 * sole;     // the wrist above a hand that lies on the floor
     PlaceContacts();
   }
 
@@ -167,7 +170,7 @@ class Choreography {
       const Posture posture = PostureWithoutPosition(script_.contacts[c].begin);
       Vector3d place = ContactInRoot(c, posture);
       if (c > 0) place += places_[c - 1] - ContactInRoot(c - 1, posture);
-      place.z() = script_.contacts[c].is_hand ? hand_height_ : foot_height_;
+      place.z() = heights_.at(script_.contacts[c].support);
       places_.push_back(place);
     }
   }
@@ -184,8 +187,7 @@ class Choreography {
   Script script_;
   Posture rest_;
   std::vector<int> joints_;
-  double foot_height_ = 0;
-  double hand_height_ = 0;
+  std::map<Support, double> heights_;  // of a contact's nodes above the floor [m]
   std::vector<Vector3d> places_;
 };
 
@@ -193,44 +195,67 @@ const std::vector<std::string> kLeftFoot = {"LFx_joint"};
 const std::vector<std::string> kRightFoot = {"RFx_joint"};
 const std::vector<std::string> kHands = {"LWx_joint", "RWx_joint"};
 
+/// Values on the way up, then those of the way down from its end to its start.
+std::vector<double> UpAndDown(std::vector<double> up, const std::vector<double>& down) {
+  assert(up.back() == down.back());
+  up.insert(up.end(), down.rbegin() + 1, down.rend());
+  return up;
+}
+
+std::vector<double> Negated(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return values;
+}
+
 }  // namespace
 
 PoseTrajectory MakeHandstand(const KinematicModel& model) {
+  // The way up; down is the same way back with left and right exchanged. The values put the centre
+  // of pressure between what touches the floor, as if the body had to keep its balance.
+  // stand, arms up, bend, hands down, left leg up, right leg off, legs nearly up, upside down
+  const std::vector<double> times = {0, 0.8, 1.4, 1.9, 2.25, 2.6, 2.95, 3.37};
+  constexpr double kHandsDown = 2.2;  // the hands take over from the right foot [s]
+  const double end = 2 * times.back();
   Script script;
   script.num_frames = 675;
-  // stand, arms up, step, lunge, hands down, kick, nearly up, up, hold, tilt, legs down, foot down,
-  // lunge, step back, stand
-  script.times = {0, 1.0, 1.4, 1.8, 2.4, 2.75, 3.1, 3.45, 4.0, 4.35, 4.75, 5.1, 5.65, 6.1, 6.55};
-  const double up = -183 * kPi / 180;
-  const std::vector<double> arms = {0,    2.7,  2.75, 2.7, 2.0, 2.3, 2.95, 3.12,
-                                    3.12, 2.95, 2.3,  2.0, 2.5, 1.6, 0};
-  const std::vector<double> elbows = {.2, .15, .15, .15, .1,  .1, .1, .1,
-                                      .1, .1,  .1,  .1,  .15, .3, .2};
+  script.times = times;
+  for (std::size_t i = times.size() - 1; i-- > 0;) script.times.push_back(end - times[i]);
+  const auto both = [](const std::vector<double>& values) { return UpAndDown(values, values); };
+
+  const auto arms = both({0, 2.26, 2.31, 2.67, 2.19, 2.42, 3.02, 3.02});
+  const auto elbows = both({.2, .1, .08, .28, .13, .07, .08, .09});
+  const auto forearms = both({0, .5, 1.2, 1.5, 1.5, 1.5, 1.5, 1.5});
+  const auto wrists = both({0, 0, -.84, -.97, -1.4, -1.53, -1.4, -1.28});
+  const std::vector<double> first_hip = {.05, .06, 1.03, 1.62, .22, -.26, -.27, .12};
+  const std::vector<double> first_knee = {-.1, -.13, -.16, -.11, -.11, -.31, -.29, -.05};
+  const std::vector<double> first_ankle = {.05, .17, -.13, .08, .47, -.51, -.59, -.6};
+  const std::vector<double> last_hip = {.05, 0, .99, 1.6, 1.6, 1.62, 1.27, .12};
+  const std::vector<double> last_knee = {-.1, -.05, -.15, -.11, -.43, -.04, -.31, -.05};
+  const std::vector<double> last_ankle = {.05, .14, -.11, .04, .3, -.65, -.59, -.6};
   script.keyframes = {
-      {"roll", {0, .03, .03, -.15, -1.15, -2.0, -2.85, -3.15, up, -3.0, -2.1, -1.15, -.15, 0, 0}},
-      {"pitch", {0, 0, .03, 0, 0, .02, .04, .02, 0, -.03, -.03, 0, 0, -.03, 0}},
-      {"yaw", {0, 0, .05, .05, 0, -.05, -.03, 0, .05, .05, 0, 0, -.05, -.03, 0}},
-      {"BPx_joint", {0, .05, .05, -.05, -.35, -.2, -.05, 0, .05, 0, -.2, -.35, -.1, 0, 0}},
-      {"BTx_joint", {0, .05, .05, -.05, -.3, -.15, -.05, 0, .05, 0, -.15, -.3, -.1, 0, 0}},
-      {"BLNx_joint", {0, .1, .1, 0, .1, .15, .15, .15, .15, .15, .15, .1, 0, 0, 0}},
-      {"BUNx_joint", {0, .05, .05, 0, .2, .3, .35, .35, .35, .35, .3, .2, 0, 0, 0}},
+      {"roll", both({0, -.07, -.78, -1.56, -1.64, -2.13, -2.95, -183 * kPi / 180})},
+      {"BPx_joint", both({0, .12, -.31, -.53, -.3, -.37, -.13, .02})},
+      {"BTx_joint", both({0, -.06, -.29, -.41, -.45, -.24, -.08, .05})},
+      {"BLNx_joint", both({0, .05, 0, -.1, 0, .1, .15, .15})},
+      {"BUNx_joint", both({0, .05, 0, 0, .1, .25, .35, .35})},
       {"LSx_joint", arms},
       {"RSx_joint", arms},
       {"LEx_joint", elbows},
       {"REx_joint", elbows},
-      {"LHx_joint",
-       {0.05, -.03, -.1, -.3, -.35, -.6, -.35, -.02, .05, -.2, -.5, -.35, -.3, -.05, .05}},
-      {"LKx_joint", {-.1, -.1, -.1, -.2, -.3, -.3, -.15, -.1, -.1, -.15, -.3, -.3, -.2, -.15, -.1}},
-      {"LAx_joint", {.05, .1, .15, .1, -.3, -.55, -.6, -.6, -.6, -.6, -.55, -.3, .1, .15, .05}},
-      {"RHx_joint", {0.05, 0, .9, .7, 1.6, 1.4, .7, .1, 0, .7, 1.4, 1.6, .7, .8, .05}},
-      {"RKx_joint", {-.1, -.1, -.9, -.5, -.95, -.7, -.4, -.1, -.1, -.3, -.6, -.95, -.5, -.9, -.1}},
-      {"RAx_joint", {.05, .07, .1, -.05, .48, -.3, -.6, -.6, -.6, -.6, -.3, .48, -.05, .1, .05}},
+      {"LEz_joint", Negated(forearms)},
+      {"REz_joint", forearms},
+      {"LWy_joint", Negated(wrists)},
+      {"RWy_joint", wrists},
+      {"LHx_joint", UpAndDown(first_hip, last_hip)},
+      {"LKx_joint", UpAndDown(first_knee, last_knee)},
+      {"LAx_joint", UpAndDown(first_ankle, last_ankle)},
+      {"RHx_joint", UpAndDown(last_hip, first_hip)},
+      {"RKx_joint", UpAndDown(last_knee, first_knee)},
+      {"RAx_joint", UpAndDown(last_ankle, first_ankle)},
   };
-  script.contacts = {{0, kLeftFoot, false},
-                     {1.85, kRightFoot, false},
-                     {2.4, kHands, true},
-                     {5.05, kRightFoot, false},
-                     {5.6, kLeftFoot, false}};
+  script.contacts = {{0, kRightFoot, Support::kToes},
+                     {kHandsDown, kHands, Support::kPalms},
+                     {end - kHandsDown, kLeftFoot, Support::kToes}};
   return Choreography(model, script).Play();
 }
 
@@ -253,10 +278,10 @@ PoseTrajectory MakeCartwheel(const KinematicModel& model) {
       {"LAx_joint", {0, 0, -.4, -.5, -.3, 0, 0}},
       {"RAx_joint", {0, 0, -.3, -.5, -.4, 0, 0}},
   };
-  script.contacts = {{0, kRightFoot, false},
-                     {1.6, {"RWx_joint"}, true},
-                     {2.15, {"LWx_joint"}, true},
-                     {2.7, kLeftFoot, false}};
+  script.contacts = {{0, kRightFoot, Support::kToes},
+                     {1.6, {"RWx_joint"}, Support::kFingertips},
+                     {2.15, {"LWx_joint"}, Support::kFingertips},
+                     {2.7, kLeftFoot, Support::kToes}};
   return Choreography(model, script).Play();
 }
 

@@ -14,8 +14,8 @@ namespace mmm_converter {
 // The floor is z = 0, the subject looks along y.
 /// @throws Error where the model lacks one of KitJointNames() or a contact node of MMM's model.
 
-/// 675 frames: step, hands to the floor, kick up to a handstand (root roll to -183 degrees), and
-/// back to standing.
+/// 675 frames: hands to the floor, one leg after the other up to a handstand (root roll to -183
+/// degrees), and back to standing. The centre of pressure stays between what touches the floor.
 PoseTrajectory MakeHandstand(const KinematicModel& model);
 
 /// 400 frames: a cartwheel to the right (root pitch from 0 through 90 to 360 degrees).

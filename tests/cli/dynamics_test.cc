@@ -130,6 +130,27 @@ TEST(CheckDynamics, StandingIsPlausible) {
   }
 }
 
+// What a newcomer does first.
+TEST(CheckDynamics, TheSampleAndItsConversionsArePlausible) {
+  const std::string truth = testing::SourcePath("examples/handstand_true.xml");
+  const auto run = RunProgram({"check-dynamics", truth});
+  if (run.err.find("built without Simbody") != std::string::npos) GTEST_SKIP() << run.err;
+  EXPECT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_THAT(LastLine(run.out), HasSubstr("is plausible"));
+  for (const char* config : {"s2kf_default", "s2kf_offline"}) {
+    const std::string motion = TestFolder() + "/" + config + ".xml";
+    const auto converted = RunProgram(
+        {"convert", testing::Handstand(), "--height", "1.8", "-c", config, "-o", motion});
+    ASSERT_EQ(converted.exit_code, 0) << converted.err;
+    const auto reported =
+        RunProgram({"report", testing::Handstand(), motion, "-o", TestFolder() + "/page.html"});
+    EXPECT_EQ(reported.exit_code, 0) << reported.err;
+    const auto checked = RunProgram({"check-dynamics", motion});
+    EXPECT_EQ(checked.exit_code, 0) << checked.out;
+    EXPECT_THAT(LastLine(checked.out), HasSubstr("is plausible"));
+  }
+}
+
 TEST(CheckDynamics, FreeFallIsMeasuredAndSlowFallIsImplausible) {
   const std::string summary = TestFolder() + "/s.json";
   for (const double gravity : {9.81, 5.0}) {

@@ -141,7 +141,7 @@ TEST_P(KitObjects, HaveTheStoredPosesUpToOneTransform) {
   EXPECT_GE(objects, 2);
 }
 
-// Its knife is taken up anew, from where the smoothed track goes back in search of a better one.
+// Its knife is reinitialised, from where the smoothed track goes back in search of a better one.
 TEST(KitObjectsSmoothed, ATrackTakenUpAnewIsFollowedBackwards) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string summary = TestFolder() + "/out.json";

@@ -174,9 +174,9 @@ TEST(Urdf, ContinuousJointsTurnOnAndOn) {
         RunProgram({"convert", recording, "--model", urdf, "-c", config, "-o", output});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     // The first 20 frames are in doubt; exact markers then always find a better posture.
-    const char* anew =
-        std::string(config) == "s2kf_default" ? ", 19 taken up anew" : ", 0 taken up anew";
-    EXPECT_THAT(run.out, HasSubstr(anew)) << config;
+    const char* reinitialised =
+        std::string(config) == "s2kf_default" ? ", 19 reinitialised" : ", 0 reinitialised";
+    EXPECT_THAT(run.out, HasSubstr(reinitialised)) << config;
     EXPECT_LT(LargestError(truth, output), kTurningAngle) << config;
   }
 }

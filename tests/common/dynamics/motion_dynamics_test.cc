@@ -215,6 +215,9 @@ TEST(MotionDynamics, AHandstandStandsOnItsHands) {
     EXPECT_EQ(dynamics.contacts(BodyIndex(dynamics, "right foot"), frame), 1 - on_hands);
   }
   EXPECT_TRUE(dynamics.ballistic_phases.empty());
+  for (int k = dynamics.settled_begin; k < dynamics.settled_end; ++k) {
+    EXPECT_LT(dynamics.outside_support[k], 0.03) << "tips over in frame " << k;
+  }
 }
 
 TEST(MotionDynamics, ARealWalkIsCarriedByTheFeet) {
