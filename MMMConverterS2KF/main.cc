@@ -30,7 +30,8 @@ constexpr std::array kCommands = {
     Command{"evaluate", "repeat the evaluation of the paper", RunEvaluate},
     Command{"export-urdf", "write the model of a person as a URDF", RunExportUrdf},
     Command{"info", "describe a recording, motion, model, configuration or plugin", RunInfo},
-    Command{"print-config", "print the configuration of a converter with every setting", RunPrintConfig},
+    Command{"print-config", "print the configuration of a converter with every setting",
+            RunPrintConfig},
     Command{"report", "show finished motions and their recording on a page", RunReport}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF {}: motion capture markers to MMM motions

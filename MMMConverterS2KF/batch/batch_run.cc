@@ -126,8 +126,7 @@ class BatchRunner {
         ConversionMemory(file, record.recording.bytes, options_.reports.all);
     const auto part = memory_.Take(file, bytes);
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
-    ConversionReport report =
-        ConvertEntry(request, read_before, [this] { return !IsEnding(); });
+    ConversionReport report = ConvertEntry(request, read_before, [this] { return !IsEnding(); });
     folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     WriteConversion(request, &report);
     if (options_.reports.all) {

@@ -80,7 +80,7 @@ Description DescribeRecording(const std::string& file, const Arguments& argument
                {"subjects", recording.subjects},
                {"subject", recording.subject},
                {"labels", ToJson(markers)},
-               {"warnings", recording.warnings}};
+               {"warnings", warnings.texts()}};
   description.json = FormatJson(json);
   return description;
 }
@@ -191,7 +191,7 @@ Description DescribeConfig(const std::string& file) {
                       {"marker_mapping", mapping},
                       {"joints", joints},
                       {"elements", elements},
-                      {"warnings", config.warnings}})};
+                      {"warnings", warnings.texts()}})};
 }
 
 Description DescribePlugin(const std::string& file) {

@@ -80,9 +80,9 @@ Comparison CompareSolutions(const Arguments& arguments) {
   ConverterConfig config;
   TakeMarkerSet(request, &config);
   Finished unsolved;
-  unsolved.mapping = MatchMarkers(LabelsOf(trial.markers, request.file), trial.model, config,
-                                  &unsolved.warnings)
-                         .mapping;
+  unsolved.mapping =
+      MatchMarkers(LabelsOf(trial.markers, request.file), trial.model, config, &unsolved.warnings)
+          .mapping;
   Solutions solutions;
   for (std::size_t i = 1; i < files.size(); ++i) {
     AddSolution(trial, unsolved, files[i], std::move(motions[i - 1]), &solutions);

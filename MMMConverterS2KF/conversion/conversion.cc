@@ -53,12 +53,14 @@ ObjectRequest ObjectRequestOf(const ConversionRequest& request, const Conversion
   std::error_code failure;
   ObjectRequest object;
   object.is_object = request.is_object;
-  object.is_person = !is_one_of_several && (IsGiven(request.input.person) || request.self_calibrate);
+  object.is_person =
+      !is_one_of_several && (IsGiven(request.input.person) || request.self_calibrate);
   object.name = plan.motion_name;
   object.models = request.object_models;
   object.new_models = request.object_models;
   if (object.new_models.empty() && !std::filesystem::is_other(plan.output, failure)) {
-    object.new_models = std::filesystem::path(plan.output).replace_extension().string() + "_objects";
+    object.new_models =
+        std::filesystem::path(plan.output).replace_extension().string() + "_objects";
   }
   object.has_model_given = !is_one_of_several && !request.input.model_file.empty();
   return object;
@@ -89,16 +91,15 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   if (request.self_calibrate) config.subject_file.clear();
   const bool is_one_of_several = read_before.motion.value != nullptr;
   ChooseMotionOutput(request, is_one_of_several, &plan);
-  plan.object = FindObject(ObjectRequestOf(request, plan, is_one_of_several), plan.input, config,
-                           warnings);
+  plan.object =
+      FindObject(ObjectRequestOf(request, plan, is_one_of_several), plan.input, config, warnings);
   if (plan.object) {
     UseModel(*plan.object, &plan.input);
     config = ConfigOfObject(plan.input, config);
   }
 
-  plan.setup =
-      MatchMarkers(LabelsOf(recording.markers, recording.file), plan.input.reference, config,
-                   warnings);
+  plan.setup = MatchMarkers(LabelsOf(recording.markers, recording.file), plan.input.reference,
+                            config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
   if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
@@ -141,9 +142,8 @@ ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
   if (self_calibrate && !report.object) SelfCalibrate(&report);
   const auto converter =
       report.converter.plugin->factory().Create(report.setup, report.converter.config);
-  report.result = converter->Convert(markers, [&](int done) {
-    return !progress || progress(done, markers.num_frames());
-  });
+  report.result = converter->Convert(
+      markers, [&](int done) { return !progress || progress(done, markers.num_frames()); });
   if (report.object) {
     JudgeObject(report.input, report.setup.mapping, report.result.residuals, &report.warnings);
   }

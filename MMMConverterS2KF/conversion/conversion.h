@@ -62,8 +62,8 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
 void CheckOutputs(const ConversionRequest& request,
                   const std::vector<const ConversionPlan*>& plans);
 
-/// Calibrates where asked to, and tracks; writes nothing. progress(done, all): frames; may be empty;
-/// returning false ends it with an Error.
+/// Calibrates where asked to, and tracks; writes nothing. progress(done, all): frames; may be
+/// empty; returning false ends it with an Error.
 /// @throws Error
 ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
                           const std::function<bool(int, int)>& progress);

@@ -91,8 +91,8 @@ std::string NameOf(const Recording& recording) {
 void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
                         ConversionPlan* plan) {
   const Recording& recording = plan->input.recording;
-  plan->output_format = request.output_format.empty() ? plan->converter.config.output_format
-                                                      : request.output_format;
+  plan->output_format =
+      request.output_format.empty() ? plan->converter.config.output_format : request.output_format;
   plan->output = request.output.empty() ? DefaultOutput(request.input.file) : request.output;
   std::error_code failure;
   const bool keeps_all = IsMmm2(recording) && plan->output_format != "1.0";

@@ -8,8 +8,9 @@
 
 namespace mmm_converter {
 
-/// Where the motion goes (as asked for, else the input's stem + "_mmm.xml" beside it), in which format, and what it is
-/// called (as asked for, else as in the recording, else as the file; of several motions of a file each as it is).
+/// Where the motion goes (as asked for, else the input's stem + "_mmm.xml" beside it), in which
+/// format, and what it is called (as asked for, else as in the recording, else as the file; of
+/// several motions of a file each as it is).
 /// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
 void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
                         ConversionPlan* plan);

@@ -131,8 +131,8 @@ std::optional<ObjectModel> FindNamedModel(const std::string& name, const Convert
   } catch (const Error& error) {
     reason = error.what();
   }
-  warnings->Add(fmt::format("{}, the model that the motion {} names, is not used: {}", file, name,
-                            reason));
+  warnings->Add(
+      fmt::format("{}, the model that the motion {} names, is not used: {}", file, name, reason));
   return std::nullopt;
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/person.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/input/converter_choice.h"
 #include "common/convert/converter_config.h"
 #include "common/io/model_file.h"
 #include "common/io/recording/recording.h"
@@ -22,10 +22,10 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::optional<int> first_frame;                            ///< counted from 0
-  std::optional<int> end_frame;                              ///< the frame behind the last
-  std::string model_file;                                    ///< reference model, or a URDF
-  std::string marker_set;  ///< file or name; comes before the configuration's
+  std::optional<int> first_frame;  ///< counted from 0
+  std::optional<int> end_frame;    ///< the frame behind the last
+  std::string model_file;          ///< reference model, or a URDF
+  std::string marker_set;          ///< file or name; comes before the configuration's
   PersonRequest person;
 };
 

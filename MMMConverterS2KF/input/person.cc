@@ -87,8 +87,7 @@ void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
 
 Person Find(const PersonRequest& request, const KinematicModel& reference,
             const Recording& recording, const ConverterConfig& config,
-            const std::function<PersonValue()>& estimate_height,
-            Warnings* warnings) {
+            const std::function<PersonValue()>& estimate_height, Warnings* warnings) {
   Person person;
   ProcessorConfig processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
@@ -138,8 +137,7 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
 }
 
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
-                  const Recording& recording, const ConverterConfig& config,
-                  Warnings* warnings) {
+                  const Recording& recording, const ConverterConfig& config, Warnings* warnings) {
   if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
   const auto estimate = [&] { return Estimate(setup, recording.markers); };
   return Find(request, *setup.model, recording, config, estimate, warnings);

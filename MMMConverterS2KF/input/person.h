@@ -52,8 +52,7 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 /// @throws Error; also where the user gives another height or hand length than the subject's, which
 ///         its segment scales are relative to.
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
-                  const Recording& recording, const ConverterConfig& config,
-                  Warnings* warnings);
+                  const Recording& recording, const ConverterConfig& config, Warnings* warnings);
 
 /// As FindPerson without a recording: nothing is estimated or assumed.
 /// @throws Error; also where height or mass are not known, or the model is not scaled.

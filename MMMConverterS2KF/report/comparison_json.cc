@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/report/units.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <span>
 
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/report/units.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {

@@ -27,10 +27,10 @@ void WarnOfFreeJoints(const TrackingSetup& setup, const ConverterConfig& config,
     if (!is_moving) names.push_back(setup.model->joint(kinematics.joints()[j]).name);
   }
   if (names.empty()) return;
-  Warn(warnings, fmt::format(
-      "no marker of the recording is moved by {} of the {} tracked joints, whose angles are not "
-      "known: {}",
-      names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
+  Warn(warnings, fmt::format("no marker of the recording is moved by {} of the {} tracked joints, "
+                             "whose angles are not "
+                             "known: {}",
+                             names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
 }
 
 TrackingSetup MatchMarkers(const MarkerLabels& labels,

@@ -66,9 +66,9 @@ struct CommonGround {
 struct ComparisonRow {
   int trial = 0;
   int contender = 0;
-  std::string failure;            ///< why there is no result; empty: there is one
-  Remedy remedy = Remedy::kNone;  ///< of the failure
-  TrackingSetup setup;            ///< on the trial's model
+  std::string failure;                ///< why there is no result; empty: there is one
+  Remedy remedy = Remedy::kNone;      ///< of the failure
+  TrackingSetup setup;                ///< on the trial's model
   Warnings warnings;                  ///< of the mapping
   TrackingQuality quality;            ///< of all runs
   std::vector<TrackingQuality> runs;  ///< one for each

@@ -63,12 +63,12 @@ TEST(MarkerMapping, ResolvesByMarkerWithoutCaseBlanksAndPrefix) {
 
 TEST(MarkerMapping, TakesTheFirstSubstituteThatIsSeen) {
   Warnings warnings;
-  const MarkerMapping mapping =
-      ResolveMarkerMapping({{"X1", "MARKER_A"},
-                            {"TIB", "MARKER_A", 3, "worn anywhere"},
-                            {"SHN", "MARKER_A", 3},
-                            {"X2", "MARKER_B"}},
-                           LabelsOf(MakeRecording({"X1", "SHN", "TIB", "X2"})), MakeModel(), &warnings);
+  const MarkerMapping mapping = ResolveMarkerMapping(
+      {{"X1", "MARKER_A"},
+       {"TIB", "MARKER_A", 3, "worn anywhere"},
+       {"SHN", "MARKER_A", 3},
+       {"X2", "MARKER_B"}},
+      LabelsOf(MakeRecording({"X1", "SHN", "TIB", "X2"})), MakeModel(), &warnings);
   ASSERT_EQ(mapping.assignments.size(), 1u);
   EXPECT_EQ(mapping.assignments[0].label, 2);
   EXPECT_THAT(mapping.ignored_labels, ElementsAre("X1", "SHN", "X2"));

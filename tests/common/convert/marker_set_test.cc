@@ -49,7 +49,8 @@ MarkerMapping MapRecording(const std::string& file, std::string* set_name,
   const MarkerSet& set = ChooseMarkerSet(sets, LabelsOf(recording.markers));
   *set_name = set.name;
   const KinematicModel model = ShippedModel();
-  return ResolveMarkerMapping(PairsInModel(set, model), LabelsOf(recording.markers), model, warnings);
+  return ResolveMarkerMapping(PairsInModel(set, model), LabelsOf(recording.markers), model,
+                              warnings);
 }
 
 TEST(MarkerSet, ShippedSetsNameMarkersOfTheShippedModel) {

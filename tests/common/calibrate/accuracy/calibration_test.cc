@@ -153,19 +153,11 @@ TEST(Calibration, SaysThatMarkersWerePutOnAnew) {
   const Trial same(model, testing::RangeOfMotion(model, 6, 0.7, 9), 8);
   const Trial anew(model, testing::RangeOfMotion(model, 6, 0.7, 9), 9);
   const auto mentions_session = [&](const Trial& other) {
-<<<<<<< HEAD:tests/common/calibrate/accuracy/calibration_test.cc
     Warnings warnings;
     CalibrateSubject(model, testing::TrackedJoints(model),
                      {one.ForCalibration(), other.ForCalibration()}, {}, &warnings);
     return std::any_of(warnings.all().begin(), warnings.all().end(), [](const Warning& warning) {
-      return warning.text.find("put on anew") != std::string::npos;
-=======
-    const auto warnings = CalibrateSubject(model, testing::TrackedJoints(model),
-                                           {one.ForCalibration(), other.ForCalibration()}, {})
-                              .warnings;
-    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-      return warning.find("attached again") != std::string::npos;
->>>>>>> sample:tests/common/calibrate/calibration_test.cc
+      return warning.text.find("attached again") != std::string::npos;
     });
   };
   EXPECT_FALSE(mentions_session(same));
