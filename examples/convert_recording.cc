@@ -34,7 +34,7 @@ void Run(const std::string& input, double height, const std::string& output) {
   // The reference model is a person of 1 m and 1 kg; Winter's rule scales it to ours. Labels are
   // matched with its markers once; from here on there are only indices.
   const std::string model_file = DataFile("models/mmm.xml");
-  const auto reference = std::make_shared<const KinematicModel>(ReadMmmModel(model_file).model);
+  const auto reference = std::make_shared<const KinematicModel>(ReadMmmModel(model_file));
   const TrackingSetup setup =
       MakeTrackingSetup(LabelsOf(recording.markers, recording.file), reference, config,
                         {.size = WinterScaling{height, kMass, {}}});

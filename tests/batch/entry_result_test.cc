@@ -33,8 +33,8 @@ constexpr const char* kConverted =
 // A conversion of three frames with two markers, the second of which is 2 mm off.
 ConversionReport Report() {
   ConversionReport report;
-  report.input.recording.markers = MarkerSequence({"A", "B"}, 3, 100);
-  report.mapping.assignments = {{0, 0}, {1, 1}};
+  report.input.recording.markers = MarkerSequence({"A", "B"}, 3, 100, 0);
+  report.setup.mapping.assignments = {{0, 0}, {1, 1}};
   report.result.frames.resize(3);
   report.result.residuals.resize(2, 3);
   report.result.residuals << 0.001, 0.001, 0.001, 0.002, 0.002, 0.002;

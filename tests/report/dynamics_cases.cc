@@ -61,8 +61,10 @@ std::string HostileDynamicsPage() {
   Person person;
   person.height = {1.8, text};
   person.mass = {75, text};
+  Warnings warnings;
+  warnings.Add(text);
   const DynamicsReport report = {
-      {text, text, 0, text, person, model, PoseTrajectory(), {text}}, dynamics, judged};
+      {text, text, 0, text, person, model, PoseTrajectory(), warnings}, dynamics, judged};
   return FormatDynamicsPage(text, report);
 }
 

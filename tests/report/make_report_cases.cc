@@ -13,15 +13,15 @@ namespace {
 
 void MakeReports(const std::string& folder) {
   using namespace mmm_converter;
-  const Comparison hostile = testing::HostileComparison();
-  const Comparison failed = testing::FailedComparison();
-  const std::string text = testing::kHostileText;
+  const Comparison hostile = mmm_converter::testing::HostileComparison();
+  const Comparison failed = mmm_converter::testing::FailedComparison();
+  const std::string text = mmm_converter::testing::kHostileText;
   WriteFileAtomically(folder + "/hostile.html",
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
-  WriteFileAtomically(folder + "/hostile_dynamics.html", testing::HostileDynamicsPage());
-  const Comparison thinned = testing::ThinnedComparison();
+  WriteFileAtomically(folder + "/hostile_dynamics.html", mmm_converter::testing::HostileDynamicsPage());
+  const Comparison thinned = mmm_converter::testing::ThinnedComparison();
   WriteFileAtomically(folder + "/thinned.html", FormatReport("130 s", {{"130 s", "", &thinned}}));
-  const Comparison whole = testing::LongComparison();
+  const Comparison whole = mmm_converter::testing::LongComparison();
   WriteFileAtomically(folder + "/long.html", FormatReport("60 s", {{"60 s", "", &whole}}));
 }
 

@@ -17,9 +17,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
-ConverterConfig Parse(const std::string& inside, const std::string& type = "S2KFConverter") {
+ConverterConfig Parse(const std::string& inside, const std::string& type = "S2KFConverter",
+                      Warnings* warnings = nullptr) {
   return ParseConverterConfig(
-      "<ConverterConfig type='" + type + "'>\n" + inside + "\n</ConverterConfig>", "c.xml");
+      "<ConverterConfig type='" + type + "'>\n" + inside + "\n</ConverterConfig>", "c.xml", warnings);
 }
 
 std::string ErrorOf(const std::string& inside) {
@@ -65,7 +66,7 @@ TEST(ConverterConfig, ReadsAllThatIsShared) {
       "noiseScale='2.5'/></MarkerMapping>\n"
       "<Joints><Joint name='LKx_joint'/>\n<Joint name='RKx_joint'/></Joints></Model>\n"
       "<Filter type='ekf'/><Noise/>",
-      &warnings);
+      "S2KFConverter", &warnings);
   EXPECT_EQ(config.file, "c.xml");
   EXPECT_EQ(config.type, "S2KFConverter");
   EXPECT_EQ(config.model_processor, "None");

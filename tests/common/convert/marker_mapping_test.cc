@@ -79,13 +79,14 @@ TEST(MarkerMapping, TakesTheFirstSubstituteThatIsSeen) {
 }
 
 TEST(MarkerMapping, OfAStreamTakesTheFirstSubstitute) {
+  Warnings warnings;
   const MarkerMapping mapping =
       ResolveMarkerMapping({{"X1", "MARKER_A"}, {"TIB", "MARKER_A", 3}, {"X2", "MARKER_B"}},
-                           {{"X1", "TIB", "X2"}}, MakeModel());
+                           {{"X1", "TIB", "X2"}, {}, {}}, MakeModel(), &warnings);
   EXPECT_THAT(LabelIndices(mapping.assignments), ElementsAre(0, 2));
   EXPECT_THAT(MarkerIndices(mapping.assignments), ElementsAre(0, 1));
   EXPECT_THAT(NoiseScales(mapping.assignments), ElementsAre(1, 1));
-  EXPECT_THAT(mapping.warnings, IsEmpty());
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(MarkerMapping, LabelsOfARecordingAreThoseSeenInSomeFrame) {

@@ -85,7 +85,7 @@ TEST(MarkerSet, PlacesMarkersOnSegmentsAndLinks) {
   description.segments[1].parent = 0;
   description.markers = {{"C", 1, Eigen::Vector3d::Zero()}, {"D", 0, Eigen::Vector3d::Zero()}};
   const KinematicModel placed =
-      PlaceMarkers(set, {KinematicModel(description), false, {{"arm", "elbow"}}, {}});
+      PlaceMarkers(set, {KinematicModel(description), false, {{"arm", "elbow"}}});
   ASSERT_EQ(placed.markers().size(), 4u);
   EXPECT_EQ(placed.markers()[placed.FindMarker("A")].segment, 1);
   EXPECT_EQ(placed.markers()[placed.FindMarker("A")].p_SM, Eigen::Vector3d(1e-3, 2e-3, -3e-3));

@@ -20,7 +20,7 @@ using ::testing::ThrowsMessage;
 
 std::shared_ptr<const KinematicModel> ShippedModel() {
   return std::make_shared<const KinematicModel>(
-      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")).model);
+      ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")));
 }
 
 std::shared_ptr<const KinematicModel> Stick() {
@@ -82,17 +82,21 @@ TEST(TrackingSetup, OfAnObjectHasNoJoints) {
     box.markers.push_back({name, 0, Eigen::Vector3d::Random()});
   }
   const auto model = std::make_shared<const KinematicModel>(box);
-  const TrackingSetup setup = MakeTrackingSetup({{"c", "a", "b"}}, model, StickConfig(), {});
+  Warnings warnings;
+  const TrackingSetup setup =
+      MakeTrackingSetup({{"c", "a", "b"}, {}, {}}, model, StickConfig(), {}, &warnings);
   EXPECT_EQ(setup.model, model);
   EXPECT_THAT(setup.joints, IsEmpty());
-  EXPECT_THAT(setup.mapping.warnings, IsEmpty());
+  EXPECT_TRUE(warnings.empty());
   EXPECT_THAT(LabelIndices(setup.assignments()), ElementsAre(1, 2, 0));
 }
 
 TEST(TrackingSetup, WarnsOfJointsThatNoMarkerMoves) {
-  const TrackingSetup setup = MatchMarkers({{"a", "b", "c"}}, Stick(), StickConfig());
+  const TrackingSetup setup = MatchMarkers({{"a", "b", "c"}, {}, {}}, Stick(), StickConfig());
+  Warnings warnings;
+  WarnOfFreeJoints(setup, StickConfig(), &warnings);
   EXPECT_THAT(setup.joints, ElementsAre(0, 1));
-  EXPECT_THAT(setup.mapping.warnings,
+  EXPECT_THAT(warnings.texts(),
               ElementsAre("no marker of the recording is moved by 1 of the 2 tracked joints, whose "
                           "angles are not known: hip"));
 }

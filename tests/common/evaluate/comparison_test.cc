@@ -189,7 +189,7 @@ TEST(Comparison, FinishedResultsAreMeasuredTheSameWay) {
   const Comparison run = CompareOn20Frames({MakeContender("plain", "ABCD")});
   const ComparisonRow& row = run.rows.front();
   const Comparison finished = CompareFinished(MakeTrial(20), {MakeContender("plain", "ABCD")},
-                                              {{row.setup.mapping, row.result}});
+                                              {{row.setup.mapping, row.warnings, row.result}});
   EXPECT_EQ(finished.rows.front().quality.all.mean, row.quality.all.mean);
   EXPECT_EQ(finished.rows.front().quality.median_seconds, row.quality.median_seconds);
   EXPECT_EQ(finished.grounds.front().optimum, run.grounds.front().optimum);

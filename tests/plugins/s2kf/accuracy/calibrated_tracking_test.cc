@@ -88,7 +88,9 @@ struct KitTrial {
     config.marker_set = "auto";
     std::string set;
     assignments =
-        ResolveMarkerMapping(ResolveMarkerPairs(config, all, model, &set), all, model).assignments;
+        ResolveMarkerMapping(ResolveMarkerPairs(config, LabelsOf(all), model, &set), LabelsOf(all),
+                             model)
+            .assignments;
     const int half = all.num_frames() / 2;
     const MarkerSequence first = all.Slice(0, half);
     second = all.Slice(half, all.num_frames());
