@@ -2,10 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/recording/recording.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -22,13 +21,6 @@ using ::testing::HasSubstr;
 
 class LiveTrackingTest : public ::testing::Test {
  protected:
-  LiveTrackingTest()
-      : folder_(::testing::TempDir() + "mmm_converter_live" + std::to_string(getpid())),
-        sample_(ReadRecording(testing::SourcePath("examples/handstand.c3d"), {}).markers) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~LiveTrackingTest() override { std::filesystem::remove_all(folder_); }
-
   // What the example prints of a recording, errors too.
   std::string Track(const MarkerSequence& markers) {
     WriteC3d(folder_ + "/stream.c3d", markers);
@@ -40,8 +32,9 @@ class LiveTrackingTest : public ::testing::Test {
     return ReadFileContent(output);
   }
 
-  std::string folder_;
-  MarkerSequence sample_;
+  const std::string folder_ = testing::TestFolder();
+  const MarkerSequence sample_ =
+      ReadRecording(testing::SourcePath("examples/handstand.c3d"), {}).markers;
   int code_ = -1;
 };
 
