@@ -48,8 +48,8 @@ that all configurations use. The optimum is the least-squares posture of each fr
 frame is good up to 1.2 optimum + 2 mm, lost beyond 2 optimum + 20 mm.
 
 {}The options truth, subject, motion, height, mass, person, subject-file and up are given once for
-all recordings, or once for each recording in the same order. The exit code is 1 if a conversion failed;
-the others are compared nevertheless.
+all recordings, or once for each recording in the same order. The exit code is 1 if a conversion
+failed; the others are compared nevertheless.
 
 Examples
   MMMConverterS2KF compare walk.c3d run.c3d --height 1.75 --report comparison.html

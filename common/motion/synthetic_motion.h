@@ -18,6 +18,10 @@ namespace mmm_converter {
 /// degrees), and back to standing. The centre of pressure stays between what touches the floor.
 PoseTrajectory MakeHandstand(const KinematicModel& model);
 
+/// 675 frames: step, hands to the floor, kick up to a handstand (root roll to -183 degrees), and
+/// back to standing; without regard to balance.
+PoseTrajectory MakeKickedHandstand(const KinematicModel& model);
+
 /// 400 frames: a cartwheel to the right (root pitch from 0 through 90 to 360 degrees).
 PoseTrajectory MakeCartwheel(const KinematicModel& model);
 

@@ -266,7 +266,7 @@ TEST(Objects, AMotionThatFailsIsNamedAndTheOthersAreConverted) {
   const auto none =
       RunProgram({"convert", hopeless, "--motion", "all", "-o", TestFolder() + "/none.xml"});
   EXPECT_EQ(none.exit_code, 1);
-  EXPECT_THAT(none.err, HasSubstr("no motion could be converted\npair: the pose of a rigid"));
+  EXPECT_THAT(none.err, HasSubstr("recording.xml: the pose of a rigid"));
   EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/none.xml"));
 }
 

@@ -18,7 +18,8 @@ void MakeReports(const std::string& folder) {
   const std::string text = mmm_converter::testing::kHostileText;
   WriteFileAtomically(folder + "/hostile.html",
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
-  WriteFileAtomically(folder + "/hostile_dynamics.html", mmm_converter::testing::HostileDynamicsPage());
+  WriteFileAtomically(folder + "/hostile_dynamics.html",
+                      mmm_converter::testing::HostileDynamicsPage());
   const Comparison thinned = mmm_converter::testing::ThinnedComparison();
   WriteFileAtomically(folder + "/thinned.html", FormatReport("130 s", {{"130 s", "", &thinned}}));
   const Comparison whole = mmm_converter::testing::LongComparison();

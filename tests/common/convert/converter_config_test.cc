@@ -20,7 +20,8 @@ using ::testing::ThrowsMessage;
 ConverterConfig Parse(const std::string& inside, const std::string& type = "S2KFConverter",
                       Warnings* warnings = nullptr) {
   return ParseConverterConfig(
-      "<ConverterConfig type='" + type + "'>\n" + inside + "\n</ConverterConfig>", "c.xml", warnings);
+      "<ConverterConfig type='" + type + "'>\n" + inside + "\n</ConverterConfig>", "c.xml",
+      warnings);
 }
 
 std::string ErrorOf(const std::string& inside) {

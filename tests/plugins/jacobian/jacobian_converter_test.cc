@@ -27,7 +27,7 @@ using Eigen::VectorXd;
 
 class JacobianConverterTest : public ::testing::Test {
  protected:
-  JacobianConverterTest() : motion_(MakeHandstand(model_)) {}
+  JacobianConverterTest() : motion_(MakeKickedHandstand(model_)) {}
 
   MarkerSequence MakeMarkers(const MarkerErrors& errors) const {
     return SynthesizeMarkers(model_, motion_, errors, 1);

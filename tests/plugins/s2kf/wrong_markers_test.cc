@@ -31,7 +31,7 @@ constexpr double kRise = 0.003;
 enum class MotionName { kHandstand, kWalking };
 
 PoseTrajectory Motion(MotionName name) {
-  if (name == MotionName::kHandstand) return MakeHandstand(ScaledReferenceModel(1.8));
+  if (name == MotionName::kHandstand) return MakeKickedHandstand(ScaledReferenceModel(1.8));
   const MmmMotionFile file =
       ReadMmmMotionFile(testing::SharedData("mmm/motions_legacy/walking_medium01_motion395.xml"));
   return LowPassed(file.motions.front().trajectory);

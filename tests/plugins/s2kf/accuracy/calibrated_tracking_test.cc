@@ -87,10 +87,9 @@ struct KitTrial {
     ConverterConfig config;
     config.marker_set = "auto";
     std::string set;
-    assignments =
-        ResolveMarkerMapping(ResolveMarkerPairs(config, LabelsOf(all), model, &set), LabelsOf(all),
-                             model)
-            .assignments;
+    assignments = ResolveMarkerMapping(ResolveMarkerPairs(config, LabelsOf(all), model, &set),
+                                       LabelsOf(all), model)
+                      .assignments;
     const int half = all.num_frames() / 2;
     const MarkerSequence first = all.Slice(0, half);
     second = all.Slice(half, all.num_frames());

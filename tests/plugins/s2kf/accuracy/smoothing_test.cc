@@ -72,7 +72,7 @@ PoseTrajectory Recorded(const std::string& file) {
 
 Scene Walking() { return {Recorded("walking_medium01_motion395.xml"), 44, 1}; }
 Scene QuickMotion() { return {Recorded("test_mmm_subject314_40joints_100Hz.xml"), 40, 2}; }
-Scene Handstand() { return {MakeHandstand(ScaledReferenceModel(1.8)), 44, 1}; }
+Scene Handstand() { return {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1}; }
 
 MatrixXd Angles(const PoseTrajectory& trajectory) {
   MatrixXd angles(trajectory.joint_names.size(), trajectory.num_frames());
@@ -246,7 +246,7 @@ void ExpectHalfHiddenIsBorne(const std::string& name, const Scene& scene) {
 
 TEST(SmoothingTest, HalfOfTheMarkersHiddenOnTheHandstand) {
   ExpectHalfHiddenIsBorne("handstand",
-                          {MakeHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
+                          {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
 }
 
 TEST(SmoothingTest, HalfOfTheMarkersHiddenWhileWalking) {
