@@ -67,8 +67,8 @@ Forces, flights and torques are not judged if accelerations are mostly noise (ab
 weights rms, estimated from what the low-pass filter removes, or forces above {:g}), or if the frame
 rate is too low for the filter. Ground contact is not judged on less than {:g} s. The filter also
 uses the frames outside of --frames; the first and the last period (1 / HZ) of the whole motion are
-left out of forces and torques. A torque is only known while nothing below the joint touches the ground, as a
-motion does not tell how the feet share the weight.
+left out of forces and torques. A torque is only known while nothing below the joint touches the
+ground, as a motion does not tell how the feet share the weight.
 
 The exit code is 1 if a check is implausible or the input cannot be read.
 

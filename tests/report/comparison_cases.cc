@@ -180,7 +180,7 @@ Comparison ThinnedComparison() {
   PoseTrajectory motion = SwayingMotion(model, 13'000);
   Trial trial = MakeTrial(model, motion);
   trial.name = "130 s";
-  motion.postures[6502].position.x() += 0.05;  // frames 6501 and 6504 are drawn
+  motion.postures[6502].position.x() += 0.5;  // frames 6501 and 6504 are drawn
   Contender contender;
   contender.name = "truth";
   return CompareFinished(trial, {contender}, {AsFinished(model, motion)});

@@ -126,7 +126,7 @@ std::vector<Json> FailedResults(int count) {
   results.reserve(count);
   for (int i = 0; i < count; ++i) {
     const std::string id = fmt::format("broken/{}", i);
-    results.push_back(Unconverted(id, "broken", id + ".c3d: no such file").dump());
+    results.push_back(Unconverted(id, "broken", id + ".c3d: no such file"));
   }
   return results;
 }

@@ -22,7 +22,8 @@ void Print(const Eigen::Matrix3Xd& markers) {
 
 int Run(const std::string& method) {
   const KinematicModel model = ScaledReferenceModel(1.8);
-  const MarkerSequence all = SynthesizeMarkers(model, MakeKickedHandstand(model), MarkerErrors{}, 1);
+  const MarkerSequence all =
+      SynthesizeMarkers(model, MakeKickedHandstand(model), MarkerErrors{}, 1);
   const MarkerSequence markers = OccludeShare(all.Slice(0, kFrames), 0.2, 30, 1);
   const std::vector<MarkerAssignment> assignments = AssignAll(model, markers);
   const std::vector<int> joints = MotionJoints(model, 44);
