@@ -27,7 +27,7 @@ constexpr std::array kCommands = {
     Command{"compare", "converters side by side on recordings", RunCompare},
     Command{"evaluate", "the paper's evaluation, done anew, with a report", RunEvaluate},
     Command{"export-urdf", "the model of a person as a URDF, for robotics", RunExportUrdf},
-    Command{"info", "what is in a recording, motion, model, configuration or plugin", RunInfo},
+    Command{"info", "what is in a file that this program reads or writes", RunInfo},
     Command{"print-config", "a converter's configuration with every setting", RunPrintConfig},
     Command{"report", "a page that shows finished motions on their recording", RunReport}};
 

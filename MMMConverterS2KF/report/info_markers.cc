@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kShownParts = 1e6;  // of a metre
+constexpr int kShownDecimals = 6;  // of a metre
 
 struct LabelStatistics {
   int frames_seen = 0;
@@ -47,22 +46,20 @@ std::string FormatMarkers(const MarkerSequence& markers) {
   return text;
 }
 
-std::string FormatMarkersJson(const MarkerSequence& markers) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json MarkersJson(const MarkerSequence& markers) {
+  Json list = Json::array();
   for (int i = 0; i < markers.num_labels(); ++i) {
     const LabelStatistics statistics = StatisticsOf(markers, i);
-    nlohmann::ordered_json entry = {{"label", markers.labels()[i]},
-                                    {"frames_seen", statistics.frames_seen}};
+    Json entry = {{"label", markers.labels()[i]},
+                  {"frames_seen", statistics.frames_seen},
+                  {"mean_position_m", nullptr}};
     if (statistics.frames_seen > 0) {
-      for (const double x : statistics.mean) {
-        entry["mean_position_m"].push_back(std::round(x * kShownParts) / kShownParts);
-      }
-    } else {
-      entry["mean_position_m"] = nullptr;
+      Json& mean = entry["mean_position_m"] = Json::array();
+      for (const double x : statistics.mean) mean.push_back(Number(x, kShownDecimals));
     }
     list.push_back(entry);
   }
-  return list.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return list;
 }
 
 }  // namespace mmm_converter

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "MMMConverterS2KF/report/json.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
@@ -10,7 +11,7 @@ namespace mmm_converter {
 /// A table: per label the frames in which it is seen and its mean position [m].
 std::string FormatMarkers(const MarkerSequence& markers);
 
-/// The same as JSON text (an array).
-std::string FormatMarkersJson(const MarkerSequence& markers);
+/// The same as an array.
+Json MarkersJson(const MarkerSequence& markers);
 
 }  // namespace mmm_converter
