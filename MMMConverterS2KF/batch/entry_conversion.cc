@@ -35,11 +35,11 @@ ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore
 
 std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {
   const Recording& recording = report.input.recording;
-  if (!report.object || recording.model_path.empty()) return {};
+  if (!report.object || !recording.mmm || recording.mmm->model_path.empty()) return {};
   const fs::path folder = fs::path(recording.file).parent_path();
-  const std::string named = (folder / recording.model_path).lexically_normal().string();
+  const std::string named = (folder / recording.mmm->model_path).lexically_normal().string();
   if (report.input.model_file != named) return {};
-  return {{recording.model_path, InspectFile(named)}};
+  return {{recording.mmm->model_path, InspectFile(named)}};
 }
 
 bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record) {

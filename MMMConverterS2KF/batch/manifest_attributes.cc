@@ -97,16 +97,17 @@ std::vector<ManifestAttribute> MakeAttributes() {
        }},
       {"height_m", "height; from the recording's file or estimated without it",
        [](Value v, Value, Settings s) {
-         return TakeNumber(v, 1, kLeastHeight, kLargestHeight, &s->request.input.person.height);
+         return TakeNumber(v, 1, kLeastHeight, kLargestHeight,
+                           &s->request.input.person.size.height);
        }},
       {"mass_kg", "mass; from the recording's file or 70 without it",
        [](Value v, Value, Settings s) {
-         return TakeNumber(v, 1, kLeastMass, kLargestMass, &s->request.input.person.mass);
+         return TakeNumber(v, 1, kLeastMass, kLargestMass, &s->request.input.person.size.mass);
        }},
       {"handLength_mm", "length of the hand; by the height without it",
        [](Value v, Value, Settings s) {
          return TakeNumber(v, kMillimetre, kLeastHandLength, kLargestHandLength,
-                           &s->request.input.person.hand_length);
+                           &s->request.input.person.size.hand_length);
        }},
       {"person", "ModelProcessorConfig file with height, mass and hand length",
        [](Value v, Value folder, Settings s) {

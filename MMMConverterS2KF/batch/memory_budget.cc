@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "common/io/recording/recording_formats.h"
 #include "common/support/error.h"
 #include "common/support/machine.h"
 #include "common/support/text.h"
@@ -34,12 +33,9 @@ void MemoryBudget::GiveBack(std::uint64_t bytes) {
 
 std::uint64_t ConversionMemory(const std::string& file, std::uint64_t bytes, bool with_page) {
   constexpr std::uint64_t kLeast = std::uint64_t{32} << 20;
-  const std::string ending = ToLower(std::filesystem::path(file).extension().string());
-  // A number takes four bytes in C3D, nine in TRC, and with its markup fifty in MMM.
-  std::uint64_t factor = 8;
-  if (ending == ".trc") factor = 5;
-  if (ending == ".xml") factor = 2;
-  return kLeast + (with_page ? 2 : 1) * factor * bytes;
+  const RecordingFormat* format = FindFormatOfName(file);
+  const RecordingFormat& likely = format != nullptr ? *format : RecordingFormats().front();
+  return kLeast + (with_page ? 2 : 1) * static_cast<std::uint64_t>(likely.memory_factor) * bytes;
 }
 
 }  // namespace mmm_converter

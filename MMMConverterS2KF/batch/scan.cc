@@ -14,6 +14,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/processor_config.h"
+#include "common/io/recording/recording_formats.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -38,8 +39,7 @@ Texts PersonOf(const std::string& motion, const std::string& file) {
        at = motion.find(kBegin, at)) {
     const std::size_t end = motion.find(kEnd, at);
     if (end == std::string::npos) break;
-    const ProcessorConfig config =
-        ParseProcessorConfig(motion.substr(at, end + kEnd.size() - at), file);
+    const BodySize config = ParseProcessorConfig(motion.substr(at, end + kEnd.size() - at), file);
     Texts person;
     if (config.height) person["height_m"] = fmt::format("{:g}", *config.height);
     if (config.mass) person["mass_kg"] = fmt::format("{:g}", *config.mass);
@@ -72,8 +72,8 @@ class Scanner {
           fmt::format("{}: there is no recording in or at \"{}\"", subjects_file_.string(), name));
     }
     if (scan_.recordings == 0) {
-      throw Error(fmt::format("{}: has no recording (C3D, TRC, or MMM motion with markers)",
-                              folder_.string()));
+      throw Error(fmt::format("{}: has no recording ({} with markers)", folder_.string(),
+                              RecordingFormatNames()));
     }
     scan_.manifest = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -104,17 +104,17 @@ class Scanner {
   void Visit(const fs::path& folder) {
     const std::vector<fs::directory_entry> entries = List(folder);
     std::vector<FoundRecording> recordings;
-    std::set<std::string> measured;  // stems of C3D and TRC files
+    std::set<std::string> measured;  // stems of files that are recordings only
     std::error_code failure;
     for (const fs::directory_entry& entry : entries) {
-      const std::string ending = ToLower(entry.path().extension().string());
-      if (!entry.is_regular_file(failure) || (ending != ".c3d" && ending != ".trc")) continue;
+      const RecordingFormat* format = FindFormatOfName(entry.path().string());
+      if (!entry.is_regular_file(failure) || format == nullptr || format->holds_motions) continue;
       recordings.push_back({entry.path().filename().string(), {}, {}});
       measured.insert(entry.path().stem().string());
     }
     for (const fs::directory_entry& entry : entries) {
-      if (!entry.is_regular_file(failure) || ToLower(entry.path().extension().string()) != ".xml")
-        continue;
+      const RecordingFormat* format = FindFormatOfName(entry.path().string());
+      if (!entry.is_regular_file(failure) || format == nullptr || !format->holds_motions) continue;
       TakeMotion(entry.path(), measured, &recordings);
     }
     Add(folder, std::move(recordings));

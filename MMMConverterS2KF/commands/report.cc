@@ -70,8 +70,8 @@ Comparison CompareSolutions(const Arguments& arguments) {
   for (std::size_t i = 1; i < files.size(); ++i) {
     motions.push_back(ReadPostures(files[i], request.reading.motion));
     if (!request.person.subject_file.empty()) continue;
-    if (!request.person.height) request.person.height = motions.back().height;
-    if (!request.person.mass) request.person.mass = motions.back().mass;
+    if (!request.person.size.height) request.person.size.height = motions.back().size.height;
+    if (!request.person.size.mass) request.person.size.mass = motions.back().size.mass;
   }
   Warnings warnings;
   Trial trial = MakeTrial(request, "", ConverterConfig(), &warnings);

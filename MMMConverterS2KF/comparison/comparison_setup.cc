@@ -70,13 +70,13 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
     Warnings of_input;
     Input input = ReadInput(request, {}, &of_input);
     warnings->Append(of_input);
-    const WarningContext context(warnings, request.file, input.recording.motion);
+    const WarningContext context(warnings, request.file, input.recording.motion());
     if (!truth_file.empty()) {
-      const MmmMotion truth = ReadPostures(truth_file, input.recording.motion);
+      const MmmMotion truth = ReadPostures(truth_file, input.recording.motion());
       trial.truth = AlignFrames(truth.trajectory, input.recording.markers, truth_file);
       if (request.person.subject_file.empty()) {
-        if (!request.person.height) request.person.height = truth.height;
-        if (!request.person.mass) request.person.mass = truth.mass;
+        if (!request.person.size.height) request.person.size.height = truth.size.height;
+        if (!request.person.size.mass) request.person.size.mass = truth.size.mass;
       }
     }
     TakeModel(request, config, &input, &trial, warnings);

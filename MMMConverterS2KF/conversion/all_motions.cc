@@ -31,10 +31,10 @@ void CheckNames(const std::vector<WithWarnings<Recording>>& recordings) {
   std::set<std::string> names;
   for (const auto& [recording, warnings] : recordings) {
     const bool has_markers = recording.markers.num_labels() > 0;
-    if (!has_markers || names.insert(recording.motion).second) continue;
+    if (!has_markers || names.insert(recording.motion()).second) continue;
     throw Error(
         fmt::format("{}: has two motions \"{}\"; motions to convert need names of their own",
-                    recording.file, recording.motion));
+                    recording.file, recording.motion()));
   }
 }
 
@@ -48,7 +48,7 @@ struct PlannedMotion {
 PlannedMotion PlanMotion(const ConversionRequest& request, const ReadBefore& read_before) {
   PlannedMotion planned;
   const Recording& recording = *read_before.motion.value;
-  planned.name = recording.motion;
+  planned.name = recording.motion();
   if (recording.markers.num_labels() == 0) return planned;
   try {
     planned.plan = PlanConversion(request, read_before);

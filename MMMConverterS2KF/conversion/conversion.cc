@@ -84,7 +84,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   Warnings* warnings = &plan.warnings;
   plan.input = ReadInput(request.input, read_before, warnings);
   const Recording& recording = plan.input.recording;
-  const WarningContext context(warnings, recording.file, recording.motion);
+  const WarningContext context(warnings, recording.file, recording.motion());
   plan.converter = TakeConverter(request.converter, read_before, warnings);
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
@@ -138,7 +138,7 @@ ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
   ConversionReport report{std::move(plan), {}, {}};
   const MarkerSequence& markers = report.input.recording.markers;
   const WarningContext context(&report.warnings, report.input.recording.file,
-                               report.input.recording.motion);
+                               report.input.recording.motion());
   if (self_calibrate && !report.object) SelfCalibrate(&report);
   const auto converter =
       report.converter.plugin->factory().Create(report.setup, report.converter.config);

@@ -60,17 +60,17 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
     outputs.reserve(reports.size());
     for (const ConversionReport* report : reports) {
       MmmMotionOutput output = DescribeMotion(request, *report);
-      output.motion_name = report->input.recording.motion;
+      output.motion_name = report->input.recording.motion();
       if (AreMarkersAsInFile(report->input.recording)) output.markers = nullptr;
       outputs.push_back(std::move(output));
     }
     return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
   }
-  if (recording.num_motions > 1) {
+  if (recording.mmm && recording.mmm->num_motions > 1) {
     first.warnings.Add(
         fmt::format("{}: has {} motions; the output has the converted one "
                     "only (MMM 2.0 in and out keeps all)",
-                    request.input.file, recording.num_motions));
+                    request.input.file, recording.mmm->num_motions));
   }
   const MmmMotionOutput output = DescribeMotion(request, first);
   return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
@@ -81,7 +81,7 @@ std::string DefaultOutput(const fs::path& input) {
 }
 
 std::string NameOf(const Recording& recording) {
-  if (!recording.motion.empty()) return recording.motion;
+  if (!recording.motion().empty()) return recording.motion();
   if (!recording.subject.empty()) return recording.subject;
   return fs::path(recording.file).stem().string();
 }

@@ -39,7 +39,7 @@ int CountKnown(const std::vector<MarkerPair>& pairs, const MarkerSequence& recor
 
 bool IsPersonsRecording(const Input& input, const ConverterConfig& config) {
   const Recording& recording = input.recording;
-  if (!recording.format.starts_with("MMM") || recording.is_of_person) return true;
+  if (!recording.mmm || recording.mmm->is_of_person) return true;
   const auto is_known = [&](const std::vector<MarkerPair>& pairs) {
     return CountKnown(pairs, recording.markers, *input.reference) >= kFewestMarkers;
   };
@@ -115,9 +115,10 @@ std::string WhyNotItsModel(const LoadedModel& model, const Input& input,
 std::optional<ObjectModel> FindNamedModel(const std::string& name, const ConverterConfig& config,
                                           const Input& input, Warnings* warnings) {
   const Recording& recording = input.recording;
-  if (recording.model_path.empty()) return std::nullopt;
-  const std::string file =
-      (fs::path(recording.file).parent_path() / recording.model_path).lexically_normal().string();
+  if (!recording.mmm || recording.mmm->model_path.empty()) return std::nullopt;
+  const std::string file = (fs::path(recording.file).parent_path() / recording.mmm->model_path)
+                               .lexically_normal()
+                               .string();
   if (!IsFile(file)) return std::nullopt;
   std::string reason;
   try {

@@ -23,7 +23,7 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
                          Warnings* warnings) {
   CalibrationInput one;
   one.input = ReadInput(request, {}, warnings);
-  const WarningContext context(warnings, request.file, one.input.recording.motion);
+  const WarningContext context(warnings, request.file, one.input.recording.motion());
   MatchModel(request, &one.input, matched);
   const ConverterConfig& config = *matched;
   if (config.model_processor == "None") {
@@ -38,13 +38,13 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
 // Files that know the height must know the same.
 void CheckOnePerson(const CalibrationRequest& request,
                     const std::vector<CalibrationInput>& recordings) {
-  if (request.inputs.front().person.height) return;
+  if (request.inputs.front().person.size.height) return;
   const CalibrationInput* first = nullptr;
   for (const CalibrationInput& one : recordings) {
-    const auto& height = one.input.recording.height;
+    const auto height = one.input.recording.size().height;
     if (!height) continue;
     if (first == nullptr) first = &one;
-    const double other = *first->input.recording.height;
+    const double other = *first->input.recording.size().height;
     if (std::abs(*height - other) < kSameHeight) continue;
     throw Error(
         fmt::format("{} is of a person of {:g} m, {} of {:g} m; calibrate with recordings "
@@ -60,7 +60,7 @@ std::string SubjectProgram() { return "MMMConverterS2KF " MMM_CONVERTER_VERSION;
 std::string SubjectName(const Input& input) {
   const Recording& recording = input.recording;
   if (!recording.subject.empty()) return recording.subject;
-  if (!recording.motion.empty()) return recording.motion;
+  if (!recording.motion().empty()) return recording.motion();
   return fs::path(recording.file).stem().string();
 }
 

@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "MMMConverterS2KF/comparison/comparison_setup.h"
-#include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/model_file.h"
-#include "common/io/tables/trc_reader.h"
+#include "common/io/recording/recording_formats.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -20,14 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFileStart = 512;  // in which a recording says what it is
-
 void CheckIsNoRecording(const std::string& file) {
-  const std::string start = ReadFileStart(file, kFileStart);
-  const bool is_c3d = start.size() > 1 && start[0] > 0 && start[0] < ' ' && start[1] == '\x50';
-  if (!is_c3d && !LooksLikeTrc(start)) return;
+  const RecordingFormat* format = FindFormatOfContent(file);
+  if (format == nullptr || format->holds_motions) return;
   throw Error(fmt::format("{}: is a {} recording, which has markers only; convert it first", file,
-                          is_c3d ? "C3D" : "TRC"));
+                          format->name));
 }
 
 // The only motion with joint angles, or the one of that name.
@@ -102,14 +98,13 @@ void TakeFrames(const InputRequest& request, CheckedMotion* checked) {
 // What a recording says of its person.
 Recording PersonOf(const MmmMotion& motion) {
   Recording recording;
-  recording.height = motion.height;
-  recording.mass = motion.mass;
-  recording.hand_length = motion.hand_length;
+  recording.mmm = MmmPart{};
+  recording.mmm->size = motion.size;
   return recording;
 }
 
 bool IsHeightKnown(const PersonRequest& person, const MmmMotion& motion) {
-  return person.height || motion.height || !person.processor_file.empty() ||
+  return person.size.height || motion.size.height || !person.processor_file.empty() ||
          !person.subject_file.empty();
 }
 

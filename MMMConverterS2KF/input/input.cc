@@ -160,9 +160,9 @@ InputRequest MakeInputRequest(const Arguments& arguments, const std::string& fil
   request.marker_set = arguments.Get("marker-set").value_or("");
   request.person.processor_file = arguments.Get("person").value_or("");
   request.person.subject_file = arguments.Get("subject-file").value_or("");
-  request.person.height = arguments.GetNumber("height", "metres, e.g. 1.75");
-  request.person.mass = arguments.GetNumber("mass", "kilograms, e.g. 70");
-  request.person.hand_length = arguments.GetNumber("hand-length", "metres, e.g. 0.18");
+  request.person.size.height = arguments.GetNumber("height", "metres, e.g. 1.75");
+  request.person.size.mass = arguments.GetNumber("mass", "kilograms, e.g. 70");
+  request.person.size.hand_length = arguments.GetNumber("hand-length", "metres, e.g. 0.18");
   return request;
 }
 

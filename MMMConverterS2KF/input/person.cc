@@ -47,39 +47,40 @@ void CheckLength(const char* what, const std::optional<double>& given, std::opti
 }
 
 // Another mass changes no length.
-void TakeSubject(const PersonRequest& request, const ProcessorConfig& processor,
+void TakeSubject(const PersonRequest& request, const BodySize& processor,
                  const Recording& recording, Person* person, Warnings* warnings) {
   const Subject& subject = *person->subject;
   const std::string& file = person->subject_file;
-  const auto height = request.height ? request.height : processor.height;
-  const auto hand_length = request.hand_length ? request.hand_length : processor.hand_length;
+  const auto height = request.size.height ? request.size.height : processor.height;
+  const auto hand_length =
+      request.size.hand_length ? request.size.hand_length : processor.hand_length;
   CheckLength("height", height, subject.height, file);
   CheckLength("hand length", hand_length, subject.hand_length, file);
   person->height = {subject.height, file};
   person->mass = {subject.mass, file};
   person->hand_length = subject.hand_length;
-  const auto mass = Choose(request.mass, processor.mass, request.processor_file, std::nullopt);
+  const auto mass = Choose(request.size.mass, processor.mass, request.processor_file, std::nullopt);
   if (mass && !AreEqual(mass->value, subject.mass)) {
     warnings->Add(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
                               subject.mass, mass->value, mass->source));
     person->mass = *mass;
   }
-  if (recording.height && !AreEqual(*recording.height, subject.height)) {
+  if (recording.size().height && !AreEqual(*recording.size().height, subject.height)) {
     warnings->Add(
         fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
                     "same person?",
-                    file, *recording.height, subject.height));
+                    file, *recording.size().height, subject.height));
   }
 }
 
 // Height, mass and hand length from where they are known, else estimated and assumed.
-void TakeNumbers(const PersonRequest& request, const ProcessorConfig& processor,
+void TakeNumbers(const PersonRequest& request, const BodySize& processor,
                  const Recording& recording, Person* person) {
   const std::string& file = request.processor_file;
-  const auto height = Choose(request.height, processor.height, file, recording.height);
-  const auto mass = Choose(request.mass, processor.mass, file, recording.mass);
+  const auto height = Choose(request.size.height, processor.height, file, recording.size().height);
+  const auto mass = Choose(request.size.mass, processor.mass, file, recording.size().mass);
   const auto hand_length =
-      Choose(request.hand_length, processor.hand_length, file, recording.hand_length);
+      Choose(request.size.hand_length, processor.hand_length, file, recording.size().hand_length);
   person->height = height.value_or(PersonValue());
   person->mass = mass ? *mass : PersonValue{kAssumedMass, kAssumed};
   if (hand_length) person->hand_length = hand_length->value;
@@ -89,7 +90,7 @@ Person Find(const PersonRequest& request, const KinematicModel& reference,
             const Recording& recording, const ConverterConfig& config,
             const std::function<PersonValue()>& estimate_height, Warnings* warnings) {
   Person person;
-  ProcessorConfig processor;
+  BodySize processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
   person.subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
   if (!person.subject_file.empty()) {
@@ -108,7 +109,7 @@ Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config
     throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
                             WhyUnscaled(config), request.subject_file));
   }
-  if (request.height || request.mass || request.hand_length || !request.processor_file.empty()) {
+  if (!request.size.empty() || !request.processor_file.empty()) {
     warnings->Add(WhyUnscaled(config) + "; height, mass and hand length are left out");
   }
   Person person;
@@ -120,8 +121,7 @@ Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config
 }  // namespace
 
 bool IsGiven(const PersonRequest& request) {
-  return !request.processor_file.empty() || !request.subject_file.empty() || request.height ||
-         request.mass || request.hand_length;
+  return !request.processor_file.empty() || !request.subject_file.empty() || !request.size.empty();
 }
 
 std::string WhyUnscaled(const ConverterConfig& config) {

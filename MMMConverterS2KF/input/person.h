@@ -9,6 +9,7 @@
 #include "common/convert/converter_config.h"
 #include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
+#include "common/model/body_size.h"
 #include "common/model/kinematic_model.h"
 #include "common/model/subject.h"
 #include "common/support/warnings.h"
@@ -19,7 +20,7 @@ namespace mmm_converter {
 struct PersonRequest {
   std::string processor_file;  ///< ModelProcessorConfig
   std::string subject_file;    ///< comes before the configuration's
-  std::optional<double> height, mass, hand_length;
+  BodySize size;
 };
 
 /// Whether anything is.

@@ -21,7 +21,7 @@ Json DescribeInput(const ConversionReport& report) {
   return {{"file", recording.file},
           {"format", recording.format},
           {"subject", recording.subject},
-          {"motion", recording.motion},
+          {"motion", recording.motion()},
           {"unit", recording.unit},
           {"unit_guessed", recording.unit_was_guessed},
           {"up_axis", Name(recording.up_axis)},

@@ -65,11 +65,11 @@ TEST_F(ScanTest, KitsTreeWithMotionsBesideTheRecordings) {
   EXPECT_EQ(manifest.entries[0].group, "files_motions_1");
   EXPECT_EQ(manifest.entries[0].request.input.file,
             fs::canonical(root_ + "/kit/files_motions_1/walk.trc"));
-  EXPECT_FALSE(manifest.entries[0].request.input.person.height);
+  EXPECT_FALSE(manifest.entries[0].request.input.person.size.height);
   EXPECT_EQ(manifest.entries[1].id, "files_motions_1/own");
   EXPECT_EQ(manifest.entries[2].id, "files_motions_2/Cut & run");
-  EXPECT_EQ(manifest.entries[2].request.input.person.height, 1.68);
-  EXPECT_EQ(manifest.entries[3].request.input.person.mass, 62);
+  EXPECT_EQ(manifest.entries[2].request.input.person.size.height, 1.68);
+  EXPECT_EQ(manifest.entries[3].request.input.person.size.mass, 62);
   EXPECT_EQ(manifest.entries[3].request.converter.config, "s2kf_default");
   EXPECT_THAT(scan.manifest,
               HasSubstr("<Group name=\"files_motions_2\" height_m=\"1.68\" mass_kg=\"62\">"));
@@ -89,13 +89,13 @@ TEST_F(ScanTest, ATableSaysWhoTheyAre) {
   EXPECT_THAT(scan.warnings.texts()[0], HasSubstr("there is no recording in or at \"nowhere\""));
   const BatchManifest manifest = Manifest(scan);
   ASSERT_EQ(manifest.entries.size(), 3U);
-  EXPECT_FALSE(manifest.entries[0].request.input.person.height);
+  EXPECT_FALSE(manifest.entries[0].request.input.person.size.height);
   const BatchEntry& one = manifest.entries[1];
-  EXPECT_EQ(one.request.input.person.height, 1.7);
+  EXPECT_EQ(one.request.input.person.size.height, 1.7);
   EXPECT_EQ(one.request.input.person.subject_file, fs::absolute(root_ + "/persons/anna.xml"));
   EXPECT_THAT(one.metadata, ElementsAre(Pair("who", "Anna, \"A\"")));
-  EXPECT_EQ(manifest.entries[2].request.input.person.height, 1.8);
-  EXPECT_EQ(manifest.entries[2].request.input.person.mass, 80);
+  EXPECT_EQ(manifest.entries[2].request.input.person.size.height, 1.8);
+  EXPECT_EQ(manifest.entries[2].request.input.person.size.mass, 80);
 }
 
 TEST_F(ScanTest, SameNamesGetIds) {

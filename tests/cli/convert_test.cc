@@ -53,8 +53,8 @@ TEST(Convert, WritesBesideTheInputUnlessTold) {
   const MmmMotion& motion = file.motions.front();
   EXPECT_EQ(file.version, "2.0");
   EXPECT_EQ(motion.name, "walk");
-  EXPECT_EQ(motion.height, 1.8);
-  EXPECT_EQ(motion.mass, 70);
+  EXPECT_EQ(motion.size.height, 1.8);
+  EXPECT_EQ(motion.size.mass, 70);
   EXPECT_EQ(motion.trajectory.num_frames(), 20);
   EXPECT_THAT(motion.trajectory.joint_names, SizeIs(44));
   EXPECT_EQ(motion.markers.num_labels(), 53);
@@ -149,8 +149,8 @@ TEST(Convert, KeepsTheOtherMotionsOfAnMmmFileInPlace) {
   EXPECT_THAT(after, EndsWith(other));
   const MmmMotionFile motions = ReadMmmMotionFile(file);
   ASSERT_THAT(motions.motions, SizeIs(2));
-  EXPECT_EQ(motions.motions[0].mass, 62);
-  EXPECT_EQ(motions.motions[0].height, 1.8);
+  EXPECT_EQ(motions.motions[0].size.mass, 62);
+  EXPECT_EQ(motions.motions[0].size.height, 1.8);
   EXPECT_EQ(motions.motions[0].trajectory.num_frames(), 10);
   EXPECT_EQ(motions.motions[0].markers.num_frames(), 12);  // sensors that are not replaced stay
 }
@@ -190,9 +190,9 @@ TEST(Convert, TakesMmmMotionConvertersOptions) {
     EXPECT_THAT(run.err, HasSubstr("is a configuration for NloptConverter"));
     const MmmMotion motion = ReadMmmMotionFile(file).motions.at(0);
     EXPECT_EQ(motion.name, "1723");
-    EXPECT_EQ(motion.height, 1.79);
-    EXPECT_EQ(motion.mass, 78);
-    EXPECT_NEAR(motion.hand_length.value(), 0.189, 1e-12);  // cm in the file
+    EXPECT_EQ(motion.size.height, 1.79);
+    EXPECT_EQ(motion.size.mass, 78);
+    EXPECT_NEAR(motion.size.hand_length.value(), 0.189, 1e-12);  // cm in the file
   }
 }
 
@@ -227,7 +227,7 @@ TEST(Convert, HeightIsEstimatedWhereNobodyGivesIt) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("estimated from"));
   // The sample's person is 1.8 m; its marker offsets of 28 mm leave a few per cent.
-  EXPECT_NEAR(ReadMmmMotionFile(file).motions.at(0).height.value(), 1.8, 0.1);
+  EXPECT_NEAR(ReadMmmMotionFile(file).motions.at(0).size.height.value(), 1.8, 0.1);
 }
 
 TEST(Convert, SaysThatMmm1KeepsOneMotionOnly) {
@@ -256,7 +256,7 @@ TEST(Convert, RealKitFileInPlace) {
     const auto& a = before.motions[i];
     const auto& b = after.motions[i];
     EXPECT_EQ(a.name, b.name);
-    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.size.height, b.size.height);
     EXPECT_EQ(a.markers.num_frames(), b.markers.num_frames());
     if (a.model_path != b.model_path) ++changed;
   }

@@ -132,7 +132,7 @@ TEST_P(KitObjects, HaveTheStoredPosesUpToOneTransform) {
   const MmmMotionFile ours = ReadMmmMotionFile(output);
   int objects = 0;
   for (const MmmMotion& motion : stored.motions) {
-    if (!motion.name.starts_with("true_") || motion.height || motion.markers.num_labels() == 0)
+    if (!motion.name.starts_with("true_") || motion.size.height || motion.markers.num_labels() == 0)
       continue;
     SCOPED_TRACE(motion.name);
     ExpectSame(motion, FindMotion(ours, motion.name), IsThin(motion.name, run.err));

@@ -116,7 +116,7 @@ TEST(Objects, AllMotionsOfAFileAreConvertedInOneRun) {
   for (const char* name : {"box", "bag", "tag"}) {
     const MmmMotion& motion = FindMotion(file, name);
     EXPECT_EQ(motion.model_path, fmt::format("out_objects/{}.xml", name));
-    EXPECT_FALSE(motion.height.has_value());
+    EXPECT_FALSE(motion.size.height.has_value());
     EXPECT_TRUE(std::filesystem::exists(TestFolder() + "/" + motion.model_path));
     const Deviation deviation = DeviationOf(PosesOf(motion), TruePoses(0, 60));
     EXPECT_LT(deviation.millimetres, kLagMillimetres) << name;

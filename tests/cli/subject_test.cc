@@ -106,8 +106,8 @@ TEST(SubjectFileOption, SaysHeightAndMass) {
               AllOf(HasSubstr("1.8 m (" + file + "), 75 kg"),
                     HasSubstr("subject    \"nobody\": 0 segments, 0 markers, from " + file),
                     HasSubstr("--model-out writes the subject's model")));
-  EXPECT_EQ(Converted().height, 1.8);
-  EXPECT_EQ(Converted().mass, 75);
+  EXPECT_EQ(Converted().size.height, 1.8);
+  EXPECT_EQ(Converted().size.mass, 75);
   const Json json = Json::parse(ReadText(json_file));
   EXPECT_EQ(json["person"]["height_source"], file);
   EXPECT_EQ(json["subject"]["name"], "nobody");
@@ -132,7 +132,7 @@ TEST(SubjectFileOption, TheMotionSaysWhoseAnglesItHas) {
     EXPECT_THAT(ReadText(TestFolder() + "/o.xml"),
                 HasSubstr("<!-- Root poses and joint angles are those of the subject nobody "
                           "(nobody.xml), whose segment lengths"));
-    EXPECT_EQ(Converted().height, 1.8);  // still the processor's
+    EXPECT_EQ(Converted().size.height, 1.8);  // still the processor's
   }
   EXPECT_EQ(RunProgram(WithTestConverter(Convert({"--height", "1.8"}))).exit_code, 0);
   EXPECT_THAT(ReadText(TestFolder() + "/o.xml"), Not(HasSubstr("<!--")));
@@ -205,7 +205,7 @@ TEST(SubjectFileOption, AnotherMassIsTakenWithAWarning) {
   const auto run = RunProgram(Convert({"--subject-file", file, "--mass", "81"}));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.err, HasSubstr("has a mass of 75 kg; 81 kg (given) is taken"));
-  EXPECT_EQ(Converted().mass, 81);
+  EXPECT_EQ(Converted().size.mass, 81);
 }
 
 TEST(SubjectFileOption, CommandLineComesBeforeTheConfiguration) {
@@ -217,12 +217,12 @@ TEST(SubjectFileOption, CommandLineComesBeforeTheConfiguration) {
             "<ConverterConfig type='TestConverter'><Model name='Winter'><Subject "
             "file='nobody.xml'/></Model></ConverterConfig>");
   EXPECT_EQ(RunProgram(WithTestConverter(Convert({"-c", config}))).exit_code, 0);
-  EXPECT_EQ(Converted().mass, 75);
+  EXPECT_EQ(Converted().size.mass, 75);
   EXPECT_EQ(RunProgram(WithTestConverter(Convert(
                            {"-c", config, "--subject-file", WriteSubject(other, "other.xml")})))
                 .exit_code,
             0);
-  EXPECT_EQ(Converted().mass, 90);
+  EXPECT_EQ(Converted().size.mass, 90);
 }
 
 TEST(SubjectFileOption, ComparisonsAndReportsTakeIt) {

@@ -114,7 +114,7 @@ TEST(Urdf, KnownAnglesOfARobotAreRecovered) {
   }
   const MmmMotion motion = ReadMmmMotionFile(output).motions.at(0);
   EXPECT_THAT(motion.model_path, ::testing::EndsWith("humanoid.urdf"));
-  EXPECT_FALSE(motion.height.has_value());
+  EXPECT_FALSE(motion.size.height.has_value());
   const auto shown = RunProgram(
       {"report", recording, output, "--model", Humanoid(), "-o", TestFolder() + "/r.html"});
   EXPECT_EQ(shown.exit_code, 0) << shown.err;

@@ -54,8 +54,9 @@ TEST(SampleRecordingTest, ShowsTheTrueMotionWithRealisticMarkers) {
   const MmmMotion& truth = file.motions[0];
   ASSERT_EQ(truth.trajectory.num_frames(), 675);
   ASSERT_EQ(truth.trajectory.joint_names, KitJointNames());
-  const KinematicModel model = ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")),
-                                           {truth.height.value(), truth.mass.value(), {}});
+  const KinematicModel model =
+      ScaleWinter(ReadMmmModel(SourcePath("xml_config/models/mmm.xml")),
+                  {truth.size.height.value(), truth.size.mass.value(), {}});
   const MarkerSequence expected =
       SynthesizeMarkers(model, truth.trajectory, {0, 0, 0.25, 0}, 1);  // no errors
   ASSERT_EQ(recording.markers.labels(), expected.labels());

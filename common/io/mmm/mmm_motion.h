@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/io/bytes/file_content.h"
+#include "common/model/body_size.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 #include "common/support/text_pieces.h"
@@ -19,11 +20,9 @@ namespace mmm_converter {
 /// repeated timestamp counts once, missing frames have NaN markers and interpolated postures.
 struct MmmMotion {
   std::string name;
-  std::string type;                   ///< "mmm", "object"; empty: not stated
-  std::string model_path;             ///< as the file names it; empty: none
-  std::optional<double> height;       ///< [m], from ModelProcessorConfig
-  std::optional<double> mass;         ///< [kg]
-  std::optional<double> hand_length;  ///< [m]
+  std::string type;        ///< "mmm", "object"; empty: not stated
+  std::string model_path;  ///< as the file names it; empty: none
+  BodySize size;           ///< from ModelProcessorConfig
   /// ModelPose and all Kinematic sensors (1.0: the frames), on ModelPose's time grid; joint angles
   /// outside of their sensor's time are NaN; no frames where the motion has neither sensor.
   PoseTrajectory trajectory;

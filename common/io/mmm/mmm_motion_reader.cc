@@ -77,9 +77,9 @@ void ReadModel(const XmlElement& element, MmmMotion* motion, Diagnostics* diagno
     if (const XmlElement* inner = model->FindChild("ModelProcessorConfig")) config = inner;
   }
   if (config == nullptr) return;
-  motion->height = ReadPositive(*config, "Height", 1, diagnostics);
-  motion->mass = ReadPositive(*config, "Mass", 1, diagnostics);
-  motion->hand_length = ReadPositive(*config, "HandLength", kMetresPerCentimetre, diagnostics);
+  motion->size.height = ReadPositive(*config, "Height", 1, diagnostics);
+  motion->size.mass = ReadPositive(*config, "Mass", 1, diagnostics);
+  motion->size.hand_length = ReadPositive(*config, "HandLength", kMetresPerCentimetre, diagnostics);
 }
 
 /// Sets position and orientation at every frame time; between poses the shorter way is turned.

@@ -32,7 +32,7 @@ std::optional<double> ReadNumber(const XmlElement& config, const char* name, con
 
 }  // namespace
 
-ProcessorConfig ParseProcessorConfig(const std::string& xml, const std::string& file) {
+BodySize ParseProcessorConfig(const std::string& xml, const std::string& file) {
   const XmlElement root = ParseXml(xml, file);
   if (!root.Is("ModelProcessorConfig")) {
     throw Error(
@@ -46,7 +46,7 @@ ProcessorConfig ParseProcessorConfig(const std::string& xml, const std::string& 
         fmt::format("{}:{}: <ModelProcessorConfig> needs type=\"Winter\"", file, root.line));
   }
   Diagnostics diagnostics(file);
-  ProcessorConfig config;
+  BodySize config;
   config.height = ReadNumber(root, "Height", "metres", 1, &diagnostics);
   config.mass = ReadNumber(root, "Mass", "kilograms", 1, &diagnostics);
   config.hand_length = ReadNumber(root, "HandLength", "centimetres", kCentimetre, &diagnostics);
@@ -54,7 +54,7 @@ ProcessorConfig ParseProcessorConfig(const std::string& xml, const std::string& 
   return config;
 }
 
-ProcessorConfig ReadProcessorConfig(const std::string& path) {
+BodySize ReadProcessorConfig(const std::string& path) {
   return ParseProcessorConfig(ReadFileContent(path, kMaxBytes), path);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/io/recording_content.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/warnings.h"
 
@@ -36,18 +37,15 @@ struct Recording {
   bool up_axis_was_decided = false;   ///< from the markers; else given, or assumed
   std::vector<std::string> subjects;  ///< label prefixes found
   std::string subject;                ///< the one that was read; empty: no prefix
-  std::string motion;                 ///< MMM files: name of the motion that was read
-  int num_motions = 0;                ///< MMM files: motions in the file
-  bool is_of_person = false;     ///< MMM files: that states a height, joints, or the type "mmm"
-  long first_frame = 1;          ///< number of the first stored frame in the capture
-  std::optional<double> height;  ///< [m], MMM files
-  std::optional<double> mass;    ///< [kg], MMM files
-  std::optional<double> hand_length;  ///< [m], MMM files
-  std::string model_path;             ///< MMM files: the model as the file names it
+  long first_frame = 1;               ///< number of the first stored frame in the capture
   std::string comment;                ///< C3D files of this project: what they say of themselves
+  std::optional<MmmPart> mmm;         ///< of MMM files only
+
+  std::string motion() const { return mmm ? mmm->motion : ""; }   ///< empty: not named
+  BodySize size() const { return mmm ? mmm->size : BodySize(); }  ///< as the file says
 };
 
-/// Reads a C3D, TRC or MMM motion file; the format is told from the content, not the name.
+/// Reads a recording of any format of RecordingFormats, told from the content, not the name.
 /// @throws Error (no such file, empty, not a recording, no whole frame, several subjects or motions
 /// and none chosen: the message lists them).
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options,

@@ -227,7 +227,7 @@ TEST(MotionDynamics, ARealWalkIsCarriedByTheFeet) {
       ReadMmmMotionFile(testing::SharedData("mmm/motions_legacy/walking_medium01_motion395.xml"));
   const MmmMotion& walk = file.motions.front();
   const MotionDynamics dynamics =
-      ComputeMotionDynamics(Person(*walk.height, *walk.mass), walk.trajectory);
+      ComputeMotionDynamics(Person(*walk.size.height, *walk.size.mass), walk.trajectory);
   EXPECT_LT(dynamics.kinematics.marker_distance, 1e-9);
   EXPECT_LT(dynamics.kinematics.segment_distance, 1e-9);
   EXPECT_LT(dynamics.kinematics.segment_angle, 1e-9);

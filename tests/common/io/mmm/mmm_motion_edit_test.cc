@@ -185,7 +185,7 @@ TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
   EXPECT_EQ(converted.trajectory.joint_names, file.Find("true_1723")->trajectory.joint_names);
   EXPECT_EQ(converted.markers.num_frames(), 79);
   EXPECT_EQ(converted.markers.frame(78), file.Find("true_1723")->markers.frame(78));
-  EXPECT_EQ(converted.height, 1.7);
+  EXPECT_EQ(converted.size.height, 1.7);
   EXPECT_TRUE(Join(WithConvertedMotions(BytesOf(text), "own.xml", {output})) == text);
 }
 

@@ -50,9 +50,9 @@ TEST(MmmMotionReader, RealLegacyFiles) {
   const MmmMotion& motion = file.motions[0];
   EXPECT_EQ(motion.name, "subject_id_314");
   EXPECT_EQ(motion.model_path, "model/mmm.xml");
-  EXPECT_EQ(motion.height, 1.67);
-  EXPECT_EQ(motion.mass, 100);
-  EXPECT_EQ(motion.hand_length, std::nullopt);
+  EXPECT_EQ(motion.size.height, 1.67);
+  EXPECT_EQ(motion.size.mass, 100);
+  EXPECT_EQ(motion.size.hand_length, std::nullopt);
   EXPECT_EQ(motion.trajectory.num_frames(), 265);
   EXPECT_EQ(motion.trajectory.rate, 100);
   EXPECT_EQ(motion.trajectory.first_time, 0);
@@ -112,9 +112,9 @@ TEST(MmmMotionReader, RealFilesWithMarkersAndObjects) {
                                  "true_1723", "pred_1723", "pred_cup_large", "pred_tablespoon"));
   const MmmMotion& human = *file.Find("true_1723");
   EXPECT_EQ(human.type, "object");  // as the file says
-  EXPECT_EQ(human.height, 1.68);
-  EXPECT_EQ(human.mass, 62);
-  EXPECT_DOUBLE_EQ(human.hand_length.value(), 0.18);
+  EXPECT_EQ(human.size.height, 1.68);
+  EXPECT_EQ(human.size.mass, 62);
+  EXPECT_DOUBLE_EQ(human.size.hand_length.value(), 0.18);
   EXPECT_EQ(human.markers.num_labels(), 53);
   EXPECT_EQ(human.markers.num_frames(), 79);
   EXPECT_EQ(human.markers.rate(), 10);
@@ -125,7 +125,7 @@ TEST(MmmMotionReader, RealFilesWithMarkersAndObjects) {
   const MmmMotion& sideboard = *file.Find("true_kitchen_sideboard");  // no marker data
   EXPECT_EQ(sideboard.markers.num_frames(), 0);
   EXPECT_EQ(sideboard.trajectory.num_frames(), 79);
-  EXPECT_EQ(sideboard.height, std::nullopt);
+  EXPECT_EQ(sideboard.size.height, std::nullopt);
 }
 
 TEST(MmmMotionReader, EveryRealFileHasWhatItShould) {
@@ -138,7 +138,7 @@ TEST(MmmMotionReader, EveryRealFileHasWhatItShould) {
         {"Pour_files_motions_2967_Pour1_cs_ms_0_20l_04.xml", 78}}) {
     const MmmMotionFile file = ReadMmmMotionFile(testing::SharedData(folder + name));
     for (const MmmMotion& motion : file.motions) {
-      if (!motion.height) continue;
+      if (!motion.size.height) continue;
       EXPECT_EQ(motion.markers.num_frames(), frames) << name;
       EXPECT_EQ(motion.markers.num_labels(), 53) << name;
       EXPECT_EQ(motion.trajectory.num_frames(), frames) << name;

@@ -29,9 +29,9 @@ inline MmmMotionOutput OutputOf(const MmmMotion& motion) {
   MmmMotionOutput output;
   output.motion_name = motion.name;
   output.model_path = motion.model_path;
-  output.height = motion.height.value_or(1);
-  output.mass = motion.mass.value_or(1);
-  output.hand_length = motion.hand_length;
+  output.height = motion.size.height.value_or(1);
+  output.mass = motion.size.mass.value_or(1);
+  output.hand_length = motion.size.hand_length;
   output.trajectory = &motion.trajectory;
   output.markers = motion.markers.num_frames() > 0 ? &motion.markers : nullptr;
   return output;

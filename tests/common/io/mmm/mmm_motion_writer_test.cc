@@ -99,9 +99,9 @@ TEST_P(MmmMotionWriter, ReadsItsOwn20BackAndWritesTheSameBytes) {
   EXPECT_EQ(motion.name, "subject & co");
   EXPECT_EQ(motion.type, "mmm");
   EXPECT_EQ(motion.model_path, "../models/o'mmm.xml");
-  EXPECT_EQ(motion.height, 1.755);
-  EXPECT_EQ(motion.mass, 71.3);
-  EXPECT_DOUBLE_EQ(motion.hand_length.value(), 0.189);
+  EXPECT_EQ(motion.size.height, 1.755);
+  EXPECT_EQ(motion.size.mass, 71.3);
+  EXPECT_DOUBLE_EQ(motion.size.hand_length.value(), 0.189);
   ExpectSame(trajectory, motion.trajectory);
   EXPECT_EQ(motion.markers.num_frames(), 721);
   EXPECT_EQ(motion.markers.labels(), (std::vector<std::string>{"C7", "a <odd> & \"label\""}));
@@ -124,7 +124,7 @@ TEST_P(MmmMotionWriter, ReadsItsOwn10BackAndWritesTheSameBytes) {
   const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml", &warnings);
   EXPECT_EQ(file.version, "1.0");
   EXPECT_THAT(warnings.texts(), IsEmpty());
-  EXPECT_EQ(file.motions[0].height, 1.755);
+  EXPECT_EQ(file.motions[0].size.height, 1.755);
   EXPECT_EQ(file.motions[0].model_path, "../models/o'mmm.xml");
   ExpectSame(trajectory, file.motions[0].trajectory);
   EXPECT_TRUE(Join(FormatMmmMotion1(testing::OutputOf(file.motions[0]))) == text);

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(ProcessorConfig, ReadsMetresKilogramsAndCentimetres) {
-  const ProcessorConfig config = ParseProcessorConfig(
+  const BodySize config = ParseProcessorConfig(
       "<?xml version='1.0'?><ModelProcessorConfig type='Winter'><Height>1.79</Height>"
       "<Mass> 78 </Mass><HandLength>18.9</HandLength></ModelProcessorConfig>",
       "1723.xml");
@@ -23,9 +23,8 @@ TEST(ProcessorConfig, ReadsMetresKilogramsAndCentimetres) {
 }
 
 TEST(ProcessorConfig, MayLeaveOutEverything) {
-  const ProcessorConfig config =
-      ParseProcessorConfig("<ModelProcessorConfig type='Winter'/>", "p.xml");
-  EXPECT_FALSE(config.height || config.mass || config.hand_length);
+  const BodySize config = ParseProcessorConfig("<ModelProcessorConfig type='Winter'/>", "p.xml");
+  EXPECT_TRUE(config.empty());
 }
 
 TEST(ProcessorConfig, RefusesOtherFilesAndWords) {

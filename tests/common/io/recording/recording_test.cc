@@ -284,11 +284,11 @@ TEST(Recording, ReadsMarkersOfMmmMotions) {
   const Recording mmm = ReadRecording(path, options);
   const Recording c3d = ReadRecording(SharedData("recordings/kit_bimanual_c3d/Pour_1480.c3d"), {});
   EXPECT_EQ(mmm.format, "MMM 2.0");
-  EXPECT_EQ(mmm.motion, "true_1480");
-  EXPECT_EQ(mmm.height, 1.79);
-  EXPECT_EQ(mmm.mass, 78);
-  ASSERT_TRUE(mmm.hand_length.has_value());
-  EXPECT_NEAR(*mmm.hand_length, 0.189, 1e-12);
+  EXPECT_EQ(mmm.motion(), "true_1480");
+  EXPECT_EQ(mmm.size().height, 1.79);
+  EXPECT_EQ(mmm.size().mass, 78);
+  ASSERT_TRUE(mmm.size().hand_length.has_value());
+  EXPECT_NEAR(*mmm.size().hand_length, 0.189, 1e-12);
   ASSERT_EQ(mmm.markers.labels(), c3d.markers.labels());
   ASSERT_EQ(mmm.markers.num_frames(), c3d.markers.num_frames());
   EXPECT_LT(LargestDistance(mmm.markers, c3d.markers), 1e-6);  // floats of up to 1.5 m

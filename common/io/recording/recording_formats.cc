@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/recording/recording_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/io/bytes/file_content.h"
+#include "common/io/c3d/c3d_content.h"
+#include "common/io/mmm/mmm_content.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/tables/trc_content.h"
+#include "common/io/tables/trc_reader.h"
+#include "common/io/xml/xml_text.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr std::size_t kStartBytes = 4096;
+constexpr std::size_t kMostBytesBeforeTheRoot = 1 << 20;
+
+bool IsText(std::string_view start) {
+  return std::all_of(start.begin(), start.end(), [](char c) {
+    return static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n' || c == '\r' ||
+           c == '\f';
+  });
+}
+
+bool IsMarkup(std::string_view start) {
+  return IsText(start) &&
+         Trim(start.substr(start.starts_with("\xEF\xBB\xBF") ? 3 : 0)).starts_with('<');
+}
+
+bool IsC3d(const std::string& /*file*/, std::string_view start) {
+  return !IsText(start) && LooksLikeC3d(start);
+}
+
+bool IsTrc(const std::string& /*file*/, std::string_view start) {
+  return IsText(start) && !IsMarkup(start) && LooksLikeTrc(start);
+}
+
+bool IsMmm(const std::string& file, std::string_view start) {
+  return IsMarkup(start) && LooksLikeMmmMotion(ReadFileStart(file, kMostBytesBeforeTheRoot));
+}
+
+// A number takes four bytes in C3D, nine in TRC, and with its markup fifty in MMM.
+const std::vector<RecordingFormat> kFormats = {
+    {"C3D", {".c3d"}, IsC3d, ReadC3dContent, 8},
+    {"TRC", {".trc"}, IsTrc, ReadTrcContent, 5},
+    {"MMM motion", {".xml"}, IsMmm, ReadMmmContent, 2, true},
+};
+
+[[noreturn]] void ThrowOtherText(const std::string& file, std::string_view start) {
+  if (IsMarkup(start)) {
+    const std::string head = ReadFileStart(file, kMostBytesBeforeTheRoot);
+    throw Error(
+        fmt::format("{}: is XML or a web page with the root <{}>, not an MMM motion (<MMM>)", file,
+                    RootName(head).substr(0, 40)));
+  }
+  if (start.starts_with("version https://git-lfs")) {
+    throw Error(fmt::format(
+        "{}: is a Git LFS pointer, not the file itself; fetch that one (git lfs pull)", file));
+  }
+  throw Error(fmt::format("{}: is text, but neither a TRC file nor an MMM motion", file));
+}
+
+const RecordingFormat* FindFormat(const std::string& file, std::string_view start) {
+  const auto found =
+      std::find_if(kFormats.begin(), kFormats.end(),
+                   [&](const RecordingFormat& format) { return format.looks_like(file, start); });
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const std::vector<RecordingFormat>& RecordingFormats() { return kFormats; }
+
+std::string RecordingFormatNames() {
+  std::vector<std::string> names;
+  for (const RecordingFormat& format : kFormats) names.emplace_back(format.name);
+  return JoinNames(names);
+}
+
+const RecordingFormat* FindFormatOfName(const std::string& file) {
+  const std::string ending = ToLower(std::filesystem::path(file).extension().string());
+  for (const RecordingFormat& format : kFormats) {
+    for (const char* known : format.endings) {
+      if (ending == known) return &format;
+    }
+  }
+  return nullptr;
+}
+
+const RecordingFormat* FindFormatOfContent(const std::string& file) {
+  return FindFormat(file, ReadFileStart(file, kStartBytes));
+}
+
+const RecordingFormat& FormatOfContent(const std::string& file) {
+  const std::string start = ReadFileStart(file, kStartBytes);
+  if (const RecordingFormat* format = FindFormat(file, start)) return *format;
+  if (IsText(start)) ThrowOtherText(file, start);
+  return kFormats.front();  // C3D, whose reader says what is wrong with the bytes
+}
+
+}  // namespace mmm_converter

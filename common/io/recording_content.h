@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/body_size.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter {
+
+/// What only MMM motion files say of a recording.
+struct MmmPart {
+  std::string motion;         ///< name of the motion that was read
+  int num_motions = 1;        ///< in the file
+  bool is_of_person = false;  ///< it states a height, joints, or the type "mmm"
+  BodySize size;
+  std::string model_path;  ///< the model as the file names it; empty: none
+};
+
+/// What a user says of how a file is to be read, as far as the format is concerned.
+struct ContentOptions {
+  bool ignore_residuals = false;  ///< C3D: also use points that are marked invalid
+  std::string motion = {};        ///< MMM: motion to read; empty: that with most markers
+};
+
+/// What a file of any format holds, in the file's own unit and axes: nothing is chosen or decided
+/// yet. Readers of all formats return it; ReadRecording makes a Recording of it.
+struct RecordingContent {
+  std::string format;                                ///< "C3D", "TRC", "MMM 1.0", "MMM 2.0"
+  std::vector<std::string> labels;                   ///< of all points
+  std::vector<std::string> outputs, label_prefixes;  ///< what the file says of them: SelectLabels
+  /// The points of the file are labelled markers in `unit`, and z is up: there is nothing to choose
+  /// or to decide. `read` then gives metres.
+  bool is_settled = false;
+  bool marks_points_valid = false;  ///< C3D
+  std::string unit;                 ///< as the file says it; may be empty or nonsense
+  double rate = 0;                  ///< [Hz]; 0: the file does not say
+  long first_frame = 1;             ///< number of the first stored frame in the capture
+  std::string comment;              ///< what the file says of itself
+  std::optional<MmmPart> mmm;
+  /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
+  /// To be called once.
+  std::function<MarkerSequence(const std::vector<int>& points,
+                               const std::vector<std::string>& labels, double rate)>
+      read;
+};
+
+}  // namespace mmm_converter
