@@ -1,56 +1,82 @@
 # cmake -DROOT=<project> -P CheckLayers.cmake
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
-#   - support < math < model < motion < fit < io < convert < calibrate < evaluate <
-#     plugins/* < MMMConverterS2KF < examples, tests
+#   - a folder of `layers` includes only folders before it; those joined by | do not include each other
 #   - common/dynamics uses model and motion (and what lies below model); only the application and the
 #     tests use dynamics
 #   - plugins never include each other, the application includes no plugin
 #   - include paths start at the project root; a file is opened only in io, support and above plugins
-#   - headers of other projects, except Eigen, appear only in .cc files (and in tests)
+#   - headers of other projects, except Eigen, appear only in .cc files (and in tests); one header of the
+#     application includes <nlohmann/json_fwd.hpp> for all
+#   - the library and the plugins name no option of the command line
 #   - every source starts with its licence line and has at most 400 lines; every folder has a README.md
 cmake_minimum_required(VERSION 3.25)
 
-set(layers common/support common/math common/model common/motion common/fit common/io common/convert common/calibrate
-           common/evaluate plugins MMMConverterS2KF examples tests)
+set(layers
+    common/support common/math common/model common/motion common/fit
+    common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/urdf common/io common/io/recording
+    common/convert common/calibrate common/evaluate
+    plugins
+    MMMConverterS2KF/terminal MMMConverterS2KF/input MMMConverterS2KF/conversion
+    "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report MMMConverterS2KF/batch
+    MMMConverterS2KF/commands MMMConverterS2KF
+    examples tests)
+# Of these the files alone are a layer: each of their folders is a layer of its own.
+set(divided common/io MMMConverterS2KF)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")
+string(REPLACE "|" ";" folders_of_layers "${layers};common/dynamics")
 
 macro(problem text)
   string(APPEND problems "  ${file}: ${text}\n")
 endmacro()
 
-# The layer that a path from the project root belongs to; empty where it is none of ours.
+# The folder of a layer that a path from the project root belongs to; empty where it is none of ours.
 function(layer_of path out)
   set(${out} "" PARENT_SCOPE)
-  foreach(layer IN LISTS layers ITEMS common/dynamics)
-    if(path MATCHES "^${layer}/")
-      set(${out} ${layer} PARENT_SCOPE)
+  foreach(folder IN LISTS folders_of_layers)
+    set(rest ".+")
+    if(folder IN_LIST divided)
+      set(rest "[^/]+")
+    endif()
+    if(path MATCHES "^${folder}/${rest}$")
+      set(${out} ${folder} PARENT_SCOPE)
     endif()
   endforeach()
 endfunction()
 
-# Whether a file of the layer `from` may include one of the layer `to`.
+# The number of a folder's layer; the larger, the higher.
+function(height_of folder out)
+  set(height 0)
+  foreach(layer IN LISTS layers)
+    string(REPLACE "|" ";" members ${layer})
+    if(folder IN_LIST members)
+      set(${out} ${height} PARENT_SCOPE)
+    endif()
+    math(EXPR height "${height} + 1")
+  endforeach()
+endfunction()
+
+# Whether a file of the folder `from` may include one of the folder `to`.
 function(may_include from to out)
-  list(FIND layers "${from}" user)
-  list(FIND layers "${to}" used)
-  set(allowed FALSE)
+  set(${out} FALSE PARENT_SCOPE)
   if(from STREQUAL to)
-    set(allowed TRUE)
+    set(${out} TRUE PARENT_SCOPE)
   elseif(from STREQUAL common/dynamics)
     if(to MATCHES "^common/(support|math|model|motion)$")
-      set(allowed TRUE)
+      set(${out} TRUE PARENT_SCOPE)
     endif()
   elseif(to STREQUAL common/dynamics)
-    if(from MATCHES "^(MMMConverterS2KF|tests)$")
-      set(allowed TRUE)
+    if(from MATCHES "^(MMMConverterS2KF|tests)(/|$)")
+      set(${out} TRUE PARENT_SCOPE)
     endif()
-  elseif(from STREQUAL MMMConverterS2KF AND to STREQUAL plugins)
-    set(allowed FALSE)
-  elseif(used LESS user)
-    set(allowed TRUE)
+  elseif(NOT from MATCHES "^MMMConverterS2KF" OR NOT to STREQUAL plugins)
+    height_of(${from} user)
+    height_of(${to} used)
+    if(used LESS user)
+      set(${out} TRUE PARENT_SCOPE)
+    endif()
   endif()
-  set(${out} ${allowed} PARENT_SCOPE)
 endfunction()
 
 macro(check_project_include path)
@@ -72,11 +98,12 @@ macro(check_project_include path)
 endmacro()
 
 macro(check_foreign_include path)
-  if(file MATCHES "\\.h$" AND NOT from STREQUAL tests AND NOT ${path} MATCHES "^([a-z_0-9]+|Eigen/.+)$"
-     AND NOT "${file} ${path}" STREQUAL "MMMConverterS2KF/report/json.h nlohmann/json_fwd.hpp")
+  if(${path} STREQUAL nlohmann/json_fwd.hpp AND file MATCHES "^MMMConverterS2KF/.*\\.h$")
+    list(APPEND json_headers ${file})
+  elseif(file MATCHES "\\.h$" AND NOT from STREQUAL tests AND NOT ${path} MATCHES "^([a-z_0-9]+|Eigen/.+)$")
     problem("<${path}> belongs in a .cc file")
   endif()
-  if(${path} STREQUAL fstream AND NOT from MATCHES "^(common/(io|support)|examples|tests)$")
+  if(${path} STREQUAL fstream AND NOT from MATCHES "^(common/(io|support)|examples|tests)(/|$)")
     problem("files are opened in common/io only (<fstream>)")
   endif()
 endmacro()
@@ -112,8 +139,17 @@ foreach(top IN LISTS tops)
         check_foreign_include(${CMAKE_MATCH_1})
       endif()
     endforeach()
+    if(file MATCHES "^(common|plugins)/" AND text MATCHES "\"[^\"\n]*(--[a-z][-a-z]*)")
+      problem("${CMAKE_MATCH_1}: the library does not know the options of the application, which gives such advice itself")
+    endif()
   endforeach()
 endforeach()
+
+list(LENGTH json_headers num_json_headers)
+if(num_json_headers GREATER 1)
+  set(file "${json_headers}")
+  problem("<nlohmann/json_fwd.hpp> belongs in one header")
+endif()
 
 list(REMOVE_DUPLICATES folders)
 foreach(folder IN LISTS folders)

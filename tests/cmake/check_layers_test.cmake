@@ -7,8 +7,10 @@ set(licence "// SPDX-License-Identifier: MIT\n")
 
 function(write_good_tree)
   file(REMOVE_RECURSE ${WORK_DIR})
-  foreach(folder common/support common/model common/motion common/io common/dynamics
-                 plugins/one plugins/two MMMConverterS2KF examples tests)
+  foreach(folder common/support common/model common/motion common/io common/io/bytes common/io/c3d common/io/mmm
+                 common/io/recording common/dynamics plugins/one plugins/two MMMConverterS2KF MMMConverterS2KF/input
+                 MMMConverterS2KF/conversion MMMConverterS2KF/comparison MMMConverterS2KF/dynamics MMMConverterS2KF/report
+                 examples tests)
     file(WRITE ${WORK_DIR}/${folder}/README.md "")
     file(WRITE ${WORK_DIR}/${folder}/used.h "${licence}#include <Eigen/Core>\n#include <vector>\n")
   endforeach()
@@ -17,7 +19,11 @@ function(write_good_tree)
   file(WRITE ${WORK_DIR}/common/io/user.cc "${licence}#include <fmt/core.h>\n#include <fstream>\n
 #include \"common/motion/used.h\"\n")
   file(WRITE ${WORK_DIR}/common/dynamics/user.h "${licence}#include \"common/motion/used.h\"\n")
-  file(WRITE ${WORK_DIR}/MMMConverterS2KF/user.cc "${licence}#include \"common/dynamics/used.h\"\n")
+  file(WRITE ${WORK_DIR}/common/io/recording/user.cc "${licence}#include \"common/io/c3d/used.h\"\n#include \"common/io/used.h\"\n")
+  file(WRITE ${WORK_DIR}/MMMConverterS2KF/user.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n")
+  file(WRITE ${WORK_DIR}/MMMConverterS2KF/dynamics/user.cc "${licence}#include \"common/dynamics/used.h\"\n")
+  file(WRITE ${WORK_DIR}/MMMConverterS2KF/report/user.cc "${licence}#include \"MMMConverterS2KF/dynamics/used.h\"\n")
+  file(WRITE ${WORK_DIR}/MMMConverterS2KF/report/json.h "${licence}#include <nlohmann/json_fwd.hpp>\n")
   file(WRITE ${WORK_DIR}/tests/user.cc "${licence}#include \"plugins/one/used.h\"\n")
 endfunction()
 
@@ -52,6 +58,21 @@ expect_fault(plugins/one/a.cc "${licence}#include \"plugins/two/used.h\"\n"
              "a plugin must not include another")
 expect_fault(MMMConverterS2KF/a.cc "${licence}#include \"plugins/one/used.h\"\n"
              "MMMConverterS2KF must not include plugins")
+expect_fault(common/io/c3d/a.cc "${licence}#include \"common/io/recording/used.h\"\n"
+             "common/io/c3d must not include common/io/recording")
+expect_fault(common/io/c3d/a.cc "${licence}#include \"common/io/mmm/used.h\"\n"
+             "common/io/c3d must not include common/io/mmm")
+expect_fault(MMMConverterS2KF/conversion/a.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n"
+             "MMMConverterS2KF/conversion must not include MMMConverterS2KF/report")
+expect_fault(MMMConverterS2KF/dynamics/a.cc "${licence}#include \"MMMConverterS2KF/comparison/used.h\"\n"
+             "MMMConverterS2KF/dynamics must not include MMMConverterS2KF/comparison")
+expect_fault(MMMConverterS2KF/input/a.cc "${licence}#include \"MMMConverterS2KF/used.h\"\n"
+             "MMMConverterS2KF/input must not include MMMConverterS2KF ")
+expect_fault(MMMConverterS2KF/report/a.cc "${licence}#include \"plugins/one/used.h\"\n"
+             "MMMConverterS2KF/report must not include plugins")
+expect_fault(MMMConverterS2KF/new/a.cc "${licence}" "its folder is no layer")
+expect_fault(common/model/a.cc "${licence}const char kText[] = \"use --height\";\n" "--height: the library does not know")
+expect_fault(common/io/a.h "${licence}#include <nlohmann/json_fwd.hpp>\n" "<nlohmann/json_fwd.hpp> belongs in a .cc file")
 expect_fault(common/io/a.cc "${licence}  #  include \"used.h\"\n" "\"used.h\" does not start at")
 expect_fault(common/io/a.h "${licence}#include <tinyxml2.h>\n" "<tinyxml2.h> belongs in a .cc file")
 expect_fault(common/io/a.h "${licence}#include <boost/dll.hpp>\n" "<boost/dll.hpp> belongs in")
@@ -60,6 +81,10 @@ expect_fault(common/io/a.cc "#include <vector>\n" "the first line is not")
 expect_fault(common/new/a.cc "${licence}" "its folder is no layer")
 string(REPEAT "//\n" 400 comment)
 expect_fault(tests/a.cc "${licence}${comment}" "401 lines; at most 400")
+
+write_good_tree()
+file(WRITE ${WORK_DIR}/MMMConverterS2KF/input/json.h "${licence}#include <nlohmann/json_fwd.hpp>\n")
+expect_output("belongs in one header")
 
 write_good_tree()
 file(REMOVE ${WORK_DIR}/plugins/two/README.md)
