@@ -8,7 +8,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kFarAway = 1e6;  // some systems write 9999999 for a missing marker
 constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 /// Word 4 was made a float by the writer: back to the 16 bits that it was (65535 and -1 are the
@@ -51,11 +50,9 @@ void DecodeFrames(const unsigned char* stored, int frames, const std::vector<int
     for (const int index : points) {
       const unsigned char* point = stored + static_cast<std::size_t>(index) * kPointBytes;
       Position<kProcessor, kFloats>(point, layout.scale, xyz);
-      const bool near = std::abs(xyz[0]) <= kFarAway && std::abs(xyz[1]) <= kFarAway &&
-                        std::abs(xyz[2]) <= kFarAway;  // false for NaN as well
       const bool zero = xyz[0] == 0 && xyz[1] == 0 && xyz[2] == 0;
       const bool valid = ignore_residuals || IsMarkedValid<kProcessor, kFloats>(point);
-      if (!near || zero || !valid) xyz[0] = xyz[1] = xyz[2] = kUnseen;
+      if (!IsC3dPosition(xyz) || zero || !valid) xyz[0] = xyz[1] = xyz[2] = kUnseen;
       xyz += 3;
     }
   }

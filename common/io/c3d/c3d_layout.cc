@@ -109,6 +109,7 @@ C3dHeader ReadC3dHeader(std::span<const unsigned char> header, C3dProcessor proc
           .last_frame = word(5),
           .scale = real(7),
           .data_block = word(9),
+          .analog_samples = word(10),
           .rate = real(11)};
 }
 
@@ -142,7 +143,7 @@ C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& paramet
   const std::uint64_t declared = DeclaredFrames(header, parameters);
   layout.points = Points(header, parameters, layout.floats, declared, room, warnings);
   layout.frame_bytes = FrameBytes(layout.points, header, layout.floats);
-  if (layout.points == 0) return layout;
+  if (layout.frame_bytes == 0) return layout;
   const std::uint64_t held = room / layout.frame_bytes;
   if (declared > held) {
     Warn(warnings, fmt::format("truncated: declares {} frames, holds {}", declared, held));

@@ -20,7 +20,8 @@ struct C3dHeader {
   int last_frame = 0;
   float scale = 0;
   int data_block = 0;
-  float rate = 0;  ///< [Hz]
+  int analog_samples = 0;  ///< of each channel in a frame
+  float rate = 0;          ///< [Hz]
 };
 
 /// header: the first 512 bytes.
@@ -44,7 +45,7 @@ struct C3dLayout {
 std::uint64_t C3dDataStartOfHeader(const C3dHeader& header, std::uint64_t section_start,
                                    int section_blocks, std::uint64_t file_size);
 
-/// section_start, file_size: bytes. Leaves frames and points 0 where none can be made out.
+/// section_start, file_size: bytes. Leaves frames or points 0 where none can be made out.
 C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& parameters,
                            C3dProcessor processor, std::uint64_t section_start, int section_blocks,
                            std::uint64_t file_size, Warnings* warnings);

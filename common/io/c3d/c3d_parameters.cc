@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -168,7 +167,7 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
     end_ = next.at;
 
     if (record->id < 0) {
-      groups.emplace(-record->id, record->name);
+      if (groups.emplace(-record->id, record->name).second) groups_.push_back(record->name);
     } else if (parameter) {
       const std::size_t begin = parameter->data.data() - section.data();
       const std::size_t room = end_ > begin ? end_ - begin : 0;
@@ -180,12 +179,11 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
     }
     record = std::move(next.record);
   }
-  std::set<std::pair<std::string, std::string>> names;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const auto group = groups.find(group_ids[i]);
     if (group != groups.end()) parameters_[i].group = group->second;
     const auto& [group_name, name] = std::tie(parameters_[i].group, parameters_[i].name);
-    if (!names.emplace(group_name, name).second) {
+    if (!places_.emplace(std::pair(group_name, name), i).second) {
       Warn(warnings,
            fmt::format("parameter {}:{} is there twice; the first is used", group_name, name));
     }
@@ -193,10 +191,8 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
 }
 
 const C3dParameter* C3dParameters::Find(std::string_view group, std::string_view name) const {
-  for (const C3dParameter& parameter : parameters_) {
-    if (parameter.name == name && parameter.group == group) return &parameter;
-  }
-  return nullptr;
+  const auto place = places_.find({std::string(group), std::string(name)});
+  return place == places_.end() ? nullptr : &parameters_[place->second];
 }
 
 std::optional<double> C3dParameters::Number(std::string_view group, std::string_view name) const {

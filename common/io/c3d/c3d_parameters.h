@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/io/c3d/c3d_numbers.h"
@@ -31,9 +33,13 @@ struct C3dParameter {
 /// The parameters of a C3D file, as far as they can be made out.
 class C3dParameters {
  public:
+  C3dParameters() = default;  ///< none
   /// section: from the first byte of the parameter section to where it ends at the latest (data or
   /// end of file). Never reads beyond; whatever is broken is left out and named in warnings.
   C3dParameters(std::span<const unsigned char> section, C3dProcessor processor, Warnings* warnings);
+
+  const std::vector<C3dParameter>& all() const { return parameters_; }  ///< in the file's order
+  const std::vector<std::string>& groups() const { return groups_; }    ///< in the file's order
 
   /// Names in upper case. nullptr: there is none. The first of equal ones.
   const C3dParameter* Find(std::string_view group, std::string_view name) const;
@@ -46,6 +52,8 @@ class C3dParameters {
 
  private:
   std::vector<C3dParameter> parameters_;
+  std::vector<std::string> groups_;
+  std::map<std::pair<std::string, std::string>, std::size_t> places_;  // by group and name
   std::size_t end_ = 0;
 };
 

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include "common/io/c3d/c3d_layout.h"
+#include "common/io/c3d/c3d_file.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/warnings.h"
 
@@ -48,12 +47,7 @@ class C3dReader {
   std::vector<C3dPoint> ReadFrame(int frame);  ///< all points of one frame
 
  private:
-  std::vector<unsigned char> ReadBytes(std::uint64_t begin, std::uint64_t count);
-  void ReadFrames(int first, int count, std::vector<unsigned char>* bytes);
-
-  std::string path_;
-  std::ifstream stream_;
-  std::uint64_t base_ = 0;  // zero bytes before the file proper
+  C3dFile file_;
   C3dInfo info_;
 };
 

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "common/io/c3d/c3d_layout.h"
+#include "tests/support/c3d_bytes.h"
 
 namespace mmm_converter {
 namespace {
@@ -16,64 +17,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-/// Bytes of a parameter section, Intel.
-class Section {
- public:
-  /// offset -1: the right one.
-  Section& Group(int id, const std::string& name) {
-    return Record(-id, name, std::string(1, '\0'), -1);
-  }
-  Section& Texts(int group, const std::string& name, int width, const std::string& data,
-                 int offset = -1) {
-    const int count = static_cast<int>(data.size()) / width;
-    return Parameter(group, name, -1, {width, count}, data, offset);
-  }
-  Section& Word(int group, const std::string& name, std::initializer_list<int> words) {
-    std::string data;
-    for (const int word : words) {
-      data += static_cast<char>(word & 0xFF);
-      data += static_cast<char>(word >> 8);
-    }
-    return Parameter(group, name, 2, {static_cast<int>(words.size())}, data, -1);
-  }
-  Section& Float(int group, const std::string& name, float value) {
-    std::string data(4, '\0');
-    std::memcpy(data.data(), &value, 4);
-    return Parameter(group, name, 4, {}, data, -1);
-  }
-  Section& Parameter(int group, const std::string& name, int type,
-                     const std::vector<int>& dimensions, const std::string& data, int offset) {
-    std::string content(1, static_cast<char>(type));
-    content += static_cast<char>(dimensions.size());
-    for (const int size : dimensions) content += static_cast<char>(size);
-    return Record(group, name, content + data + std::string(1, '\0'), offset);
-  }
-  Section& Append(const std::string& bytes) {
-    bytes_ += bytes;
-    return *this;
-  }
-  C3dParameters Parse() {
-    warnings = Warnings();
-    return {std::span(reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size()),
-            C3dProcessor::kIntel, &warnings};
-  }
-
-  Warnings warnings;
-
- private:
-  Section& Record(int id, const std::string& name, const std::string& content, int offset) {
-    if (offset < 0) offset = static_cast<int>(content.size()) + 2;
-    bytes_ += static_cast<char>(name.size());
-    bytes_ += static_cast<char>(id);
-    bytes_ += name;
-    bytes_ += static_cast<char>(offset & 0xFF);
-    bytes_ += static_cast<char>(offset >> 8);
-    bytes_ += content;
-    return *this;
-  }
-  std::string bytes_ = std::string("\x01\x50\x01\x54", 4);
-};
+using Section = testing::C3dSection;
 
 TEST(C3dParameters, FindsParametersThatComeBeforeTheirGroup) {
   Section section;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/c3d/c3d_analog.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mmm_converter {
+namespace {
+
+constexpr std::size_t kMostPlates = 255;  // a dimension of a parameter
+constexpr std::size_t kCornerNumbers = 12;
+
+double AnalogRate(const C3dFile& file, int samples_per_frame) {
+  const double stated = file.parameters().Number("ANALOG", "RATE").value_or(0);
+  if (std::isfinite(stated) && stated > 0) return stated;
+  return file.layout().rate * samples_per_frame;
+}
+
+/// The numbers of one plate in a parameter that has `per_plate` for each.
+std::vector<double> NumbersOf(const C3dParameter* parameter, std::size_t plate,
+                              std::size_t per_plate) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; parameter != nullptr && i < per_plate; ++i) {
+    const std::optional<double> number = parameter->Number(plate * per_plate + i);
+    if (!number) break;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+C3dAnalog ReadC3dAnalog(const C3dFile& file, Warnings* warnings) {
+  const C3dParameters& parameters = file.parameters();
+  const int words = file.header().analog_words;
+  C3dAnalog analog;
+  if (words == 0) return analog;
+  int samples = std::max(file.header().analog_samples, 1);
+  const double used_number = parameters.Number("ANALOG", "USED").value_or(0);
+  const int used = used_number >= 1 && used_number <= 65535 ? static_cast<int>(used_number) : 0;
+  if (words % samples != 0) {
+    const int by_used = used > 0 && words % used == 0 ? words / used : 1;
+    Warn(warnings, fmt::format("the header says {} analog samples of each channel in a frame, but "
+                               "{} of all; read as {}",
+                               samples, words, by_used));
+    samples = by_used;
+  }
+  analog.samples_per_frame = samples;
+  analog.rate = AnalogRate(file, samples);
+  analog.channels.resize(static_cast<std::size_t>(words / samples));
+  if (used != 0 && used != words / samples) {
+    Warn(warnings,
+         fmt::format("the header says {} analog channels, ANALOG:USED {}", words / samples, used));
+  }
+  const std::vector<std::string> labels = parameters.TextList("ANALOG", "LABELS");
+  const std::vector<std::string> units = parameters.TextList("ANALOG", "UNITS");
+  const std::vector<std::string> descriptions = parameters.TextList("ANALOG", "DESCRIPTIONS");
+  for (std::size_t i = 0; i < analog.channels.size(); ++i) {
+    C3dAnalogChannel& channel = analog.channels[i];
+    if (i < labels.size()) channel.label = labels[i];
+    if (channel.label.empty()) channel.label = fmt::format("*{}", i + 1);
+    if (i < units.size()) channel.unit = units[i];
+    if (i < descriptions.size()) channel.description = descriptions[i];
+  }
+  return analog;
+}
+
+std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, Warnings* warnings) {
+  const C3dParameter* types = parameters.Find("FORCE_PLATFORM", "TYPE");
+  const C3dParameter* corners = parameters.Find("FORCE_PLATFORM", "CORNERS");
+  const C3dParameter* channels = parameters.Find("FORCE_PLATFORM", "CHANNEL");
+  const std::size_t types_there = types == nullptr ? 0 : types->size();
+  const std::size_t corners_there = corners == nullptr ? 0 : corners->size() / kCornerNumbers;
+  const std::size_t stored = std::max(types_there, corners_there);
+  const double used = parameters.Number("FORCE_PLATFORM", "USED").value_or(0);
+  std::vector<C3dForcePlate> plates;
+  if (!(used >= 1)) return plates;
+  if (used > static_cast<double>(stored)) {
+    Warn(warnings,
+         fmt::format("FORCE_PLATFORM:USED says {} force plates, type or corners are there of {}",
+                     used, stored));
+  }
+  plates.resize(static_cast<std::size_t>(
+      std::min({used, static_cast<double>(stored), static_cast<double>(kMostPlates)})));
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    C3dForcePlate& plate = plates[i];
+    if (const auto type = types == nullptr ? std::nullopt : types->Number(i)) {
+      plate.type = static_cast<int>(std::clamp(*type, -32768.0, 65535.0));
+    }
+    const std::size_t per_plate =
+        channels == nullptr || channels->dimensions.empty() ? 0 : channels->dimensions[0];
+    for (const double channel : NumbersOf(channels, i, per_plate)) {
+      if (channel >= 1 && channel <= 65535) plate.channels.push_back(static_cast<int>(channel));
+    }
+    const std::vector<double> numbers = NumbersOf(corners, i, kCornerNumbers);
+    if (numbers.size() == kCornerNumbers) {
+      plate.corners = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(numbers.data());
+    }
+  }
+  return plates;
+}
+
+}  // namespace mmm_converter
