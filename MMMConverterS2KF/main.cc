@@ -29,7 +29,7 @@ constexpr std::array kCommands = {
     Command{"compare", "compare converters on recordings", RunCompare},
     Command{"evaluate", "repeat the evaluation of the paper", RunEvaluate},
     Command{"export-urdf", "write the model of a person as a URDF", RunExportUrdf},
-    Command{"info", "describe a recording, motion, model, configuration or plugin", RunInfo},
+    Command{"info", "describe a file that this program reads or writes", RunInfo},
     Command{"print-config", "print the configuration of a converter with every setting",
             RunPrintConfig},
     Command{"report", "show finished motions and their recording on a page", RunReport}};

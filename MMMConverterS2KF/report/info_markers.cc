@@ -9,7 +9,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr int kDecimals = 6;  // of a position in metres
+constexpr int kShownDecimals = 6;  // of a metre
 
 struct LabelStatistics {
   int frames_seen = 0;
@@ -46,17 +46,16 @@ std::string FormatMarkers(const MarkerSequence& markers) {
   return text;
 }
 
-Json ToJson(const MarkerSequence& markers) {
+Json MarkersJson(const MarkerSequence& markers) {
   Json list = Json::array();
   for (int i = 0; i < markers.num_labels(); ++i) {
     const LabelStatistics statistics = StatisticsOf(markers, i);
-    Json entry = {{"label", markers.labels()[i]}, {"frames_seen", statistics.frames_seen}};
+    Json entry = {{"label", markers.labels()[i]},
+                  {"frames_seen", statistics.frames_seen},
+                  {"mean_position_m", nullptr}};
     if (statistics.frames_seen > 0) {
-      for (const double x : statistics.mean) {
-        entry["mean_position_m"].push_back(Number(x, kDecimals));
-      }
-    } else {
-      entry["mean_position_m"] = nullptr;
+      Json& mean = entry["mean_position_m"] = Json::array();
+      for (const double x : statistics.mean) mean.push_back(Number(x, kShownDecimals));
     }
     list.push_back(entry);
   }

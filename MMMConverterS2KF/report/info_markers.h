@@ -11,7 +11,7 @@ namespace mmm_converter {
 /// A table: per label the frames in which it is seen and its mean position [m].
 std::string FormatMarkers(const MarkerSequence& markers);
 
-/// The same as a JSON array.
-Json ToJson(const MarkerSequence& markers);
+/// The same as an array.
+Json MarkersJson(const MarkerSequence& markers);
 
 }  // namespace mmm_converter

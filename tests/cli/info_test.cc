@@ -2,9 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
+#include "tests/support/c3d_bytes.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/test_plugins.h"
 
@@ -12,6 +16,8 @@ namespace mmm_converter {
 namespace {
 
 using ::testing::AllOf;
+using testing::C3dBytes;
+using testing::C3dSection;
 using ::testing::ElementsAre;
 using testing::Handstand;
 using ::testing::HasSubstr;
@@ -89,6 +95,167 @@ TEST(Info, RealFiles) {
   EXPECT_GT(motions["motions"].size(), 1u);
 }
 
+TEST(Info, MarkerSet) {
+  const auto json = InfoOf(SourcePath("xml_config/marker_sets/kit53.xml"));
+  EXPECT_EQ(json["kind"], "marker set");
+  EXPECT_EQ(json["name"], "KIT");
+  EXPECT_GE(json["mappings"].size(), 53u);
+  EXPECT_EQ(json["mappings"][0]["label"], "LFHD");
+}
+
+TEST(Info, SubjectAndPerson) {
+  const std::string subject = testing::TestFolder() + "/anna.xml";
+  testing::WriteText(subject,
+                     "<Subject name='anna' model='MMM' height_m='1.7' mass_kg='60'><Segments>"
+                     "<Segment name='LKx_joint' scale='1.1'/></Segments><Provenance program='p'>"
+                     "<Recording name='walk.c3d' frames='7'/></Provenance></Subject>");
+  auto json = InfoOf(subject);
+  EXPECT_EQ(json["kind"], "subject");
+  EXPECT_EQ(json["height_m"], 1.7);
+  EXPECT_THAT(json["segments"], ElementsAre("LKx_joint"));
+  EXPECT_THAT(json["recordings"], ElementsAre("walk.c3d"));
+  const std::string person = testing::TestFolder() + "/1723.xml";
+  testing::WriteText(person,
+                     "<ModelProcessorConfig type='Winter'><Height>1.68</Height><Mass>62</Mass>"
+                     "</ModelProcessorConfig>");
+  json = InfoOf(person);
+  EXPECT_EQ(json["kind"], "person");
+  EXPECT_EQ(json["mass_kg"], 62);
+  EXPECT_EQ(json["hand_length_m"], nullptr);
+}
+
+TEST(Info, OutputsOfAConversion) {
+  const std::string folder = testing::TestFolder();
+  const auto run = RunProgram(testing::WithTestConverter(
+      {"convert", Handstand(), "--height", "1.8", "--frames", "0:20", "-o", folder + "/m.xml",
+       "--summary", folder + "/m.json", "--report", folder + "/m.html", "--export-csv",
+       folder + "/m.csv", "--export-mot", folder + "/m.mot", "--export-trc", folder + "/m.trc"}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(InfoOf(folder + "/m.xml")["kind"], "motion");
+  EXPECT_EQ(InfoOf(folder + "/m.trc")["format"], "TRC");
+  EXPECT_EQ(InfoOf(folder + "/m.csv")["rows"], 20);
+  const auto mot = InfoOf(folder + "/m.mot");
+  EXPECT_EQ(mot["rows"], 20);
+  EXPECT_EQ(mot["columns"][0], "time");
+  const auto summary = InfoOf(folder + "/m.json");
+  EXPECT_EQ(summary["of"], "summary of a conversion");
+  EXPECT_EQ(summary["members"]["frames"], 20);
+  const auto page = InfoOf(folder + "/m.html");
+  EXPECT_EQ(page["of"], "motions on their recordings");
+  EXPECT_EQ(page["recordings"], 1);
+}
+
+TEST(Info, FilesOfABatch) {
+  const std::string manifest = testing::WriteManifest(2, testing::QuickConverter());
+  const std::string folder = testing::TestFolder() + "/out";
+  const auto run = RunProgram({"batch", manifest, "-o", folder, "--reports", "none"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = InfoOf(manifest);
+  EXPECT_EQ(json["kind"], "manifest");
+  EXPECT_THAT(json["recordings"], SizeIs(2));
+  const auto journal = InfoOf(folder + "/journal.jsonl");
+  EXPECT_EQ(journal["kind"], "journal");
+  EXPECT_EQ(journal["states"]["converted"], 2);
+  const auto results = InfoOf(folder + "/results.jsonl");
+  EXPECT_EQ(results["kind"], "results");
+  EXPECT_EQ(results["recordings"], 2);
+  EXPECT_EQ(InfoOf(folder + "/results.csv")["rows"], 2);
+  EXPECT_EQ(InfoOf(folder + "/index.html")["of"], "the index of a batch");
+}
+
+// C3D files that can't be converted.
+
+std::string Frames(const C3dBytes& bytes, const C3dSection& section) {
+  std::string file = testing::TestFolder() + "/odd.c3d";
+  testing::WriteText(file, bytes.File(section));
+  return file;
+}
+
+TEST(Info, C3dWithoutAValidPoint) {
+  const auto json = InfoOf(Frames({.points = 1, .frames = {{1, 2, 3, -1}, {4, 5, 6, -1}}},
+                                  C3dSection().Group(1, "POINT").Texts(1, "LABELS", 2, "C7")));
+  EXPECT_EQ(json["frames"], 2);
+  EXPECT_EQ(json["can_be_converted"], false);
+  EXPECT_THAT(json["failure"].get<std::string>(), HasSubstr("marked valid"));
+  EXPECT_EQ(json["positions"]["marked_invalid"], 2);
+  EXPECT_EQ(json["points"][0]["label"], "C7");
+}
+
+TEST(Info, C3dWithoutALabel) {
+  const std::string file =
+      Frames({.points = 2, .frames = {{1, 2, 3, 0, 4, 5, 6, 0}}}, C3dSection().Group(1, "POINT"));
+  const auto json = InfoOf(file);
+  EXPECT_EQ(json["stored"]["unlabelled"], 2);
+  EXPECT_EQ(json["positions"]["seen"], 2);
+  EXPECT_THAT(RunProgram({"info", file}).out, HasSubstr("convert    not as it is: "));
+}
+
+TEST(Info, C3dOfAnalogChannelsOnly) {
+  const auto json = InfoOf(Frames(
+      {.analog_words = 4, .analog_samples = 2, .frames = {{1, 2, 3, 4}}},
+      C3dSection().Group(2, "ANALOG").Texts(2, "LABELS", 3, "EMGFz1").Word(2, "OFFSET", {65535})));
+  EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["analog"]["rate_hz"], 200);
+  EXPECT_EQ(json["analog"]["channels"][1]["label"], "Fz1");
+  EXPECT_EQ(json["parameters"]["ANALOG"]["OFFSET"][0], -1);
+}
+
+TEST(Info, C3dOfSeveralSubjects) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string file =
+      testing::SharedData("recordings/synthetic/kit53_two_subjects_same_labels.c3d");
+  EXPECT_THAT(InfoOf(file)["failure"].get<std::string>(), HasSubstr("several subjects: A, B"));
+  EXPECT_THAT(InfoOf(file)["points"], SizeIs(106));
+  EXPECT_EQ(RunProgram({"info", file, "--subject", "C"}).exit_code, 1);
+}
+
+TEST(Info, C3dContents) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string file = testing::SharedData("forces/walking2.c3d");
+  const auto json = InfoOf(file);
+  EXPECT_THAT(json["analog"]["channels"], SizeIs(12));
+  EXPECT_THAT(json["force_plates"], SizeIs(2));
+  EXPECT_THAT(json["force_plates"][0]["corners"], SizeIs(4));
+  EXPECT_EQ(json["parameters"]["POINT"]["USED"][0], json["points"].size());
+  EXPECT_THAT(RunProgram({"info", file}).out,
+              AllOf(HasSubstr("analog     12 channels at 2000 Hz"), HasSubstr("plates     2")));
+  EXPECT_THAT(InfoOf(testing::SharedData("recordings/conformance/Eb015pr.c3d"))["events"],
+              SizeIs(3));
+}
+
+TEST(Info, EveryRealFileIsDescribedOrRefused) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(testing::SharedData(""))) {
+    if (!entry.is_regular_file()) continue;
+    const auto run = RunProgram({"info", entry.path().string(), "--json"});
+    EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 1) << entry.path() << run.err;
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".c3d" || ending == ".trc") EXPECT_EQ(run.exit_code, 0) << entry.path();
+    if (run.exit_code == 0) {
+      EXPECT_TRUE(nlohmann::json::accept(run.out)) << entry.path();
+    } else {
+      EXPECT_THAT(run.err, HasSubstr("error: ")) << entry.path();
+    }
+  }
+}
+
+TEST(Info, CutFiles) {
+  const std::string c3d = testing::ReadText(Handstand());
+  const std::string file = testing::TestFolder() + "/cut.c3d";
+  for (const std::size_t size : {1, 2, 132, 511, 512, 515, 1024, 2000, 4000, 40000}) {
+    testing::WriteText(file, c3d.substr(0, size));
+    const auto run = RunProgram({"info", file});
+    EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 1) << size << run.err;
+  }
+  for (const char* text :
+       {"{", "{\"id\":", "<Batch", "<Subject/>", "<MarkerSet/>", "time_s,root_x_mm", "Coordinates",
+        "<MMM", "{\"id\":\"a\",\"state\":1}\n[]\n"}) {
+    testing::WriteText(file, text);
+    const auto run = RunProgram({"info", file});
+    EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 1) << text << run.err;
+  }
+}
+
 TEST(Info, OtherFilesAreRefused) {
   const auto missing = RunProgram({"info", "/no/such/file"});
   EXPECT_EQ(missing.exit_code, 1);
@@ -96,7 +263,10 @@ TEST(Info, OtherFilesAreRefused) {
   testing::WriteText(testing::TestFolder() + "/page.xml", "<html/>");
   const auto page = RunProgram({"info", testing::TestFolder() + "/page.xml"});
   EXPECT_EQ(page.exit_code, 1);
-  EXPECT_THAT(page.err, HasSubstr("is an XML file of <html>"));
+  EXPECT_THAT(page.err, HasSubstr("a web page, but none of this program's"));
+  testing::WriteText(testing::TestFolder() + "/other.xml", "<OpenSimDocument/>");
+  EXPECT_THAT(RunProgram({"info", testing::TestFolder() + "/other.xml"}).err,
+              AllOf(HasSubstr("with the root <OpenSimDocument>"), HasSubstr("marker sets")));
   EXPECT_EQ(RunProgram({"info", SourcePath("LICENSE")}).exit_code, 1);
   EXPECT_EQ(page.out, "");
 }

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// What is in a recording, also in one that can't be converted.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "MMMConverterS2KF/report/c3d_details.h"
+#include "MMMConverterS2KF/report/describe.h"
+#include "MMMConverterS2KF/report/info_markers.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/tables/trc_reader.h"
+#include "common/support/error.h"
+#include "common/support/suggestion.h"
+
+namespace mmm_converter {
+namespace {
+
+/// What a file says before it is known whose markers it has.
+struct StoredRecording {
+  const char* format;
+  int frames = 0;
+  double rate = 0;  // [Hz]; 0: not stated
+  long first_frame = 1;
+  std::string unit;
+};
+
+/// The markers of a recording, or why there are none.
+struct Markers {
+  std::optional<Recording> recording;
+  std::string failure;
+};
+
+/// @throws Error where the user's own options are what fails.
+Markers ReadMarkers(const std::string& path, const ReadRecordingOptions& options,
+                    Warnings* warnings) {
+  try {
+    return {ReadRecording(path, options, warnings), ""};
+  } catch (const Error& error) {
+    if (!options.subject.empty() || options.unit || options.up_axis) throw;
+    std::string failure = error.what();
+    if (failure.starts_with(path + ": ")) failure.erase(0, path.size() + 2);
+    return {std::nullopt, failure};
+  }
+}
+
+std::string FormatHead(const std::string& path, const StoredRecording& stored) {
+  const std::string rate = stored.rate > 0 ? fmt::format("{:.6g} Hz ({:.3f} s)", stored.rate,
+                                                         stored.frames / stored.rate)
+                                           : "an unknown rate";
+  return fmt::format("{}: {} recording\nframes     {} at {}, the first is number {}\n", path,
+                     stored.format, stored.frames, rate, stored.first_frame);
+}
+
+std::string FormatAxes(const Recording& recording) {
+  return fmt::format(
+      "unit       {}{}\nup         {}{}\nsubjects   {}\n", recording.unit,
+      recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis),
+      recording.up_axis_was_decided ? " (decided from the markers)" : "",
+      recording.subjects.empty() ? "not named" : JoinNames(recording.subjects, ", "));
+}
+
+Json RecordingJson(const std::string& path, const StoredRecording& stored, const Markers& markers) {
+  Json json = {{"kind", "recording"},
+               {"file", path},
+               {"format", stored.format},
+               {"frames", stored.frames},
+               {"rate_hz", stored.rate > 0 ? Json(stored.rate) : Json(nullptr)},
+               {"first_frame", stored.first_frame}};
+  json["can_be_converted"] = markers.recording.has_value();
+  json["failure"] = TextOrNull(markers.failure);
+  if (!markers.recording) {
+    json["unit"] = stored.unit;
+    json["labels"] = Json::array();
+    return json;
+  }
+  const Recording& recording = *markers.recording;
+  json["unit"] = recording.unit;
+  json["unit_guessed"] = recording.unit_was_guessed;
+  json["up_axis"] = Name(recording.up_axis);
+  json["up_axis_decided_from_markers"] = recording.up_axis_was_decided;
+  json["subjects"] = recording.subjects;
+  json["subject"] = recording.subject;
+  json["labels"] = MarkersJson(recording.markers);
+  return json;
+}
+
+/// content: text between the head and the markers.
+Description Describe(const std::string& path, const StoredRecording& stored, const Markers& markers,
+                     const std::string& content, const Warnings& warnings, Json json) {
+  std::string text = FormatHead(path, stored);
+  if (markers.recording) {
+    const MarkerSequence& sequence = markers.recording->markers;
+    text += FormatAxes(*markers.recording) + content +
+            fmt::format("labels     {}\n{}", sequence.num_labels(), FormatMarkers(sequence));
+  } else {
+    text += fmt::format("unit       {}\n{}convert    not as it is: {}\n",
+                        stored.unit.empty() ? "not stated" : stored.unit, content, markers.failure);
+  }
+  json["warnings"] = warnings.texts();
+  return {text, FormatJson(json), warnings};
+}
+
+}  // namespace
+
+Description DescribeC3d(const FileStart& file, const ReadRecordingOptions& options) {
+  Warnings warnings;
+  C3dFile c3d(file.path, &warnings);
+  const C3dDetails details = ReadC3dDetails(&c3d, &warnings);
+  const C3dLayout& layout = c3d.layout();
+  const StoredRecording stored{"C3D", layout.frames, layout.rate, layout.first_frame,
+                               c3d.parameters().Text("POINT", "UNITS")};
+  Warnings of_markers;
+  const Markers markers = ReadMarkers(file.path, options, &of_markers);
+  warnings.AppendNew(of_markers);
+  Json json = RecordingJson(file.path, stored, markers);
+  AddC3dDetails(c3d, details, &json);
+  return Describe(file.path, stored, markers, FormatC3dDetails(c3d, details), warnings,
+                  std::move(json));
+}
+
+Description DescribeTrc(const FileStart& file, const ReadRecordingOptions& options) {
+  Warnings warnings;
+  const Markers markers = ReadMarkers(file.path, options, &warnings);
+  if (markers.recording) {
+    const Recording& recording = *markers.recording;
+    const StoredRecording stored{"TRC", recording.markers.num_frames(), recording.markers.rate(),
+                                 recording.first_frame, recording.unit};
+    return Describe(file.path, stored, markers, "", warnings,
+                    RecordingJson(file.path, stored, markers));
+  }
+  warnings = Warnings();
+  const TrcFile trc = ParseTrc(ReadFileContent(file.path), file.path, &warnings);
+  const StoredRecording stored{"TRC", trc.markers.num_frames(), trc.markers.rate(), trc.first_frame,
+                               trc.unit};
+  const std::string labels = fmt::format("points     {}: {}\n", trc.markers.num_labels(),
+                                         FirstNames(trc.markers.labels()));
+  return Describe(file.path, stored, markers, labels, warnings,
+                  RecordingJson(file.path, stored, markers));
+}
+
+}  // namespace mmm_converter
