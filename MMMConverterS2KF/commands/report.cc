@@ -7,6 +7,7 @@
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/comparison_output.h"
 #include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "MMMConverterS2KF/input/finished_motion.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
 #include "MMMConverterS2KF/terminal/command_line.h"

@@ -7,7 +7,6 @@
 #include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "common/evaluate/comparison.h"
-#include "common/io/mmm/mmm_motion.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -28,15 +27,5 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
 
 /// Names that are there several times get a number.
 void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders);
-
-/// The motion of a file that has postures: the named one, or else the only one, or the one named as
-/// `preferred`.
-/// @throws Error listing the motions where that does not decide it, and where angles are missing.
-MmmMotion ReadPostures(const std::string& file, const std::string& preferred);
-
-/// Frames of `trajectory` at the times of `markers`.
-/// @throws Error naming `file` where rates differ or frames are not covered.
-PoseTrajectory AlignFrames(const PoseTrajectory& trajectory, const MarkerSequence& markers,
-                           const std::string& file);
 
 }  // namespace mmm_converter

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "MMMConverterS2KF/input/finished_motion.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/model_file.h"
 #include "common/io/recording/recording_formats.h"

@@ -15,8 +15,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr const char* kAxisNames[] = {"+x", "+y", "+z", "-x", "-y", "-z"};
-
 bool SeesAnything(const MarkerSequence& markers) {
   for (int k = 0; k < markers.num_frames(); ++k) {
     if (!markers.frame(k).array().isNaN().all()) return true;
@@ -109,17 +107,6 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
 }
 
 }  // namespace
-
-const char* Name(UpAxis axis) { return kAxisNames[static_cast<int>(axis)]; }
-
-UpAxis ParseUpAxis(const std::string& text) {
-  const std::string name = ToLower(Trim(text));
-  for (int i = 0; i < 6; ++i) {
-    if (name == kAxisNames[i] || (i < 3 && name == kAxisNames[i] + 1))
-      return static_cast<UpAxis>(i);
-  }
-  throw Error(fmt::format("unknown up axis \"{}\"; use x, y, z, -x, -y or -z", text));
-}
 
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options,
                         Warnings* warnings) {

@@ -6,16 +6,11 @@
 #include <vector>
 
 #include "common/io/recording_content.h"
+#include "common/math/up_axis.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
-
-/// The direction in the file's own axes that points up.
-enum class UpAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
-const char* Name(UpAxis axis);  ///< "+x", "+y", "+z", "-x", "-y", "-z"
-/// Accepts x, y, z with or without sign, in any case. @throws Error listing what is allowed.
-UpAxis ParseUpAxis(const std::string& text);
 
 struct ReadRecordingOptions {
   std::optional<std::string> unit = {};  ///< overrides the file's: "mm", "cm", "m", "in"

@@ -206,31 +206,6 @@ UpAxisDecision DecideUpAxis(const MarkerSequence& markers) {
   return decision;
 }
 
-Eigen::Matrix3d RotationToZUp(UpAxis axis) {
-  Eigen::Matrix3d rotation;
-  switch (axis) {
-    case UpAxis::kX:
-      rotation << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-      break;
-    case UpAxis::kY:
-      rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
-      break;
-    case UpAxis::kZ:
-      rotation.setIdentity();
-      break;
-    case UpAxis::kMinusX:
-      rotation << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-      break;
-    case UpAxis::kMinusY:
-      rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-      break;
-    case UpAxis::kMinusZ:
-      rotation << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-      break;
-  }
-  return rotation;
-}
-
 void ToMetresAndZUp(double metres, UpAxis axis, MarkerSequence* markers) {
   if (metres == 1 && axis == UpAxis::kZ) return;
   if (axis == UpAxis::kZ) {

@@ -35,9 +35,6 @@ struct UpAxisDecision {
 /// Upside down for some time does not count: then the sign is the one with the steadier ground.
 UpAxisDecision DecideUpAxis(const MarkerSequence& markers);
 
-/// Proper rotation that turns this axis to +z.
-Eigen::Matrix3d RotationToZUp(UpAxis axis);
-
 /// p = metres * RotationToZUp(axis) * p for all positions.
 void ToMetresAndZUp(double metres, UpAxis axis, MarkerSequence* markers);
 

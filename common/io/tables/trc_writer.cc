@@ -6,7 +6,7 @@
 #include <cassert>
 #include <optional>
 
-#include "common/io/recording/recording_axes.h"
+#include "common/math/up_axis.h"
 #include "common/io/tables/column_names.h"
 #include "common/io/xml/xml_text.h"
 #include "common/model/marker_kinematics.h"
