@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/io/recording_content.h"
+#include "common/motion/recording_content.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

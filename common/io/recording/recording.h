@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "common/io/recording_content.h"
 #include "common/math/up_axis.h"
 #include "common/motion/marker_sequence.h"
+#include "common/motion/recording_content.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

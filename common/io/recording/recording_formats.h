@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/io/recording_content.h"
+#include "common/motion/recording_content.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
