@@ -11,7 +11,6 @@
 #include "common/io/bytes/file_content.h"
 #include "common/support/error.h"
 #include "common/support/line_file.h"
-#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

@@ -13,7 +13,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/tables/trc_reader.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {

@@ -12,7 +12,6 @@
 #include "common/io/mmm/processor_config.h"
 #include "common/io/xml/xml_document.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -146,16 +145,16 @@ Description DescribeSubjectFile(const FileStart& file, const ReadRecordingOption
 }
 
 Description DescribePerson(const FileStart& file, const ReadRecordingOptions&) {
-  const ProcessorConfig person = ReadProcessorConfig(file.path);
+  const BodySize person = ReadProcessorConfig(file.path);
   return {fmt::format("{}: person (ModelProcessorConfig)\nheight     {}\nmass       {}\n"
                       "hand       {}\n",
-                      file.path, Shown(person.size.height, "m"), Shown(person.size.mass, "kg"),
-                      Shown(person.size.hand_length, "m")),
+                      file.path, Shown(person.height, "m"), Shown(person.mass, "kg"),
+                      Shown(person.hand_length, "m")),
           FormatJson({{"kind", "person"},
                       {"file", file.path},
-                      {"height_m", OrNull(person.size.height)},
-                      {"mass_kg", OrNull(person.size.mass)},
-                      {"hand_length_m", OrNull(person.size.hand_length)}}),
+                      {"height_m", OrNull(person.height)},
+                      {"mass_kg", OrNull(person.mass)},
+                      {"hand_length_m", OrNull(person.hand_length)}}),
           {}};
 }
 

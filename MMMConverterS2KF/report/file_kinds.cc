@@ -12,7 +12,6 @@
 #include "common/io/tables/trc_reader.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
-#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

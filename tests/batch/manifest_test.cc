@@ -58,7 +58,7 @@ TEST(Manifest, TheInnermostHolds) {
   EXPECT_EQ(cut.request.input.marker_set, "/data/own.xml");
   EXPECT_EQ(peel.group, "1723 / late");
   EXPECT_EQ(peel.request.input.person.size.mass, 62);
-  EXPECT_DOUBLE_EQ(peel.request.input.person.hand_length.value(), 0.18);
+  EXPECT_DOUBLE_EQ(peel.request.input.person.size.hand_length.value(), 0.18);
   EXPECT_EQ(peel.request.input.person.subject_file, "/anna.xml");
   EXPECT_EQ(peel.request.converter.config, "s2kf_offline");
 }

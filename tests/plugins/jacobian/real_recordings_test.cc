@@ -24,7 +24,7 @@ TEST(KitBimanualTest, LeastSquaresIsBelowKitsOwnSolutionAndNotAboveTheFilter) {
       testing::SharedData("mmm/kit_bimanual_10hz/Cut_files_motions_3021_Cut1_c_0_05cm_03.xml"));
   const MmmMotion* recorded = file.Find("true_1723");
   ASSERT_NE(recorded, nullptr);
-  const KinematicModel model = s2kf::ScaledReferenceModel(recorded->height.value());
+  const KinematicModel model = s2kf::ScaledReferenceModel(recorded->size.height.value());
   const std::vector<int> joints = s2kf::MotionJoints(model, 44);
   const auto assignments = s2kf::AssignAll(model, recorded->markers);
   ASSERT_EQ(assignments.size(), 53u);

@@ -30,7 +30,7 @@ TEST_P(KitBimanualTest, IsNearerToTheMarkersThanKitsOwnSolution) {
       testing::SharedData(std::string("mmm/kit_bimanual_10hz/") + GetParam().file));
   const MmmMotion* recorded = file.Find(GetParam().motion);
   ASSERT_NE(recorded, nullptr);
-  const KinematicModel model = ScaledReferenceModel(recorded->height.value());
+  const KinematicModel model = ScaledReferenceModel(recorded->size.height.value());
   const std::vector<MarkerAssignment> assignments = AssignAll(model, recorded->markers);
   ASSERT_EQ(assignments.size(), 53u);
 

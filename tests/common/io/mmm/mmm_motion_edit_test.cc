@@ -96,7 +96,7 @@ TEST(MmmMotionEdit, ChangesOnlyWhatIsConverted) {
   EXPECT_THAT(text, Not(HasSubstr("<Sensor type='ModelPose'></Sensor>")));
   EXPECT_THAT(text, HasSubstr("<Joint name=\"a\"/>"));
   const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
-  EXPECT_EQ(file.Find("human")->height, 1.7);
+  EXPECT_EQ(file.Find("human")->size.height, 1.7);
   EXPECT_EQ(file.Find("human")->trajectory.postures[0].joint_angles[0], 0.5);
   EXPECT_EQ(file.Find("human")->markers.num_frames(), 1);
   // A second conversion of the result changes nothing more.
