@@ -52,7 +52,7 @@ EntryFigures ParseFigures(const Json& json) {
   figures.frames_not_converged = json.at("frames_not_converged").get<int>();
   figures.frames_reassembled = json.at("frames_reassembled").get<int>();
   figures.wrong_markers = json.at("wrong_markers").get<int>();
-  figures.noise_scale = ParseNumber(json.at("noise_scale"));
+  figures.process_noise_scale = ParseNumber(json.at("process_noise_scale"));
   figures.nis = ParseNumber(json.at("nis_over_degrees_of_freedom"));
   figures.median_ms = ParseNumber(json.at("ms_per_frame").at("median"));
   figures.p99_ms = ParseNumber(json.at("ms_per_frame").at("p99"));
@@ -85,7 +85,7 @@ EntryResult Converted(const ConversionReport& report, double seconds) {
   figures.frames_not_converged = measured.frames_not_converged;
   figures.frames_reassembled = measured.frames_reassembled;
   figures.wrong_markers = static_cast<int>(report.result.incidents.size());
-  figures.noise_scale = report.result.noise_scale.value_or(EntryFigures::kNone);
+  figures.process_noise_scale = report.result.process_noise_scale.value_or(EntryFigures::kNone);
   figures.nis = measured.nis;
   figures.median_ms = measured.median_ms;
   figures.p99_ms = measured.p99_ms;
@@ -128,7 +128,7 @@ Json ToJson(const EntryResult& result) {
       {"frames_not_converged", figures.frames_not_converged},
       {"frames_reassembled", figures.frames_reassembled},
       {"wrong_markers", figures.wrong_markers},
-      {"noise_scale", Number(figures.noise_scale)},
+      {"process_noise_scale", Number(figures.process_noise_scale)},
       {"nis_over_degrees_of_freedom", Number(figures.nis)},
       {"ms_per_frame", {{"median", Number(figures.median_ms)}, {"p99", Number(figures.p99_ms)}}},
       {"seconds", seconds},

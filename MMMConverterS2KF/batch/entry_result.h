@@ -30,7 +30,7 @@ struct EntryFigures {
   double worst_marker_mm = kNone;
   int frames_with_missing_markers = 0, frames_not_converged = 0, frames_reassembled = 0;
   int wrong_markers = 0;
-  double noise_scale = kNone;
+  double process_noise_scale = kNone;
   double nis = kNone;  ///< over its degrees of freedom
   double median_ms = kNone, p99_ms = kNone;
   std::vector<std::string> warnings;

@@ -119,8 +119,9 @@ Json ToJson(const ConversionReport& report) {
       {"frames_with_missing_markers", figures.frames_with_missing_markers},
       {"frames_not_converged", figures.frames_not_converged},
       {"frames_reassembled", figures.frames_reassembled},
-      {"noise_scale",
-       report.result.noise_scale ? Number(*report.result.noise_scale) : Json(nullptr)},
+      {"process_noise_scale", report.result.process_noise_scale
+                                  ? Number(*report.result.process_noise_scale)
+                                  : Json(nullptr)},
       {"nis_over_degrees_of_freedom", Number(figures.nis)},
       {"wrong_markers", WrongMarkersJson(report)},
       {"ms_per_frame", {{"median", Number(figures.median_ms)}, {"p99", Number(figures.p99_ms)}}},

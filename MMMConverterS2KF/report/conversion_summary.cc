@@ -126,7 +126,7 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("frames     {} with missing markers, {} not converged, {} reinitialised\n",
                       figures.frames_with_missing_markers, figures.frames_not_converged,
                       figures.frames_reassembled);
-  if (const auto scale = report.result.noise_scale) {
+  if (const auto scale = report.result.process_noise_scale) {
     text +=
         fmt::format("noise      process noise times {:.3g}, chosen from the recording\n", *scale);
   }

@@ -102,7 +102,7 @@ Json TrialJson(const Trial& trial, const CommonGround& ground) {
               {"rate", trial.markers.rate()},
               {"first_time", trial.markers.first_time()},
               {"labels", labels},
-              {"markers", ground.markers},
+              {"markers", std::vector<int>(ground.markers.begin(), ground.markers.end())},
               {"model", ModelJson(*trial.model)},
               {"positions", Quantised(positions)},  // a frame's markers beside each other
               {"hidden", ToJson(PackBits(hidden.transpose()))},

@@ -9,7 +9,7 @@
 namespace mmm_converter {
 
 BodyKinematics::BodyKinematics(const KinematicModel& model, std::vector<int> joints,
-                               std::vector<int> markers)
+                               std::vector<MarkerIx> markers)
     : model_(model),
       joints_(std::move(joints)),
       markers_(std::move(markers)),

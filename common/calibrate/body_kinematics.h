@@ -29,11 +29,12 @@ struct BodyJacobian {
 class BodyKinematics {
  public:
   /// joints, markers: indices of the model, which must outlive it.
-  BodyKinematics(const KinematicModel& model, std::vector<int> joints, std::vector<int> markers);
+  BodyKinematics(const KinematicModel& model, std::vector<int> joints,
+                 std::vector<MarkerIx> markers);
 
   const KinematicModel& model() const { return model_; }
   const std::vector<int>& joints() const { return joints_; }
-  const std::vector<int>& markers() const { return markers_; }
+  const std::vector<MarkerIx>& markers() const { return markers_; }
   const SegmentLengths& lengths() const { return lengths_; }
   /// Of the body set last; the model's at first.
   const MarkerKinematics& kinematics() const { return *kinematics_; }
@@ -49,7 +50,7 @@ class BodyKinematics {
  private:
   const KinematicModel& model_;
   std::vector<int> joints_;
-  std::vector<int> markers_;
+  std::vector<MarkerIx> markers_;
   SegmentLengths lengths_;
   /// lengths_ x markers_: true where the marker is below the segment, or on it.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> below_;

@@ -43,7 +43,7 @@ std::string Advice() {
 }
 
 std::vector<CalibrationFrame> FramesOf(const std::vector<CalibrationRecording>& recordings,
-                                       const std::vector<int>& markers) {
+                                       const std::vector<MarkerIx>& markers) {
   const auto count = static_cast<int>(markers.size());
   if (count < kLeastMarkers) {
     throw Error(fmt::format("{} markers are assigned; a calibration needs at least {}", count,
@@ -92,7 +92,7 @@ void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
 }
 
 VectorXd NoiseScales(const std::vector<CalibrationRecording>& recordings,
-                     const std::vector<int>& markers) {
+                     const std::vector<MarkerIx>& markers) {
   VectorXd scales = VectorXd::Ones(static_cast<Eigen::Index>(markers.size()));
   for (const CalibrationRecording& recording : recordings) {
     for (const MarkerAssignment& assignment : recording.assignments) {
@@ -153,7 +153,7 @@ void WarnOfSubject(const Subject& subject, Warnings* warnings) {
 
 /// Warns where a recording has many markers elsewhere than the others do.
 void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints,
-                    const std::vector<int>& markers,
+                    const std::vector<MarkerIx>& markers,
                     const std::vector<CalibrationRecording>& recordings,
                     const std::vector<CalibrationFrame>& frames, Warnings* warnings) {
   if (recordings.size() < 2) return;
@@ -178,7 +178,7 @@ void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options, Warnings* warnings) {
-  const std::vector<int> markers = UsedMarkers(recordings);
+  const std::vector<MarkerIx> markers = UsedMarkers(recordings);
   std::vector<CalibrationFrame> frames = FramesOf(recordings, markers);
   BodyKinematics kinematics(model, joints, markers);
   Body body = kinematics.ModelBody();

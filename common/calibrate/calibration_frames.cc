@@ -24,7 +24,7 @@ constexpr double kRobustDistance = 0.1;  // [m]
 // A frame that fits this many times worse than the median one is not taken.
 constexpr double kBadFactor = 2.5;
 
-KinematicModel WithOffsets(const KinematicModel& model, const std::vector<int>& markers,
+KinematicModel WithOffsets(const KinematicModel& model, const std::vector<MarkerIx>& markers,
                            const Matrix3Xd& offsets) {
   ModelDescription moved{model.name(), model.segments(), model.markers(), model.node_sets()};
   for (std::size_t m = 0; m < markers.size(); ++m) {
@@ -41,8 +41,8 @@ int CountSeen(const Matrix3Xd& z) {
 
 }  // namespace
 
-std::vector<int> UsedMarkers(const std::vector<CalibrationRecording>& recordings) {
-  std::vector<int> markers;
+std::vector<MarkerIx> UsedMarkers(const std::vector<CalibrationRecording>& recordings) {
+  std::vector<MarkerIx> markers;
   for (const CalibrationRecording& recording : recordings) {
     for (const MarkerAssignment& assignment : recording.assignments) {
       markers.push_back(assignment.marker);
@@ -54,7 +54,8 @@ std::vector<int> UsedMarkers(const std::vector<CalibrationRecording>& recordings
 }
 
 std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecording>& recordings,
-                                              const std::vector<int>& markers, int least_seen) {
+                                              const std::vector<MarkerIx>& markers,
+                                              int least_seen) {
   std::vector<CalibrationFrame> frames;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const MarkerSequence& sequence = *recordings[r].markers;
@@ -76,7 +77,7 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
 }
 
 VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
-                     const std::vector<int>& markers, std::vector<CalibrationFrame>* frames) {
+                     const std::vector<MarkerIx>& markers, std::vector<CalibrationFrame>* frames) {
   const MarkerKinematics kinematics(model, joints, markers);
   const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
   PostureFitOptions options;
@@ -104,7 +105,7 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
 }
 
 Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
-                          const std::vector<int>& markers,
+                          const std::vector<MarkerIx>& markers,
                           const std::vector<CalibrationFrame>& frames) {
   const auto num_markers = static_cast<Eigen::Index>(markers.size());
   std::vector<std::vector<double>> residuals(3 * markers.size());
@@ -129,7 +130,7 @@ Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& j
 }
 
 OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
-                                 const std::vector<int>& markers,
+                                 const std::vector<MarkerIx>& markers,
                                  std::vector<CalibrationFrame>* frames) {
   OffsetsInTurns result;
   result.offsets.setZero(3, static_cast<Eigen::Index>(markers.size()));

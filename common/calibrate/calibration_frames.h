@@ -19,21 +19,22 @@ struct CalibrationFrame {
 };
 
 /// The used markers of all recordings, indices of the model, ascending.
-std::vector<int> UsedMarkers(const std::vector<CalibrationRecording>& recordings);
+std::vector<MarkerIx> UsedMarkers(const std::vector<CalibrationRecording>& recordings);
 
 /// Frames about 0.1 s apart with at least `least_seen` used markers.
 std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecording>& recordings,
-                                              const std::vector<int>& markers, int least_seen);
+                                              const std::vector<MarkerIx>& markers, int least_seen);
 
 /// The frames' postures by least squares; returns each frame's mean distance over the markers seen
 /// [m]. Those that have no posture yet start from the frame before.
 Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
-                            const std::vector<int>& markers, std::vector<CalibrationFrame>* frames);
+                            const std::vector<MarkerIx>& markers,
+                            std::vector<CalibrationFrame>* frames);
 
 /// How far each marker is from where the model's segment has it, the median of the frames by axis,
 /// 3 x markers [m], segment axes; 0 where it was not seen.
 Eigen::Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
-                                 const std::vector<int>& markers,
+                                 const std::vector<MarkerIx>& markers,
                                  const std::vector<CalibrationFrame>& frames);
 
 struct OffsetsInTurns {
@@ -45,7 +46,7 @@ struct OffsetsInTurns {
 /// Postures and, in turns with them, one offset per marker: where the marker is in its segment in
 /// the middle (median) frame. A start for FitBody that wrong markers do not disturb.
 OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
-                                 const std::vector<int>& markers,
+                                 const std::vector<MarkerIx>& markers,
                                  std::vector<CalibrationFrame>* frames);
 
 /// At most `count` of the frames, each as far in joint angles from those chosen before as can be

@@ -28,7 +28,7 @@ std::string MirroredName(const std::string& name) {
 }
 
 SegmentLengths FindSegmentLengths(const KinematicModel& model, const std::vector<int>& joints,
-                                  const std::vector<int>& markers) {
+                                  const std::vector<MarkerIx>& markers) {
   std::vector<int> joint_segments;
   joint_segments.reserve(joints.size());
   for (const int joint : joints) joint_segments.push_back(model.joint_segment(joint));

@@ -19,7 +19,7 @@ struct SegmentLengths {
 /// joints, markers: the tracked and used ones, indices of the model. Left and right are told by
 /// their names: "L..." and "R..." or "Left..." and "Right...".
 SegmentLengths FindSegmentLengths(const KinematicModel& model, const std::vector<int>& joints,
-                                  const std::vector<int>& markers);
+                                  const std::vector<MarkerIx>& markers);
 
 /// The name with its side exchanged; empty where it has none.
 std::string MirroredName(const std::string& name);

@@ -73,15 +73,15 @@ MarkerLabels LabelsOf(const MarkerSequence& recording, const std::string& source
   return labels;
 }
 
-std::vector<int> LabelIndices(const std::vector<MarkerAssignment>& assignments) {
-  std::vector<int> labels;
+std::vector<LabelIx> LabelIndices(const std::vector<MarkerAssignment>& assignments) {
+  std::vector<LabelIx> labels;
   labels.reserve(assignments.size());
   for (const MarkerAssignment& assignment : assignments) labels.push_back(assignment.label);
   return labels;
 }
 
-std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
-  std::vector<int> markers;
+std::vector<MarkerIx> MarkerIndices(const std::vector<MarkerAssignment>& assignments) {
+  std::vector<MarkerIx> markers;
   markers.reserve(assignments.size());
   for (const MarkerAssignment& assignment : assignments) markers.push_back(assignment.marker);
   return markers;
@@ -109,7 +109,7 @@ MarkerMapping ResolveMarkerMapping(const std::vector<MarkerPair>& pairs, const M
       Warn(warnings, fmt::format("marker {} is not seen in any frame", name));
       continue;
     }
-    by_marker[marker] = {label->second, marker, pair.noise_scale};
+    by_marker[marker] = {LabelIx(label->second), MarkerIx(marker), pair.noise_scale};
     used.insert(name);
     if (!pair.warning.empty()) {
       Warn(warnings, fmt::format("{} as {}: {}", name, pair.target, pair.warning));

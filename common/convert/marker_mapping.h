@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "common/model/kinematic_model.h"
+#include "common/motion/marker_sequence.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
-
-class KinematicModel;
-class MarkerSequence;
 
 /// The labels of a recording or a live stream, in the order of its columns.
 struct MarkerLabels {
@@ -33,8 +32,8 @@ struct MarkerPair {
 
 /// A MarkerPair resolved once into indices.
 struct MarkerAssignment {
-  int label = -1;   ///< index into MarkerLabels::names, column of a frame
-  int marker = -1;  ///< index into KinematicModel::markers()
+  LabelIx label;  ///< into MarkerLabels::names too
+  MarkerIx marker;
   double noise_scale = 1.0;
 };
 
@@ -45,8 +44,8 @@ struct MarkerMapping {
 };
 
 /// Of each assignment, in their order.
-std::vector<int> LabelIndices(const std::vector<MarkerAssignment>& assignments);
-std::vector<int> MarkerIndices(const std::vector<MarkerAssignment>& assignments);
+std::vector<LabelIx> LabelIndices(const std::vector<MarkerAssignment>& assignments);
+std::vector<MarkerIx> MarkerIndices(const std::vector<MarkerAssignment>& assignments);
 Eigen::VectorXd NoiseScales(const std::vector<MarkerAssignment>& assignments);
 
 /// Matches labels without case, blanks, punctuation and prefix (`Subject:`). Of several pairs with

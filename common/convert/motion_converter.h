@@ -30,7 +30,7 @@ struct FrameEstimate {
   int markers_downweighted = 0;  ///< seen, but far from where the model has them
   int markers_wrong = 0;         ///< seen, but left out or taken for another
   double nis = 0;                ///< normalised innovation squared, over its degrees of freedom
-  bool reassembled = false;      ///< the track was lost here and taken up anew
+  bool reassembled = false;      ///< the track was lost here; the posture was assembled again
   bool converged = false;
 };
 
@@ -50,7 +50,7 @@ struct ConversionResult {
   std::vector<FrameDiagnostic> frames;
   /// Factor on the variances of the process noise that the recording asked for, where the converter
   /// chose one.
-  std::optional<double> noise_scale;
+  std::optional<double> process_noise_scale;
   std::vector<MarkerIncident> incidents;  ///< by first frame
 };
 

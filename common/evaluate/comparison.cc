@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 // A trial's contenders that take part, and what one of them uses.
 struct Field {
   std::vector<ComparisonRow*> rows;
-  std::vector<int> used_labels;
+  std::vector<LabelIx> used_labels;
   std::vector<int> used_joints;
 };
 
@@ -76,7 +76,7 @@ void FindCommonGround(const Field& field, CommonGround* ground) {
 }
 
 void FindUsed(Field* field) {
-  std::set<int> labels;
+  std::set<LabelIx> labels;
   std::set<int> joints;
   for (const ComparisonRow* row : field->rows) {
     joints.insert(row->setup.joints.begin(), row->setup.joints.end());
@@ -93,7 +93,7 @@ HiddenMarkers OfCommonLabels(const Field& field, const CommonGround& ground,
                              const HiddenMarkers& hidden) {
   std::vector<int> places;
   places.reserve(ground.labels.size());
-  for (const int label : ground.labels) {
+  for (const LabelIx label : ground.labels) {
     const auto at = std::find(field.used_labels.begin(), field.used_labels.end(), label);
     places.push_back(static_cast<int>(at - field.used_labels.begin()));
   }

@@ -52,12 +52,12 @@ struct ComparisonOptions {
 /// What all contenders share on one trial. Only markers and joints that every contender uses count,
 /// so that no one is measured on other things than the others.
 struct CommonGround {
-  std::vector<int> labels;   ///< that are compared, indices of the recording
-  std::vector<int> markers;  ///< of the model, one for each label
-  std::vector<int> joints;   ///< that are compared, indices of the model
-  Eigen::VectorXd optimum;   ///< per frame: mean distance at the least-squares posture [m]
-  int optimum_every = 1;     ///< of every n-th frame, linear between; see CompareFinished
-  HiddenMarkers hidden;      ///< labels x frames, in the first run
+  std::vector<LabelIx> labels;    ///< that are compared, indices of the recording
+  std::vector<MarkerIx> markers;  ///< of the model, one for each label
+  std::vector<int> joints;        ///< that are compared, indices of the model
+  Eigen::VectorXd optimum;        ///< per frame: mean distance at the least-squares posture [m]
+  int optimum_every = 1;          ///< of every n-th frame, linear between; see CompareFinished
+  HiddenMarkers hidden;           ///< labels x frames, in the first run
   /// Per frame, number of labels that are hidden from some contender, over the runs.
   Eigen::VectorXd mean_hidden, most_hidden;
 };

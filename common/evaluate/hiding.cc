@@ -26,7 +26,7 @@ HiddenMarkers DrawHidden(const Hiding& hiding, int num_markers, int num_frames,
   return hidden;
 }
 
-MarkerSequence WithoutHidden(MarkerSequence recording, const std::vector<int>& labels,
+MarkerSequence WithoutHidden(MarkerSequence recording, const std::vector<LabelIx>& labels,
                              const HiddenMarkers& hidden) {
   for (int k = 0; k < recording.num_frames(); ++k) {
     for (std::size_t i = 0; i < labels.size(); ++i) {

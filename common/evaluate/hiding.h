@@ -25,7 +25,7 @@ using HiddenMarkers = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 HiddenMarkers DrawHidden(const Hiding& hiding, int num_markers, int num_frames, std::uint64_t seed);
 
 /// The recording without the hidden ones; hidden.row(i) is for labels[i].
-MarkerSequence WithoutHidden(MarkerSequence recording, const std::vector<int>& labels,
+MarkerSequence WithoutHidden(MarkerSequence recording, const std::vector<LabelIx>& labels,
                              const HiddenMarkers& hidden);
 
 }  // namespace mmm_converter

@@ -20,7 +20,7 @@ constexpr int kAttempts = 20;
 class OptimumFit {
  public:
   OptimumFit(const KinematicModel& model, const std::vector<int>& joints,
-             const std::vector<int>& markers, const std::vector<int>& labels,
+             const std::vector<MarkerIx>& markers, const std::vector<LabelIx>& labels,
              const MarkerSequence& recording)
       : labels_(labels),
         recording_(recording),
@@ -77,7 +77,7 @@ class OptimumFit {
     });
   }
 
-  const std::vector<int>& labels_;
+  const std::vector<LabelIx>& labels_;
   const MarkerSequence& recording_;
   MarkerKinematics kinematics_;
   PostureSearch search_;
@@ -99,7 +99,8 @@ std::pair<double, double> RangeBetween(double before, double behind) {
 }  // namespace
 
 Eigen::VectorXd OptimalDistances(const KinematicModel& model, const std::vector<int>& joints,
-                                 const std::vector<int>& markers, const std::vector<int>& labels,
+                                 const std::vector<MarkerIx>& markers,
+                                 const std::vector<LabelIx>& labels,
                                  const MarkerSequence& recording) {
   OptimumFit fit(model, joints, markers, labels, recording);
   const int frames = recording.num_frames();
@@ -111,8 +112,8 @@ Eigen::VectorXd OptimalDistances(const KinematicModel& model, const std::vector<
 }
 
 Eigen::VectorXd SampledOptimalDistances(const KinematicModel& model, const std::vector<int>& joints,
-                                        const std::vector<int>& markers,
-                                        const std::vector<int>& labels,
+                                        const std::vector<MarkerIx>& markers,
+                                        const std::vector<LabelIx>& labels,
                                         const MarkerSequence& recording,
                                         const OptimumSampling& sampling) {
   const auto starts = [&](int k, const std::function<void(const Posture&)>& offer) {

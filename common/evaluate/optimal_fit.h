@@ -16,7 +16,8 @@ namespace mmm_converter {
 /// better of both counts. labels[i] is the recording's label of model marker markers[i]. NaN:
 /// fewer than three of the markers were measured.
 Eigen::VectorXd OptimalDistances(const KinematicModel& model, const std::vector<int>& joints,
-                                 const std::vector<int>& markers, const std::vector<int>& labels,
+                                 const std::vector<MarkerIx>& markers,
+                                 const std::vector<LabelIx>& labels,
                                  const MarkerSequence& recording);
 
 /// How the optimum of a long recording is found.
@@ -33,8 +34,8 @@ struct OptimumSampling {
 /// OptimalDistances of every n-th frame and of those in doubt; linear between. In doubt, an optimum
 /// is taken to be within a tenth, and the difference of the fitted frames around it, of these.
 Eigen::VectorXd SampledOptimalDistances(const KinematicModel& model, const std::vector<int>& joints,
-                                        const std::vector<int>& markers,
-                                        const std::vector<int>& labels,
+                                        const std::vector<MarkerIx>& markers,
+                                        const std::vector<LabelIx>& labels,
                                         const MarkerSequence& recording,
                                         const OptimumSampling& sampling);
 

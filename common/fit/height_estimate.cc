@@ -30,7 +30,7 @@ struct FittedFrame {
 };
 
 /// One frame out of each of kFrames equal parts of the recording.
-std::vector<FittedFrame> ChooseFrames(const std::vector<int>& labels,
+std::vector<FittedFrame> ChooseFrames(const std::vector<LabelIx>& labels,
                                       const MarkerSequence& recording) {
   std::vector<FittedFrame> frames;
   for (int part = 0; part < kFrames; ++part) {
@@ -56,8 +56,8 @@ std::vector<FittedFrame> ChooseFrames(const std::vector<int>& labels,
 }  // namespace
 
 HeightEstimate EstimateHeight(const KinematicModel& reference, const std::vector<int>& joints,
-                              const std::vector<int>& markers, const std::vector<int>& labels,
-                              const MarkerSequence& recording) {
+                              const std::vector<MarkerIx>& markers,
+                              const std::vector<LabelIx>& labels, const MarkerSequence& recording) {
   std::vector<FittedFrame> frames = ChooseFrames(labels, recording);
   if (frames.empty()) {
     throw Error("the body height can't be estimated: no frame shows at least " +

@@ -20,7 +20,7 @@ struct HeightEstimate {
 /// tracked joints.
 /// @throws Error where no frame shows at least ten of the markers.
 HeightEstimate EstimateHeight(const KinematicModel& reference, const std::vector<int>& joints,
-                              const std::vector<int>& markers, const std::vector<int>& labels,
-                              const MarkerSequence& recording);
+                              const std::vector<MarkerIx>& markers,
+                              const std::vector<LabelIx>& labels, const MarkerSequence& recording);
 
 }  // namespace mmm_converter

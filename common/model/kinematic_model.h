@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/support/index.h"
+
 namespace mmm_converter {
 
 enum class JointType { kFixed, kRevolute, kPrismatic };
@@ -49,6 +51,9 @@ struct ModelDescription {
   std::vector<ModelMarker> markers;
   std::map<std::string, std::vector<std::string>> node_sets;
 };
+
+/// Into KinematicModel::markers().
+using MarkerIx = ListIndex<struct MarkerTag>;
 
 /// Immutable tree of segments with a floating root (6 DoF), limited joints and markers.
 /// Segments are ordered so that a parent comes before its children; segment 0 is the floating root.

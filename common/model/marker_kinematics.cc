@@ -30,7 +30,7 @@ Eigen::Map<const Vector3d> Translation(const TrackedLink& link) {
 }  // namespace
 
 MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
-                                   std::vector<int> markers)
+                                   std::vector<MarkerIx> markers)
     : joints_(std::move(joints)), markers_(std::move(markers)) {
   const int num_segments = static_cast<int>(model.segments().size());
   std::vector<int> column_of_joint(model.num_joints(), -1);

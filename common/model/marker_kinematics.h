@@ -38,13 +38,14 @@ struct MarkerJacobian {
 class MarkerKinematics {
  public:
   /// joints, markers: indices of the model, in the order that all results use.
-  MarkerKinematics(const KinematicModel& model, std::vector<int> joints, std::vector<int> markers);
+  MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
+                   std::vector<MarkerIx> markers);
 
   int num_joints() const { return static_cast<int>(joints_.size()); }
   int num_dofs() const { return 6 + num_joints(); }
   int num_markers() const { return static_cast<int>(markers_.size()); }
   const std::vector<int>& joints() const { return joints_; }
-  const std::vector<int>& markers() const { return markers_; }
+  const std::vector<MarkerIx>& markers() const { return markers_; }
   const Eigen::VectorXd& lower() const { return lower_; }  ///< [rad], tracked joints
   const Eigen::VectorXd& upper() const { return upper_; }  ///< [rad], tracked joints
   /// Of a tracked joint: turns as far as it likes.
@@ -71,7 +72,7 @@ class MarkerKinematics {
 
  private:
   std::vector<int> joints_;
-  std::vector<int> markers_;
+  std::vector<MarkerIx> markers_;
   std::vector<TrackedLink> links_;  // the root first, then one for each joint, in tree order
   std::vector<MarkerSite> sites_;   // by link
   std::vector<int> link_of_marker_;

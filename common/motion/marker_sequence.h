@@ -5,7 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "common/support/index.h"
+
 namespace mmm_converter {
+
+/// Into MarkerSequence::labels(): a column of a frame.
+using LabelIx = ListIndex<struct LabelTag>;
 
 /// Labelled marker positions over time. A marker that is not seen is NaN in all three coordinates.
 class MarkerSequence {

@@ -30,7 +30,7 @@ class JacobianConverter : public MotionConverter {
 
   JacobianSettings settings_;
   MarkerKinematics kinematics_;
-  std::vector<int> labels_;  // by assignment
+  std::vector<LabelIx> labels_;  // by assignment
   Eigen::VectorXd noise_scale_;
   PostureSearch search_;
   PostureFitOptions fit_options_;

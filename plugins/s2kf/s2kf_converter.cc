@@ -87,7 +87,7 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
     settings.choose_process_noise_scale = false;
     S2kfConverter converter(setup(), settings);
     ConversionResult result = converter.Convert(recording, progress);
-    result.noise_scale = scale;
+    result.process_noise_scale = scale;
     return result;
   }
   if (!settings_.smoothing) {

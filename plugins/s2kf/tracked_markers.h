@@ -25,7 +25,7 @@ class TrackedMarkers {
 
  private:
   MarkerKinematics kinematics_;
-  std::vector<int> labels_;
+  std::vector<LabelIx> labels_;
   Eigen::VectorXd noise_scale_;
 };
 

@@ -26,7 +26,7 @@ constexpr const char* kConverted =
     R"("converter":"S2KFConverter","configuration":"s2kf_default","markers_used":50,)"
     R"("markers_absent":2,"markers_ignored":1,"distance_mm":{"mean":26.5,"p95":40.0,"max":61.25},)"
     R"("worst_marker":"LIFD","worst_marker_mm":51.0,"frames_with_missing_markers":3,)"
-    R"("frames_not_converged":4,"frames_reassembled":5,"wrong_markers":6,"noise_scale":0.5,)"
+    R"("frames_not_converged":4,"frames_reassembled":5,"wrong_markers":6,"process_noise_scale":0.5,)"
     R"("nis_over_degrees_of_freedom":1.1,"ms_per_frame":{"median":0.3,"p99":0.5},"seconds":0.5,)"
     R"("warnings":["one","two"]})";
 
@@ -34,7 +34,7 @@ constexpr const char* kConverted =
 ConversionReport Report() {
   ConversionReport report;
   report.input.recording.markers = MarkerSequence({"A", "B"}, 3, 100, 0);
-  report.setup.mapping.assignments = {{0, 0}, {1, 1}};
+  report.setup.mapping.assignments = {{LabelIx(0), MarkerIx(0)}, {LabelIx(1), MarkerIx(1)}};
   report.result.frames.resize(3);
   report.result.residuals.resize(2, 3);
   report.result.residuals << 0.001, 0.001, 0.001, 0.002, 0.002, 0.002;

@@ -59,8 +59,8 @@ TEST(S2kf, TheOfflinePresetSmoothsAndWritesDerivatives) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("chosen from the recording"));
   const auto json = nlohmann::json::parse(ReadText(summary));
-  EXPECT_GT(json["noise_scale"], 0);
-  EXPECT_LT(json["noise_scale"], 1);  // a calm motion
+  EXPECT_GT(json["process_noise_scale"], 0);
+  EXPECT_LT(json["process_noise_scale"], 1);  // a calm motion
   EXPECT_GT(json["nis_over_degrees_of_freedom"], 0);
   EXPECT_THAT(ReadText(motion), Not(HasSubstr("<JointVelocity>0 0 0")));
   EXPECT_THAT(ReadText(csv), HasSubstr(",dd_LKx_joint_rad_per_s2"));

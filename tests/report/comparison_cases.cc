@@ -40,7 +40,7 @@ PoseTrajectory SwayingMotion(const KinematicModel& model, int frames) {
 MarkerMapping MapAll(const KinematicModel& model) {
   MarkerMapping mapping;
   for (int i = 0; i < static_cast<int>(model.markers().size()); ++i) {
-    mapping.assignments.push_back({i, i});
+    mapping.assignments.push_back({LabelIx(i), MarkerIx(i)});
   }
   return mapping;
 }

@@ -59,7 +59,7 @@ Json Converted(const std::string& id, const std::string& group, SeededRandom* ra
   result["frames_not_converged"] = random->Uniform() < 0.8 ? 0 : random->UniformIndex(frames / 2);
   result["frames_reassembled"] = 0;
   result["wrong_markers"] = random->UniformIndex(3);
-  result["noise_scale"] = nullptr;
+  result["process_noise_scale"] = nullptr;
   result["nis_over_degrees_of_freedom"] = Rounded(1 + 0.1 * random->Normal());
   const double milliseconds = 0.3 + 0.05 * std::abs(random->Normal());
   result["ms_per_frame"] = {{"median", Rounded(milliseconds)}, {"p99", Rounded(4 * milliseconds)}};

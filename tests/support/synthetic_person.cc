@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 #include "common/calibrate/segment_lengths.h"
@@ -48,8 +47,7 @@ std::vector<int> TrackedJoints(const KinematicModel& model) {
 
 Subject DrawPerson(const KinematicModel& model, std::uint64_t seed) {
   SeededRandom random(seed);
-  std::vector<int> markers(model.markers().size());
-  std::iota(markers.begin(), markers.end(), 0);
+  const auto markers = AllIndices<MarkerIx>(model.markers().size());
   const SegmentLengths lengths = FindSegmentLengths(model, TrackedJoints(model), markers);
   Subject subject;
   for (const int s : lengths.segments) {
@@ -119,7 +117,7 @@ std::vector<MarkerAssignment> AssignAll(const KinematicModel& model,
   std::vector<MarkerAssignment> assignments;
   for (int i = 0; i < recording.num_labels(); ++i) {
     const int marker = model.FindMarker("MARKER_" + recording.labels()[i]);
-    if (marker >= 0) assignments.push_back({i, marker, 1.0});
+    if (marker >= 0) assignments.push_back({LabelIx(i), MarkerIx(marker)});
   }
   return assignments;
 }
@@ -149,7 +147,7 @@ double MeanCentreError(const KinematicModel& person, const PoseTrajectory& truth
 PoseTrajectory FitRecording(const KinematicModel& model, const std::vector<int>& joints,
                             const std::vector<MarkerAssignment>& assignments,
                             const MarkerSequence& recording) {
-  const std::vector<int> labels = LabelIndices(assignments);
+  const std::vector<LabelIx> labels = LabelIndices(assignments);
   const MarkerKinematics kinematics(model, joints, MarkerIndices(assignments));
   PostureSearch search(kinematics);
   PostureFitOptions options;

@@ -58,8 +58,7 @@ KinematicModel MakeBranchedModel() {
 MarkerKinematics MakeFullKinematics(const KinematicModel& model) {
   std::vector<int> joints(model.num_joints());
   std::iota(joints.begin(), joints.end(), 0);
-  std::vector<int> markers(model.markers().size());
-  std::iota(markers.begin(), markers.end(), 0);
+  const auto markers = AllIndices<MarkerIx>(model.markers().size());
   return {model, joints, markers};
 }
 

@@ -44,7 +44,7 @@ class ModelMarkers {
         throw Error(fmt::format("model {} has no joint {}", output.model->name(), name));
       }
     }
-    std::vector<int> markers;
+    std::vector<MarkerIx> markers;
     markers.reserve(output.model_markers.size());
     for (const TrcModelMarker& one : output.model_markers) markers.push_back(one.marker);
     return MarkerKinematics(*output.model, joints, markers);

@@ -13,8 +13,8 @@ namespace mmm_converter {
 
 /// The model marker that a recording label stands for.
 struct TrcModelMarker {
-  int label = 0;   ///< index into MarkerSequence::labels()
-  int marker = 0;  ///< index into KinematicModel::markers()
+  LabelIx label;
+  MarkerIx marker;
 };
 
 /// What a TRC file is made of; all of it must outlive the text.

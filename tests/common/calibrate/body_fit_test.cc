@@ -16,10 +16,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<int> AllMarkers(const KinematicModel& model) {
-  std::vector<int> markers(model.markers().size());
-  for (std::size_t m = 0; m < markers.size(); ++m) markers[m] = static_cast<int>(m);
-  return markers;
+std::vector<MarkerIx> AllMarkers(const KinematicModel& model) {
+  return AllIndices<MarkerIx>(model.markers().size());
 }
 
 TEST(FrameEquations, GradientIsThatOfTheCost) {

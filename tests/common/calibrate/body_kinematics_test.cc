@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <random>
 #include <vector>
 
@@ -15,10 +14,8 @@ namespace {
 
 class BodyKinematicsTest : public ::testing::Test {
  protected:
-  static std::vector<int> AllMarkers(const KinematicModel& model) {
-    std::vector<int> markers(model.markers().size());
-    std::iota(markers.begin(), markers.end(), 0);
-    return markers;
+  static std::vector<MarkerIx> AllMarkers(const KinematicModel& model) {
+    return AllIndices<MarkerIx>(model.markers().size());
   }
 
   BodyKinematicsTest()

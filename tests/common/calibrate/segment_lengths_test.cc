@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,7 @@ std::vector<std::string> Names(const KinematicModel& model, const SegmentLengths
 }
 
 SegmentLengths ReferenceLengths(const KinematicModel& model) {
-  std::vector<int> markers(model.markers().size());
-  std::iota(markers.begin(), markers.end(), 0);
+  const auto markers = AllIndices<MarkerIx>(model.markers().size());
   return FindSegmentLengths(model, testing::TrackedJoints(model), markers);
 }
 
@@ -40,7 +38,8 @@ TEST(SegmentLengths, AreWhatSetsTrackedJointsApart) {
 
 TEST(SegmentLengths, WithoutMarkersBelowThereIsNothingToFind) {
   const KinematicModel model = testing::ScaledReferenceModel(1.7);
-  const std::vector<int> pelvis = {model.FindMarker("MARKER_LASI"), model.FindMarker("MARKER_L3")};
+  const std::vector<MarkerIx> pelvis = {MarkerIx(model.FindMarker("MARKER_LASI")),
+                                        MarkerIx(model.FindMarker("MARKER_L3"))};
   const std::vector<std::string> names =
       Names(model, FindSegmentLengths(model, testing::TrackedJoints(model), pelvis));
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("BPSegment_joint", "LHsegment_joint"));

@@ -67,7 +67,7 @@ class MotionConverterTest : public ::testing::Test {
 
   static TrackingSetup MakeSetup() {
     TrackingSetup setup{std::make_shared<const KinematicModel>(testing::StickModel()), {1}, {}};
-    setup.mapping.assignments = {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}};
+    for (int i = 0; i < 3; ++i) setup.mapping.assignments.push_back({LabelIx(i), MarkerIx(i), 1});
     return setup;
   }
 

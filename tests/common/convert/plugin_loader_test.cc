@@ -47,7 +47,7 @@ TEST(LoadedPlugin, GivesTheFactoryAndItsConverters) {
   EXPECT_EQ(plugin.factory().name(), "TestConverter");
   EXPECT_EQ(plugin.version(), kConverterInterfaceVersion);
   TrackingSetup setup{std::make_shared<const KinematicModel>(testing::StickModel()), {0, 1}, {}};
-  setup.mapping.assignments = {{0, 0, 1}, {1, 1, 1}, {2, 2, 1}};
+  for (int i = 0; i < 3; ++i) setup.mapping.assignments.push_back({LabelIx(i), MarkerIx(i), 1});
   const auto converter = plugin.factory().Create(setup, {});
   const Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Constant(3, 3, 2.0);
   EXPECT_EQ(converter->Assemble(frame).posture.position, Eigen::Vector3d(2, 2, 2));

@@ -210,7 +210,7 @@ TEST(Comparison, VerdictsOnALongRecordingAreThoseOfEveryFrame) {
   trial.model = std::make_shared<KinematicModel>(model);
   trial.markers = SynthesizeMarkers(model, motion, {0.001, 0.0004, 0.25, 0.0001}, 1);
   Finished finished;
-  for (int i = 0; i < 4; ++i) finished.mapping.assignments.push_back({i, i});
+  for (int i = 0; i < 4; ++i) finished.mapping.assignments.push_back({LabelIx(i), MarkerIx(i)});
   // Far off up to frame 100, and in single frames between those that are fitted.
   for (int k = 0; k < kFrames; ++k) {
     const bool is_off = k < 100 || k % 1000 == 500 + 1;

@@ -44,7 +44,7 @@ TEST(Hiding, HidesTheLabelsGivenAndNoOther) {
   HiddenMarkers hidden(2, 2);
   hidden << true, false,  //
       false, true;
-  const MarkerSequence seen = WithoutHidden(recording, {2, 0}, hidden);
+  const MarkerSequence seen = WithoutHidden(recording, {LabelIx(2), LabelIx(0)}, hidden);
   EXPECT_FALSE(IsSeen(seen.frame(0).col(2)));
   EXPECT_TRUE(IsSeen(seen.frame(1).col(2)));
   EXPECT_TRUE(IsSeen(seen.frame(0).col(0)));

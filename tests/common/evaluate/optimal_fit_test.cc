@@ -23,19 +23,17 @@ class OptimalFitTest : public ::testing::Test {
   OptimalFitTest() {
     motion_ = MakeHandstand(model_);
     motion_.postures.resize(60);
-    indices_.resize(model_.markers().size());
-    std::iota(indices_.begin(), indices_.end(), 0);
   }
 
   Eigen::VectorXd Find(const MarkerSequence& markers) const {
-    return OptimalDistances(model_, ResolveJoints(ConverterConfig(), model_), indices_, indices_,
-                            markers);
+    return OptimalDistances(model_, ResolveJoints(ConverterConfig(), model_),
+                            AllIndices<MarkerIx>(markers.num_labels()),
+                            AllIndices<LabelIx>(markers.num_labels()), markers);
   }
 
   const KinematicModel model_ =
       ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.8, 75, {}});
   PoseTrajectory motion_;
-  std::vector<int> indices_;
 };
 
 TEST_F(OptimalFitTest, IsNearlyZeroWhereThePostureIsInTheMarkers) {

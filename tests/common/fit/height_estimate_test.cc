@@ -18,19 +18,19 @@ class HeightEstimateTest : public ::testing::Test {
  protected:
   HeightEstimateTest() {
     for (const std::string& name : KitJointNames()) joints_.push_back(model_.FindJoint(name));
-    for (int m = 0; m < static_cast<int>(model_.markers().size()); ++m) markers_.push_back(m);
   }
 
   HeightEstimate Estimate(double height, const MarkerErrors& errors) {
     const KinematicModel person = ScaleWinter(model_, {height, 70, {}});
     const MarkerSequence recording = SynthesizeMarkers(person, MakeCartwheel(person), errors, 1);
     // Labels of a synthetic recording are in the order of the model's markers.
-    return EstimateHeight(model_, joints_, markers_, markers_, recording);
+    return EstimateHeight(model_, joints_, AllIndices<MarkerIx>(num_markers_),
+                          AllIndices<LabelIx>(num_markers_), recording);
   }
 
   KinematicModel model_ = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
   std::vector<int> joints_;
-  std::vector<int> markers_;
+  std::size_t num_markers_ = model_.markers().size();
 };
 
 TEST_F(HeightEstimateTest, IsExactWhereMarkersSitAsInTheModel) {
@@ -51,7 +51,7 @@ TEST_F(HeightEstimateTest, IsGoodToCentimetresWhereTheyDoNot) {
 }
 
 TEST_F(HeightEstimateTest, TooFewMarkersAreAnError) {
-  markers_.resize(9);
+  num_markers_ = 9;
   try {
     Estimate(1.75, MarkerErrors{});
     FAIL();

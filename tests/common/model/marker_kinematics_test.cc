@@ -35,7 +35,7 @@ TEST(MarkerKinematicsTest, OnePostureEqualsTheModelsForwardKinematics) {
 TEST(MarkerKinematicsTest, UntrackedJointsStayAtZeroAndMarkersKeepTheirOrder) {
   const KinematicModel model = MakeBranchedModel();
   const std::vector<int> joints = {model.FindJoint("b_y"), model.FindJoint("a_x")};
-  const std::vector<int> markers = {7, 0, 10};
+  const std::vector<MarkerIx> markers = {MarkerIx(7), MarkerIx(0), MarkerIx(10)};
   const MarkerKinematics kinematics(model, joints, markers);
   MarkerJacobian at = kinematics.MakeJacobian();
   kinematics.ComputeMarkers({1, 2, 3}, Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.3, -0.4),

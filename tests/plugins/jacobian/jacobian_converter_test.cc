@@ -109,11 +109,8 @@ TEST_F(JacobianConverterTest, LeastSquaresIsTheOptimumAndTheFilterIsNotBelow) {
   const auto assignments = s2kf::AssignAll(model_, markers);
   s2kf::S2kfConverter converter(s2kf::SetupOf(model_, joints_, assignments), {});
   const ConversionResult filter = converter.Convert(markers, nullptr);
-  std::vector<int> indices(markers.num_labels());
-  for (int i = 0; i < markers.num_labels(); ++i) indices[i] = assignments[i].marker;
-  std::vector<int> labels(markers.num_labels());
-  for (int i = 0; i < markers.num_labels(); ++i) labels[i] = assignments[i].label;
-  const VectorXd optimum = OptimalDistances(model_, joints_, indices, labels, markers);
+  const VectorXd optimum = OptimalDistances(model_, joints_, MarkerIndices(assignments),
+                                            LabelIndices(assignments), markers);
   // In squares nothing is below the optimum; in mean distances by the tolerance of the fits.
   EXPECT_NEAR(MeanDistance(fit), optimum.mean(), 1e-5);
   EXPECT_LE(MeanDistance(fit), MeanDistance(filter));

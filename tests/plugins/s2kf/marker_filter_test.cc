@@ -63,7 +63,8 @@ TEST_P(MarkerFilterTest, ConvergesToThePostureThatMadeTheMarkers) {
 
 TEST_P(MarkerFilterTest, AMissingMarkerIsAFilterWithoutIt) {
   MarkerFilter all(kinematics_, settings_, scale_);
-  const std::vector<int> kept = {0, 1, 2, 3, 5, 6, 7, 8, 10, 11};
+  std::vector<MarkerIx> kept;
+  for (const int m : {0, 1, 2, 3, 5, 6, 7, 8, 10, 11}) kept.emplace_back(m);
   const MarkerKinematics fewer_kinematics(model_, kinematics_.joints(), kept);
   MarkerFilter fewer(fewer_kinematics, settings_, VectorXd::Ones(10));
   const Posture truth = testing::RandomPosture(kinematics_, 0.6, &random_);

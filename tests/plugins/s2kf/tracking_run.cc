@@ -131,7 +131,7 @@ TrackedRun RunTracker(const KinematicModel& model, const std::vector<int>& joint
                       const MarkerSequence& all, const PoseTrajectory* truth,
                       const std::vector<MarkerAssignment>& assignments) {
   S2kfConverter converter(SetupOf(model, joints, assignments), settings);
-  const std::vector<int> labels = LabelIndices(assignments);
+  const std::vector<LabelIx> labels = LabelIndices(assignments);
   const MarkerKinematics kinematics(model, joints, MarkerIndices(assignments));
   FrameOptimum optimum(kinematics, assignments);
   TrackedRun run;

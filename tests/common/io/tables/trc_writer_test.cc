@@ -62,8 +62,13 @@ TEST(TrcWriterTest, TheModelsMarkersStandBehindUnderTheirLabels) {
   const MarkerSequence measured = Measured();
   const KinematicModel model = StickModel();
   const PoseTrajectory trajectory = Moves();
-  const StrictTrc trc = ReadStrictTrc(
-      Join(FormatTrc({"a.trc", 1, &measured, {{1, 0}, {0, 3}}, &model, &trajectory})));
+  const StrictTrc trc =
+      ReadStrictTrc(Join(FormatTrc({"a.trc",
+                                    1,
+                                    &measured,
+                                    {{LabelIx(1), MarkerIx(0)}, {LabelIx(0), MarkerIx(3)}},
+                                    &model,
+                                    &trajectory})));
   EXPECT_THAT(trc.labels, ElementsAre("L_KNE", "RKNE", "RKNE_model", "L_KNE_model"));
   EXPECT_THAT(trc.numbers, ElementsAre(1, 2, 3));
   const auto expect = [&](std::size_t frame, const std::string& label, double x, double y,
@@ -102,8 +107,8 @@ TEST(TrcWriterTest, LabelsBecomeWordsThatDiffer) {
   const KinematicModel model = StickModel();
   PoseTrajectory trajectory = Moves();
   trajectory.postures.resize(1);
-  const StrictTrc trc =
-      ReadStrictTrc(Join(FormatTrc({"a\n\tb.trc", 1, &measured, {{6, 0}}, &model, &trajectory})));
+  const StrictTrc trc = ReadStrictTrc(Join(
+      FormatTrc({"a\n\tb.trc", 1, &measured, {{LabelIx(6), MarkerIx(0)}}, &model, &trajectory})));
   EXPECT_THAT(trc.labels, ElementsAre("a_b", "a_b_2", "unnamed", "x_y", "a_b_3", "A_model", "A",
                                       "a_b_2_2", "A_model_2"));
 }
@@ -113,7 +118,9 @@ TEST(TrcWriterTest, AJointThatTheModelDoesNotHaveIsAnError) {
   const KinematicModel model = StickModel();
   PoseTrajectory trajectory = Moves();
   trajectory.joint_names[0] = "ankle";
-  EXPECT_THROW(Join(FormatTrc({"a.trc", 1, &measured, {{0, 0}}, &model, &trajectory})), Error);
+  EXPECT_THROW(
+      Join(FormatTrc({"a.trc", 1, &measured, {{LabelIx(0), MarkerIx(0)}}, &model, &trajectory})),
+      Error);
 }
 
 TEST(ColumnNamesTest, AreLeftAsTheyAreWhereTheyAreWords) {

@@ -106,7 +106,7 @@ double LargestStep(const MatrixXd& angles, const MatrixXd& truth) {
 
 /// The best posture of each frame by itself, from the frame before.
 MatrixXd FramewiseFit(const Scene& scene) {
-  const std::vector<int> labels = LabelIndices(scene.assignments);
+  const std::vector<LabelIx> labels = LabelIndices(scene.assignments);
   const MarkerKinematics kinematics(scene.model, scene.joints, MarkerIndices(scene.assignments));
   PostureFit fit(kinematics);
   PostureFitOptions options;
@@ -161,7 +161,7 @@ Figures Measure(const std::string& name, const Scene& scene) {
   const ConversionResult smoothed = scene.Convert(OfflineSettings(), scene.markers);
   S2kfSettings settings = WithoutSmoothing(OfflineSettings());
   settings.choose_process_noise_scale = false;
-  settings.process_noise_scale = smoothed.noise_scale.value_or(1);
+  settings.process_noise_scale = smoothed.process_noise_scale.value_or(1);
   const ConversionResult filtered = scene.Convert(settings, scene.markers);
   ExpectInsideLimits(scene, smoothed.trajectory);
   const MatrixXd truth = Accelerations(scene.TrueAngles());
@@ -180,7 +180,7 @@ Figures Measure(const std::string& name, const Scene& scene) {
       "rad; distance %.2f mm (filter %.2f); noise times %.3g\n",
       name.c_str(), figures.jitter, figures.jitter_large, figures.framewise, Rms(found - truth),
       Rms(online - truth), Rms(truth), figures.step, 1e3 * distance, 1e3 * filter_distance,
-      smoothed.noise_scale.value_or(1));
+      smoothed.process_noise_scale.value_or(1));
   EXPECT_GE(figures.framewise, 5);
   EXPECT_LT(Rms(found - truth), Rms(online - truth));
   // With calibrated markers the smoothed motion is nearer to them than the filter's. Where they sit
@@ -238,7 +238,7 @@ void ExpectHalfHiddenIsBorne(const std::string& name, const Scene& scene) {
     worst = std::max(worst, frame);
   }
   std::printf("[ measured ] %s, calibrated, half hidden: mean %.2f mm, worst frame %.2f; %g\n",
-              name.c_str(), 1e3 * mean, 1e3 * worst, result.noise_scale.value_or(1));
+              name.c_str(), 1e3 * mean, 1e3 * worst, result.process_noise_scale.value_or(1));
   // The project's targets.
   EXPECT_LE(mean, 0.008);
   EXPECT_LE(worst, 0.030);
@@ -308,7 +308,7 @@ TEST(SmoothingTest, OneAndTwoFrames) {
         scene.Convert(OfflineSettings(), scene.markers.Slice(0, frames));
     EXPECT_EQ(result.trajectory.num_frames(), frames);
     EXPECT_TRUE(result.trajectory.velocities.allFinite());
-    EXPECT_EQ(result.noise_scale.value_or(0), 1);
+    EXPECT_EQ(result.process_noise_scale.value_or(0), 1);
   }
 }
 
