@@ -80,14 +80,11 @@ int GateState::CountLeftOut(const Matrix3Xd& measured) const {
   return count;
 }
 
-void GateState::Select(const Matrix3Xd& measured, Matrix3Xd* z) const {
-  *z = measured;
+void GateState::Select(const Matrix3Xd& measured, Matrix3Xd* relabelled, Matrix3Xd* z) const {
   for (int m = 0; m < z->cols(); ++m) {
-    if (IsLeftOut(m)) {
-      z->col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
-    } else if (verdicts[m] >= 0) {
-      z->col(m) = measured.col(verdicts[m]);
-    }
+    relabelled->col(m) = measured.col(verdicts[m] < 0 ? m : verdicts[m]);
+    z->col(m) = relabelled->col(m);
+    if (IsLeftOut(m)) z->col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 }
 

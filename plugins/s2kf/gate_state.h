@@ -33,8 +33,10 @@ struct GateState {
   bool IsAnyWrong() const { return (verdicts.array() >= 0).any(); }
   /// Of those seen. measured: by label, 3 x markers [m], NaN = not seen.
   int CountLeftOut(const Eigen::Matrix3Xd& measured) const;
-  /// z: what to track of `measured`. NaN = not seen or left out.
-  void Select(const Eigen::Matrix3Xd& measured, Eigen::Matrix3Xd* z) const;
+  /// relabelled: `measured` by marker, swapped ones exchanged. z: what to track of it. NaN = not
+  /// seen or, in z, left out.
+  void Select(const Eigen::Matrix3Xd& measured, Eigen::Matrix3Xd* relabelled,
+              Eigen::Matrix3Xd* z) const;
 
   /// Variance of each coordinate of r - b of a right marker [m^2].
   double VarianceOfResidual(int m) const;

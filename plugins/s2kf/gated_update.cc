@@ -20,6 +20,10 @@ GatedUpdate::GatedUpdate(const MarkerKinematics& kinematics, double probability)
 void GatedUpdate::Update(MarkerFilter* filter, Belief* belief, GateState* gate,
                          TrackedFrame* frame) {
   prior_ = *belief;
+  if (is_active_ && gate->IsAnyWrong()) {
+    filter->Place(prior_, &prior_posture_, &prior_at_);
+    gate_.Reconsider(frame->measured, prior_at_, gate);
+  }
   UpdateBySelected(filter, *gate, belief, frame);
   if (!is_active_ || frame->outcome.seen == 0) return;
   if (gate->IsAnyWrong() || gate_.IsSuspicious(*gate, frame->z, frame->at)) {
@@ -30,7 +34,7 @@ void GatedUpdate::Update(MarkerFilter* filter, Belief* belief, GateState* gate,
 
 void GatedUpdate::UpdateBySelected(MarkerFilter* filter, const GateState& gate, Belief* belief,
                                    TrackedFrame* frame) {
-  gate.Select(frame->measured, &frame->z);
+  gate.Select(frame->measured, &frame->relabelled, &frame->z);
   *belief = prior_;
   filter->Update(frame->z, belief, &frame->outcome);
   filter->Place(*belief, &frame->posture, &frame->at);

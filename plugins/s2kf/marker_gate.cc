@@ -86,27 +86,58 @@ void MarkerGate::Expect(const GateState& state, const Matrix3Xd& z, const Marker
   expected_ = places_.reshaped(3, z.cols()) + offset_W_;
 }
 
+void MarkerGate::ExpectByPrior(const MarkerJacobian& prior, const GateState& state) {
+  for (int m = 0; m < expected_.cols(); ++m) {
+    const Matrix3d& R_WL = prior.R_WL[kinematics_.link_of_marker(m)];
+    expected_.col(m) = prior.p_WM.col(m) + R_WL * state.offset.col(m);
+  }
+}
+
+MarkerGate::PairDistances MarkerGate::CompareExchange(const Matrix3Xd& measured, int a,
+                                                      int b) const {
+  PairDistances distances;
+  for (const auto& [label, other] : {std::pair(a, b), std::pair(b, a)}) {
+    if (!measured.col(label).allFinite()) continue;
+    ++distances.seen;
+    const double labelled = (measured.col(label) - expected_.col(label)).squaredNorm();
+    const double exchanged = (measured.col(label) - expected_.col(other)).squaredNorm();
+    distances.labelled += labelled;
+    distances.exchanged += exchanged;
+    distances.least_labelled = std::min(distances.least_labelled, labelled);
+    distances.largest_exchanged = std::max(distances.largest_exchanged, exchanged);
+  }
+  return distances;
+}
+
+void MarkerGate::Reconsider(const Matrix3Xd& measured, const MarkerJacobian& prior,
+                            GateState* state) {
+  ExpectByPrior(prior, *state);
+  for (int a = 0; a < measured.cols(); ++a) {
+    const int b = state->verdicts[a];
+    if (b <= a) continue;
+    const PairDistances distances = CompareExchange(measured, a, b);
+    if (distances.seen == 0 || distances.exchanged < distances.labelled) continue;
+    state->verdicts[a] = -1;
+    state->verdicts[b] = -1;
+  }
+}
+
 bool MarkerGate::ExchangeByPrior(const Matrix3Xd& measured, const MarkerJacobian& prior,
                                  GateState* state) {
+  ExpectByPrior(prior, *state);
   Eigen::VectorXi& verdicts = state->verdicts;
-  for (int m = 0; m < measured.cols(); ++m) {
-    expected_.col(m) =
-        prior.p_WM.col(m) + prior.R_WL[kinematics_.link_of_marker(m)] * state->offset.col(m);
-    const int label = verdicts[m] < 0 ? m : verdicts[m];
-    scores_[m] = (measured.col(label) - expected_.col(m)).squaredNorm();
-  }
   bool is_any = false;
   for (int a = 0; a < measured.cols(); ++a) {
-    if (verdicts[a] >= 0 || !(scores_[a] > kFarSwap * kFarSwap)) continue;
-    for (int b = a + 1; b < measured.cols(); ++b) {
-      if (verdicts[b] >= 0 || !(scores_[b] > kFarSwap * kFarSwap)) continue;
-      const double score_a = (measured.col(b) - expected_.col(a)).squaredNorm();
-      const double score_b = (measured.col(a) - expected_.col(b)).squaredNorm();
-      if (std::max(score_a, score_b) > kSwapShare * std::min(scores_[a], scores_[b])) continue;
+    for (int b = a + 1; b < measured.cols() && verdicts[a] < 0; ++b) {
+      if (verdicts[b] >= 0) continue;
+      const PairDistances distances = CompareExchange(measured, a, b);
+      if (distances.seen == 0 || distances.least_labelled < kFarSwap * kFarSwap ||
+          distances.largest_exchanged > kSwapShare * distances.least_labelled) {
+        continue;
+      }
       verdicts[a] = b;
       verdicts[b] = a;
       is_any = true;
-      break;
     }
   }
   return is_any;

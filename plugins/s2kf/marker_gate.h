@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "common/model/marker_kinematics.h"
@@ -32,6 +33,10 @@ class MarkerGate {
   bool IsSuspicious(const GateState& state, const Eigen::Matrix3Xd& z,
                     const MarkerJacobian& at) const;
 
+  /// Takes back exchanges whose labels explain the places better as they are, by where `prior`, the
+  /// estimate before the frame, has the markers: an exchange has to be better in every frame.
+  void Reconsider(const Eigen::Matrix3Xd& measured, const MarkerJacobian& prior, GateState* state);
+
   /// Takes those for swapped that are far from where `prior`, the estimate before the frame, has
   /// them, and explain each other. True where there are such.
   bool ExchangeByPrior(const Eigen::Matrix3Xd& measured, const MarkerJacobian& prior,
@@ -60,6 +65,17 @@ class MarkerGate {
  private:
   /// Squared Mahalanobis distance of a point from the place of marker m, over what is allowed.
   double Score(const GateState& state, const Eigen::Matrix3Xd& points, int point, int m) const;
+  /// Squared distances [m^2] of the seen ones of two labels from where their markers are expected,
+  /// as labelled and exchanged.
+  struct PairDistances {
+    int seen = 0;
+    double labelled = 0;
+    double exchanged = 0;
+    double least_labelled = std::numeric_limits<double>::infinity();
+    double largest_exchanged = 0;
+  };
+  PairDistances CompareExchange(const Eigen::Matrix3Xd& measured, int a, int b) const;
+  void ExpectByPrior(const MarkerJacobian& prior, const GateState& state);
   bool Readmit(const Eigen::Matrix3Xd& measured, GateState* state) const;
   bool Exchange(const Eigen::Matrix3Xd& measured, GateState* state) const;
 

@@ -53,8 +53,8 @@ bool PostureRecovery::FindForAll(const TrackedFrame& frame, int left_out, const 
   PostureFit& fit = search_.fit();
   const Eigen::VectorXd& scale = markers_.noise_scale();
   *posture = frame.posture;
-  fit.Solve(frame.measured, scale, options_, posture);
-  const double all = fit.Evaluate(frame.measured, scale, options_, *posture).cost;
+  fit.Solve(frame.relabelled, scale, options_, posture);
+  const double all = fit.Evaluate(frame.relabelled, scale, options_, *posture).cost;
   const double used = fit.Evaluate(frame.z, scale, options_, *posture).cost;
   return watch.ExplainsLeftOut(used, CountSeen(frame.z), all - used, left_out);
 }

@@ -30,6 +30,7 @@ double ClippedMeanOf(Index count, double limit, const DistanceOf& distance_of) {
 TrackedFrame::TrackedFrame(const MarkerKinematics& kinematics)
     : measured(Matrix3Xd::Constant(3, kinematics.num_markers(),
                                    std::numeric_limits<double>::quiet_NaN())),
+      relabelled(measured),
       z(measured),
       outcome(kinematics.num_dofs(), kinematics.num_markers()),
       at(kinematics.MakeJacobian()) {

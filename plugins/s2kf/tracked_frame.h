@@ -16,6 +16,7 @@ struct TrackedFrame {
 
   Eigen::Matrix3Xd measured;  ///< by label, 3 x markers [m]; NaN: not seen
   int seen = 0;               ///< in `measured`
+  Eigen::Matrix3Xd relabelled; ///< `measured` with swapped ones exchanged
   Eigen::Matrix3Xd z;         ///< what is tracked: without wrong markers, swapped ones exchanged
   UpdateOutcome outcome;      ///< of the last update, by z
   Posture posture;            ///< the estimate, tracked joints
