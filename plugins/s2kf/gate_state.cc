@@ -54,7 +54,6 @@ void GateState::Open() {
     if (IsLeftOut(m)) verdicts[m] = -1;
   }
   learned.setZero();
-  Loosen();
 }
 
 void GateState::Advance(double dt) {

@@ -46,9 +46,16 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       chunk_(settings.smoothing_chunk),
       clip_(FitOptions(settings).robust_distance),
       dt_(1 / recording.rate()),
+      distances_(recording.num_frames()),
       frame_(tracker->markers().kinematics()) {}
 
-void OfflineTracker::Keep(int k, const TrackState& state) {
+void OfflineTracker::Keep(int k, const TrackState& state, const TrackedFrame& frame) {
+  KeepCheckpoint(k, state);
+  distances_[k] = tracker_.DistanceOfAll(frame);
+  if (frame.reassembled) reassembled_[k] = state.gate;
+}
+
+void OfflineTracker::KeepCheckpoint(int k, const TrackState& state) {
   if (!checkpoints_.empty() && k < checkpoints_.back().frame + chunk_) return;
   checkpoints_.push_back({k, state});
 }
@@ -59,31 +66,29 @@ void OfflineTracker::Smooth(ConversionResult* result) {
   SmoothBackwards(result);
 }
 
-int OfflineTracker::Gather(int k) {
-  return tracker_.markers().Gather(recording_.frame(k), &frame_.measured);
+void OfflineTracker::Gather(int k) {
+  tracker_.markers().Gather(recording_.frame(k), &frame_.measured);
 }
 
 void OfflineTracker::FindRetakes(const ConversionResult& result) {
-  MarkerFilter& filter = tracker_.filter();
   const int first = checkpoints_.front().frame;
-  Belief belief;
-  for (int k = recording_.num_frames() - 1; k > first; --k) {
-    if (!result.frames[k].reassembled) continue;
-    filter.StartAt(result.trajectory.postures[k], &belief);
-    Gather(k);
-    filter.Update(frame_.measured, &belief, &frame_.outcome);
-    while (k > first) {
-      if (Gather(k - 1) == 0) break;
+  TrackState state;
+  int done = recording_.num_frames();
+  for (auto found = reassembled_.rbegin(); found != reassembled_.rend(); ++found) {
+    int k = found->first;
+    if (k >= done) continue;
+    state.gate = found->second;
+    tracker_.filter().StartAt(result.trajectory.postures[k], &state.belief);
+    for (; k > first; --k) {
       // The motion model is the same backwards.
-      filter.Predict(dt_, &belief);
-      filter.Update(frame_.measured, &belief, &frame_.outcome);
-      const double before = ClippedMean(result.residuals.col(k - 1), clip_);
-      if (MeasuredDistance(belief) > kNoFarther * before) break;
-      --k;
-      retakes_[k] = frame_.posture;
-      retakes_.erase(k + 1);
-      if (IsSamePosture(frame_.posture, result.trajectory.postures[k])) break;
+      tracker_.Step(recording_.frame(k - 1), dt_, &state, &frame_);
+      if (frame_.outcome.seen == 0) break;
+      if (tracker_.DistanceOfAll(frame_) > kNoFarther * distances_[k - 1]) break;
+      retakes_.erase(k);
+      retakes_[k - 1] = frame_.posture;
+      if (IsSamePosture(frame_.posture, result.trajectory.postures[k - 1])) break;
     }
+    done = k;
   }
 }
 
@@ -93,10 +98,10 @@ void OfflineTracker::TrackFromRetakes() {
   TrackState state = std::move(checkpoints_.back().state);
   checkpoints_.pop_back();
   Retake(k, &state);
-  Keep(k, state);
+  KeepCheckpoint(k, state);
   for (++k; k < recording_.num_frames(); ++k) {
     TrackAgain(k, &state);
-    Keep(k, state);
+    KeepCheckpoint(k, state);
   }
 }
 
@@ -104,8 +109,7 @@ void OfflineTracker::Retake(int k, TrackState* state) {
   const auto found = retakes_.find(k);
   if (found == retakes_.end()) return;
   Gather(k);
-  tracker_.filter().StartAt(found->second, &state->belief);
-  tracker_.filter().Update(frame_.measured, &state->belief, &frame_.outcome);
+  tracker_.TakeUp(found->second, state, &frame_);
 }
 
 void OfflineTracker::TrackAgain(int k, TrackState* state) {
@@ -119,16 +123,18 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
   TrajectorySmoother smoother(filter.motion_model(), filter.transform(), root_,
                               tracker_.markers().kinematics().num_dofs());
   std::vector<Belief> filtered(std::min(chunk_, frames));
+  std::vector<Eigen::Matrix3Xd> used(filtered.size(), frame_.z);
   TrackState state;
   for (auto checkpoint = checkpoints_.rbegin(); checkpoint != checkpoints_.rend(); ++checkpoint) {
     const int begin = checkpoint->frame;
     const int end = std::min(begin + chunk_, frames);
     state = checkpoint->state;
-    filtered[0] = state.belief;
-    for (int k = begin + 1; k < end; ++k) {
+    for (int k = begin; k < end; ++k) {
       const Clock::time_point start = Clock::now();
-      TrackAgain(k, &state);
+      if (k > begin) TrackAgain(k, &state);
       filtered[k - begin] = state.belief;
+      Gather(k);
+      state.gate.Select(frame_.measured, &frame_.relabelled, &used[k - begin]);
       result->frames[k].seconds += SecondsSince(start);
     }
     for (int k = end - 1; k >= begin; --k) {
@@ -138,8 +144,7 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
         smoother.Start(of_filter);
       } else {
         smoother.StepBack(of_filter, dt_);
-        Gather(k);
-        if (!IsAsNear(smoother.belief(), of_filter)) smoother.Start(of_filter);
+        if (!IsAsNear(used[k - begin], smoother.belief(), of_filter)) smoother.Start(of_filter);
       }
       Write(k, smoother.belief(), result);
       result->frames[k].seconds += SecondsSince(start);
@@ -149,15 +154,16 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
   for (int k = 0; k < first; ++k) Write(k, smoother.belief(), result);
 }
 
-bool OfflineTracker::IsAsNear(const Belief& smoothed, const Belief& filtered) {
-  const double limit = kMuchFarther * MeasuredDistance(filtered) + kMuchFartherDistance;
-  const bool is_near = MeasuredDistance(smoothed) <= limit;
+bool OfflineTracker::IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed,
+                              const Belief& filtered) {
+  const double limit = kMuchFarther * Distance(z, filtered) + kMuchFartherDistance;
+  const bool is_near = Distance(z, smoothed) <= limit;
   return is_near && frame_.posture.joint_angles.allFinite();
 }
 
-double OfflineTracker::MeasuredDistance(const Belief& belief) {
+double OfflineTracker::Distance(const Eigen::Matrix3Xd& z, const Belief& belief) {
   tracker_.filter().Place(belief, &frame_.posture, &frame_.at);
-  return ClippedMeanDistance(frame_.measured, frame_.at.p_WM, clip_);
+  return ClippedMeanDistance(z, frame_.at.p_WM, clip_);
 }
 
 void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result) {

@@ -24,8 +24,8 @@ class OfflineTracker {
   OfflineTracker(const MarkerSequence& recording, const S2kfSettings& settings,
                  OnlineTracker* tracker);
 
-  /// state: after frame k; from the first tracked frame on, in order.
-  void Keep(int k, const TrackState& state);
+  /// state, frame: after frame k; from the first tracked frame on, in order.
+  void Keep(int k, const TrackState& state, const TrackedFrame& frame);
 
   /// result: of the tracker, all frames; its postures, standard deviations and residuals are
   /// replaced by the smoothed ones, its times grow. Frames before the first tracked one take that
@@ -38,6 +38,8 @@ class OfflineTracker {
     TrackState state;
   };
 
+  void KeepCheckpoint(int k, const TrackState& state);
+
   /// Where the track was taken up anew, goes backwards from there as long as that is nearer to the
   /// markers than the track was: the frame in which it ends is where to take it up.
   void FindRetakes(const ConversionResult& result);
@@ -46,12 +48,12 @@ class OfflineTracker {
   void TrackAgain(int k, TrackState* state);
   void Retake(int k, TrackState* state);
   void SmoothBackwards(ConversionResult* result);
-  /// Whether a smoothed posture is about as near to the gathered markers as the filter's.
-  bool IsAsNear(const Belief& smoothed, const Belief& filtered);
-  /// Takes the markers of frame k into frame_; returns how many are seen.
-  int Gather(int k);
-  /// Mean distance of the gathered markers from those of a belief, which it places; clipped [m].
-  double MeasuredDistance(const Belief& belief);
+  /// Takes the markers of frame k into frame_.
+  void Gather(int k);
+  /// Whether a smoothed posture is about as near to the markers z as the filter's.
+  bool IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed, const Belief& filtered);
+  /// Mean distance of markers from those of a belief, which it places; clipped [m].
+  double Distance(const Eigen::Matrix3Xd& z, const Belief& belief);
   void Write(int k, const Belief& belief, ConversionResult* result);
 
   const MarkerSequence& recording_;
@@ -61,6 +63,8 @@ class OfflineTracker {
   double clip_;  // [m]
   double dt_;    // [s]
   std::vector<Checkpoint> checkpoints_;
+  std::vector<double> distances_;        // of all markers in each frame [m]
+  std::map<int, GateState> reassembled_;  // the gate in frames where the track was taken up anew
   // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
   std::map<int, Posture> retakes_;
   TrackedFrame frame_;

@@ -52,12 +52,23 @@ void OnlineTracker::Start(const Ref<const Matrix3Xd>& points, TrackState* state,
   watch_.Start(num_markers, Distance(*frame), &state->watch);
 }
 
-void OnlineTracker::Track(const Ref<const Matrix3Xd>& points, double dt, TrackState* state,
-                          TrackedFrame* frame) {
+void OnlineTracker::Step(const Ref<const Matrix3Xd>& points, double dt, TrackState* state,
+                         TrackedFrame* frame) {
   frame->seen = markers_.Gather(points, &frame->measured);
   filter_.Predict(dt, &state->belief);
   state->gate.Advance(dt);
   Update(state, frame);
+}
+
+void OnlineTracker::TakeUp(const Posture& posture, TrackState* state, TrackedFrame* frame) {
+  filter_.StartAt(posture, &state->belief);
+  state->gate.Loosen();
+  Update(state, frame);
+}
+
+void OnlineTracker::Track(const Ref<const Matrix3Xd>& points, double dt, TrackState* state,
+                          TrackedFrame* frame) {
+  Step(points, dt, state, frame);
   frame->reassembled = settings_.recovery && Reopen(state, frame);
   if (!settings_.recovery || frame->seen < kFewestMarkers) return;
   const bool is_in_doubt = watch_.IsInDoubt(frame->z, Distance(*frame), dt, &state->watch);
@@ -67,17 +78,14 @@ void OnlineTracker::Track(const Ref<const Matrix3Xd>& points, double dt, TrackSt
 bool OnlineTracker::Reopen(TrackState* state, TrackedFrame* frame) {
   const int left_out = state->gate.CountLeftOut(frame->measured);
   if (!recovery_.FindForAll(*frame, left_out, watch_, &candidate_)) return false;
-  filter_.StartAt(candidate_, &state->belief);
   state->gate.Open();
-  Update(state, frame);
+  TakeUp(candidate_, state, frame);
   return true;
 }
 
 bool OnlineTracker::Recover(TrackState* state, TrackedFrame* frame) {
   if (!recovery_.FindBetter(*frame, watch_, &state->random, &candidate_)) return false;
-  filter_.StartAt(candidate_, &state->belief);
-  state->gate.Loosen();
-  Update(state, frame);
+  TakeUp(candidate_, state, frame);
   watch_.Recovered(Distance(*frame), &state->watch);
   return true;
 }

@@ -32,6 +32,18 @@ class OnlineTracker {
   void Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt, TrackState* state,
              TrackedFrame* frame);
 
+  /// As Track, without looking for another posture.
+  void Step(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt, TrackState* state,
+            TrackedFrame* frame);
+
+  /// Takes the track up at another posture in the frame that was tracked last.
+  void TakeUp(const Posture& posture, TrackState* state, TrackedFrame* frame);
+
+  /// Mean distance between the markers, those left out too, and the estimate's; clipped [m].
+  double DistanceOfAll(const TrackedFrame& frame) const {
+    return ClippedMeanDistance(frame.relabelled, frame.at.p_WM, clip_);
+  }
+
   const TrackedMarkers& markers() const { return markers_; }
   /// Holds nothing of a track.
   MarkerFilter& filter() { return filter_; }

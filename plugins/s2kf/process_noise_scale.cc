@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/fit/posture_search.h"
 #include "plugins/s2kf/marker_filter.h"
-#include "plugins/s2kf/posture_recovery.h"
+#include "plugins/s2kf/online_tracker.h"
 
 namespace mmm_converter::s2kf {
 
@@ -19,12 +18,14 @@ namespace {
 
 // Parts of the recording that are judged, each this long; the first frames of each, in which the
 // start settles, do not count.
-constexpr int kParts = 4;
-constexpr int kPartFrames = 250;
+constexpr int kParts = 6;
+constexpr int kPartFrames = 80;
 constexpr int kSettling = 25;
 constexpr int kFewestFrames = 10;
 constexpr int kFewestMarkers = 3;
-constexpr double kLargestLog = 3;  // of the scale, to the base 10
+// Of the scale, to the base 10.
+constexpr double kLargestLog = 3;
+constexpr double kStep = 0.5;
 
 /// The likelihood of a recording, part by part.
 class Likelihood {
@@ -78,19 +79,24 @@ class Likelihood {
     std::vector<Matrix3Xd> frames;
   };
 
+  /// Tracks it, so that wrong markers do not count as motion.
   void AddPart(const MarkerSequence& recording, int begin, int end) {
+    OnlineTracker tracker(markers_, settings_);
+    TrackState state;
+    TrackedFrame frame(markers_.kinematics());
     Part part;
-    Matrix3Xd z(3, markers_.kinematics().num_markers());
     for (int k = begin; k < end; ++k) {
-      const int seen = markers_.Gather(recording.frame(k), &z);
-      if (part.frames.empty() && seen < kFewestMarkers) continue;
-      part.frames.push_back(z);
+      if (!part.frames.empty()) {
+        tracker.Track(recording.frame(k), dt_, &state, &frame);
+      } else if (markers_.Gather(recording.frame(k), &frame.measured) >= kFewestMarkers) {
+        tracker.Start(recording.frame(k), &state, &frame);
+        part.start = frame.posture;
+      } else {
+        continue;
+      }
+      part.frames.push_back(frame.z);
     }
-    if (part.frames.empty()) return;
-    PostureSearch search(markers_.kinematics());
-    search.Assemble(part.frames.front(), markers_.noise_scale(), FitOptions(settings_),
-                    settings_.start_attempts, &part.start);
-    parts_.push_back(std::move(part));
+    if (!part.frames.empty()) parts_.push_back(std::move(part));
   }
 
   const TrackedMarkers& markers_;
@@ -100,6 +106,15 @@ class Likelihood {
   std::map<double, double> values_;
 };
 
+/// Where the parabola through `best` and its neighbours is highest, in steps from it.
+double TopOfParabola(Likelihood& likelihood, double best) {
+  const double middle = likelihood.At(best);
+  const double below = middle - likelihood.At(best - kStep);
+  const double above = middle - likelihood.At(best + kStep);
+  if (!(below + above > 0)) return 0;
+  return std::clamp(0.5 * (below - above) / (below + above), -0.5, 0.5);
+}
+
 }  // namespace
 
 double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMarkers& markers,
@@ -108,14 +123,9 @@ double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMar
   if (likelihood.num_frames() < kFewestFrames) return 1;
   // Uphill from the calmest motion to the first top: under much noise joints also take up that
   // markers sit elsewhere than the model has them, which has a top of its own.
-  constexpr double kStep = 0.5;
   double best = -kLargestLog;
   while (best < kLargestLog && likelihood.At(best + kStep) > likelihood.At(best)) best += kStep;
-  for (const double step : {kStep / 2, kStep / 4}) {
-    const double next = likelihood.At(best + step) > likelihood.At(best - step) ? step : -step;
-    if (likelihood.At(best + next) > likelihood.At(best)) best += next;
-  }
-  return std::pow(10.0, best);
+  return std::pow(10.0, best + kStep * TopOfParabola(likelihood, best));
 }
 
 }  // namespace mmm_converter::s2kf

@@ -95,7 +95,7 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
   }
   OfflineTracker offline(recording, settings_, &tracker_);
   ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
-    offline.Keep(done - 1, track_);
+    offline.Keep(done - 1, track_, frame_);
     return !progress || progress(done);
   });
   offline.Smooth(&result);
