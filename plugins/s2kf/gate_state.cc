@@ -97,6 +97,7 @@ void GateState::Learn(int m, const Vector3d& r) {
   const double gain = variance[m] / VarianceOfResidual(m);
   offset.col(m) += gain * (r - offset.col(m));
   variance[m] *= 1 - gain;
+  if (verdicts[m] >= 0) return;
   usual.col(m) += std::max(usual_gain, 1.0 / ++learned[m]) * (r - usual.col(m));
 }
 

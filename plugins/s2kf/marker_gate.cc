@@ -53,7 +53,8 @@ MarkerGate::MarkerGate(const MarkerKinematics& kinematics, double probability)
       places_(3 * kinematics.num_markers()),
       expected_(3, kinematics.num_markers()),
       covariance_(kinematics.num_markers()),
-      scores_(kinematics.num_markers()) {}
+      scores_(kinematics.num_markers()),
+      nearest_(kinematics.num_markers()) {}
 
 double MarkerGate::Score(const GateState& state, const Matrix3Xd& points, int point, int m) const {
   const Vector3d deviation = points.col(point) - expected_.col(m);
@@ -86,37 +87,27 @@ void MarkerGate::Expect(const GateState& state, const Matrix3Xd& z, const Marker
   expected_ = places_.reshaped(3, z.cols()) + offset_W_;
 }
 
-void MarkerGate::ExpectByPrior(const MarkerJacobian& prior, const GateState& state) {
+void MarkerGate::ExpectByPrior(const MarkerJacobian& prior, const Matrix3Xd& offsets) {
   for (int m = 0; m < expected_.cols(); ++m) {
     const Matrix3d& R_WL = prior.R_WL[kinematics_.link_of_marker(m)];
-    expected_.col(m) = prior.p_WM.col(m) + R_WL * state.offset.col(m);
+    expected_.col(m) = prior.p_WM.col(m) + R_WL * offsets.col(m);
   }
-}
-
-MarkerGate::PairDistances MarkerGate::CompareExchange(const Matrix3Xd& measured, int a,
-                                                      int b) const {
-  PairDistances distances;
-  for (const auto& [label, other] : {std::pair(a, b), std::pair(b, a)}) {
-    if (!measured.col(label).allFinite()) continue;
-    ++distances.seen;
-    const double labelled = (measured.col(label) - expected_.col(label)).squaredNorm();
-    const double exchanged = (measured.col(label) - expected_.col(other)).squaredNorm();
-    distances.labelled += labelled;
-    distances.exchanged += exchanged;
-    distances.least_labelled = std::min(distances.least_labelled, labelled);
-    distances.largest_exchanged = std::max(distances.largest_exchanged, exchanged);
-  }
-  return distances;
 }
 
 void MarkerGate::Reconsider(const Matrix3Xd& measured, const MarkerJacobian& prior,
                             GateState* state) {
-  ExpectByPrior(prior, *state);
+  ExpectByPrior(prior, state->usual);
   for (int a = 0; a < measured.cols(); ++a) {
     const int b = state->verdicts[a];
     if (b <= a) continue;
-    const PairDistances distances = CompareExchange(measured, a, b);
-    if (distances.seen == 0 || distances.exchanged < distances.labelled) continue;
+    double labelled = 0;
+    double exchanged = 0;
+    for (const auto& [label, other] : {std::pair(a, b), std::pair(b, a)}) {
+      if (!measured.col(label).allFinite()) continue;
+      labelled += (measured.col(label) - expected_.col(label)).squaredNorm();
+      exchanged += (measured.col(label) - expected_.col(other)).squaredNorm();
+    }
+    if (exchanged == 0 || exchanged < labelled) continue;
     state->verdicts[a] = -1;
     state->verdicts[b] = -1;
   }
@@ -124,21 +115,25 @@ void MarkerGate::Reconsider(const Matrix3Xd& measured, const MarkerJacobian& pri
 
 bool MarkerGate::ExchangeByPrior(const Matrix3Xd& measured, const MarkerJacobian& prior,
                                  GateState* state) {
-  ExpectByPrior(prior, *state);
+  ExpectByPrior(prior, state->offset);
   Eigen::VectorXi& verdicts = state->verdicts;
+  for (int label = 0; label < measured.cols(); ++label) {
+    nearest_[label] = -1;
+    if (verdicts[label] >= 0 || !measured.col(label).allFinite()) continue;
+    const auto squared = (expected_.colwise() - measured.col(label)).colwise().squaredNorm();
+    if (squared[label] < kFarSwap * kFarSwap) continue;
+    Eigen::Index nearest = 0;
+    if (squared.minCoeff(&nearest) > kSwapShare * squared[label]) continue;
+    nearest_[label] = static_cast<int>(nearest);
+  }
   bool is_any = false;
   for (int a = 0; a < measured.cols(); ++a) {
-    for (int b = a + 1; b < measured.cols() && verdicts[a] < 0; ++b) {
-      if (verdicts[b] >= 0) continue;
-      const PairDistances distances = CompareExchange(measured, a, b);
-      if (distances.seen == 0 || distances.least_labelled < kFarSwap * kFarSwap ||
-          distances.largest_exchanged > kSwapShare * distances.least_labelled) {
-        continue;
-      }
-      verdicts[a] = b;
-      verdicts[b] = a;
-      is_any = true;
-    }
+    const int b = nearest_[a];
+    if (b < 0 || verdicts[a] >= 0 || verdicts[b] >= 0) continue;
+    if (measured.col(b).allFinite() && nearest_[b] != a) continue;
+    verdicts[a] = b;
+    verdicts[b] = a;
+    is_any = true;
   }
   return is_any;
 }

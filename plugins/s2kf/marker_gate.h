@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
 #include "common/model/marker_kinematics.h"
@@ -65,17 +64,7 @@ class MarkerGate {
  private:
   /// Squared Mahalanobis distance of a point from the place of marker m, over what is allowed.
   double Score(const GateState& state, const Eigen::Matrix3Xd& points, int point, int m) const;
-  /// Squared distances [m^2] of the seen ones of two labels from where their markers are expected,
-  /// as labelled and exchanged.
-  struct PairDistances {
-    int seen = 0;
-    double labelled = 0;
-    double exchanged = 0;
-    double least_labelled = std::numeric_limits<double>::infinity();
-    double largest_exchanged = 0;
-  };
-  PairDistances CompareExchange(const Eigen::Matrix3Xd& measured, int a, int b) const;
-  void ExpectByPrior(const MarkerJacobian& prior, const GateState& state);
+  void ExpectByPrior(const MarkerJacobian& prior, const Eigen::Matrix3Xd& offsets);
   bool Readmit(const Eigen::Matrix3Xd& measured, GateState* state) const;
   bool Exchange(const Eigen::Matrix3Xd& measured, GateState* state) const;
 
@@ -90,6 +79,7 @@ class MarkerGate {
   Eigen::Matrix3Xd expected_;                // p + b
   std::vector<Eigen::Matrix3d> covariance_;  // of p [m^2]; 0 where the marker was used
   Eigen::VectorXd scores_;
+  std::vector<int> nearest_;  // by label: the marker expected there, where that is another
 };
 
 }  // namespace mmm_converter::s2kf

@@ -63,7 +63,7 @@ class OfflineTracker {
   double clip_;  // [m]
   double dt_;    // [s]
   std::vector<Checkpoint> checkpoints_;
-  std::vector<double> distances_;        // of all markers in each frame [m]
+  std::vector<double> distances_;         // of all markers in each frame [m]
   std::map<int, GateState> reassembled_;  // the gate in frames where the track was taken up anew
   // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
   std::map<int, Posture> retakes_;

@@ -39,8 +39,9 @@ class Likelihood {
     const int length = parts > 1 ? kPartFrames : frames;
     for (int p = 0; p < parts; ++p) {
       const int begin = parts > 1 ? static_cast<int>(1L * p * (frames - length) / (parts - 1)) : 0;
-      AddPart(recording, begin, begin + length);
+      parts_.push_back({begin, begin + length, {}, {}});
     }
+    TrackOnce(recording);
   }
 
   int num_frames() const {
@@ -62,7 +63,7 @@ class Likelihood {
     double sum = 0;
     for (const Part& part : parts_) {
       Belief belief;
-      filter.StartAt(part.start, &belief);
+      if (!part.frames.empty()) filter.StartAt(part.start, &belief);
       for (std::size_t k = 0; k < part.frames.size(); ++k) {
         if (k > 0) filter.Predict(dt_, &belief);
         filter.Update(part.frames[k], &belief, &outcome);
@@ -75,28 +76,33 @@ class Likelihood {
 
  private:
   struct Part {
+    int begin;
+    int end;
     Posture start;
     std::vector<Matrix3Xd> frames;
   };
 
-  /// Tracks it, so that wrong markers do not count as motion.
-  void AddPart(const MarkerSequence& recording, int begin, int end) {
+  /// Takes the markers of all parts without those that are wrong, which are no motion.
+  void TrackOnce(const MarkerSequence& recording) {
     OnlineTracker tracker(markers_, settings_);
     TrackState state;
     TrackedFrame frame(markers_.kinematics());
-    Part part;
-    for (int k = begin; k < end; ++k) {
-      if (!part.frames.empty()) {
+    bool is_started = false;
+    for (int k = 0; k < recording.num_frames(); ++k) {
+      if (is_started) {
         tracker.Track(recording.frame(k), dt_, &state, &frame);
       } else if (markers_.Gather(recording.frame(k), &frame.measured) >= kFewestMarkers) {
         tracker.Start(recording.frame(k), &state, &frame);
-        part.start = frame.posture;
+        is_started = true;
       } else {
         continue;
       }
-      part.frames.push_back(frame.z);
+      for (Part& part : parts_) {
+        if (k < part.begin || k >= part.end) continue;
+        if (part.frames.empty()) part.start = frame.posture;
+        part.frames.push_back(frame.z);
+      }
     }
-    if (!part.frames.empty()) parts_.push_back(std::move(part));
   }
 
   const TrackedMarkers& markers_;

@@ -14,14 +14,14 @@ struct TrackedFrame {
   /// Sized once.
   explicit TrackedFrame(const MarkerKinematics& kinematics);
 
-  Eigen::Matrix3Xd measured;  ///< by label, 3 x markers [m]; NaN: not seen
-  int seen = 0;               ///< in `measured`
-  Eigen::Matrix3Xd relabelled; ///< `measured` with swapped ones exchanged
-  Eigen::Matrix3Xd z;         ///< what is tracked: without wrong markers, swapped ones exchanged
-  UpdateOutcome outcome;      ///< of the last update, by z
-  Posture posture;            ///< the estimate, tracked joints
-  MarkerJacobian at;          ///< its markers (p_WM) and links
-  bool reassembled = false;   ///< the track was lost here and taken up anew
+  Eigen::Matrix3Xd measured;    ///< by label, 3 x markers [m]; NaN: not seen
+  int seen = 0;                 ///< in `measured`
+  Eigen::Matrix3Xd relabelled;  ///< `measured` with swapped ones exchanged
+  Eigen::Matrix3Xd z;           ///< what is tracked: without wrong markers, swapped ones exchanged
+  UpdateOutcome outcome;        ///< of the last update, by z
+  Posture posture;              ///< the estimate, tracked joints
+  MarkerJacobian at;            ///< its markers (p_WM) and links
+  bool reassembled = false;     ///< the track was lost here and taken up anew
 };
 
 /// How many of the markers are seen; z: 3 x markers, NaN = not seen.
