@@ -20,11 +20,10 @@ constexpr double kNoFarther = 1.02;
 constexpr double kSameAngle = 0.02;  // [rad]
 constexpr double kSamePlace = 0.01;  // [m]
 
-// The pass backwards is linear about the filter's track. Where that does not hold, its postures
-// leave the markers, and it starts anew from the filter's: farther than so many times its distance
-// and this [m].
-constexpr double kMuchFarther = 1.5;
-constexpr double kMuchFartherDistance = 0.01;
+// The pass backwards is linear about the filter's track. Where that does not hold, a marker leaves
+// its place, and the pass starts anew from the filter's belief: farther than with the filter by
+// this [m].
+constexpr double kMuchFarther = 0.03;
 
 bool IsSamePosture(const Posture& a, const Posture& b) {
   const auto apart = (a.joint_angles - b.joint_angles).array().abs();
@@ -44,7 +43,6 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       tracker_(*tracker),
       root_(settings.root),
       chunk_(settings.smoothing_chunk),
-      clip_(FitOptions(settings).robust_distance),
       dt_(1 / recording.rate()),
       distances_(recording.num_frames()),
       frame_(tracker->markers().kinematics()) {}
@@ -156,14 +154,14 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
 
 bool OfflineTracker::IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed,
                               const Belief& filtered) {
-  const double limit = kMuchFarther * Distance(z, filtered) + kMuchFartherDistance;
-  const bool is_near = Distance(z, smoothed) <= limit;
-  return is_near && frame_.posture.joint_angles.allFinite();
-}
-
-double OfflineTracker::Distance(const Eigen::Matrix3Xd& z, const Belief& belief) {
-  tracker_.filter().Place(belief, &frame_.posture, &frame_.at);
-  return ClippedMeanDistance(z, frame_.at.p_WM, clip_);
+  tracker_.filter().Place(filtered, &frame_.posture, &frame_.at);
+  distances_of_filter_ = (z - frame_.at.p_WM).colwise().norm();
+  tracker_.filter().Place(smoothed, &frame_.posture, &frame_.at);
+  for (int m = 0; m < z.cols(); ++m) {
+    const double distance = (z.col(m) - frame_.at.p_WM.col(m)).norm();
+    if (distance > distances_of_filter_[m] + kMuchFarther) return false;
+  }
+  return frame_.posture.joint_angles.allFinite();
 }
 
 void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result) {

@@ -50,24 +50,22 @@ class OfflineTracker {
   void SmoothBackwards(ConversionResult* result);
   /// Takes the markers of frame k into frame_.
   void Gather(int k);
-  /// Whether a smoothed posture is about as near to the markers z as the filter's.
+  /// Whether a smoothed posture is about as near to each of the markers z as the filter's.
   bool IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed, const Belief& filtered);
-  /// Mean distance of markers from those of a belief, which it places; clipped [m].
-  double Distance(const Eigen::Matrix3Xd& z, const Belief& belief);
   void Write(int k, const Belief& belief, ConversionResult* result);
 
   const MarkerSequence& recording_;
   OnlineTracker& tracker_;
   RootParameters root_;
-  int chunk_;    // frames between checkpoints
-  double clip_;  // [m]
-  double dt_;    // [s]
+  int chunk_;  // frames between checkpoints
+  double dt_;  // [s]
   std::vector<Checkpoint> checkpoints_;
   std::vector<double> distances_;         // of all markers in each frame [m]
   std::map<int, GateState> reassembled_;  // the gate in frames where the track was taken up anew
   // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
   std::map<int, Posture> retakes_;
   TrackedFrame frame_;
+  Eigen::RowVectorXd distances_of_filter_;
   Eigen::VectorXd deviations_;
 };
 

@@ -23,10 +23,12 @@ void TrajectorySmoother::StepBack(const Belief& filtered, double dt) {
   predicted_ = folded_;
   motion_model_.Predict(dt, root_, &predicted_);
   ComputeGain();
+  smoothed_.parameters = parameters_;
   S_.view() = smoothed_.P;
   SmoothMean();
   SmoothCovariance();
   Unfold(filtered);
+  MoveAngles(filtered);
 }
 
 void TrajectorySmoother::ComputeGain() {
@@ -88,6 +90,15 @@ void TrajectorySmoother::Unfold(const Belief& filtered) {
     } else {
       smoothed += before - after;
     }
+  }
+}
+
+void TrajectorySmoother::MoveAngles(const Belief& filtered) {
+  parameters_ = smoothed_.parameters;
+  for (int j = 0; j < parameters_.size(); ++j) {
+    const double from = filtered.parameters[j];
+    const double moved = transform_.Slope(j, from) * (parameters_[j] - from);
+    smoothed_.parameters[j] = transform_.Parameter(j, transform_.Angle(j, from) + moved);
   }
 }
 
