@@ -82,9 +82,13 @@ class Likelihood {
     std::vector<Matrix3Xd> frames;
   };
 
-  /// Takes the markers of all parts without those that are wrong, which are no motion.
+  /// Takes the markers of all parts without those that are wrong, which are no motion. Tracks by a
+  /// random walk, as the noise of the velocities is not known yet.
   void TrackOnce(const MarkerSequence& recording) {
-    OnlineTracker tracker(markers_, settings_);
+    S2kfSettings settings = settings_;
+    settings.motion_model = MotionModelType::kRandomWalk;
+    settings.process_noise_scale = 1;
+    OnlineTracker tracker(markers_, settings);
     TrackState state;
     TrackedFrame frame(markers_.kinematics());
     bool is_started = false;
