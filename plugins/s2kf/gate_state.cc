@@ -51,7 +51,9 @@ void GateState::Loosen() {
 
 void GateState::Open() {
   for (int m = 0; m < verdicts.size(); ++m) {
-    if (IsLeftOut(m)) verdicts[m] = -1;
+    if (!IsLeftOut(m)) continue;
+    verdicts[m] = -1;
+    offset.col(m).setZero();
   }
   learned.setZero();
 }

@@ -215,6 +215,7 @@ bool MarkerGate::Settle(const Matrix3Xd& measured, const UpdateOutcome& outcome,
 void MarkerGate::MoveOffsets(const MarkerJacobian& at, GateState* state) const {
   if (state->frames_since_change > kSettlingFrames) return;
   for (int m = 0; m < state->offset.cols(); ++m) {
+    if (state->learned[m] == 0) continue;
     const Matrix3d& R_WL = at.R_WL[kinematics_.link_of_marker(m)];
     state->offset.col(m) = R_WL.transpose() * (expected_.col(m) - at.p_WM.col(m));
   }

@@ -42,9 +42,7 @@ bool PostureRecovery::FindBetter(const TrackedFrame& frame, const TrackWatch& wa
   search_.Improve(frame.z, scale, options_, posture);
   std::swap(search_.random(), *random);
   const PostureFit::Result after = fit.Evaluate(frame.z, scale, options_, *posture);
-  const double unseen =
-      1 - static_cast<double>(CountSeen(frame.z)) / static_cast<double>(frame.z.cols());
-  return watch.IsClearlyBetter(before, after, unseen);
+  return watch.IsClearlyBetter(before, after, CountSeen(frame.z), static_cast<int>(frame.z.cols()));
 }
 
 bool PostureRecovery::FindForAll(const TrackedFrame& frame, int left_out, const TrackWatch& watch,

@@ -135,7 +135,8 @@ double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMar
   // markers sit elsewhere than the model has them, which has a top of its own.
   double best = -kLargestLog;
   while (best < kLargestLog && likelihood.At(best + kStep) > likelihood.At(best)) best += kStep;
-  return std::pow(10.0, best + kStep * TopOfParabola(likelihood, best));
+  const double top = best + kStep * TopOfParabola(likelihood, best);
+  return std::pow(10.0, std::clamp(top, -kLargestLog, kLargestLog));
 }
 
 }  // namespace mmm_converter::s2kf

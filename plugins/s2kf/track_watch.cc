@@ -20,10 +20,13 @@ constexpr double kDoubtDistance = 0.001;
 // The usual level follows with this time constant [s].
 constexpr double kLevelTime = 1.0;
 // A found posture must lower the cost by this share to replace the filter's: the filter smooths, so
-// its posture never has the least cost. Markers that are not seen leave a fit free, and a track
-// that is smoothed is cut where it is taken up anew: there the mean distance must fall, too, by up
-// to the noise of a marker.
+// its posture never has the least cost. It must lower it as much as if every marker came this many
+// times its noise nearer, from its place: where little is left of the distances, what the filter
+// lags is a large share of it. Markers that are not seen leave a fit free, and a track that is
+// smoothed is cut where it is taken up anew: there the mean distance must fall, too, by up to the
+// noise of a marker.
 constexpr double kClearlyBetter = 0.1;
+constexpr double kClearFall = 3;
 
 // Markers left out may be right where there are so many, and are where a posture exists at which
 // their mean squared distance is no more than this many times the others'.
@@ -69,8 +72,11 @@ void TrackWatch::Recovered(double distance, State* state) const {
 }
 
 bool TrackWatch::IsClearlyBetter(const PostureFit::Result& before, const PostureFit::Result& after,
-                                 double unseen) const {
-  if (after.cost > (1 - kClearlyBetter) * before.cost) return false;
+                                 int seen, int all) const {
+  const double fall = kClearFall * marker_deviation_;
+  const double least_fall = fall * fall * seen;
+  if (before.cost - after.cost < std::max(kClearlyBetter * before.cost, least_fall)) return false;
+  const double unseen = 1 - static_cast<double>(seen) / all;
   const double least_gain = (is_smoothed_ ? 1 : std::min(1.0, 2 * unseen)) * marker_deviation_;
   return after.mean_distance <= before.mean_distance - least_gain;
 }

@@ -34,10 +34,10 @@ class TrackWatch {
   /// The posture was replaced; distance: of the new one [m].
   void Recovered(double distance, State* state) const;
 
-  /// Whether a posture that a fit found replaces the filter's. before, after: of both, on the same
-  /// markers. unseen: share of the markers that are not seen.
-  bool IsClearlyBetter(const PostureFit::Result& before, const PostureFit::Result& after,
-                       double unseen) const;
+  /// Whether a posture that a fit found replaces the filter's. before, after: of both, on the
+  /// same markers, of which so many of all are seen.
+  bool IsClearlyBetter(const PostureFit::Result& before, const PostureFit::Result& after, int seen,
+                       int all) const;
 
   /// Whether markers are left out together that may be right together.
   bool MayBeRight(int left_out) const;

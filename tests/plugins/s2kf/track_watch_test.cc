@@ -112,21 +112,29 @@ PostureFit::Result Fit(double cost, double mean_distance) {
 }
 
 TEST_F(TrackWatchTest, AClearlyBetterPostureLowersTheCostByATenth) {
-  EXPECT_FALSE(watch_.IsClearlyBetter(Fit(1, 0.030), Fit(0.91, 0.020), 0));
-  EXPECT_TRUE(watch_.IsClearlyBetter(Fit(1, 0.030), Fit(0.89, 0.029), 0));
+  EXPECT_FALSE(watch_.IsClearlyBetter(Fit(1, 0.030), Fit(0.91, 0.020), 40, 40));
+  EXPECT_TRUE(watch_.IsClearlyBetter(Fit(1, 0.030), Fit(0.89, 0.029), 40, 40));
+}
+
+TEST_F(TrackWatchTest, AndByThreeTimesTheNoiseOfEveryMarkerWhereLittleIsLeft) {
+  settings_.marker_deviation = 0.005;
+  const TrackWatch watch(settings_);
+  // 40 (15 mm)^2 = 9000 mm^2; what a filter lags is less.
+  EXPECT_FALSE(watch.IsClearlyBetter(Fit(0.0100, 0.012), Fit(0.0011, 0.004), 40, 40));
+  EXPECT_TRUE(watch.IsClearlyBetter(Fit(0.0101, 0.012), Fit(0.0010, 0.004), 40, 40));
 }
 
 TEST_F(TrackWatchTest, WithHiddenMarkersTheDistanceHasToFallByUpToTheirNoise) {
   settings_.marker_deviation = 0.004;
   const TrackWatch online(settings_);
   // A quarter hidden: by half of 4 mm.
-  EXPECT_TRUE(online.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0279), 0.25));
-  EXPECT_FALSE(online.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0281), 0.25));
+  EXPECT_TRUE(online.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0279), 30, 40));
+  EXPECT_FALSE(online.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0281), 30, 40));
   // A track that is smoothed: by 4 mm always.
   settings_.smoothing = true;
   const TrackWatch offline(settings_);
-  EXPECT_TRUE(offline.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0259), 0));
-  EXPECT_FALSE(offline.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0261), 0));
+  EXPECT_TRUE(offline.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0259), 40, 40));
+  EXPECT_FALSE(offline.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0261), 40, 40));
 }
 
 TEST_F(TrackWatchTest, MarkersLeftOutAreExplainedWithFourTimesTheOthersMeanSquare) {
