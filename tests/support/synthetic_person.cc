@@ -25,7 +25,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kLengthShare = 0.05;
-constexpr double kMarkerDeviation = 0.028;  // [m]
 
 Vector3d DrawVector(double deviation, SeededRandom* random) {
   Vector3d v;
@@ -45,7 +44,7 @@ std::vector<int> TrackedJoints(const KinematicModel& model) {
   return ResolveJoints(config, model);
 }
 
-Subject DrawPerson(const KinematicModel& model, std::uint64_t seed) {
+Subject DrawPerson(const KinematicModel& model, std::uint64_t seed, double marker_deviation) {
   SeededRandom random(seed);
   const auto markers = AllIndices<MarkerIx>(model.markers().size());
   const SegmentLengths lengths = FindSegmentLengths(model, TrackedJoints(model), markers);
@@ -58,7 +57,7 @@ Subject DrawPerson(const KinematicModel& model, std::uint64_t seed) {
     subject.scales[right].scale = subject.scales[left].scale;
   }
   std::map<std::string, Vector3d> mirrored;  // by the right marker's name
-  const double half = kMarkerDeviation / std::numbers::sqrt2;
+  const double half = marker_deviation / std::numbers::sqrt2;
   for (const ModelMarker& marker : model.markers()) {
     const std::string name = marker.name.substr(std::string("MARKER_").size());
     const bool is_left = model.FindMarker("MARKER_" + MirroredName(name)) >= 0 && name[0] == 'L';

@@ -18,9 +18,10 @@ KinematicModel ScaledReferenceModel(double height);
 std::vector<int> TrackedJoints(const KinematicModel& model);
 
 /// A person other than the model: every length off by up to 5 %, the same left and right; every
-/// marker off by 28 mm (rms per axis), of which one half of the variance mirrored left and right,
-/// as one hand puts them on.
-Subject DrawPerson(const KinematicModel& model, std::uint64_t seed);
+/// marker off by `marker_deviation` (rms per axis) [m], of which one half of the variance mirrored
+/// left and right, as one hand puts them on.
+Subject DrawPerson(const KinematicModel& model, std::uint64_t seed,
+                   double marker_deviation = 0.028);
 
 /// A range-of-motion trial at 100 Hz: every joint swings through the middle `share` of its range,
 /// each at a frequency of its own between 0.15 and 0.5 Hz, while the person turns slowly.

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Whether the standard deviations tell the size of the errors, over persons, as the errors of a
+// session are constant. Bounds are the project's targets.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/convert/converter_config.h"
+#include "common/motion/marker_synthesis.h"
+#include "common/motion/occlusion.h"
+#include "plugins/s2kf/s2kf_converter.h"
+#include "tests/plugins/s2kf/coverage.h"
+#include "tests/plugins/s2kf/session.h"
+#include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter::s2kf {
+namespace {
+
+constexpr int kFirstPerson = 101;
+constexpr int kPersons = 20;
+constexpr int kFrames = 300;
+constexpr int kSettled = 25;
+
+class DeviationsTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  S2kfSettings Settings() const {
+    return ReadSettings(ReadConverterConfig(
+        testing::SourcePath("xml_config/converters/" + std::string(GetParam()) + ".xml")));
+  }
+
+  PoseTrajectory Convert(const KinematicModel& model, const std::vector<int>& joints,
+                         const MarkerSequence& seen) const {
+    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), Settings())
+        .Convert(seen, {})
+        .trajectory;
+  }
+
+  static void ExpectHonest(const Coverage& coverage, const std::string& what) {
+    coverage.Print(what + ", " + GetParam());
+    EXPECT_GE(coverage.Of("joints").One(), 0.60);
+    EXPECT_LE(coverage.Of("joints").One(), 0.80);
+    EXPECT_GE(coverage.Of("joints").Two(), 0.90);
+    EXPECT_LE(coverage.Of("joints").Two(), 0.98);
+    for (const auto& [group, counts] : coverage.groups()) {
+      if (group == "joints") continue;
+      EXPECT_GE(counts.One(), 0.50) << group;
+      EXPECT_LE(counts.One(), 0.88) << group;
+      EXPECT_GE(counts.Two(), 0.85) << group;
+    }
+  }
+};
+
+TEST_P(DeviationsTest, Uncalibrated) {
+  Coverage coverage;
+  for (int seed = kFirstPerson; seed < kFirstPerson + kPersons; ++seed) {
+    const Session session(seed);
+    for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+      const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
+      coverage.Add(session.model, session.joints, named.motion,
+                   Convert(session.model, session.joints, seen), kSettled, seen.num_frames());
+    }
+  }
+  ExpectHonest(coverage, "uncalibrated");
+}
+
+// Then with the right arm hidden for 2 s, of which the arm counts, while hidden and in the 0.5 s
+// after.
+TEST_P(DeviationsTest, Calibrated) {
+  Coverage coverage;
+  Coverage hidden;
+  for (int seed = kFirstPerson; seed < kFirstPerson + kPersons; ++seed) {
+    const Session session(seed);
+    const KinematicModel known = session.Calibrate();
+    for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+      const MarkerSequence all = session.Record(named.motion);
+      const MarkerSequence seen = HideBlocks(all, seed);
+      coverage.Add(known, session.joints, named.motion, Convert(known, session.joints, seen),
+                   kSettled, seen.num_frames());
+      if (all.num_frames() < 290) continue;
+      const PoseTrajectory estimate =
+          Convert(known, session.joints, HideMarkers(all, RightArm(), 40, 240));
+      for (const char* joint : {"RS", "RE", "RW"}) {
+        hidden.Add(known, session.joints, named.motion, estimate, 40, 290, joint);
+      }
+    }
+  }
+  ExpectHonest(coverage, "calibrated");
+  ExpectHonest(hidden, "calibrated, an arm hidden for 2 s");
+}
+
+// The model is the person, and markers have nothing but the filter's own white noise.
+TEST_P(DeviationsTest, ExactBody) {
+  Coverage coverage;
+  const KinematicModel model = ScaledReferenceModel(1.8);
+  const std::vector<int> joints = testing::TrackedJoints(model);
+  for (int seed = kFirstPerson; seed < kFirstPerson + kPersons; ++seed) {
+    for (const NamedMotion& named : SessionMotions(model, kFrames, seed)) {
+      const MarkerErrors errors = {0, 0, 0.3, S2kfSettings{}.marker_deviation};
+      const MarkerSequence seen =
+          HideBlocks(SynthesizeMarkers(model, named.motion, errors, seed), seed);
+      coverage.Add(model, joints, named.motion, Convert(model, joints, seen), kSettled,
+                   seen.num_frames());
+    }
+  }
+  ExpectHonest(coverage, "exact body");
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, DeviationsTest, ::testing::Values("s2kf_default", "s2kf_offline"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace mmm_converter::s2kf
