@@ -31,6 +31,8 @@ bool IsSamePosture(const Posture& a, const Posture& b) {
          a.orientation.angularDistance(b.orientation) < kSameAngle && (apart < kSameAngle).all();
 }
 
+constexpr double kNeverAgain = 1e3;  // [s]
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -43,9 +45,11 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       tracker_(*tracker),
       root_(settings.root),
       chunk_(settings.smoothing_chunk),
+      clip_(FitOptions(settings).robust_distance),
       dt_(1 / recording.rate()),
       distances_(recording.num_frames()),
-      frame_(tracker->markers().kinematics()) {}
+      frame_(tracker->markers().kinematics()),
+      covariance_(tracker->markers().kinematics(), settings) {}
 
 void OfflineTracker::Keep(int k, const TrackState& state, const TrackedFrame& frame) {
   KeepCheckpoint(k, state);
@@ -62,6 +66,7 @@ void OfflineTracker::Smooth(ConversionResult* result) {
   FindRetakes(*result);
   if (!retakes_.empty()) TrackFromRetakes();
   SmoothBackwards(result);
+  ReportDeviations(result);
 }
 
 void OfflineTracker::Gather(int k) {
@@ -171,6 +176,33 @@ void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result
   result->trajectory.postures[k] = frame_.posture;
   result->trajectory.standard_deviations.col(k) = deviations_;
   result->residuals.col(k) = (frame_.measured - frame_.at.p_WM).colwise().norm().transpose();
+}
+
+void OfflineTracker::ReportDeviations(ConversionResult* result) {
+  const int frames = recording_.num_frames();
+  const Eigen::Index markers = result->residuals.rows();
+  Eigen::MatrixXd& deviations = result->trajectory.standard_deviations;
+  std::vector<int> next(markers, 0);  // frame in which each marker is seen, k or later
+  Eigen::VectorXd until(markers);     // that [s]
+  covariance_.Restart();
+  for (int k = 0; k < frames; ++k) {
+    const Clock::time_point start = Clock::now();
+    for (Eigen::Index m = 0; m < markers; ++m) {
+      int& look = next[m];
+      look = std::max(look, k);
+      while (look < frames && !(result->residuals(m, look) <= clip_)) ++look;
+      until[m] = look < frames ? (look - k) * dt_ : kNeverAgain;
+    }
+    Gather(k);
+    const Posture& q = result->trajectory.postures[k];
+    tracker_.markers().kinematics().ComputeMarkers(q.position, q.orientation.toRotationMatrix(),
+                                                   q.joint_angles, &frame_.at);
+    covariance_.Look(frame_.measured, frame_.at, dt_);
+    own_deviations_ = deviations.col(k);
+    covariance_.Compute(q.joint_angles, &frame_.at, &deviations_, &until, &own_deviations_);
+    deviations.col(k) = deviations_;
+    result->frames[k].seconds += SecondsSince(start);
+  }
 }
 
 }  // namespace mmm_converter::s2kf

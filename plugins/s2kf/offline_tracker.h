@@ -8,6 +8,7 @@
 #include "common/convert/motion_converter.h"
 #include "common/motion/marker_sequence.h"
 #include "plugins/s2kf/online_tracker.h"
+#include "plugins/s2kf/reported_covariance.h"
 #include "plugins/s2kf/s2kf_settings.h"
 #include "plugins/s2kf/track_state.h"
 #include "plugins/s2kf/tracked_frame.h"
@@ -52,12 +53,16 @@ class OfflineTracker {
   void Gather(int k);
   /// Whether a smoothed posture is about as near to each of the markers z as the filter's.
   bool IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed, const Belief& filtered);
+  /// Deviations as the belief has them, of white noise.
   void Write(int k, const Belief& belief, ConversionResult* result);
+  /// Replaces these by what is said of the postures (ReportedCovariance).
+  void ReportDeviations(ConversionResult* result);
 
   const MarkerSequence& recording_;
   OnlineTracker& tracker_;
   RootParameters root_;
   int chunk_;  // frames between checkpoints
+  double clip_;  // a farther marker is a wrong one [m]
   double dt_;  // [s]
   std::vector<Checkpoint> checkpoints_;
   std::vector<double> distances_;         // of all markers in each frame [m]
@@ -66,7 +71,9 @@ class OfflineTracker {
   std::map<int, Posture> retakes_;
   TrackedFrame frame_;
   Eigen::RowVectorXd distances_of_filter_;
+  ReportedCovariance covariance_;
   Eigen::VectorXd deviations_;
+  Eigen::VectorXd own_deviations_;
 };
 
 }  // namespace mmm_converter::s2kf

@@ -24,7 +24,8 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
       settings_(settings),
       markers_(setup),
       tracker_(markers_, settings),
-      frame_(markers_.kinematics()) {
+      frame_(markers_.kinematics()),
+      covariance_(markers_.kinematics(), settings) {
   deviations_.setZero(markers_.kinematics().num_dofs());
   estimate_.posture.joint_angles.setZero(setup.model->num_joints());
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
@@ -34,18 +35,22 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
 
 const FrameEstimate& S2kfConverter::Assemble(const Ref<const Matrix3Xd>& frame) {
   tracker_.Start(frame, &track_, &frame_);
-  FillEstimate();
+  covariance_.Restart();
+  FillEstimate(0);
   return estimate_;
 }
 
 const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, double dt) {
   tracker_.Track(frame, dt, &track_, &frame_);
-  FillEstimate();
+  FillEstimate(dt);
   return estimate_;
 }
 
-void S2kfConverter::FillEstimate() {
-  tracker_.filter().Deviations(track_.belief, &deviations_);
+void S2kfConverter::FillEstimate(double dt) {
+  if (!is_smoothed_) {
+    covariance_.Look(frame_.z, frame_.at, dt);
+    covariance_.Compute(frame_.posture.joint_angles, &frame_.at, &deviations_);
+  }
   estimate_.posture.position = frame_.posture.position;
   estimate_.posture.orientation = frame_.posture.orientation;
   estimate_.standard_deviations.head<6>() = deviations_.head<6>();
@@ -94,10 +99,12 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
     return MotionConverter::Convert(recording, progress);
   }
   OfflineTracker offline(recording, settings_, &tracker_);
+  is_smoothed_ = true;
   ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
     offline.Keep(done - 1, track_, frame_);
     return !progress || progress(done);
   });
+  is_smoothed_ = false;
   offline.Smooth(&result);
   Differentiate(&result.trajectory);
   return result;

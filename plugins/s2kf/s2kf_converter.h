@@ -6,6 +6,7 @@
 
 #include "common/convert/motion_converter.h"
 #include "plugins/s2kf/online_tracker.h"
+#include "plugins/s2kf/reported_covariance.h"
 #include "plugins/s2kf/s2kf_settings.h"
 
 namespace mmm_converter::s2kf {
@@ -24,7 +25,8 @@ class S2kfConverter : public MotionConverter {
                            const std::function<bool(int)>& progress) override;
 
  private:
-  void FillEstimate();
+  /// dt: since the last frame [s].
+  void FillEstimate(double dt);
   void FillVerdicts();
 
   S2kfSettings settings_;
@@ -32,6 +34,8 @@ class S2kfConverter : public MotionConverter {
   OnlineTracker tracker_;
   TrackState track_;
   TrackedFrame frame_;
+  ReportedCovariance covariance_;
+  bool is_smoothed_ = false;  // the deviations come later
   Eigen::VectorXd deviations_;
   FrameEstimate estimate_;
 };

@@ -69,6 +69,23 @@ void BindMotionModel(S2kfSettings* v, SettingTable* table) {
       "the recording most (maximum likelihood of its innovations)");
 }
 
+void BindDeviations(S2kfSettings* v, SettingTable* table) {
+  DeviationSettings* d = &v->deviations;
+  table->AddElement("Deviations",
+                    "What the written standard deviations are made of, beside the distances of "
+                    "markers and model, which tell most. The postures do not depend on it.");
+  table->Add("Deviations", "markerOffset_mm", &d->marker_offset, kMillimetre, 0, 1000,
+             "of each coordinate, between where a person wears a marker and where the model has "
+             "it; counts where there are too few markers to measure it");
+  table->Add("Deviations", "lengthShare", &d->length_share, 1, 0, 10,
+             "variance by which lengths of segments move markers unseen, as the posture takes it "
+             "up, over the variance of the markers' distances");
+  table->Add("Deviations", "jointSpread", &d->joint_spread, 1, 0.01, 1,
+             "of a joint that no marker shows, about the natural posture, in halves of its range");
+  table->Add("Deviations", "limbSpeed_m_per_s", &d->limb_speed, 1, 0, 100,
+             "of a marker while it is hidden: how fast what is known of its limb is lost");
+}
+
 }  // namespace
 
 SettingTable BindSettings(S2kfSettings* v) {
@@ -84,6 +101,7 @@ SettingTable BindSettings(S2kfSettings* v) {
   table.Add("Noise", "gateProbability", &v->gate_probability, 1, 0, 0.1,
             "a marker is left out, or exchanged with another, where a right one would be as far "
             "from its place with less than this probability in a frame (chi-square); 0: none is");
+  BindDeviations(v, &table);
   table.AddElement("Start", "The first posture, and the way back when the track is lost.");
   table.AddChoice("Start", "method", &v->start,
                   {{"fit", StartMethod::kFit}, {"paper", StartMethod::kPaper}},

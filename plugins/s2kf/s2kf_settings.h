@@ -23,6 +23,14 @@ enum class StartMethod {
   kPaper,  ///< root at the mean of the markers, everything else 0 [S15]
 };
 
+/// What standard deviations are made of beyond what the recording's residuals tell.
+struct DeviationSettings {
+  double marker_offset = 0.028;  ///< of a marker from the model's place [m], each coordinate
+  double length_share = 0.4;     ///< variance of lengths over that of what residuals show
+  double joint_spread = 0.45;    ///< of joints about the natural posture, in halves of their range
+  double limb_speed = 1;         ///< of a hidden marker [m/s]
+};
+
 /// All that a configuration can say to the S2KFConverter, at its defaults. SI units.
 struct S2kfSettings {
   FilterType filter = FilterType::kS2kf;
@@ -43,6 +51,7 @@ struct S2kfSettings {
   double marker_deviation = 0.005;
   double robust_distance = 0.1;
   double gate_probability = 1e-6;
+  DeviationSettings deviations;
 
   StartMethod start = StartMethod::kFit;
   int start_attempts = 4;

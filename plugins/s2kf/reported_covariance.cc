@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "plugins/s2kf/reported_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/math/dense.h"
+
+namespace mmm_converter::s2kf {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+// Offsets are constant, so a second of residuals tells their size; over it, posture changes which
+// of them show.
+constexpr double kMemory = 1;  // [s]
+// The expected size of offsets counts as one measured coordinate beside the residuals.
+constexpr double kPriorCoordinates = 1;
+// Deviations are computed so often [s]; at 100 Hz that costs 7 % of a frame's time in the mean.
+constexpr double kInterval = 0.075;
+// What the pull to the natural posture weighs against one look at the markers, as a deviation in
+// halves of a joint's range. The filter's pull has the information a / P, where a = dt q^2 / (2
+// s^2) is the share by which it goes back in a frame and P at most s^2: with q = 0.17, s = 0.15, dt
+// = 0.01 s that is 1.9^-2.
+constexpr double kPullDeviation = 2;
+constexpr double kLeastPull = 1e-4;
+// Where the root can be at all [m, rad].
+constexpr double kRootDeviation = 10;
+constexpr double kFarAway = 1e3;  // not seen yet [s]
+
+}  // namespace
+
+ReportedCovariance::ReportedCovariance(const MarkerKinematics& kinematics,
+                                       const S2kfSettings& settings)
+    : kinematics_(kinematics),
+      settings_(settings.deviations),
+      look_variance_(settings.marker_deviation * settings.marker_deviation),
+      // An object's model was made from its markers.
+      offset_(kinematics.num_joints() > 0 ? settings.deviations.marker_offset
+                                          : settings.marker_deviation),
+      clip_(settings.robust_distance > 0 ? settings.robust_distance
+                                         : std::numeric_limits<double>::infinity()),
+      unit_(VectorXd::Ones(kinematics.num_dofs())),
+      middle_(VectorXd::Zero(kinematics.num_joints())),
+      weights_(3 * kinematics.num_markers(), 1),
+      H_(kinematics.num_dofs(), kinematics.num_dofs()),
+      root_(kinematics.num_dofs(), kinematics.num_dofs()),
+      A_(kinematics.num_dofs(), kinematics.num_dofs()) {
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    const bool is_endless = kinematics.IsEndless(j);
+    const double lower = kinematics.lower()[j];
+    const double upper = kinematics.upper()[j];
+    unit_[6 + j] = is_endless ? std::numbers::pi : 0.5 * (upper - lower);
+    if (!is_endless) middle_[j] = 0.5 * (upper + lower);
+  }
+  kept_.setConstant(kinematics.num_dofs(), kNaN);
+  Restart();
+}
+
+void ReportedCovariance::Restart() {
+  last_residual_.setConstant(3, kinematics_.num_markers(), kNaN);
+  age_.setConstant(kinematics_.num_markers(), kFarAway);
+  frames_ = 0;
+  since_compute_ = 0;
+  squares_ = seen_ = step_squares_ = steps_ = 0;
+  fitted_ = kinematics_.num_dofs();
+}
+
+void ReportedCovariance::Look(const Matrix3Xd& z, const MarkerJacobian& at, double dt) {
+  double squares = 0;
+  double step_squares = 0;
+  int seen = 0;
+  int steps = 0;
+  for (Eigen::Index m = 0; m < z.cols(); ++m) {
+    const Vector3d r_W = z.col(m) - at.p_WM.col(m);
+    auto last = last_residual_.col(m);
+    // Comparisons with NaN are false.
+    if (!(r_W.squaredNorm() <= clip_ * clip_)) {
+      age_[m] += dt;
+      last.setConstant(kNaN);
+      continue;
+    }
+    const Vector3d r = at.R_WL[kinematics_.link_of_marker(static_cast<int>(m))].transpose() * r_W;
+    const double step = (r - last).squaredNorm();
+    if (std::isfinite(step)) {
+      step_squares += 0.5 * step;
+      steps += 3;
+    }
+    squares += r.squaredNorm();
+    seen += 3;
+    age_[m] = 0;
+    last = r;
+  }
+  ++frames_;
+  since_compute_ += dt;
+  const double gain = std::max(std::min(1.0, dt / kMemory), 1.0 / frames_);
+  squares_ += gain * (squares - squares_);
+  seen_ += gain * (seen - seen_);
+  step_squares_ += gain * (step_squares - step_squares_);
+  steps_ += gain * (steps - steps_);
+}
+
+void ReportedCovariance::EstimateVariances() {
+  const double open = std::max(0.0, seen_ - fitted_);
+  const double total =
+      (kPriorCoordinates * offset_ * offset_ + squares_) / (kPriorCoordinates + open);
+  double share = 0;  // that changes from frame to frame
+  if (steps_ > 0 && squares_ > 0) {
+    share = std::min(1.0, (step_squares_ / steps_) / (squares_ / seen_));
+  }
+  white_ = share * total;
+  slow_ = (1 - share) * total * (1 + settings_.length_share);
+}
+
+void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
+                                MarkerJacobian* at) {
+  const double variance = slow_ + white_share * white_;
+  const int n = kinematics_.num_dofs();
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    const double age = until_look ? std::min(age_[m], (*until_look)[m]) : age_[m];
+    const double way = settings_.limb_speed * age;
+    weights_.view().col(0).segment<3>(3 * m).setConstant(1 / (variance + way * way));
+  }
+  pull_ = std::max(kLeastPull, look_variance_ / (variance * kPullDeviation * kPullDeviation));
+  H_.SetZero();
+  AddWeightedSquare(at->J_transposed, weights_, &H_);
+  auto H = H_.view();
+  for (int j = 0; j < n; ++j) {
+    for (int i = j; i < n; ++i) H(i, j) *= unit_[i] * unit_[j];
+    H(j, j) += j < 6 ? 1 / (kRootDeviation * kRootDeviation) : pull_;
+  }
+  Factorize(&H_);
+  root_.SetIdentity();
+  DivideByTransposed(H_, &root_);
+  A_.SetZero();
+  AddSquare(1, root_, &A_);
+  auto A = A_.view();
+  A.triangularView<Eigen::StrictlyUpper>() = A.transpose();
+  fitted_ = n - pull_ * A.diagonal().tail(n - 6).sum();
+}
+
+double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
+  const auto A = A_.view();
+  const double spread = settings_.joint_spread;
+  const double drawn = A.col(i).tail(A.rows() - 6).squaredNorm();
+  const double variance = A(i, i) - pull_ * (1 - pull_ * spread * spread) * drawn;
+  if (i < 6) return variance;
+  if (kinematics_.IsEndless(i - 6)) return variance * unit_[i] * unit_[i];
+  // Nor can it be farther off than an angle that is anywhere in the range.
+  const double from_middle = (angles[i - 6] - middle_[i - 6]) / unit_[i];
+  const double anywhere = 1.0 / 3 + from_middle * from_middle;
+  return variance * anywhere / (variance + anywhere) * unit_[i] * unit_[i];
+}
+
+double ReportedCovariance::ShareOf(const VectorXd& own) const {
+  const auto A = A_.view();
+  const double look = look_variance_ / (slow_ + white_);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < own.size(); ++i) {
+    const double of_look = look * A(i, i) * unit_[i] * unit_[i];
+    sum += std::min(1.0, own[i] * own[i] / of_look);
+  }
+  return sum / static_cast<double>(own.size());
+}
+
+void ReportedCovariance::Compute(const VectorXd& angles, MarkerJacobian* at, VectorXd* deviations,
+                                 const VectorXd* until_look, const VectorXd* own) {
+  if (frames_ > 2 && since_compute_ < kInterval) {
+    *deviations = kept_;
+    return;
+  }
+  since_compute_ = 0;
+  EstimateVariances();
+  kinematics_.ComputeJacobian(at);
+  Invert(until_look, 1, at);
+  if (own != nullptr) Invert(until_look, ShareOf(*own), at);
+  for (int i = 0; i < kinematics_.num_dofs(); ++i) kept_[i] = std::sqrt(VarianceOf(i, angles));
+  *deviations = kept_;
+}
+
+}  // namespace mmm_converter::s2kf

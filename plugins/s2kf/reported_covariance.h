@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/math/padded_matrix.h"
+#include "common/model/marker_kinematics.h"
+#include "plugins/s2kf/s2kf_settings.h"
+
+namespace mmm_converter::s2kf {
+
+/// How sure an estimate is, which the covariance of a filter with white noise does not tell: a
+/// marker sits beside the model's place throughout a session, its soft tissue moves slowly, lengths
+/// of segments are others, and none of that averages out over frames. The covariance is therefore
+/// that of one look at the markers,
+///   P = A (J^T C^-1 J + N S N) A,   A = (J^T C^-1 J + N)^-1,
+/// with J the Jacobian at the estimate, C the variance of a marker's place, measured by the
+/// residuals; N what draws the estimate to the natural posture, S how far joints are from that.
+/// Joints are angles in halves of their range, so that a limit is no certainty.
+///
+/// Frame by frame: Look, then Compute. Nothing is allocated after construction.
+class ReportedCovariance {
+ public:
+  /// kinematics must outlive the object.
+  ReportedCovariance(const MarkerKinematics& kinematics, const S2kfSettings& settings);
+
+  /// Another recording.
+  void Restart();
+
+  /// Takes in the frame dt [s] after the last. z: 3 x markers [m], NaN = not seen or wrong; at: the
+  /// estimate's markers and links.
+  void Look(const Eigen::Matrix3Xd& z, const MarkerJacobian& at, double dt);
+
+  /// Standard deviations of [root position; root rotation; joint angles], num_dofs [m, rad]. In
+  /// between it says again what it said, as deviations change slowly. angles: the estimate's; at:
+  /// its markers and links, gets its Jacobian.
+  ///  - until_look: nullptr, or per marker the time until it is seen next [s].
+  ///  - own: nullptr, or what the estimator leaves of white noise, which it averages.
+  void Compute(const Eigen::VectorXd& angles, MarkerJacobian* at, Eigen::VectorXd* deviations,
+               const Eigen::VectorXd* until_look = nullptr, const Eigen::VectorXd* own = nullptr);
+
+  /// Variance of a marker's place, each coordinate: what is constant or slow, and white noise
+  /// [m^2].
+  double slow_variance() const { return slow_; }
+  double white_variance() const { return white_; }
+
+ private:
+  void EstimateVariances();
+  void Invert(const Eigen::VectorXd* until_look, double white_share, MarkerJacobian* at);
+  /// The mean share of one look's white noise that an estimator leaves.
+  double ShareOf(const Eigen::VectorXd& own) const;
+  double VarianceOf(int i, const Eigen::VectorXd& angles) const;
+
+  const MarkerKinematics& kinematics_;
+  DeviationSettings settings_;
+  double look_variance_;    // that the filter's natural pull is meant for [m^2]
+  double offset_;           // of a marker from its place before any residual was seen [m]
+  double clip_;             // a farther marker is a wrong one [m]
+  Eigen::VectorXd unit_;    // of each state: 1, or half the range of a joint
+  Eigen::VectorXd middle_;  // of the joints' ranges
+
+  // Of the recording:
+  Eigen::Matrix3Xd last_residual_;  // link axes; NaN: not seen
+  Eigen::VectorXd age_;             // since the last look [s]
+  int frames_ = 0;
+  double since_compute_ = 0;  // [s]
+  double squares_ = 0;        // running means: of residuals, a frame
+  double seen_ = 0;           // coordinates, a frame
+  double step_squares_ = 0;   // of halves of squared differences of successive residuals
+  double steps_ = 0;          // coordinates, a frame
+  double fitted_ = 0;         // coordinates that the posture takes up
+  double slow_ = 0;
+  double white_ = 0;
+
+  Eigen::VectorXd kept_;  // the latest deviations
+  double pull_ = 0;       // N
+  PaddedMatrix weights_;  // C^-1
+  PaddedMatrix H_;
+  PaddedMatrix root_;
+  PaddedMatrix A_;
+};
+
+}  // namespace mmm_converter::s2kf
