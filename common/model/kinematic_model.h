@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct ModelMarker {
   std::string name;
   int segment = 0;
   Eigen::Vector3d p_SM = Eigen::Vector3d::Zero();  ///< [m]
+  /// Of each coordinate of p_SM from where the person wears it, where that was estimated [m].
+  std::optional<double> deviation = {};
 };
 
 /// What a model file contains, before it is made a KinematicModel.

@@ -52,6 +52,7 @@ KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject
       unknown.push_back(offset.marker);
     } else {
       fitted.markers[index].p_SM += offset.offset;
+      fitted.markers[index].deviation = Deviation(offset);
     }
   }
   if (!unknown.empty()) {

@@ -56,7 +56,7 @@ double Deviation(const MarkerOffset& offset);
 
 /// The model of the person: `scaled` (by ScaleWinter) with the translation, centre of mass and
 /// markers of each named segment times its scale, inertia times its square, and each named marker
-/// moved by its offset. Joints, limits and masses stay as they are.
+/// moved by its offset, of which it gets the deviation. Joints, limits and masses stay as they are.
 /// @throws Error naming the segments and markers that the model does not have.
 KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject);
 

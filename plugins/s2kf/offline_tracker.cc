@@ -49,7 +49,7 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       dt_(1 / recording.rate()),
       distances_(recording.num_frames()),
       frame_(tracker->markers().kinematics()),
-      covariance_(tracker->markers().kinematics(), settings) {}
+      covariance_(tracker->markers(), settings) {}
 
 void OfflineTracker::Keep(int k, const TrackState& state, const TrackedFrame& frame) {
   KeepCheckpoint(k, state);

@@ -20,7 +20,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Offsets are constant, so a second of residuals tells their size; over it, posture changes which
 // of them show.
 constexpr double kMemory = 1;  // [s]
-// The expected size of offsets counts as one measured coordinate beside the residuals.
+// What is expected before counts as one measured coordinate beside the residuals.
 constexpr double kPriorCoordinates = 1;
 // Deviations are computed so often [s]; at 100 Hz that costs 7 % of a frame's time in the mean.
 constexpr double kInterval = 0.075;
@@ -36,31 +36,39 @@ constexpr double kFarAway = 1e3;  // not seen yet [s]
 
 }  // namespace
 
-ReportedCovariance::ReportedCovariance(const MarkerKinematics& kinematics,
-                                       const S2kfSettings& settings)
-    : kinematics_(kinematics),
+ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kfSettings& settings)
+    : kinematics_(markers.kinematics()),
+      place_deviation_(markers.place_deviation()),
       settings_(settings.deviations),
       look_variance_(settings.marker_deviation * settings.marker_deviation),
-      // An object's model was made from its markers.
-      offset_(kinematics.num_joints() > 0 ? settings.deviations.marker_offset
-                                          : settings.marker_deviation),
+      prior_variance_(PriorVariance(settings)),
       clip_(settings.robust_distance > 0 ? settings.robust_distance
                                          : std::numeric_limits<double>::infinity()),
-      unit_(VectorXd::Ones(kinematics.num_dofs())),
-      middle_(VectorXd::Zero(kinematics.num_joints())),
-      weights_(3 * kinematics.num_markers(), 1),
-      H_(kinematics.num_dofs(), kinematics.num_dofs()),
-      root_(kinematics.num_dofs(), kinematics.num_dofs()),
-      A_(kinematics.num_dofs(), kinematics.num_dofs()) {
-  for (int j = 0; j < kinematics.num_joints(); ++j) {
-    const bool is_endless = kinematics.IsEndless(j);
-    const double lower = kinematics.lower()[j];
-    const double upper = kinematics.upper()[j];
+      unit_(VectorXd::Ones(kinematics_.num_dofs())),
+      middle_(VectorXd::Zero(kinematics_.num_joints())),
+      weights_(3 * kinematics_.num_markers(), 1),
+      H_(kinematics_.num_dofs(), kinematics_.num_dofs()),
+      root_(kinematics_.num_dofs(), kinematics_.num_dofs()),
+      A_(kinematics_.num_dofs(), kinematics_.num_dofs()) {
+  for (int j = 0; j < kinematics_.num_joints(); ++j) {
+    const bool is_endless = kinematics_.IsEndless(j);
+    const double lower = kinematics_.lower()[j];
+    const double upper = kinematics_.upper()[j];
     unit_[6 + j] = is_endless ? std::numbers::pi : 0.5 * (upper - lower);
     if (!is_endless) middle_[j] = 0.5 * (upper + lower);
   }
-  kept_.setConstant(kinematics.num_dofs(), kNaN);
+  kept_.setConstant(kinematics_.num_dofs(), kNaN);
   Restart();
+}
+
+double ReportedCovariance::PriorVariance(const S2kfSettings& settings) const {
+  // An object's model was made from its markers.
+  const double offset = settings.deviations.marker_offset;
+  const double unknown = kinematics_.num_joints() > 0 ? offset * offset : look_variance_;
+  return place_deviation_.array()
+      .isNaN()
+      .select(unknown, VectorXd::Constant(place_deviation_.size(), look_variance_))
+      .mean();
 }
 
 void ReportedCovariance::Restart() {
@@ -109,25 +117,31 @@ void ReportedCovariance::Look(const Matrix3Xd& z, const MarkerJacobian& at, doub
 void ReportedCovariance::EstimateVariances() {
   const double open = std::max(0.0, seen_ - fitted_);
   const double total =
-      (kPriorCoordinates * offset_ * offset_ + squares_) / (kPriorCoordinates + open);
+      (kPriorCoordinates * prior_variance_ + squares_) / (kPriorCoordinates + open);
   double share = 0;  // that changes from frame to frame
   if (steps_ > 0 && squares_ > 0) {
     share = std::min(1.0, (step_squares_ / steps_) / (squares_ / seen_));
   }
   white_ = share * total;
-  slow_ = (1 - share) * total * (1 + settings_.length_share);
+  slow_ = (1 - share) * total;
 }
 
 void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
                                 MarkerJacobian* at) {
-  const double variance = slow_ + white_share * white_;
   const int n = kinematics_.num_dofs();
-  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+  const int num_markers = kinematics_.num_markers();
+  variance_ = 0;
+  for (int m = 0; m < num_markers; ++m) {
+    const double place = place_deviation_[m];
+    const double hidden_from_residuals =
+        std::isnan(place) ? settings_.length_share * slow_ : place * place;
+    const double variance = slow_ + hidden_from_residuals + white_share * white_;
     const double age = until_look ? std::min(age_[m], (*until_look)[m]) : age_[m];
     const double way = settings_.limb_speed * age;
     weights_.view().col(0).segment<3>(3 * m).setConstant(1 / (variance + way * way));
+    variance_ += variance / num_markers;
   }
-  pull_ = std::max(kLeastPull, look_variance_ / (variance * kPullDeviation * kPullDeviation));
+  pull_ = std::max(kLeastPull, look_variance_ / (variance_ * kPullDeviation * kPullDeviation));
   H_.SetZero();
   AddWeightedSquare(at->J_transposed, weights_, &H_);
   auto H = H_.view();
@@ -160,7 +174,7 @@ double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
 
 double ReportedCovariance::ShareOf(const VectorXd& own) const {
   const auto A = A_.view();
-  const double look = look_variance_ / (slow_ + white_);
+  const double look = look_variance_ / variance_;
   double sum = 0;
   for (Eigen::Index i = 0; i < own.size(); ++i) {
     const double of_look = look * A(i, i) * unit_[i] * unit_[i];

@@ -6,6 +6,7 @@
 #include "common/math/padded_matrix.h"
 #include "common/model/marker_kinematics.h"
 #include "plugins/s2kf/s2kf_settings.h"
+#include "plugins/s2kf/tracked_markers.h"
 
 namespace mmm_converter::s2kf {
 
@@ -21,8 +22,8 @@ namespace mmm_converter::s2kf {
 /// Frame by frame: Look, then Compute. Nothing is allocated after construction.
 class ReportedCovariance {
  public:
-  /// kinematics must outlive the object.
-  ReportedCovariance(const MarkerKinematics& kinematics, const S2kfSettings& settings);
+  /// markers must outlive the object.
+  ReportedCovariance(const TrackedMarkers& markers, const S2kfSettings& settings);
 
   /// Another recording.
   void Restart();
@@ -45,6 +46,7 @@ class ReportedCovariance {
   double white_variance() const { return white_; }
 
  private:
+  double PriorVariance(const S2kfSettings& settings) const;
   void EstimateVariances();
   void Invert(const Eigen::VectorXd* until_look, double white_share, MarkerJacobian* at);
   /// The mean share of one look's white noise that an estimator leaves.
@@ -52,9 +54,10 @@ class ReportedCovariance {
   double VarianceOf(int i, const Eigen::VectorXd& angles) const;
 
   const MarkerKinematics& kinematics_;
+  const Eigen::VectorXd& place_deviation_;
   DeviationSettings settings_;
   double look_variance_;    // that the filter's natural pull is meant for [m^2]
-  double offset_;           // of a marker from its place before any residual was seen [m]
+  double prior_variance_;   // of markers' places before any residual was seen [m^2]
   double clip_;             // a farther marker is a wrong one [m]
   Eigen::VectorXd unit_;    // of each state: 1, or half the range of a joint
   Eigen::VectorXd middle_;  // of the joints' ranges
@@ -73,6 +76,7 @@ class ReportedCovariance {
   double white_ = 0;
 
   Eigen::VectorXd kept_;  // the latest deviations
+  double variance_ = 0;   // mean of C, were all markers seen [m^2]
   double pull_ = 0;       // N
   PaddedMatrix weights_;  // C^-1
   PaddedMatrix H_;

@@ -25,7 +25,7 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
       markers_(setup),
       tracker_(markers_, settings),
       frame_(markers_.kinematics()),
-      covariance_(markers_.kinematics(), settings) {
+      covariance_(markers_, settings) {
   deviations_.setZero(markers_.kinematics().num_dofs());
   estimate_.posture.joint_angles.setZero(setup.model->num_joints());
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);

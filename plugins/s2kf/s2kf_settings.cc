@@ -75,11 +75,12 @@ void BindDeviations(S2kfSettings* v, SettingTable* table) {
                     "What the written standard deviations are made of, beside the distances of "
                     "markers and model, which tell most. The postures do not depend on it.");
   table->Add("Deviations", "markerOffset_mm", &d->marker_offset, kMillimetre, 0, 1000,
-             "of each coordinate, between where a person wears a marker and where the model has "
-             "it; counts where there are too few markers to measure it");
+             "of a person who was not calibrated: of each coordinate, between where a marker is "
+             "worn and where the model has it; counts where too few markers are seen to tell");
   table->Add("Deviations", "lengthShare", &d->length_share, 1, 0, 10,
-             "variance by which lengths of segments move markers unseen, as the posture takes it "
-             "up, over the variance of the markers' distances");
+             "of a person who was not calibrated: variance by which lengths of segments move "
+             "markers, as far as the posture takes it up, over the variance that the markers' "
+             "distances show");
   table->Add("Deviations", "jointSpread", &d->joint_spread, 1, 0.01, 1,
              "of a joint that no marker shows, about the natural posture, in halves of its range");
   table->Add("Deviations", "limbSpeed_m_per_s", &d->limb_speed, 1, 0, 100,

@@ -11,7 +11,13 @@ using Eigen::Ref;
 TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
     : kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
       labels_(LabelIndices(setup.assignments())),
-      noise_scale_(NoiseScales(setup.assignments())) {}
+      noise_scale_(NoiseScales(setup.assignments())),
+      place_deviation_(noise_scale_.size()) {
+  for (Eigen::Index m = 0; m < place_deviation_.size(); ++m) {
+    const ModelMarker& marker = setup.model->markers()[kinematics_.markers()[m]];
+    place_deviation_[m] = marker.deviation.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+}
 
 int TrackedMarkers::Gather(const Ref<const Matrix3Xd>& frame, Matrix3Xd* measured) const {
   int seen = 0;

@@ -19,6 +19,9 @@ class TrackedMarkers {
   /// Factor on a marker's standard deviation.
   const Eigen::VectorXd& noise_scale() const { return noise_scale_; }
 
+  /// Of each coordinate of a marker's place on the person, NaN where that was not estimated [m].
+  const Eigen::VectorXd& place_deviation() const { return place_deviation_; }
+
   /// measured: the markers in a frame of labels, 3 x markers [m]; all NaN where not seen. Returns
   /// how many are seen.
   int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, Eigen::Matrix3Xd* measured) const;
@@ -27,6 +30,7 @@ class TrackedMarkers {
   MarkerKinematics kinematics_;
   std::vector<LabelIx> labels_;
   Eigen::VectorXd noise_scale_;
+  Eigen::VectorXd place_deviation_;
 };
 
 }  // namespace mmm_converter::s2kf
