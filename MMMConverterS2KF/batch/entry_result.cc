@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/report/conversion_figures.h"
+#include "MMMConverterS2KF/conversion/conversion_figures.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/units.h"
 
 namespace mmm_converter {
@@ -29,8 +30,16 @@ std::string ParseText(const Json& json) {
   return json.is_null() ? std::string() : json.get<std::string>();
 }
 
+Verdict ParseVerdict(const Json& json) {
+  Verdict verdict;
+  verdict.level = ParseVerdictLevel(json.at("level").get<std::string>());
+  verdict.reasons = json.at("reasons").get<std::vector<std::string>>();
+  return verdict;
+}
+
 EntryFigures ParseFigures(const Json& json) {
   EntryFigures figures;
+  figures.verdict = ParseVerdict(json.at("verdict"));
   figures.frames = json.at("frames").get<int>();
   figures.rate = ParseNumber(json.at("rate_hz"));
   figures.height = ParseNumber(json.at("height_m"));
@@ -65,6 +74,7 @@ EntryFigures ParseFigures(const Json& json) {
 EntryResult Converted(const ConversionReport& report, double seconds) {
   const ConversionFigures measured = MeasureConversion(report);
   EntryFigures figures;
+  figures.verdict = report.verdict;
   figures.frames = report.input.recording.markers.num_frames();
   figures.rate = report.input.recording.markers.rate();
   TakePerson(report, &figures);
@@ -106,6 +116,7 @@ Json ToJson(const EntryResult& result) {
   return {
       {"state", "converted"},
       {"reason", nullptr},
+      {"verdict", ToJson(figures.verdict)},
       {"frames", figures.frames},
       {"rate_hz", figures.rate},
       {"height_m", Number(figures.height)},

@@ -16,6 +16,7 @@ namespace mmm_converter {
 struct EntryFigures {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+  Verdict verdict;
   int frames = 0;
   double rate = 0;        ///< [Hz]
   double height = kNone;  ///< [m]

@@ -37,8 +37,10 @@ class ResultsWriter {
     std::vector<Json> lines;
     for (std::size_t i = 0; i < current_.size(); ++i) {
       rows.push_back(Row(manifest_.entries[i], current_[i]));
-      lines.push_back(ToJson(rows.back()));
     }
+    SortByVerdict(&rows);
+    lines.reserve(rows.size());
+    for (const ResultRow& row : rows) lines.push_back(ToJson(row));
     WriteFileAtomically(folder_.Full("results.jsonl"), [&](const TextSink& sink) {
       for (const Json& line : lines) sink(FormatJsonLine(line) + "\n");
     });
@@ -73,16 +75,19 @@ class ResultsWriter {
     return {&entry, record->result, MotionPath(entry.id), folder_.Has(page) ? page : ""};
   }
 
-  // Those with the largest mean distance, the largest first.
+  // By verdict, then those with the largest mean distance first.
   std::vector<const BatchEntry*> Worst() const {
-    std::vector<std::pair<double, const BatchEntry*>> entries;
+    using Badness = std::pair<int, double>;
+    std::vector<std::pair<Badness, const BatchEntry*>> entries;
     for (std::size_t i = 0; i < current_.size(); ++i) {
       if (current_[i] == nullptr || !current_[i]->result.converted()) continue;
-      const double mean = current_[i]->result.figures->mean_mm;
-      entries.emplace_back(std::isnan(mean) ? 0 : -mean, &manifest_.entries[i]);
+      const EntryFigures& figures = *current_[i]->result.figures;
+      const double mean = std::isnan(figures.mean_mm) ? 0 : figures.mean_mm;
+      entries.emplace_back(Badness(static_cast<int>(figures.verdict.level), mean),
+                           &manifest_.entries[i]);
     }
     std::stable_sort(entries.begin(), entries.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<const BatchEntry*> worst;
     const std::size_t count = std::min<std::size_t>(entries.size(), options_.reports.worst);
     for (std::size_t i = 0; i < count; ++i) worst.push_back(entries[i].second);
@@ -152,6 +157,16 @@ Json ToJson(const ResultRow& row) {
   return line;
 }
 
+void SortByVerdict(std::vector<ResultRow>* rows) {
+  const auto place = [](const ResultRow& row) {
+    if (!row.result || !row.result->converted())
+      return -1 - static_cast<int>(Verdict::Level::kFailed);
+    return -static_cast<int>(row.result->figures->verdict.level);
+  };
+  std::stable_sort(rows->begin(), rows->end(),
+                   [&](const ResultRow& a, const ResultRow& b) { return place(a) < place(b); });
+}
+
 BatchResults Summarize(const std::vector<ResultRow>& rows) {
   BatchResults sum;
   double distance = 0;
@@ -167,6 +182,9 @@ BatchResults Summarize(const std::vector<ResultRow>& rows) {
     }
     const EntryFigures& figures = *row.result->figures;
     ++sum.converted;
+    sum.good += figures.verdict.level == Verdict::Level::kGood ? 1 : 0;
+    sum.to_check += figures.verdict.level == Verdict::Level::kCheck ? 1 : 0;
+    sum.judged_failed += figures.verdict.level == Verdict::Level::kFailed ? 1 : 0;
     sum.frames += figures.frames;
     if (figures.rate > 0) sum.recorded_seconds += figures.frames / figures.rate;
     if (!std::isnan(figures.mean_mm)) distance += figures.frames * figures.mean_mm;

@@ -13,6 +13,7 @@ namespace mmm_converter {
 /// The whole manifest's results, as the journals of the output folder have them.
 struct BatchResults {
   int converted = 0, failed = 0, missing = 0;
+  int good = 0, to_check = 0, judged_failed = 0;  ///< of the converted, by verdict
   long frames = 0;
   double recorded_seconds = 0;  ///< length of all recordings
   double seconds = 0;           ///< spent on them, over all jobs
@@ -31,6 +32,10 @@ struct ResultRow {
   std::optional<EntryResult> result;  ///< empty: was not converted yet
   std::string motion, report;
 };
+
+/// What needs a look first: what was not converted, then by verdict, the worst first; else as they
+/// are.
+void SortByVerdict(std::vector<ResultRow>* rows);
 
 /// A line of results.jsonl; README.md says what is in it.
 Json ToJson(const ResultRow& row);

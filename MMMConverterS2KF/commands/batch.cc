@@ -148,6 +148,8 @@ std::string DescribeResults(const BatchManifest& manifest, const BatchOptions& o
                     FormatDuration(results.recorded_seconds), results.frames,
                     results.recorded_seconds / std::max(results.seconds, 1e-3));
     text += fmt::format("distance   mean {:.1f} mm over all frames\n", results.mean_distance_mm);
+    text += fmt::format("verdicts   {} good, {} to check, {} failed\n", results.good,
+                        results.to_check, results.judged_failed);
   }
   return text + fmt::format("results    {}\n", index.string());
 }

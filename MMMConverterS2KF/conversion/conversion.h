@@ -9,6 +9,7 @@
 #include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/conversion/object.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/conversion/verdict.h"
 #include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
@@ -51,6 +52,7 @@ struct ConversionPlan {
 struct ConversionReport : ConversionPlan {
   std::optional<CalibrationResult> calibration;  ///< of this recording
   ConversionResult result;
+  Verdict verdict;
 };
 
 /// Reads the recording, the model and the configuration, matches the markers and finds the person.

@@ -29,7 +29,7 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
 }
 
 PersonValue Estimate(const TrackingSetup& setup, const MarkerSequence& markers) {
-  const HeightEstimate estimate = EstimateHeight(setup, markers);
+  const HeightEstimate estimate = EstimateHeight(setup, *setup.model, markers);
   return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
 }
 
@@ -99,7 +99,10 @@ Person Find(const PersonRequest& request, const KinematicModel& reference,
     return person;
   }
   TakeNumbers(request, processor, recording, &person);
-  if (person.height.source.empty()) person.height = estimate_height();
+  if (person.height.source.empty()) {
+    person.height = estimate_height();
+    person.is_height_estimated = true;
+  }
   return person;
 }
 

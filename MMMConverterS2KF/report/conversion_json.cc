@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
+#include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
-#include "MMMConverterS2KF/report/conversion_figures.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "MMMConverterS2KF/report/units.h"
@@ -25,6 +25,8 @@ Json DescribeInput(const ConversionReport& report) {
           {"unit", recording.unit},
           {"unit_guessed", recording.unit_was_guessed},
           {"up_axis", Name(recording.up_axis)},
+          {"up_axis_stated",
+           recording.stated_up_axis ? Json(Name(*recording.stated_up_axis)) : Json(nullptr)},
           {"up_axis_decided_from_markers", recording.up_axis_was_decided},
           {"first_frame", report.input.first_frame},
           {"labels", recording.markers.labels()}};
@@ -96,10 +98,15 @@ Json SubjectJson(const ConversionReport& report) {
 
 }  // namespace
 
+Json ToJson(const Verdict& verdict) {
+  return {{"level", Name(verdict.level)}, {"reasons", verdict.reasons}};
+}
+
 Json ToJson(const ConversionReport& report) {
   const MarkerSequence& markers = report.input.recording.markers;
   const ConversionFigures figures = MeasureConversion(report);
   return {
+      {"verdict", ToJson(report.verdict)},
       {"input", DescribeInput(report)},
       {"frames", markers.num_frames()},
       {"rate_hz", markers.rate()},

@@ -12,6 +12,10 @@
 namespace mmm_converter {
 namespace {
 
+std::string DescribeForPage(const Verdict& verdict) {
+  return fmt::format("Verdict: {}.", DescribeVerdict(verdict));
+}
+
 // What a page says of the calibration; empty: there was none.
 std::string DescribeCalibration(const ConversionReport& report) {
   if (!report.calibration) return "";
@@ -46,7 +50,9 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
   sections.reserve(reports.size());
   for (const ConversionReport* report : reports) {
     comparisons.push_back(MakeComparison(*report));
-    sections.push_back({report->motion_name, DescribeCalibration(*report), &comparisons.back()});
+    sections.push_back({report->motion_name,
+                        DescribeForPage(report->verdict) + "\n\n" + DescribeCalibration(*report),
+                        &comparisons.back()});
   }
   const std::string title =
       reports.size() == 1

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
-#include "MMMConverterS2KF/report/conversion_figures.h"
 #include "MMMConverterS2KF/report/units.h"
 #include "common/support/text.h"
 
@@ -136,7 +136,7 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
                       report.motion_name);
   text += DescribeSubjectOutput(report);
-  return text;
+  return text + fmt::format("verdict    {}\n", DescribeVerdict(report.verdict));
 }
 
 }  // namespace mmm_converter

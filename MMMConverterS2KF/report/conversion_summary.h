@@ -8,10 +8,13 @@
 
 namespace mmm_converter {
 
-/// A conversion in a dozen lines, for people.
+/// A conversion in a dozen lines, for people; the last is the verdict.
 std::string FormatSummary(const ConversionReport& report);
 
 /// The same as JSON; README.md says what is in it.
 Json ToJson(const ConversionReport& report);
+
+/// {"level", "reasons"}.
+Json ToJson(const Verdict& verdict);
 
 }  // namespace mmm_converter

@@ -45,9 +45,10 @@ TrackingSetup MatchMarkers(const MarkerLabels& labels,
   return setup;
 }
 
-HeightEstimate EstimateHeight(const TrackingSetup& setup, const MarkerSequence& recording) {
-  return EstimateHeight(*setup.model, setup.joints, MarkerIndices(setup.assignments()),
-                        LabelIndices(setup.assignments()), recording);
+HeightEstimate EstimateHeight(const TrackingSetup& setup, const KinematicModel& reference,
+                              const MarkerSequence& recording, const std::vector<Posture>* track) {
+  return EstimateHeight(reference, setup.joints, MarkerIndices(setup.assignments()),
+                        LabelIndices(setup.assignments()), recording, track);
 }
 
 KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person) {

@@ -43,9 +43,12 @@ TrackingSetup MatchMarkers(const MarkerLabels& labels,
 void WarnOfFreeJoints(const TrackingSetup& setup, const ConverterConfig& config,
                       Warnings* warnings);
 
-/// EstimateHeight with the joints and markers of a setup that MatchMarkers made.
+/// EstimateHeight with the joints and markers of a setup; reference: the model before it was
+/// scaled.
 /// @throws Error where no frame shows at least ten of the markers.
-HeightEstimate EstimateHeight(const TrackingSetup& setup, const MarkerSequence& recording);
+HeightEstimate EstimateHeight(const TrackingSetup& setup, const KinematicModel& reference,
+                              const MarkerSequence& recording,
+                              const std::vector<Posture>* track = nullptr);
 
 /// The reference by ScaleWinter and FitToSubject. @throws Error as these.
 KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person);

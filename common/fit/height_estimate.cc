@@ -31,7 +31,8 @@ struct FittedFrame {
 
 /// One frame out of each of kFrames equal parts of the recording.
 std::vector<FittedFrame> ChooseFrames(const std::vector<LabelIx>& labels,
-                                      const MarkerSequence& recording) {
+                                      const MarkerSequence& recording,
+                                      const std::vector<Posture>* track) {
   std::vector<FittedFrame> frames;
   for (int part = 0; part < kFrames; ++part) {
     const long n = recording.num_frames();
@@ -48,7 +49,9 @@ std::vector<FittedFrame> ChooseFrames(const std::vector<LabelIx>& labels,
         best = k;
       }
     }
-    if (best >= 0) frames.push_back({recording.frame(best)(Eigen::all, labels), {}});
+    if (best < 0) continue;
+    const Posture start = track == nullptr ? Posture() : (*track)[static_cast<std::size_t>(best)];
+    frames.push_back({recording.frame(best)(Eigen::all, labels), start});
   }
   return frames;
 }
@@ -57,8 +60,9 @@ std::vector<FittedFrame> ChooseFrames(const std::vector<LabelIx>& labels,
 
 HeightEstimate EstimateHeight(const KinematicModel& reference, const std::vector<int>& joints,
                               const std::vector<MarkerIx>& markers,
-                              const std::vector<LabelIx>& labels, const MarkerSequence& recording) {
-  std::vector<FittedFrame> frames = ChooseFrames(labels, recording);
+                              const std::vector<LabelIx>& labels, const MarkerSequence& recording,
+                              const std::vector<Posture>* track) {
+  std::vector<FittedFrame> frames = ChooseFrames(labels, recording, track);
   if (frames.empty()) {
     throw Error("the body height can't be estimated: no frame shows at least " +
                     std::to_string(kLeastMarkers) + " mapped markers; give it",

@@ -15,12 +15,17 @@ constexpr const char* kAxisNames[] = {"+x", "+y", "+z", "-x", "-y", "-z"};
 
 const char* Name(UpAxis axis) { return kAxisNames[static_cast<int>(axis)]; }
 
-UpAxis ParseUpAxis(const std::string& text) {
+std::optional<UpAxis> StatedUpAxis(const std::string& text) {
   const std::string name = ToLower(Trim(text));
   for (int i = 0; i < 6; ++i) {
     if (name == kAxisNames[i] || (i < 3 && name == kAxisNames[i] + 1))
       return static_cast<UpAxis>(i);
   }
+  return std::nullopt;
+}
+
+UpAxis ParseUpAxis(const std::string& text) {
+  if (const auto axis = StatedUpAxis(text)) return *axis;
   throw Error(fmt::format("unknown up axis \"{}\"; use x, y, z, -x, -y or -z", text));
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "common/model/kit_joints.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace mmm_converter {
 
 const std::vector<std::string>& KitJointNames() {
@@ -14,6 +17,25 @@ const std::vector<std::string>& KitJointNames() {
       "RKx_joint",  "RSx_joint",  "RSy_joint",  "RSz_joint",   "RWx_joint",  "RWy_joint",
       "RFx_joint",  "RMrot_joint"};
   return kNames;
+}
+
+std::string LimbOfJoint(std::string_view joint) {
+  constexpr std::string_view kSpine[] = {"BP", "BT"};
+  constexpr std::string_view kHead[] = {"BLN", "BUN"};
+  constexpr std::string_view kArm[] = {"S", "E", "W"};
+  constexpr std::string_view kLeg[] = {"H", "K", "A", "F", "M"};
+  const auto starts_with = [&joint](std::string_view start) { return joint.starts_with(start); };
+  if (!joint.ends_with("_joint")) return "";
+  if (std::any_of(std::begin(kSpine), std::end(kSpine), starts_with)) return "spine";
+  if (std::any_of(std::begin(kHead), std::end(kHead), starts_with)) return "head";
+  const std::string side = joint.starts_with('L')   ? "left "
+                           : joint.starts_with('R') ? "right "
+                                                    : "";
+  if (side.empty()) return "";
+  joint.remove_prefix(1);
+  if (std::any_of(std::begin(kArm), std::end(kArm), starts_with)) return side + "arm";
+  if (std::any_of(std::begin(kLeg), std::end(kLeg), starts_with)) return side + "leg";
+  return "";
 }
 
 }  // namespace mmm_converter

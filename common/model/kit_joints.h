@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mmm_converter {
@@ -9,5 +10,9 @@ namespace mmm_converter {
 /// The 44 joints of KIT's motions since 2016, in their order. Those before had 40: without LFx,
 /// LMrot, RFx and RMrot (the feet).
 const std::vector<std::string>& KitJointNames();
+
+/// "head", "spine", "left arm", "right arm", "left leg" or "right leg": what a joint of the MMM
+/// model moves; empty: it is no joint of that model.
+std::string LimbOfJoint(std::string_view joint);
 
 }  // namespace mmm_converter

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/math/up_axis.h"
 #include "common/model/body_size.h"
 #include "common/motion/marker_sequence.h"
 
@@ -37,9 +38,11 @@ struct RecordingContent {
   bool is_settled = false;
   bool marks_points_valid = false;  ///< C3D
   std::string unit;                 ///< as the file says it; may be empty or nonsense
-  double rate = 0;                  ///< [Hz]; 0: the file does not say
-  long first_frame = 1;             ///< number of the first stored frame in the capture
-  std::string comment;              ///< what the file says of itself
+  std::string stated_up;            ///< the axis that points up, as the file says it; may be empty
+  std::vector<UpAxis> usual_up_axes;  ///< in files of the format
+  double rate = 0;                    ///< [Hz]; 0: the file does not say
+  long first_frame = 1;               ///< number of the first stored frame in the capture
+  std::string comment;                ///< what the file says of itself
   std::optional<MmmPart> mmm;
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
   /// To be called once.

@@ -21,7 +21,7 @@ BatchEntry Entry(const std::string& id) {
 
 // What a journal has of a converted entry, in its order.
 constexpr const char* kConverted =
-    R"({"state":"converted","reason":null,"frames":200,"rate_hz":100.0,"height_m":1.8,)"
+    R"({"state":"converted","reason":null,"verdict":{"level":"check","reasons":["why"]},"frames":200,"rate_hz":100.0,"height_m":1.8,)"
     R"("height_source":"given","mass_kg":70.0,"mass_source":"assumed","subject":"Anna",)"
     R"("converter":"S2KFConverter","configuration":"s2kf_default","markers_used":50,)"
     R"("markers_absent":2,"markers_ignored":1,"distance_mm":{"mean":26.5,"p95":40.0,"max":61.25},)"
@@ -99,12 +99,33 @@ TEST(ResultFiles, SumsAreOverTheEntries) {
                                       {&entry, Failed("why", 0.25), "", ""},
                                       {&entry, std::nullopt, "", ""}});
   EXPECT_EQ(sum.converted, 2);
+  EXPECT_EQ(sum.to_check, 2);
   EXPECT_EQ(sum.failed, 1);
   EXPECT_EQ(sum.missing, 1);
   EXPECT_EQ(sum.frames, 800);
   EXPECT_EQ(sum.recorded_seconds, 8);
   EXPECT_EQ(sum.seconds, 1.25);
   EXPECT_EQ(sum.mean_distance_mm, 29.5);
+}
+
+TEST(ResultFiles, TheWorstVerdictsComeFirst) {
+  const BatchEntry entry = Entry("a");
+  const auto judged = [](Verdict::Level level) {
+    EntryResult result = ParseEntryResult(Json::parse(kConverted));
+    result.figures->verdict.level = level;
+    return result;
+  };
+  std::vector<ResultRow> rows = {{&entry, judged(Verdict::Level::kGood), "", ""},
+                                 {&entry, judged(Verdict::Level::kCheck), "1", ""},
+                                 {&entry, judged(Verdict::Level::kFailed), "", ""},
+                                 {&entry, judged(Verdict::Level::kCheck), "2", ""},
+                                 {&entry, std::nullopt, "", ""}};
+  SortByVerdict(&rows);
+  EXPECT_FALSE(rows[0].result.has_value());
+  EXPECT_EQ(rows[1].result->figures->verdict.level, Verdict::Level::kFailed);
+  EXPECT_EQ(rows[2].motion, "1");
+  EXPECT_EQ(rows[3].motion, "2");
+  EXPECT_EQ(rows[4].result->figures->verdict.level, Verdict::Level::kGood);
 }
 
 TEST(ResultFiles, WhatFailedOrIsMissingSaysSo) {

@@ -7,6 +7,7 @@ const kRowsAtOnce = 200;
 const kColumns = [
   {key: "id", name: "entry", text: true},
   {key: "group", name: "group", text: true},
+  {key: "verdict.level", name: "verdict", levels: true, says: "How far the motion can be trusted; the details have the reasons."},
   {key: "distance_mm.mean", name: "mean, mm", digits: 2, says: "Mean distance between measured and model markers, over all markers and frames."},
   {key: "distance_mm.p95", name: "95\u00a0%, mm", digits: 1, says: "95th percentile of the same distances."},
   {key: "distance_mm.max", name: "max, mm", digits: 1, says: "Largest of the same distances."},
@@ -27,7 +28,16 @@ function ranksOf(entries, name) {
   return Float64Array.from(texts, (text) => text === null ? NaN : ranks.get(text));
 }
 
+const kLevels = ["good", "check", "failed"];
+
+// NaN where there is none.
+function levelsOf(entries, name) {
+  const places = new Map(kLevels.map((level, place) => [level, place]));
+  return Float64Array.from({length: entries.count}, (_, i) => places.get(entries.text(name, i)));
+}
+
 function numbersOfColumn(entries, column) {
+  if (column.levels) return levelsOf(entries, column.key);
   if (column.text) return ranksOf(entries, column.key);
   return column.numbers ? column.numbers(entries) : entries.numbers(column.key);
 }
@@ -37,7 +47,8 @@ class EntryTable {
     this.entries = entries;
     this.columns = kColumns.map((column) => ({...column, ranks: numbersOfColumn(entries, column)}))
       .filter((column) => column.key === "id" || column.key === "distance_mm.mean" || column.ranks.some(Number.isFinite));
-    this.sortedBy = this.columns.find((column) => column.key === "distance_mm.mean");
+    this.sortedBy = this.columns.find((column) => column.levels) ||
+      this.columns.find((column) => column.key === "distance_mm.mean");
     this.isDescending = true;
     this.chosen = [];       // entries that pass the filters, as sorted
     this.open = new Set();  // entries whose details are shown
@@ -131,6 +142,7 @@ class EntryTable {
 
   cell(column, entry) {
     if (column.text) return element("td", {class: "text"}, this.entries.text(column.key, entry) || "–");
+    if (column.levels) return element("td", {class: "text"}, this.entries.text(column.key, entry) || "–");
     const shown = formatNumber(column.ranks[entry], column.digits);
     const name = column.with ? this.entries.text(column.with, entry) : null;
     return element("td", {"data-key": column.key},

@@ -25,6 +25,8 @@ RecordingContent ReadC3dContent(const std::string& file, const ContentOptions& o
   content.label_prefixes = info.label_prefixes;
   content.marks_points_valid = true;
   content.unit = info.unit;
+  content.stated_up = info.up;
+  content.usual_up_axes = {UpAxis::kZ};
   content.rate = info.layout.rate;
   content.first_frame = info.layout.first_frame;
   content.comment = info.comment;

@@ -32,6 +32,7 @@ C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, 
   info_.outputs = C3dOutputNames(parameters);
   info_.label_prefixes = parameters.TextList("SUBJECTS", "LABEL_PREFIXES");
   info_.comment = parameters.Text("MANUFACTURER", "COMMENT");
+  info_.up = parameters.Text("POINT", "Y_SCREEN");
 }
 
 MarkerSequence C3dReader::ReadPoints(const std::vector<int>& points,

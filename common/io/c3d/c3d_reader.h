@@ -19,6 +19,7 @@ struct C3dInfo {
   std::vector<std::string> outputs;  ///< labels that the file lists as angles, forces, powers, ...
   std::vector<std::string> label_prefixes;  ///< SUBJECTS:LABEL_PREFIXES
   std::string comment;                      ///< MANUFACTURER:COMMENT
+  std::string up;  ///< POINT:Y_SCREEN, the axis that points up on a screen, as "+Z"; may be empty
 };
 
 /// A point of a frame as it is stored.

@@ -54,20 +54,22 @@ void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& 
 }
 
 /// From file units and axes to metres and z up.
-void BringToMetresAndZUp(const std::string& said_unit, const ReadRecordingOptions& options,
-                         Recording* recording, Warnings* warnings) {
+void BringToMetresAndZUp(const std::string& said_unit, const std::vector<UpAxis>& usual,
+                         const ReadRecordingOptions& options, Recording* recording,
+                         Warnings* warnings) {
   const UnitDecision unit =
       options.unit ? ParseUnit(*options.unit) : DecideUnit(recording->markers, said_unit);
   recording->unit = unit.unit;
   recording->unit_was_guessed = unit.guessed;
   if (!unit.warning.empty()) Warn(warnings, unit.warning);
-  if (options.up_axis) {
-    recording->up_axis = *options.up_axis;
-  } else {
-    const UpAxisDecision up = DecideUpAxis(recording->markers);
-    recording->up_axis = up.axis;
-    recording->up_axis_was_decided = up.decided;
-    if (!up.warning.empty()) Warn(warnings, up.warning);
+  if (unit.is_doubtful) recording->doubts.push_back(unit.warning);
+  const UpAxisDecision up = DecideUpAxis(recording->markers, unit.metres,
+                                         {options.up_axis, recording->stated_up_axis, usual});
+  recording->up_axis = up.axis;
+  recording->up_axis_was_decided = up.decided;
+  if (!up.warning.empty()) {
+    Warn(warnings, up.warning);
+    recording->doubts.push_back(up.warning);
   }
   ToMetresAndZUp(unit.metres, recording->up_axis, &recording->markers);
 }
@@ -101,7 +103,8 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
     TakeSettled(content, options, &recording, warnings);
   } else {
     ChooseMarkers(content, options, &recording, warnings);
-    BringToMetresAndZUp(content.unit, options, &recording, warnings);
+    recording.stated_up_axis = StatedUpAxis(content.stated_up);
+    BringToMetresAndZUp(content.unit, content.usual_up_axes, options, &recording, warnings);
   }
   return recording;
 }

@@ -14,7 +14,7 @@ namespace mmm_converter {
 
 struct ReadRecordingOptions {
   std::optional<std::string> unit = {};  ///< overrides the file's: "mm", "cm", "m", "in"
-  std::optional<UpAxis> up_axis = {};    ///< overrides the decision from the markers
+  std::optional<UpAxis> up_axis = {};    ///< overrides the file's and the decision from the markers
   std::optional<double> rate = {};       ///< [Hz] overrides the file's
   bool ignore_residuals = false;         ///< C3D: also use points that are marked invalid
   std::string subject = {};              ///< label prefix to keep where a file has several subjects
@@ -29,12 +29,14 @@ struct Recording {
   std::string unit;               ///< what coordinates were read as
   bool unit_was_guessed = false;  ///< the file's unit was absent or implausible
   UpAxis up_axis = UpAxis::kZ;    ///< in the file's own axes
-  bool up_axis_was_decided = false;   ///< from the markers; else given, or assumed
-  std::vector<std::string> subjects;  ///< label prefixes found
-  std::string subject;                ///< the one that was read; empty: no prefix
-  long first_frame = 1;               ///< number of the first stored frame in the capture
-  std::string comment;                ///< C3D files of this project: what they say of themselves
-  std::optional<MmmPart> mmm;         ///< of MMM files only
+  std::optional<UpAxis> stated_up_axis;  ///< what the file says
+  bool up_axis_was_decided = false;      ///< from the markers; else given, stated or assumed
+  std::vector<std::string> doubts;       ///< why the unit or the axis may be wrong; warned of too
+  std::vector<std::string> subjects;     ///< label prefixes found
+  std::string subject;                   ///< the one that was read; empty: no prefix
+  long first_frame = 1;                  ///< number of the first stored frame in the capture
+  std::string comment;                   ///< C3D files of this project: what they say of themselves
+  std::optional<MmmPart> mmm;            ///< of MMM files only
 
   std::string motion() const { return mmm ? mmm->motion : ""; }   ///< empty: not named
   BodySize size() const { return mmm ? mmm->size : BodySize(); }  ///< as the file says

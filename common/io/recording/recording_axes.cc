@@ -75,7 +75,7 @@ std::vector<int> LabelsIn(const MarkerSequence& markers, BodyRegion region) {
 std::optional<UnitDecision> UnitFromText(const std::string& text) {
   const std::string name = NormalizeLabel(text);
   const auto unit = [](int i) {
-    return UnitDecision{kUnits[i].first, kUnits[i].second, false, ""};
+    return UnitDecision{kUnits[i].first, kUnits[i].second, false, "", false};
   };
   if (name == "mm" || name.starts_with("millim")) return unit(0);
   if (name == "m" || name.starts_with("mete") || name.starts_with("metr")) return unit(1);
@@ -121,20 +121,104 @@ std::vector<Eigen::Vector3d> BodyAxes(const MarkerSequence& markers) {
   return best;
 }
 
-/// Along one axis: do the highest markers move less than the lowest, so that the ground is there?
-bool GroundIsAtTheHighEnd(const MarkerSequence& markers, int axis) {
+/// Where the lowest markers are along an axis, over the trial [file units].
+struct LowEnd {
+  double median = NAN;
+  double range = NAN;  ///< of the middle 80 % of the frames
+};
+
+LowEnd LowEndOf(const MarkerSequence& markers, UpAxis up) {
+  const int axis = static_cast<int>(up) % 3;
+  const bool is_negative = static_cast<int>(up) >= 3;
   std::vector<double> low;
-  std::vector<double> high;
   for (const int k : SampleFrames(markers)) {
     const Box box = BoxOf(markers.frame(k));
     if (2 * box.seen < markers.num_labels()) continue;
-    low.push_back(box.low[axis]);
-    high.push_back(box.high[axis]);
+    low.push_back(is_negative ? -box.high[axis] : box.low[axis]);
   }
-  if (low.empty()) return false;
-  const double low_range = Quantile(low, 0.9) - Quantile(low, 0.1);
-  const double high_range = Quantile(high, 0.9) - Quantile(high, 0.1);
-  return high_range < 0.5 * low_range;
+  if (low.empty()) return {};
+  return {Quantile(low, 0.5), Quantile(low, 0.9) - Quantile(low, 0.1)};
+}
+
+/// Along one axis: do the highest markers move less than the lowest, so that the ground is there?
+bool GroundIsAtTheHighEnd(const MarkerSequence& markers, int axis) {
+  const double low = LowEndOf(markers, static_cast<UpAxis>(axis)).range;
+  const double high = LowEndOf(markers, static_cast<UpAxis>(axis + 3)).range;
+  return high < 0.5 * low;
+}
+
+/// Are the lowest markers near 0 throughout, as the ground of most laboratories is?
+bool IsOnGround(const MarkerSequence& markers, double metres, UpAxis up) {
+  constexpr double kNear = 0.2;  // [m]; markers on feet are at most that high
+  const LowEnd low = LowEndOf(markers, up);
+  return metres * std::abs(low.median) < kNear && metres * low.range < kNear;
+}
+
+/// The axis along which the person stands most of the time; nothing where the markers do not tell,
+/// and why.
+struct BodyAxis {
+  std::optional<UpAxis> up;
+  std::string why_unknown;
+};
+
+BodyAxis FindBodyAxis(const MarkerSequence& markers) {
+  const std::vector<Eigen::Vector3d> axes = BodyAxes(markers);
+  if (axes.empty()) return {std::nullopt, "no labels that tell head from feet"};
+  std::array<double, 3> lengths{};
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> along(axes.size());
+    std::transform(axes.begin(), axes.end(), along.begin(),
+                   [i](const Eigen::Vector3d& d) { return std::abs(d[i]); });
+    lengths[i] = Quantile(std::move(along), 0.5);
+  }
+  const int axis =
+      static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+  std::array<double, 3> sorted = lengths;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted[2] < 1.3 * sorted[1])
+    return {std::nullopt, "the markers do not tell which axis is up"};
+  const auto upright = std::count_if(axes.begin(), axes.end(),
+                                     [axis](const Eigen::Vector3d& d) { return d[axis] > 0; });
+  const double share = static_cast<double>(upright) / static_cast<double>(axes.size());
+  // Now this way, now that way up: the ground decides.
+  const bool mixed = share > 0.02 && share < 0.98;
+  const bool down = mixed ? GroundIsAtTheHighEnd(markers, axis) : share < 0.5;
+  return {static_cast<UpAxis>(axis + (down ? 3 : 0)), ""};
+}
+
+/// body: contradicts what the file states.
+UpAxisDecision WeighStated(const MarkerSequence& markers, double metres, UpAxis stated,
+                           UpAxis body) {
+  constexpr double kTravel = 1;  // [m]
+  const bool is_impossible = metres * LowEndOf(markers, stated).range > kTravel;
+  if (is_impossible && IsOnGround(markers, metres, body)) {
+    return {body, true,
+            fmt::format("the file states that {} is up, but along it the person would travel by "
+                        "more than a metre, and along {} stands on the ground; {} is taken",
+                        Name(stated), Name(body), Name(body))};
+  }
+  return {stated, false,
+          fmt::format("the file states that {} is up, but most of the time the person's head is "
+                      "towards {}; {} is taken",
+                      Name(stated), Name(body), Name(stated))};
+}
+
+/// body: is none of the usual ones.
+UpAxisDecision WeighUsual(const MarkerSequence& markers, double metres,
+                          const std::vector<UpAxis>& usual, UpAxis body) {
+  const std::string said = fmt::format(
+      "the file does not state which axis is up, and most of the time the person's "
+      "head is towards {}",
+      Name(body));
+  if (!IsOnGround(markers, metres, body)) {
+    for (const UpAxis axis : usual) {
+      if (!IsOnGround(markers, metres, axis)) continue;
+      return {
+          axis, true,
+          fmt::format("{}, but the ground is along {}; {} is taken", said, Name(axis), Name(axis))};
+    }
+  }
+  return {body, true, fmt::format("{}, which is unusual; it is taken", said)};
 }
 
 }  // namespace
@@ -164,46 +248,38 @@ UnitDecision DecideUnit(const MarkerSequence& markers, const std::string& said) 
     if (unit && !person) continue;
     return {name, metres, true,
             fmt::format("{}; read as {}, so that the markers span {:.2f} m", claim, name,
-                        size * metres)};
+                        size * metres),
+            unit.has_value()};
   }
   UnitDecision kept = unit.value_or(UnitDecision{});
   kept.guessed = !unit;
+  kept.is_doubtful = true;
   kept.warning = fmt::format("{}; read as {}, the markers span {:.3g} m: check the unit", claim,
                              kept.unit, size * kept.metres);
   return kept;
 }
 
-UpAxisDecision DecideUpAxis(const MarkerSequence& markers) {
-  UpAxisDecision decision;
-  const std::vector<Eigen::Vector3d> axes = BodyAxes(markers);
-  if (axes.empty()) {
-    decision.warning = "no labels that tell head from feet; z is taken as up";
-    return decision;
+UpAxisDecision DecideUpAxis(const MarkerSequence& markers, double metres,
+                            const UpAxisClaims& claims) {
+  const BodyAxis body = FindBodyAxis(markers);
+  const auto contradicts = [&body](UpAxis axis) { return body.up && *body.up != axis; };
+  if (claims.given) {
+    if (!contradicts(*claims.given)) return {*claims.given, false, ""};
+    return {*claims.given, false,
+            fmt::format("{} is given as up, but most of the time the person's head is towards {}",
+                        Name(*claims.given), Name(*body.up))};
   }
-  std::array<double, 3> lengths{};
-  for (int i = 0; i < 3; ++i) {
-    std::vector<double> along(axes.size());
-    std::transform(axes.begin(), axes.end(), along.begin(),
-                   [i](const Eigen::Vector3d& d) { return std::abs(d[i]); });
-    lengths[i] = Quantile(std::move(along), 0.5);
+  if (claims.stated) {
+    if (contradicts(*claims.stated)) {
+      return WeighStated(markers, metres, *claims.stated, *body.up);
+    }
+    return {*claims.stated, body.up.has_value(), ""};
   }
-  const int axis =
-      static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
-  std::array<double, 3> sorted = lengths;
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted[2] < 1.3 * sorted[1]) {
-    decision.warning = "the markers do not tell which axis is up; z is taken";
-    return decision;
+  if (!body.up) return {UpAxis::kZ, false, body.why_unknown + "; z is taken as up"};
+  if (std::count(claims.usual.begin(), claims.usual.end(), *body.up) > 0) {
+    return {*body.up, true, ""};
   }
-  const auto upright = std::count_if(axes.begin(), axes.end(),
-                                     [axis](const Eigen::Vector3d& d) { return d[axis] > 0; });
-  const double share = static_cast<double>(upright) / static_cast<double>(axes.size());
-  // Now this way, now that way up: the ground decides.
-  const bool mixed = share > 0.02 && share < 0.98;
-  const bool down = mixed ? GroundIsAtTheHighEnd(markers, axis) : share < 0.5;
-  decision.axis = static_cast<UpAxis>(axis + (down ? 3 : 0));
-  decision.decided = true;
-  return decision;
+  return WeighUsual(markers, metres, claims.usual, *body.up);
 }
 
 void ToMetresAndZUp(double metres, UpAxis axis, MarkerSequence* markers) {

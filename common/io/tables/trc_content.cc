@@ -16,6 +16,7 @@ RecordingContent ReadTrcContent(const std::string& file, const ContentOptions& /
   content.format = "TRC";
   content.labels = trc.markers.labels();
   content.unit = trc.unit;
+  content.usual_up_axes = {UpAxis::kY, UpAxis::kZ};
   content.rate = trc.markers.rate();
   content.first_frame = trc.first_frame;
   const auto all = std::make_shared<const MarkerSequence>(std::move(trc.markers));

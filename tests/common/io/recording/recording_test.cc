@@ -91,6 +91,8 @@ TEST(Recording, TurnsYUpToZUp) {
   const Recording turned = ReadSynthetic("kit53_yup_screen_X_Y.c3d");
   EXPECT_EQ(turned.up_axis, UpAxis::kY);
   EXPECT_TRUE(turned.up_axis_was_decided);
+  EXPECT_EQ(turned.stated_up_axis, UpAxis::kY);
+  EXPECT_THAT(turned.doubts, ElementsAre());
   for (int k = 0; k < turned.markers.num_frames(); k += 20) {
     for (int i = 0; i < turned.markers.num_labels(); ++i) {  // the file is (y, z, x)
       const Eigen::Vector3d p = reference.markers.frame(k).col(i);
@@ -100,6 +102,7 @@ TEST(Recording, TurnsYUpToZUp) {
   }
   const Recording forced = ReadSynthetic("kit53_yup_screen_X_Y.c3d", {.up_axis = UpAxis::kZ});
   EXPECT_FALSE(forced.up_axis_was_decided);
+  EXPECT_THAT(forced.doubts, ElementsAre(HasSubstr("head is towards +y")));
   const Eigen::Vector3d p = reference.markers.frame(0).col(0);
   EXPECT_LT((forced.markers.frame(0).col(0) - Eigen::Vector3d(p.y(), p.z(), p.x())).norm(), 1e-12);
 }
@@ -137,16 +140,50 @@ TEST(Recording, DecidesUpOverTheWholeTrial) {
   for (int i = 0; i < 6; ++i) {
     for (const int upside_down : {0, 30, 70, 90}) {
       const auto axis = static_cast<UpAxis>(i);
-      const UpAxisDecision decision = DecideUpAxis(Acrobat(upside_down, axis));
+      const UpAxisDecision decision =
+          DecideUpAxis(Acrobat(upside_down, axis), 1, {.usual = {axis}});
       EXPECT_TRUE(decision.decided);
       EXPECT_EQ(decision.axis, axis) << Name(axis) << ", upside down " << upside_down << " %";
     }
   }
 }
 
+TEST(Recording, WeighsWhatIsSaidOfUpAgainstTheMarkers) {
+  const MarkerSequence standing = Acrobat(0, UpAxis::kZ);
+  // Nothing contradicts, and nothing is said.
+  EXPECT_EQ(DecideUpAxis(standing, 1, {.stated = UpAxis::kZ}).warning, "");
+  // Lies, as far as the file goes.
+  UpAxisDecision decision = DecideUpAxis(standing, 1, {.stated = UpAxis::kY});
+  EXPECT_EQ(decision.axis, UpAxis::kY);
+  EXPECT_FALSE(decision.decided);
+  EXPECT_THAT(decision.warning, HasSubstr("states that +y is up, but"));
+  // The user is right, whatever there is.
+  decision = DecideUpAxis(standing, 1, {.given = UpAxis::kMinusZ, .stated = UpAxis::kZ});
+  EXPECT_EQ(decision.axis, UpAxis::kMinusZ);
+  EXPECT_THAT(decision.warning, HasSubstr("-z is given as up, but"));
+  // No one goes up and down by two metres.
+  MarkerSequence walking = standing;
+  for (int k = 0; k < walking.num_frames(); ++k) walking.frame(k).row(1).array() += 0.02 * k;
+  decision = DecideUpAxis(walking, 1, {.stated = UpAxis::kY});
+  EXPECT_EQ(decision.axis, UpAxis::kZ);
+  EXPECT_THAT(decision.warning, HasSubstr("+z is taken"));
+}
+
+TEST(Recording, AnUnusualUpAxisIsOneWithGround) {
+  MarkerSequence markers = Acrobat(0, UpAxis::kX);
+  UpAxisDecision decision = DecideUpAxis(markers, 1, {.usual = {UpAxis::kZ}});
+  EXPECT_EQ(decision.axis, UpAxis::kX);
+  EXPECT_THAT(decision.warning, HasSubstr("unusual"));
+  // Lies on the ground, the feet somewhere in the room.
+  for (int k = 0; k < markers.num_frames(); ++k) markers.frame(k).row(0).array() -= 1;
+  decision = DecideUpAxis(markers, 1, {.usual = {UpAxis::kZ}});
+  EXPECT_EQ(decision.axis, UpAxis::kZ);
+  EXPECT_THAT(decision.warning, HasSubstr("the ground is along +z"));
+}
+
 TEST(Recording, AssumesZUpWhereLabelsTellNothing) {
   const MarkerSequence markers({"box1", "box2"}, 1, 100, 0);
-  const UpAxisDecision decision = DecideUpAxis(markers);
+  const UpAxisDecision decision = DecideUpAxis(markers, 1, {});
   EXPECT_FALSE(decision.decided);
   EXPECT_EQ(decision.axis, UpAxis::kZ);
   EXPECT_THAT(decision.warning, HasSubstr("z is taken"));

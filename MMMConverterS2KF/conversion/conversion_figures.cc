@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "MMMConverterS2KF/report/conversion_figures.h"
+#include "MMMConverterS2KF/conversion/conversion_figures.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "MMMConverterS2KF/report/units.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
@@ -35,7 +34,7 @@ ConversionFigures MeasureConversion(const ConversionReport& report) {
     figures.frames_not_converged += frame.converged ? 0 : 1;
     figures.frames_reassembled += frame.reassembled ? 1 : 0;
     if (frame.nis > 0) nis.push_back(frame.nis);
-    if (frame.seconds > 0) times.push_back(kMilliseconds * frame.seconds);
+    if (frame.seconds > 0) times.push_back(1e3 * frame.seconds);
   }
   figures.nis = Mean(nis);
   figures.median_ms = Median(times);

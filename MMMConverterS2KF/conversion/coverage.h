@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/convert/tracking_setup.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter {
+
+/// A limb of a person (LimbOfJoint), and by which markers its joints are known.
+struct Limb {
+  std::string name;
+  int num_joints = 0;
+  int free_joints = 0;      ///< that move no assigned marker: their angles are not known
+  std::vector<int> labels;  ///< of the assigned markers that its joints move
+
+  /// Whether so many markers may tell the angles of all joints.
+  bool IsKnownBy(int markers) const { return 3 * markers >= num_joints; }
+};
+
+/// Those with tracked joints; none of a model that is not MMM's.
+std::vector<Limb> LimbsOf(const TrackingSetup& setup);
+
+struct Gap {
+  std::string what;  ///< a limb, or "the body"
+  int first_frame = 0;
+  int last_frame = 0;
+};
+
+/// The longest time in which no marker is seen, and those in which a limb has fewer than it is
+/// known by; limbs that have fewer at all times, or are hidden with the whole body, are left out.
+std::vector<Gap> LongestGaps(const TrackingSetup& setup, const MarkerSequence& recording);
+
+}  // namespace mmm_converter

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/exchanged_sides.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/fit/posture_search.h"
+#include "common/model/kit_joints.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kFrames = 8;
+constexpr int kAttempts = 4;
+constexpr double kClearlyNearer = 0.75;  // of the distance with the labels as they are
+
+// Two assignments whose markers are called alike but for the side.
+struct Pair {
+  int left = -1, right = -1;
+  std::string limb;  // "arm", "leg" or neither
+};
+
+std::string OtherSide(std::string name) {
+  constexpr std::string_view kPrefix = "MARKER_";
+  const std::size_t at = name.starts_with(kPrefix) ? kPrefix.size() : 0;
+  if (at >= name.size() || name[at] != 'L') return "";
+  name[at] = 'R';
+  return name;
+}
+
+// Of the limb farthest out that moves the marker.
+std::string LimbOfMarker(const KinematicModel& model, const MarkerKinematics& kinematics,
+                         int marker) {
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    if (!kinematics.Moves(j, marker)) continue;
+    const std::string limb = LimbOfJoint(model.joint(kinematics.joints()[j]).name);
+    if (limb.ends_with("arm")) return "arm";
+    if (limb.ends_with("leg")) return "leg";
+  }
+  return "";
+}
+
+std::vector<Pair> FindPairs(const KinematicModel& model, const MarkerKinematics& kinematics) {
+  const auto name = [&](int m) { return model.markers()[kinematics.markers()[m]].name; };
+  std::vector<Pair> pairs;
+  for (int left = 0; left < kinematics.num_markers(); ++left) {
+    const std::string other = OtherSide(name(left));
+    if (other.empty()) continue;
+    for (int right = 0; right < kinematics.num_markers(); ++right) {
+      if (name(right) != other) continue;
+      pairs.push_back({left, right, LimbOfMarker(model, kinematics, left)});
+    }
+  }
+  return pairs;
+}
+
+// Evenly spread ones that show at least half of the markers.
+std::vector<Eigen::Matrix3Xd> ChooseFrames(const std::vector<int>& labels,
+                                           const MarkerSequence& recording) {
+  std::vector<Eigen::Matrix3Xd> frames;
+  for (int part = 0; part < kFrames; ++part) {
+    const long n = recording.num_frames();
+    const int end = static_cast<int>(n * (part + 1) / kFrames);
+    for (int k = static_cast<int>(n * part / kFrames); k < end; ++k) {
+      Eigen::Matrix3Xd z = recording.frame(k)(Eigen::all, labels);
+      if (2 * (z.row(0).array().isFinite().count()) < z.cols()) continue;
+      frames.push_back(std::move(z));
+      break;
+    }
+  }
+  return frames;
+}
+
+double MeanDistance(const MarkerKinematics& kinematics, const std::vector<Eigen::Matrix3Xd>& frames,
+                    const std::vector<int>& order) {
+  const Eigen::VectorXd scale = Eigen::VectorXd::Ones(kinematics.num_markers());
+  PostureFitOptions options;
+  options.robust_distance = 0.1;
+  PostureSearch search(kinematics);
+  double sum = 0;
+  for (const Eigen::Matrix3Xd& frame : frames) {
+    Posture posture;
+    const Eigen::Matrix3Xd z = frame(Eigen::all, order);
+    sum += search.Assemble(z, scale, options, kAttempts, &posture).mean_distance;
+  }
+  return sum / static_cast<double>(frames.size());
+}
+
+}  // namespace
+
+std::optional<ExchangedSides> FindExchangedSides(const TrackingSetup& setup,
+                                                 const MarkerSequence& recording) {
+  const MarkerKinematics kinematics(*setup.model, setup.joints, MarkerIndices(setup.assignments()));
+  const std::vector<Pair> pairs = FindPairs(*setup.model, kinematics);
+  const std::vector<Eigen::Matrix3Xd> frames =
+      ChooseFrames(LabelIndices(setup.assignments()), recording);
+  if (pairs.empty() || frames.empty()) return std::nullopt;
+  const auto distance_exchanging = [&](const std::string& limb) {
+    std::vector<int> order(static_cast<std::size_t>(kinematics.num_markers()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+    for (const Pair& pair : pairs) {
+      if (limb != "all" && pair.limb != limb) continue;
+      std::swap(order[static_cast<std::size_t>(pair.left)],
+                order[static_cast<std::size_t>(pair.right)]);
+    }
+    return MeanDistance(kinematics, frames, order);
+  };
+  constexpr std::pair<const char*, const char*> kParts[] = {
+      {"all", "all markers"}, {"arm", "the arms"}, {"leg", "the legs"}};
+  const double distance = distance_exchanging("none");
+  std::optional<ExchangedSides> found;
+  for (const auto& [limb, part] : kParts) {
+    const double exchanged = distance_exchanging(limb);
+    if (exchanged > kClearlyNearer * distance) continue;
+    if (found && found->exchanged_distance <= exchanged) continue;
+    found = ExchangedSides{part, distance, exchanged};
+  }
+  return found;
+}
+
+}  // namespace mmm_converter

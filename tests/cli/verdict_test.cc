@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// What `convert` says of recordings that were made wrong, and of right ones.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/recording/recording.h"
+#include "common/math/seeded_random.h"
+#include "common/motion/occlusion.h"
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using testing::Handstand;
+using ::testing::HasSubstr;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::TestFolder;
+
+struct Judged {
+  std::string level;
+  std::string reasons;
+};
+
+Judged Convert(const std::string& recording, const std::vector<std::string>& options) {
+  const std::string summary = TestFolder() + "/verdict.json";
+  std::vector<std::string> arguments = {"convert",   recording, "-o", TestFolder() + "/verdict.xml",
+                                        "--summary", summary};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const auto run = RunProgram(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(ReadText(summary));
+  const std::string level = json["verdict"]["level"];
+  std::string reasons;
+  for (const std::string reason : json["verdict"]["reasons"]) reasons += reason + "; ";
+  EXPECT_THAT(run.out, HasSubstr("verdict    " + level));
+  EXPECT_EQ(level == "good", reasons.empty()) << reasons;
+  return {level, reasons};
+}
+
+// The sample from standing into the handstand.
+const MarkerSequence& Sample() {
+  static const MarkerSequence kMarkers = ReadRecording(Handstand(), {}).markers.Slice(50, 250);
+  return kMarkers;
+}
+
+Judged ConvertMarkers(const MarkerSequence& markers,
+                      const std::vector<std::string>& options = {"--height", "1.8"}) {
+  const std::string file = TestFolder() + "/made.c3d";
+  WriteC3d(file, markers);  // states that z is up
+  return Convert(file, options);
+}
+
+using Point = Eigen::Ref<Eigen::Vector3d>;
+
+// The sample with each seen position changed: change(frame, label, position).
+MarkerSequence Changed(const std::function<void(int, int, Point)>& change) {
+  MarkerSequence markers = Sample();
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    auto frame = markers.frame(k);
+    for (int i = 0; i < markers.num_labels(); ++i) change(k, i, frame.col(i));
+  }
+  return markers;
+}
+
+// The sample with other labels on its markers.
+MarkerSequence Relabelled(const std::vector<std::string>& labels) {
+  const MarkerSequence& sample = Sample();
+  MarkerSequence markers(labels, sample.num_frames(), sample.rate(), 0);
+  for (int k = 0; k < sample.num_frames(); ++k) markers.frame(k) = sample.frame(k);
+  return markers;
+}
+
+bool IsOfLeg(const std::string& label) {
+  static const std::vector<std::string> kOfLegs = {"HEE", "TOE", "MT1", "MT5", "ANK",
+                                                   "KNE", "THI", "TIP", "HIP"};
+  return std::any_of(kOfLegs.begin(), kOfLegs.end(),
+                     [&](const std::string& name) { return label.substr(1) == name; });
+}
+
+std::vector<std::string> WithSidesExchanged(const std::function<bool(const std::string&)>& is_it) {
+  std::vector<std::string> labels = Sample().labels();
+  const std::vector<std::string> before = labels;
+  for (std::string& label : labels) {
+    std::string other = label;
+    other[0] = label[0] == 'L' ? 'R' : label[0] == 'R' ? 'L' : label[0];
+    const bool is_there = std::count(before.begin(), before.end(), other) > 0;
+    if (is_there && is_it(label)) label = other;
+  }
+  return labels;
+}
+
+// Only those labels.
+MarkerSequence Only(const std::function<bool(const std::string&)>& is_it) {
+  const MarkerSequence& sample = Sample();
+  std::vector<int> columns;
+  std::vector<std::string> labels;
+  for (int i = 0; i < sample.num_labels(); ++i) {
+    if (!is_it(sample.labels()[i])) continue;
+    columns.push_back(i);
+    labels.push_back(sample.labels()[i]);
+  }
+  MarkerSequence markers(labels, sample.num_frames(), sample.rate(), 0);
+  for (int k = 0; k < sample.num_frames(); ++k) {
+    markers.frame(k) = sample.frame(k)(Eigen::all, columns);
+  }
+  return markers;
+}
+
+TEST(Verdict, TheSampleIsGood) {
+  EXPECT_EQ(Convert(Handstand(), {"--height", "1.8"}).level, "good");
+  EXPECT_EQ(Convert(Handstand(), {}).level, "good");
+  EXPECT_EQ(Convert(Handstand(), {"--height", "1.8", "--self-calibrate"}).level, "good");
+}
+
+TEST(Verdict, RealRecordingsAreGood) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  for (const char* file :
+       {"kit_bimanual_c3d/Close_1723.c3d", "kit_bimanual_c3d/Cut_1723.c3d",
+        "kit_bimanual_c3d/Peel_1723.c3d", "kit_bimanual_c3d/Pour_1480.c3d",
+        "kit_bimanual_c3d/Stir_1723.c3d", "synthetic/kit53_yup_screen_X_Y.c3d",
+        "synthetic/kit53_gaps_nan_residual0.c3d", "trc/motek_T.trc", "whole_body/85_02.c3d",
+        "whole_body/cmu_02_05.c3d", "whole_body/kinematics_tennis_serve.c3d",
+        "whole_body/pycgm_movement_trial.c3d"}) {
+    const Judged judged = Convert(testing::SharedData(std::string("recordings/") + file), {});
+    EXPECT_EQ(judged.level, "good") << file << ": " << judged.reasons;
+  }
+}
+
+TEST(Verdict, AnAxisThatTheBodyContradictsIsToBeChecked) {
+  // Turned by a quarter and a half turn about x, on which the file still says that z is up.
+  const auto lie = [](int, int, Point p) { p = Eigen::Vector3d(p.x(), -p.z(), p.y()); };
+  Judged judged = ConvertMarkers(Changed(lie));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("states that +z is up"));
+  const auto turn_over = [](int, int, Point p) { p = Eigen::Vector3d(p.x(), -p.y(), -p.z()); };
+  judged = ConvertMarkers(Changed(turn_over));
+  EXPECT_EQ(judged.level, "check");
+  judged = ConvertMarkers(Sample(), {"--height", "1.8", "--up", "y"});
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("given as up"));
+}
+
+TEST(Verdict, AHeightThatTheMarkersContradict) {
+  for (const char* height : {"1.26", "1.53", "2.07", "2.34"}) {
+    const Judged judged = ConvertMarkers(Sample(), {"--height", height});
+    EXPECT_NE(judged.level, "good") << height;
+    EXPECT_THAT(judged.reasons, HasSubstr(std::string("the height is ") + height)) << height;
+  }
+  // A calibration takes up what is wrong, so that no distance shows it.
+  const Judged judged = Convert(Handstand(), {"--height", "2.34", "--self-calibrate"});
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("the markers are those of a person of 1.8"));
+}
+
+TEST(Verdict, ExchangedSides) {
+  const auto any = [](const std::string&) { return true; };
+  Judged judged = ConvertMarkers(Relabelled(WithSidesExchanged(any)));
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("labels of all markers are exchanged"));
+  judged = ConvertMarkers(Changed([](int, int, Point p) { p.x() = -p.x(); }));
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("or coordinates mirrored"));
+  judged = ConvertMarkers(Relabelled(WithSidesExchanged(IsOfLeg)));
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("labels of the legs are exchanged"));
+}
+
+TEST(Verdict, MarkersOfAnotherPerson) {
+  const MarkerSequence& sample = Sample();
+  const auto other = [&](int k, int i) -> Eigen::Vector3d {
+    return sample.frame((k + 100) % sample.num_frames()).col(i) + Eigen::Vector3d(1, 0.5, 0);
+  };
+  for (const int every : {2, 7}) {
+    const Judged judged = ConvertMarkers(Changed([&](int k, int i, Point p) {
+      if (i % every == 0) p = other(k, i);
+    }));
+    EXPECT_EQ(judged.level, "failed") << every;
+    EXPECT_THAT(judged.reasons, HasSubstr("are they this person's?")) << every;
+  }
+}
+
+TEST(Verdict, NoPersonAtAll) {
+  std::vector<std::string> labels = Sample().labels();
+  SeededRandom random(1);
+  for (int i = static_cast<int>(labels.size()) - 1; i > 0; --i) {
+    std::swap(labels[i], labels[random.UniformIndex(i)]);
+  }
+  EXPECT_EQ(ConvertMarkers(Relabelled(labels)).level, "failed");
+  SeededRandom normal(1);
+  EXPECT_EQ(ConvertMarkers(Changed([&](int, int, Point p) {
+              for (double& x : p) x = 0.6 * normal.Normal();
+            })).level,
+            "failed");
+  EXPECT_EQ(ConvertMarkers(Changed([](int, int, Point p) { p.setConstant(0.3); })).level, "failed");
+  // Centimetres that are inches, and metres that are millimetres.
+  EXPECT_EQ(ConvertMarkers(Changed([](int, int, Point p) { p /= 2.54; })).level, "failed");
+  EXPECT_EQ(ConvertMarkers(Sample(), {"--height", "1.8", "--unit", "m"}).level, "failed");
+}
+
+TEST(Verdict, NoiseIsToBeChecked) {
+  SeededRandom normal(1);
+  const Judged judged = ConvertMarkers(Changed([&](int, int, Point p) {
+    for (double& x : p) x += 0.01 * normal.Normal();
+  }));
+  EXPECT_NE(judged.level, "good");
+  EXPECT_THAT(judged.reasons, HasSubstr("noise of"));
+}
+
+TEST(Verdict, LimbsThatNoMarkersShow) {
+  Judged judged = ConvertMarkers(Only([](const std::string& label) {
+    return label == "LFHD" || label == "RFHD" || label == "C7" || label == "LPSI" ||
+           label == "RPSI";
+  }));
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("5 markers are too few"));
+  judged = ConvertMarkers(
+      Only([](const std::string& label) { return !(label[0] == 'L' && IsOfLeg(label)); }));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("too few markers to know the left leg"));
+}
+
+TEST(Verdict, LongGaps) {
+  Judged judged = ConvertMarkers(HideAllMarkers(Sample(), 40, 145));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("the body is hidden for 1.1 s, frames 40 to 144"));
+  std::vector<std::string> of_leg;
+  for (const std::string& label : Sample().labels()) {
+    if (label[0] == 'L' && IsOfLeg(label)) of_leg.push_back(label);
+  }
+  judged = ConvertMarkers(HideMarkers(Sample(), of_leg, 40, 145));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("the left leg is hidden for 1.1 s"));
+}
+
+TEST(Verdict, IsInThePageToo) {
+  const std::string page = TestFolder() + "/page.html";
+  const std::string file = TestFolder() + "/made.c3d";
+  WriteC3d(file, HideAllMarkers(Sample(), 40, 145));
+  const auto run = RunProgram(
+      {"convert", file, "--height", "1.8", "-o", TestFolder() + "/o.xml", "--report", page});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(ReadText(page), HasSubstr("Verdict: check: the body is hidden"));
+}
+
+}  // namespace
+}  // namespace mmm_converter
