@@ -20,7 +20,7 @@ Limb* FindLimb(const std::string& name, std::vector<Limb>* limbs) {
 
 // The longest run of frames in which `is_known` says no to the number of labels that are seen.
 template <typename IsKnown>
-std::optional<Gap> LongestGap(const std::string& what, const std::vector<int>& labels,
+std::optional<Gap> LongestGap(const std::string& what, const std::vector<LabelIx>& labels,
                               const MarkerSequence& recording, const IsKnown& is_known) {
   std::optional<Gap> longest;
   int begin = 0;
@@ -51,7 +51,7 @@ std::vector<Limb> LimbsOf(const TrackingSetup& setup) {
     for (int m = 0; m < kinematics.num_markers(); ++m) {
       if (!kinematics.Moves(j, m)) continue;
       is_free = false;
-      const int label = setup.assignments()[static_cast<std::size_t>(m)].label;
+      const LabelIx label = setup.assignments()[static_cast<std::size_t>(m)].label;
       if (std::count(limb->labels.begin(), limb->labels.end(), label) > 0) continue;
       limb->labels.push_back(label);
     }

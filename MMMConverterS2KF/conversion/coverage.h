@@ -13,8 +13,8 @@ namespace mmm_converter {
 struct Limb {
   std::string name;
   int num_joints = 0;
-  int free_joints = 0;      ///< that move no assigned marker: their angles are not known
-  std::vector<int> labels;  ///< of the assigned markers that its joints move
+  int free_joints = 0;          ///< that move no assigned marker: their angles are not known
+  std::vector<LabelIx> labels;  ///< of the assigned markers that its joints move
 
   /// Whether so many markers may tell the angles of all joints.
   bool IsKnownBy(int markers) const { return 3 * markers >= num_joints; }

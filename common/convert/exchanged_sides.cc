@@ -57,7 +57,7 @@ std::vector<Pair> FindPairs(const KinematicModel& model, const MarkerKinematics&
 }
 
 // Evenly spread ones that show at least half of the markers.
-std::vector<Eigen::Matrix3Xd> ChooseFrames(const std::vector<int>& labels,
+std::vector<Eigen::Matrix3Xd> ChooseFrames(const std::vector<LabelIx>& labels,
                                            const MarkerSequence& recording) {
   std::vector<Eigen::Matrix3Xd> frames;
   for (int part = 0; part < kFrames; ++part) {

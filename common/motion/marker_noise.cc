@@ -16,7 +16,7 @@ constexpr double kNoiseSquares = 20;  // variance of a third difference of noise
 
 }  // namespace
 
-double MeasureMarkerNoise(const MarkerSequence& recording, const std::vector<int>& labels) {
+double MeasureMarkerNoise(const MarkerSequence& recording, const std::vector<LabelIx>& labels) {
   constexpr int kFrames = kDifferences + 3;
   std::vector<double> deviations;
   const int windows = std::min(kMostWindows, recording.num_frames() / kFrames);
