@@ -128,6 +128,7 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
   std::vector<Belief> filtered(std::min(chunk_, frames));
   std::vector<Eigen::Matrix3Xd> used(filtered.size(), frame_.z);
   TrackState state;
+  Belief estimate;
   for (auto checkpoint = checkpoints_.rbegin(); checkpoint != checkpoints_.rend(); ++checkpoint) {
     const int begin = checkpoint->frame;
     const int end = std::min(begin + chunk_, frames);
@@ -145,16 +146,21 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
       const Belief& of_filter = filtered[k - begin];
       if (k == frames - 1) {
         smoother.Start(of_filter);
+        estimate = of_filter;
       } else {
         smoother.StepBack(of_filter, dt_);
-        if (!IsAsNear(used[k - begin], smoother.belief(), of_filter)) smoother.Start(of_filter);
+        smoother.EstimateAbout(of_filter, &estimate);
+        if (!IsAsNear(used[k - begin], estimate, of_filter)) {
+          smoother.Start(of_filter);
+          estimate = of_filter;
+        }
       }
-      Write(k, smoother.belief(), result);
+      Write(k, estimate, result);
       result->frames[k].seconds += SecondsSince(start);
     }
   }
   const int first = checkpoints_.front().frame;
-  for (int k = 0; k < first; ++k) Write(k, smoother.belief(), result);
+  for (int k = 0; k < first; ++k) Write(k, estimate, result);
 }
 
 bool OfflineTracker::IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed,

@@ -23,12 +23,10 @@ void TrajectorySmoother::StepBack(const Belief& filtered, double dt) {
   predicted_ = folded_;
   motion_model_.Predict(dt, root_, &predicted_);
   ComputeGain();
-  smoothed_.parameters = parameters_;
   S_.view() = smoothed_.P;
   SmoothMean();
   SmoothCovariance();
   Unfold(filtered);
-  MoveAngles(filtered);
 }
 
 void TrajectorySmoother::ComputeGain() {
@@ -93,12 +91,12 @@ void TrajectorySmoother::Unfold(const Belief& filtered) {
   }
 }
 
-void TrajectorySmoother::MoveAngles(const Belief& filtered) {
-  parameters_ = smoothed_.parameters;
-  for (int j = 0; j < parameters_.size(); ++j) {
+void TrajectorySmoother::EstimateAbout(const Belief& filtered, Belief* estimate) const {
+  *estimate = smoothed_;
+  for (int j = 0; j < filtered.parameters.size(); ++j) {
     const double from = filtered.parameters[j];
-    const double moved = transform_.Slope(j, from) * (parameters_[j] - from);
-    smoothed_.parameters[j] = transform_.Parameter(j, transform_.Angle(j, from) + moved);
+    const double moved = transform_.Slope(j, from) * (smoothed_.parameters[j] - from);
+    estimate->parameters[j] = transform_.Parameter(j, transform_.Angle(j, from) + moved);
   }
 }
 

@@ -22,18 +22,17 @@ class TrajectorySmoother {
                      RootParameters root, int num_states);
 
   /// The last frame: its filtered belief is the smoothed one.
-  void Start(const Belief& last) {
-    smoothed_ = last;
-    parameters_ = last.parameters;
-  }
+  void Start(const Belief& last) { smoothed_ = last; }
 
   /// The frame dt seconds before the latest one, from its filtered belief.
   void StepBack(const Belief& filtered, double dt);
 
-  /// Its angles are those of the filter moved by the pass backwards to first order, which is all
-  /// that a pass that is linear about the filter's track says: beside a limit parameters may go far
-  /// without an angle that followed.
   const Belief& belief() const { return smoothed_; }
+
+  /// The belief with its angles moved to first order from those of `filtered`, of the same frame:
+  /// that is all that a pass which is linear about the filter's track says. Beside a limit
+  /// parameters may go far that no angle followed.
+  void EstimateAbout(const Belief& filtered, Belief* estimate) const;
 
  private:
   void ComputeGain();
@@ -41,15 +40,13 @@ class TrajectorySmoother {
   void SmoothCovariance();
   /// smoothed_, which goes on from `folded_`, in the joint parameters of `filtered`.
   void Unfold(const Belief& filtered);
-  void MoveAngles(const Belief& filtered);
 
   MotionModel motion_model_;
   JointLimitTransform transform_;
   RootParameters root_;
   Belief smoothed_;
-  Eigen::VectorXd parameters_;  // of smoothed_, before they became angles
-  Belief folded_;               // the filtered belief, as the filter's prediction starts from it
-  Belief predicted_;            // the next frame
+  Belief folded_;     // the filtered belief, as the filter's prediction starts from it
+  Belief predicted_;  // the next frame
   Eigen::VectorXd difference_;
   Eigen::VectorXd dx_;
   PaddedMatrix P_;          // of the prediction, then its root
