@@ -48,18 +48,28 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       clip_(FitOptions(settings).robust_distance),
       dt_(1 / recording.rate()),
       distances_(recording.num_frames()),
+      filtered_(std::min(chunk_, recording.num_frames())),
+      used_(filtered_.size(), Eigen::Matrix3Xd(3, tracker->markers().kinematics().num_markers())),
       frame_(tracker->markers().kinematics()),
       covariance_(tracker->markers(), settings) {}
 
 void OfflineTracker::Keep(int k, const TrackState& state, const TrackedFrame& frame) {
-  KeepCheckpoint(k, state);
+  KeepState(k, state);
   distances_[k] = tracker_.DistanceOfAll(frame);
   if (frame.reassembled) reassembled_[k] = state.gate;
 }
 
-void OfflineTracker::KeepCheckpoint(int k, const TrackState& state) {
-  if (!checkpoints_.empty() && k < checkpoints_.back().frame + chunk_) return;
-  checkpoints_.push_back({k, state});
+void OfflineTracker::KeepState(int k, const TrackState& state) {
+  if (checkpoints_.empty() || k >= checkpoints_.back().frame + chunk_) {
+    checkpoints_.push_back({k, state});
+  }
+  KeepBelief(k - checkpoints_.back().frame, k, state);
+}
+
+void OfflineTracker::KeepBelief(int i, int k, const TrackState& state) {
+  filtered_[i] = state.belief;
+  Gather(k);
+  state.gate.Select(frame_.measured, &frame_.relabelled, &used_[i]);
 }
 
 void OfflineTracker::Smooth(ConversionResult* result) {
@@ -101,10 +111,10 @@ void OfflineTracker::TrackFromRetakes() {
   TrackState state = std::move(checkpoints_.back().state);
   checkpoints_.pop_back();
   Retake(k, &state);
-  KeepCheckpoint(k, state);
+  KeepState(k, state);
   for (++k; k < recording_.num_frames(); ++k) {
     TrackAgain(k, &state);
-    KeepCheckpoint(k, state);
+    KeepState(k, state);
   }
 }
 
@@ -125,32 +135,31 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
   const int frames = recording_.num_frames();
   TrajectorySmoother smoother(filter.motion_model(), filter.transform(), root_,
                               tracker_.markers().kinematics().num_dofs());
-  std::vector<Belief> filtered(std::min(chunk_, frames));
-  std::vector<Eigen::Matrix3Xd> used(filtered.size(), frame_.z);
   TrackState state;
   Belief estimate;
   for (auto checkpoint = checkpoints_.rbegin(); checkpoint != checkpoints_.rend(); ++checkpoint) {
     const int begin = checkpoint->frame;
     const int end = std::min(begin + chunk_, frames);
-    state = checkpoint->state;
-    for (int k = begin; k < end; ++k) {
-      const Clock::time_point start = Clock::now();
-      if (k > begin) TrackAgain(k, &state);
-      filtered[k - begin] = state.belief;
-      Gather(k);
-      state.gate.Select(frame_.measured, &frame_.relabelled, &used[k - begin]);
-      result->frames[k].seconds += SecondsSince(start);
+    // The beliefs of the last part are still there.
+    if (checkpoint != checkpoints_.rbegin()) {
+      state = checkpoint->state;
+      for (int k = begin; k < end; ++k) {
+        const Clock::time_point start = Clock::now();
+        if (k > begin) TrackAgain(k, &state);
+        KeepBelief(k - begin, k, state);
+        result->frames[k].seconds += SecondsSince(start);
+      }
     }
     for (int k = end - 1; k >= begin; --k) {
       const Clock::time_point start = Clock::now();
-      const Belief& of_filter = filtered[k - begin];
+      const Belief& of_filter = filtered_[k - begin];
       if (k == frames - 1) {
         smoother.Start(of_filter);
         estimate = of_filter;
       } else {
         smoother.StepBack(of_filter, dt_);
         smoother.EstimateAbout(of_filter, &estimate);
-        if (!IsAsNear(used[k - begin], estimate, of_filter)) {
+        if (!IsAsNear(used_[k - begin], estimate, of_filter)) {
           smoother.Start(of_filter);
           estimate = of_filter;
         }

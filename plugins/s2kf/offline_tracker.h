@@ -39,7 +39,10 @@ class OfflineTracker {
     TrackState state;
   };
 
-  void KeepCheckpoint(int k, const TrackState& state);
+  /// Keeps the belief of frame k, and every so manieth state as a checkpoint.
+  void KeepState(int k, const TrackState& state);
+  /// Of frame k, the i-th of its part; takes the markers of the frame into frame_.
+  void KeepBelief(int i, int k, const TrackState& state);
 
   /// Where the track was taken up anew, goes backwards from there as long as that is nearer to the
   /// markers than the track was: the frame in which it ends is where to take it up.
@@ -65,7 +68,11 @@ class OfflineTracker {
   double clip_;  // a farther marker is a wrong one [m]
   double dt_;  // [s]
   std::vector<Checkpoint> checkpoints_;
-  std::vector<double> distances_;         // of all markers in each frame [m]
+  std::vector<double> distances_;  // of all markers in each frame [m]
+  // Of the part that starts with the last checkpoint, then of the one that is smoothed: the
+  // filter's belief and the markers that it was updated by.
+  std::vector<Belief> filtered_;
+  std::vector<Eigen::Matrix3Xd> used_;
   std::map<int, GateState> reassembled_;  // the gate in frames where the track was taken up anew
   // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
   std::map<int, Posture> retakes_;

@@ -60,7 +60,7 @@ struct S2kfSettings {
   bool smoothing = false;
   /// Beliefs are kept for so many frames at a time (with rates 68 kB each), and of the frames
   /// before every so manieth. Not in the configuration: the result does not depend on it.
-  int smoothing_chunk = 256;
+  int smoothing_chunk = 1000;
 };
 
 /// The settings of `values` as attributes of a configuration. `values` must outlive the table.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -197,6 +198,25 @@ TEST_P(TrajectorySmootherTest, IsTheBatchSolution) {
         (smoothed.P.diagonal().array() <= run.filtered[k].P.diagonal().array() * (1 + 1e-12))
             .all());
   }
+}
+
+TEST(SmoothedEstimateTest, AnglesMoveToFirstOrderFromTheFilters) {
+  const MotionModel model = SomeModel(false, 0);
+  const JointLimitTransform limits = SomeLimits(LimitFunction::kSine);
+  Belief filtered;
+  filtered.parameters = VectorXd::Zero(kJoints);
+  filtered.parameters[0] = std::numbers::pi / 2;
+  Belief smoothed = filtered;
+  smoothed.parameters[0] -= 1;    // beside a limit no angle follows
+  smoothed.parameters[1] = 0.01;  // far from one it does
+  smoothed.parameters[2] = 3;     // up to a limit
+  TrajectorySmoother smoother(model, limits, RootParameters::kSo3, kStates);
+  smoother.Start(smoothed);
+  Belief estimate;
+  smoother.EstimateAbout(filtered, &estimate);
+  EXPECT_NEAR(limits.Angle(0, estimate.parameters[0]), 2, 0.002);
+  EXPECT_NEAR(estimate.parameters[1], 0.01, 1e-6);
+  EXPECT_NEAR(limits.Angle(2, estimate.parameters[2]), 2, 0.002);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, TrajectorySmootherTest,

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// A limb that bears the other side's labels for a while, and markers that are missing at the start:
+// with errors as people wear markers, and a tenth of them hidden.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "common/convert/converter_config.h"
+#include "common/model/forward_kinematics.h"
+#include "common/motion/marker_synthesis.h"
+#include "common/motion/occlusion.h"
+#include "common/motion/synthetic_motion.h"
+#include "plugins/s2kf/s2kf_converter.h"
+#include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter::s2kf {
+namespace {
+
+constexpr int kSecond = 100;           // frames
+constexpr double kLeastError = 0.010;  // the issue's bound on a joint's centre [m]
+
+const std::vector<std::string> kArm = {"UPA", "AEL", "AOL", "FRA", "WTS",
+                                       "WPS", "HTS", "HPS", "IFD"};
+const std::vector<std::string> kLeg = {"THI", "KNE", "TIP", "ANK", "HEE", "TOE", "MT1", "MT5"};
+
+S2kfSettings Preset(const std::string& name) {
+  return ReadSettings(
+      ReadConverterConfig(testing::SourcePath("xml_config/converters/s2kf_" + name + ".xml")));
+}
+
+MarkerSequence SwapLimb(MarkerSequence markers, const std::vector<std::string>& limb, int begin,
+                        int end) {
+  for (const std::string& name : limb) {
+    markers = SwapMarkers(std::move(markers), "L" + name, "R" + name, begin, end);
+  }
+  return markers;
+}
+
+/// A cartwheel of a person whom the model does not know, or whom it knows exactly.
+struct Scene {
+  explicit Scene(bool is_exact, std::uint64_t seed) {
+    const KinematicModel person =
+        is_exact ? model : FitToSubject(model, testing::DrawPerson(model, seed));
+    const MarkerErrors errors = {0, is_exact ? 0 : 0.004, 0.3, 0.0005};
+    markers = SynthesizeMarkers(person, MakeCartwheel(model), errors, seed).Slice(0, 300);
+    if (!is_exact) markers = OccludeShare(std::move(markers), 0.1, 20, seed);
+  }
+
+  ConversionResult Convert(const S2kfSettings& settings, const MarkerSequence& seen) const {
+    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), settings)
+        .Convert(seen, {});
+  }
+
+  /// The largest distance between the joint centres of two motions from frame `begin` on [m].
+  double Largest(const ConversionResult& a, const ConversionResult& b, int begin) const {
+    double largest = 0;
+    for (int k = begin; k < a.trajectory.num_frames(); ++k) {
+      const auto X_a = SegmentPoses(model, ModelPosture(model, a.trajectory, k));
+      const auto X_b = SegmentPoses(model, ModelPosture(model, b.trajectory, k));
+      for (const int joint : joints) {
+        const int s = model.joint_segment(joint);
+        largest = std::max(largest, (X_a[s].translation() - X_b[s].translation()).norm());
+      }
+    }
+    return largest;
+  }
+
+  KinematicModel model = ScaledReferenceModel(1.8);
+  std::vector<int> joints = MotionJoints(model, 44);
+  MarkerSequence markers;
+};
+
+class SwappedLimbTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SwappedLimbTest, CostsNothingThoughATenthIsHidden) {
+  const Scene scene(false, 1);
+  const S2kfSettings settings = Preset(GetParam());
+  const ConversionResult clean = scene.Convert(settings, scene.markers);
+  for (const auto& limb : {kLeg, kArm}) {
+    for (const int begin : {40, 140}) {
+      const ConversionResult swapped =
+          scene.Convert(settings, SwapLimb(scene.markers, limb, begin, begin + kSecond));
+      EXPECT_LE(scene.Largest(swapped, clean, 0), kLeastError) << limb[0] << " from " << begin;
+      // Each seen marker of the limb is taken for its mirror image, and comes back.
+      EXPECT_GE(swapped.incidents.size(), limb.size());
+      for (const MarkerIncident& incident : swapped.incidents) {
+        EXPECT_LE(incident.last_frame, begin + kSecond + 3);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, SwappedLimbTest, ::testing::Values("default", "offline"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST(SwappedBackTest, LabelsThatAreRightAgainDoNotStayExchanged) {
+  const Scene scene(true, 1);
+  const ConversionResult clean = scene.Convert({}, scene.markers);
+  for (int begin = 40; begin < 220; begin += 20) {
+    const int end = begin + 30;
+    const ConversionResult swapped = scene.Convert({}, SwapLimb(scene.markers, kLeg, begin, end));
+    for (const MarkerIncident& incident : swapped.incidents) {
+      EXPECT_LT(incident.last_frame, end) << "from " << begin;
+    }
+    EXPECT_LE(scene.Largest(swapped, clean, 0), kLeastError) << "from " << begin;
+  }
+}
+
+TEST(SwappedBackTest, TheProcessNoiseIsThatOfTheMotion) {
+  const Scene scene(false, 1);
+  const S2kfSettings settings = Preset("offline");
+  const double clean = scene.Convert(settings, scene.markers).noise_scale.value();
+  const MarkerSequence seen = SwapLimb(scene.markers, kArm, 100, 100 + kSecond);
+  EXPECT_NEAR(scene.Convert(settings, seen).noise_scale.value() / clean, 1, 0.05);
+}
+
+TEST(MissingAtTheStartTest, TheTrackIsTheSameASecondAfterTheMarkersAreThere) {
+  constexpr int kMissing = 50;
+  const Scene scene(false, 3);
+  const ConversionResult clean = scene.Convert({}, scene.markers);
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    MarkerSequence seen = scene.markers;
+    const MarkerSequence hidden = OccludeShare(scene.markers, 0.6, 10 * kMissing, seed);
+    for (int k = 0; k < kMissing; ++k) seen.frame(k) = hidden.frame(k);
+    const ConversionResult late = scene.Convert({}, seen);
+    EXPECT_LE(scene.Largest(late, clean, kMissing + kSecond), kLeastError) << seed;
+    const auto reassembled =
+        std::count_if(late.frames.begin(), late.frames.end(),
+                      [](const FrameDiagnostic& frame) { return frame.reassembled; });
+    EXPECT_LE(reassembled, 10) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter::s2kf
