@@ -30,6 +30,8 @@ constexpr double kInterval = 0.075;
 // = 0.01 s that is 1.9^-2.
 constexpr double kPullDeviation = 2;
 constexpr double kLeastPull = 1e-4;
+// Of an angle that may be anywhere in its range, in halves of the range.
+constexpr double kUniformVariance = 1.0 / 3;
 // Where the root can be at all [m, rad].
 constexpr double kRootDeviation = 10;
 constexpr double kFarAway = 1e3;  // not seen yet [s]
@@ -46,6 +48,7 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
                                          : std::numeric_limits<double>::infinity()),
       unit_(VectorXd::Ones(kinematics_.num_dofs())),
       middle_(VectorXd::Zero(kinematics_.num_joints())),
+      pull_(VectorXd::Zero(kinematics_.num_joints())),
       weights_(3 * kinematics_.num_markers(), 1),
       H_(kinematics_.num_dofs(), kinematics_.num_dofs()),
       root_(kinematics_.num_dofs(), kinematics_.num_dofs()),
@@ -141,13 +144,17 @@ void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
     weights_.view().col(0).segment<3>(3 * m).setConstant(1 / (variance + way * way));
     variance_ += variance / num_markers;
   }
-  pull_ = std::max(kLeastPull, look_variance_ / (variance_ * kPullDeviation * kPullDeviation));
+  // What draws an estimate that follows its markers is weak; one that follows none is where it was
+  // or natural, whichever is known better.
+  const double weak =
+      std::max(kLeastPull, look_variance_ / (variance_ * kPullDeviation * kPullDeviation));
+  for (int j = 0; j < n - 6; ++j) pull_[j] = IsShown(j) ? weak : 1 / kUniformVariance;
   H_.SetZero();
   AddWeightedSquare(at->J_transposed, weights_, &H_);
   auto H = H_.view();
   for (int j = 0; j < n; ++j) {
     for (int i = j; i < n; ++i) H(i, j) *= unit_[i] * unit_[j];
-    H(j, j) += j < 6 ? 1 / (kRootDeviation * kRootDeviation) : pull_;
+    H(j, j) += j < 6 ? 1 / (kRootDeviation * kRootDeviation) : pull_[j - 6];
   }
   Factorize(&H_);
   root_.SetIdentity();
@@ -156,19 +163,27 @@ void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
   AddSquare(1, root_, &A_);
   auto A = A_.view();
   A.triangularView<Eigen::StrictlyUpper>() = A.transpose();
-  fitted_ = n - pull_ * A.diagonal().tail(n - 6).sum();
+  fitted_ = n - pull_.dot(A.diagonal().tail(n - 6));
+}
+
+bool ReportedCovariance::IsShown(int joint) const {
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (age_[m] == 0 && kinematics_.Moves(joint, m)) return true;
+  }
+  return false;
 }
 
 double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
   const auto A = A_.view();
-  const double spread = settings_.joint_spread;
-  const double drawn = A.col(i).tail(A.rows() - 6).squaredNorm();
-  const double variance = A(i, i) - pull_ * (1 - pull_ * spread * spread) * drawn;
+  double variance = A(i, i);
+  for (Eigen::Index j = 0; j < pull_.size(); ++j) {
+    variance -= pull_[j] * (1 - pull_[j] * kUniformVariance) * A(6 + j, i) * A(6 + j, i);
+  }
   if (i < 6) return variance;
   if (kinematics_.IsEndless(i - 6)) return variance * unit_[i] * unit_[i];
   // Nor can it be farther off than an angle that is anywhere in the range.
   const double from_middle = (angles[i - 6] - middle_[i - 6]) / unit_[i];
-  const double anywhere = 1.0 / 3 + from_middle * from_middle;
+  const double anywhere = kUniformVariance + from_middle * from_middle;
   return variance * anywhere / (variance + anywhere) * unit_[i] * unit_[i];
 }
 

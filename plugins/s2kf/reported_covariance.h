@@ -51,6 +51,8 @@ class ReportedCovariance {
   void Invert(const Eigen::VectorXd* until_look, double white_share, MarkerJacobian* at);
   /// The mean share of one look's white noise that an estimator leaves.
   double ShareOf(const Eigen::VectorXd& own) const;
+  /// A marker that it moves is seen now.
+  bool IsShown(int joint) const;
   double VarianceOf(int i, const Eigen::VectorXd& angles) const;
 
   const MarkerKinematics& kinematics_;
@@ -77,7 +79,7 @@ class ReportedCovariance {
 
   Eigen::VectorXd kept_;  // the latest deviations
   double variance_ = 0;   // mean of C, were all markers seen [m^2]
-  double pull_ = 0;       // N
+  Eigen::VectorXd pull_;  // N, of the joints
   PaddedMatrix weights_;  // C^-1
   PaddedMatrix H_;
   PaddedMatrix root_;

@@ -81,8 +81,6 @@ void BindDeviations(S2kfSettings* v, SettingTable* table) {
              "of a person who was not calibrated: variance by which lengths of segments move "
              "markers, as far as the posture takes it up, over the variance that the markers' "
              "distances show");
-  table->Add("Deviations", "jointSpread", &d->joint_spread, 1, 0.01, 1,
-             "of a joint that no marker shows, about the natural posture, in halves of its range");
   table->Add("Deviations", "limbSpeed_m_per_s", &d->limb_speed, 1, 0, 100,
              "of a marker while it is hidden: how fast what is known of its limb is lost");
 }

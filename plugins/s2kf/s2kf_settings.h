@@ -27,8 +27,7 @@ enum class StartMethod {
 struct DeviationSettings {
   double marker_offset = 0.028;  ///< of a marker from the model's place [m], each coordinate
   double length_share = 0.33;    ///< variance by lengths over that which residuals show
-  double joint_spread = 0.45;    ///< of joints about the natural posture, in halves of their range
-  double limb_speed = 0.5;       ///< of a hidden marker [m/s]
+  double limb_speed = 0.7;       ///< of a hidden marker [m/s]
 };
 
 /// All that a configuration can say to the S2KFConverter, at its defaults. SI units.
