@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "common/fit/posture_fit.h"
 #include "common/math/dense.h"
 
 namespace mmm_converter::s2kf {
@@ -48,17 +49,22 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
                                          : std::numeric_limits<double>::infinity()),
       unit_(VectorXd::Ones(kinematics_.num_dofs())),
       middle_(VectorXd::Zero(kinematics_.num_joints())),
+      spread_(VectorXd::Constant(kinematics_.num_joints(), kUniformVariance)),
       pull_(VectorXd::Zero(kinematics_.num_joints())),
       weights_(3 * kinematics_.num_markers(), 1),
       H_(kinematics_.num_dofs(), kinematics_.num_dofs()),
       root_(kinematics_.num_dofs(), kinematics_.num_dofs()),
       A_(kinematics_.num_dofs(), kinematics_.num_dofs()) {
+  const VectorXd natural = NaturalAngles(kinematics_);
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
     const bool is_endless = kinematics_.IsEndless(j);
     const double lower = kinematics_.lower()[j];
     const double upper = kinematics_.upper()[j];
     unit_[6 + j] = is_endless ? std::numbers::pi : 0.5 * (upper - lower);
-    if (!is_endless) middle_[j] = 0.5 * (upper + lower);
+    if (is_endless) continue;
+    middle_[j] = 0.5 * (upper + lower);
+    const double natural_from_middle = (natural[j] - middle_[j]) / unit_[6 + j];
+    spread_[j] += natural_from_middle * natural_from_middle;
   }
   kept_.setConstant(kinematics_.num_dofs(), kNaN);
   Restart();
@@ -148,7 +154,7 @@ void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
   // or natural, whichever is known better.
   const double weak =
       std::max(kLeastPull, look_variance_ / (variance_ * kPullDeviation * kPullDeviation));
-  for (int j = 0; j < n - 6; ++j) pull_[j] = IsShown(j) ? weak : 1 / kUniformVariance;
+  for (int j = 0; j < n - 6; ++j) pull_[j] = IsShown(j) ? weak : 1 / spread_[j];
   H_.SetZero();
   AddWeightedSquare(at->J_transposed, weights_, &H_);
   auto H = H_.view();
@@ -177,7 +183,7 @@ double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
   const auto A = A_.view();
   double variance = A(i, i);
   for (Eigen::Index j = 0; j < pull_.size(); ++j) {
-    variance -= pull_[j] * (1 - pull_[j] * kUniformVariance) * A(6 + j, i) * A(6 + j, i);
+    variance -= pull_[j] * (1 - pull_[j] * spread_[j]) * A(6 + j, i) * A(6 + j, i);
   }
   if (i < 6) return variance;
   if (kinematics_.IsEndless(i - 6)) return variance * unit_[i] * unit_[i];

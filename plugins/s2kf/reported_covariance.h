@@ -63,6 +63,7 @@ class ReportedCovariance {
   double clip_;             // a farther marker is a wrong one [m]
   Eigen::VectorXd unit_;    // of each state: 1, or half the range of a joint
   Eigen::VectorXd middle_;  // of the joints' ranges
+  Eigen::VectorXd spread_;  // S: of joints about the natural posture, squared, in these units
 
   // Of the recording:
   Eigen::Matrix3Xd last_residual_;  // link axes; NaN: not seen

@@ -19,7 +19,7 @@
 namespace mmm_converter::s2kf {
 namespace {
 
-constexpr int kFirstPerson = 101;
+constexpr int kFirstPerson = 301;
 constexpr int kPersons = 20;
 constexpr int kFrames = 300;
 constexpr int kSettled = 25;
