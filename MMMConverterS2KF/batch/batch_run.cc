@@ -29,8 +29,8 @@ double SecondsSince(Clock::time_point start) {
 
 std::string DescribeShortly(const EntryResult& result) {
   const std::size_t warnings = result.figures->warnings.size();
-  return fmt::format("{} frames, {:.1f} mm, {:.2f} s{}", result.figures->frames,
-                     result.figures->mean_mm, result.seconds,
+  return fmt::format("{} frames, {:.1f} mm, {:.2f} s, {}{}", result.figures->frames,
+                     result.figures->mean_mm, result.seconds, Name(result.figures->verdict.level),
                      warnings > 0 ? fmt::format(", {} warnings", warnings) : "");
 }
 

@@ -251,7 +251,7 @@ class Judge {
   // A height that was given beside the one that the markers tell.
   void JudgeHeight(bool is_far) {
     const double height = report_.person.height.value;
-    if (height <= 0 || report_.person.is_height_estimated) return;
+    if (height <= 0 || report_.person.height_deviation > 0) return;
     std::optional<HeightEstimate> estimate;
     try {
       const auto* track = is_far ? nullptr : &report_.result.trajectory.postures;

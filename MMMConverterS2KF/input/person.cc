@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "common/calibrate/person_height.h"
 #include "common/convert/converter_config.h"
 #include "common/io/mmm/processor_config.h"
 #include "common/io/mmm/subject_file.h"
@@ -28,9 +29,10 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
   return std::nullopt;
 }
 
-PersonValue Estimate(const TrackingSetup& setup, const MarkerSequence& markers) {
-  const HeightEstimate estimate = EstimateHeight(setup, *setup.model, markers);
-  return {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
+void Estimate(const TrackingSetup& setup, const MarkerSequence& markers, Person* person) {
+  const PersonHeight estimate = EstimatePersonHeight(setup, markers);
+  person->height = {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
+  person->height_deviation = estimate.deviation;
 }
 
 // Files have at least 6 digits of a metre or a kilogram.
@@ -88,7 +90,7 @@ void TakeNumbers(const PersonRequest& request, const BodySize& processor,
 
 Person Find(const PersonRequest& request, const KinematicModel& reference,
             const Recording& recording, const ConverterConfig& config,
-            const std::function<PersonValue()>& estimate_height, Warnings* warnings) {
+            const std::function<void(Person*)>& estimate_height, Warnings* warnings) {
   Person person;
   BodySize processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
@@ -99,10 +101,7 @@ Person Find(const PersonRequest& request, const KinematicModel& reference,
     return person;
   }
   TakeNumbers(request, processor, recording, &person);
-  if (person.height.source.empty()) {
-    person.height = estimate_height();
-    person.is_height_estimated = true;
-  }
+  if (person.height.source.empty()) estimate_height(&person);
   return person;
 }
 
@@ -142,7 +141,7 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
                   const Recording& recording, const ConverterConfig& config, Warnings* warnings) {
   if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
-  const auto estimate = [&] { return Estimate(setup, recording.markers); };
+  const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, person); };
   return Find(request, *setup.model, recording, config, estimate, warnings);
 }
 
@@ -151,7 +150,7 @@ Person FindKnownPerson(const PersonRequest& request, const KinematicModel& refer
   constexpr const char* kUnknown =
       "how tall and heavy is the person? Give --height and --mass, --person or --subject-file";
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));
-  const auto fail = []() -> PersonValue { throw Error(kUnknown); };
+  const auto fail = [](Person* /*person*/) { throw Error(kUnknown); };
   Person person = Find(request, reference, Recording(), config, fail, warnings);
   if (person.mass.source == kAssumed) throw Error(kUnknown);
   return person;

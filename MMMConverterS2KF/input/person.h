@@ -34,7 +34,7 @@ struct PersonValue {
 
 struct Person {
   PersonValue height, mass;
-  bool is_height_estimated = false;  ///< from the markers
+  double height_deviation = 0;  ///< of a height that the markers tell [m]; else 0
   std::optional<double> hand_length;
   std::shared_ptr<const Subject> subject;  ///< null: height and mass are all that is known
   std::string subject_file;                ///< empty: none

@@ -34,10 +34,13 @@ Json DescribeInput(const ConversionReport& report) {
 
 Json DescribePerson(const ConversionReport& report) {
   if (report.object) return nullptr;
-  Json person = {{"height_m", Number(report.person.height.value)},
-                 {"height_source", report.person.height.source},
-                 {"mass_kg", Number(report.person.mass.value)},
-                 {"mass_source", report.person.mass.source}};
+  Json person = {
+      {"height_m", Number(report.person.height.value)},
+      {"height_source", report.person.height.source},
+      {"height_deviation_m",
+       report.person.height_deviation > 0 ? Number(report.person.height_deviation) : Json(nullptr)},
+      {"mass_kg", Number(report.person.mass.value)},
+      {"mass_source", report.person.mass.source}};
   if (report.person.hand_length) person["hand_length_m"] = Number(*report.person.hand_length);
   return person;
 }

@@ -10,6 +10,7 @@
 #include "MMMConverterS2KF/report/c3d_details.h"
 #include "MMMConverterS2KF/report/describe.h"
 #include "MMMConverterS2KF/report/info_markers.h"
+#include "MMMConverterS2KF/report/info_prospect.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/tables/trc_reader.h"
 #include "common/support/error.h"
@@ -30,6 +31,7 @@ struct StoredRecording {
 /// The markers of a recording, or why there are none.
 struct Markers {
   std::optional<Recording> recording;
+  std::optional<Prospect> prospect;  ///< of its conversion
   std::string failure;
 };
 
@@ -37,12 +39,16 @@ struct Markers {
 Markers ReadMarkers(const std::string& path, const ReadRecordingOptions& options,
                     Warnings* warnings) {
   try {
-    return {ReadRecording(path, options, warnings), ""};
+    Recording recording = ReadRecording(path, options, warnings);
+    InputRequest conversion;
+    conversion.file = path;
+    conversion.reading = options;
+    return {std::move(recording), FindProspect(conversion), ""};
   } catch (const Error& error) {
     if (!options.subject.empty() || options.unit || options.up_axis) throw;
     std::string failure = error.what();
     if (failure.starts_with(path + ": ")) failure.erase(0, path.size() + 2);
-    return {std::nullopt, failure};
+    return {std::nullopt, std::nullopt, failure};
   }
 }
 
@@ -83,6 +89,7 @@ Json RecordingJson(const std::string& path, const StoredRecording& stored, const
   json["up_axis_decided_from_markers"] = recording.up_axis_was_decided;
   json["subjects"] = recording.subjects;
   json["subject"] = recording.subject;
+  json["conversion"] = ToJson(*markers.prospect);
   json["labels"] = MarkersJson(recording.markers);
   return json;
 }
@@ -93,7 +100,7 @@ Description Describe(const std::string& path, const StoredRecording& stored, con
   std::string text = FormatHead(path, stored);
   if (markers.recording) {
     const MarkerSequence& sequence = markers.recording->markers;
-    text += FormatAxes(*markers.recording) + content +
+    text += FormatAxes(*markers.recording) + FormatProspect(*markers.prospect) + content +
             fmt::format("labels     {}\n{}", sequence.num_labels(), FormatMarkers(sequence));
   } else {
     text += fmt::format("unit       {}\n{}convert    not as it is: {}\n",

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -31,9 +32,11 @@ constexpr double kMostDamping = 1e6;
 // Frames are summed up in so many parts, whatever the number of threads: the same sum each time.
 constexpr int kParts = 8;
 
-/// Information about the scales before any recording: the mean of left and right is 1 by
+double Square(double x) { return x * x; }
+
+/// Information about the scales of a person of known height: the mean of left and right is 1 by
 /// scale_deviation, their difference 0 by side_deviation.
-MatrixXd ScalePrior(const SegmentLengths& lengths, const CalibrationOptions& options) {
+MatrixXd OwnScalePrior(const SegmentLengths& lengths, const CalibrationOptions& options) {
   const auto n = static_cast<Eigen::Index>(lengths.segments.size());
   MatrixXd A = MatrixXd::Identity(n, n) / options.scale_deviation;
   for (const auto& [left, right] : lengths.mirror) {
@@ -42,6 +45,28 @@ MatrixXd ScalePrior(const SegmentLengths& lengths, const CalibrationOptions& opt
     A(right, right) = -1 / options.side_deviation;
   }
   return A.transpose() * A;
+}
+
+/// How the scales tell the height: what they have in common beyond 1 is weights' * (scales - 1),
+/// with `variance` where they are known.
+struct CommonScale {
+  VectorXd weights;
+  double variance = 0;
+};
+
+CommonScale FindCommonScale(const MatrixXd& own_prior, double height_deviation) {
+  const VectorXd pull = own_prior.rowwise().sum();
+  const double variance = 1 / (1 / Square(height_deviation) + pull.sum());
+  return {variance * pull, variance};
+}
+
+/// Information about the scales before any recording; where the height is a guess, they have an
+/// unknown part in common (Woodbury).
+MatrixXd ScalePrior(const SegmentLengths& lengths, const CalibrationOptions& options) {
+  const MatrixXd own = OwnScalePrior(lengths, options);
+  if (options.height_deviation <= 0) return own;
+  const CommonScale common = FindCommonScale(own, options.height_deviation);
+  return own - common.weights * common.weights.transpose() / common.variance;
 }
 
 class BodyFit {
@@ -83,7 +108,7 @@ class BodyFit {
   void AddPrior();
   void Reduce(double damping);
   double TryStep(double damping);
-  Body Deviations();
+  Body Deviations(BodyFitResult* result);
 
   BodyKinematics& kinematics_;
   const CalibrationOptions& options_;
@@ -173,11 +198,19 @@ double BodyFit::TryStep(double damping) {
   return Cost(trial_body_, trial_);
 }
 
-Body BodyFit::Deviations() {
+Body BodyFit::Deviations(BodyFitResult* result) {
   Linearize();
   Reduce(0);
   const MatrixXd H = reduced_.H.view().selfadjointView<Eigen::Lower>();
   const MatrixXd P = H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols()));
+  if (options_.height_deviation > 0) {
+    const CommonScale common =
+        FindCommonScale(OwnScalePrior(kinematics_.lengths(), options_), options_.height_deviation);
+    const Eigen::Index n = body_.scales.size();
+    result->common_scale = common.weights.dot((body_.scales.array() - 1).matrix());
+    result->common_deviation =
+        std::sqrt(common.variance + common.weights.dot(P.bottomRightCorner(n, n) * common.weights));
+  }
   const VectorXd deviations = P.diagonal().cwiseMax(0).cwiseSqrt();
   return {deviations.tail(body_.scales.size()),
           deviations.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize)};
@@ -209,7 +242,7 @@ BodyFitResult BodyFit::Solve() {
   kinematics_.SetBody(body_);
   for (std::size_t k = 0; k < frames_.size(); ++k) trial_[k] = frames_[k].posture;
   Cost(body_, trial_);
-  result.deviations = Deviations();
+  result.deviations = Deviations(&result);
   result.prior_scale_deviations =
       scale_prior_.ldlt()
           .solve(MatrixXd::Identity(scale_prior_.rows(), scale_prior_.cols()))

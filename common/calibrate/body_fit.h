@@ -16,6 +16,9 @@ struct BodyFitResult {
   bool converged = false;
   Body deviations;  ///< standard deviations of the body, postures being unknown too
   Eigen::VectorXd prior_scale_deviations;  ///< of the scales before any recording
+  /// What all scales have in common beyond 1, and its standard deviation, where the height is a
+  /// guess; else 0.
+  double common_scale = 0, common_deviation = 0;
 };
 
 /// The body and all postures together, as their most likely values where a marker is where its

@@ -40,6 +40,13 @@ TEST(Info, Recording) {
   EXPECT_EQ(json["first_frame"], 1);
   EXPECT_EQ(json["unit"], "mm");
   EXPECT_EQ(json["up_axis"], "+z");
+  const auto& conversion = json["conversion"];
+  EXPECT_TRUE(conversion["failure"].is_null());
+  EXPECT_EQ(conversion["marker_set"], "KIT");
+  EXPECT_EQ(conversion["markers_used"], 53);
+  EXPECT_THAT(conversion["shown"], SizeIs(6));
+  EXPECT_THAT(conversion["not_shown"], SizeIs(0));
+  EXPECT_NEAR(conversion["height_m"], 1.8, 0.06);
   ASSERT_THAT(json["labels"], SizeIs(53));
   for (const auto& label : json["labels"]) {
     EXPECT_EQ(label["frames_seen"], 675);

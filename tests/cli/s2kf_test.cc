@@ -76,6 +76,8 @@ TEST(S2kf, EstimatesTheHeightWhereNobodyGivesIt) {
   const auto json = nlohmann::json::parse(ReadText(summary));
   // Markers that sit 28 mm off on each axis leave the height open by some centimetres; it is 1.8 m.
   EXPECT_NEAR(json["person"]["height_m"].get<double>(), 1.8, 0.06);
+  EXPECT_GT(json["person"]["height_deviation_m"], 0.01);
+  EXPECT_LT(json["person"]["height_deviation_m"], 0.04);
 }
 
 TEST(S2kf, TheConfigurationSaysTheFormatAndTheCommandLineComesFirst) {

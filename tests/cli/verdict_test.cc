@@ -118,6 +118,7 @@ MarkerSequence Only(const std::function<bool(const std::string&)>& is_it) {
 TEST(Verdict, TheSampleIsGood) {
   EXPECT_EQ(Convert(Handstand(), {"--height", "1.8"}).level, "good");
   EXPECT_EQ(Convert(Handstand(), {}).level, "good");
+  EXPECT_EQ(ConvertMarkers(Sample()).level, "good");
   EXPECT_EQ(Convert(Handstand(), {"--height", "1.8", "--self-calibrate"}).level, "good");
 }
 
@@ -229,14 +230,14 @@ TEST(Verdict, LimbsThatNoMarkersShow) {
 }
 
 TEST(Verdict, LongGaps) {
-  Judged judged = ConvertMarkers(HideAllMarkers(Sample(), 40, 145));
+  Judged judged = ConvertMarkers(HideAllMarkers(Sample(), 60, 165));
   EXPECT_EQ(judged.level, "check");
-  EXPECT_THAT(judged.reasons, HasSubstr("the body is hidden for 1.1 s, frames 40 to 144"));
+  EXPECT_THAT(judged.reasons, HasSubstr("the body is hidden for 1.1 s, frames 60 to 164"));
   std::vector<std::string> of_leg;
   for (const std::string& label : Sample().labels()) {
     if (label[0] == 'L' && IsOfLeg(label)) of_leg.push_back(label);
   }
-  judged = ConvertMarkers(HideMarkers(Sample(), of_leg, 40, 145));
+  judged = ConvertMarkers(HideMarkers(Sample(), of_leg, 60, 165));
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("the left leg is hidden for 1.1 s"));
 }
@@ -244,7 +245,7 @@ TEST(Verdict, LongGaps) {
 TEST(Verdict, IsInThePageToo) {
   const std::string page = TestFolder() + "/page.html";
   const std::string file = TestFolder() + "/made.c3d";
-  WriteC3d(file, HideAllMarkers(Sample(), 40, 145));
+  WriteC3d(file, HideAllMarkers(Sample(), 60, 165));
   const auto run = RunProgram(
       {"convert", file, "--height", "1.8", "-o", TestFolder() + "/o.xml", "--report", page});
   ASSERT_EQ(run.exit_code, 0) << run.err;

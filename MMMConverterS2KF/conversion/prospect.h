@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/coverage.h"
+#include "MMMConverterS2KF/input/input.h"
+#include "common/convert/marker_mapping.h"
+
+namespace mmm_converter {
+
+/// What a conversion of a recording, with defaults, would have to go by.
+struct Prospect {
+  std::string failure;     ///< why it can't be converted like that; empty: it can
+  std::string marker_set;  ///< that it would be read with; empty: the configuration's own list
+  MarkerMapping mapping;
+  Person person;
+  std::vector<Limb> limbs;
+  std::vector<Gap> gaps;            ///< of more than a second
+  std::vector<std::string> doubts;  ///< of unit and axis
+};
+
+/// Plans the conversion, and tracks nothing.
+Prospect FindProspect(const InputRequest& request);
+
+}  // namespace mmm_converter
