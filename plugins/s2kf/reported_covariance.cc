@@ -145,7 +145,12 @@ void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
     const double hidden_from_residuals =
         std::isnan(place) ? settings_.length_share * slow_ : place * place;
     const double variance = slow_ + hidden_from_residuals + white_share * white_;
-    const double age = until_look ? std::min(age_[m], (*until_look)[m]) : age_[m];
+    double age = age_[m];
+    if (until_look != nullptr && age > 0) {
+      // Known from both sides: the information of the two ways adds.
+      const double until = (*until_look)[m];
+      age *= until / std::hypot(age, until);
+    }
     const double way = settings_.limb_speed * age;
     weights_.view().col(0).segment<3>(3 * m).setConstant(1 / (variance + way * way));
     variance_ += variance / num_markers;
