@@ -81,8 +81,11 @@ TEST(FitToSubject, MovesMarkersAfterScaling) {
   MarkerOffset offset;
   offset.marker = "MARKER_C";
   offset.offset = {0.01, -0.02, 0.03};
+  offset.standard_deviations = {0.002, 0.002, 0.002};
   subject.offsets = {offset};
   const KinematicModel fitted = FitToSubject(StickModel(), subject);
+  EXPECT_NEAR(fitted.markers()[2].deviation.value(), 0.002, kRounding);
+  EXPECT_FALSE(fitted.markers()[1].deviation.has_value());
   EXPECT_TRUE(fitted.markers()[2].p_SM.isApprox(Eigen::Vector3d(0.01, -0.02, 0.25), kRounding));
   // At the zero posture the knee stands 0.55 m above the root.
   Posture zero;
