@@ -17,7 +17,7 @@
 namespace mmm_converter {
 
 /// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
-inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-3";
+inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-4";
 
 /// What a converter knows of one frame. All vectors keep their size from frame to frame.
 struct FrameEstimate {
