@@ -118,7 +118,7 @@ TEST(SwappedBackTest, TheProcessNoiseIsThatOfTheMotion) {
 
 TEST(MissingAtTheStartTest, TheTrackIsTheSameASecondAfterTheMarkersAreThere) {
   constexpr int kMissing = 50;
-  const Scene scene(false, 3);
+  const Scene scene(false, 1);
   const ConversionResult clean = scene.Convert({}, scene.markers);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     MarkerSequence seen = scene.markers;
