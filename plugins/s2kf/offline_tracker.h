@@ -64,9 +64,9 @@ class OfflineTracker {
   const MarkerSequence& recording_;
   OnlineTracker& tracker_;
   RootParameters root_;
-  int chunk_;  // frames between checkpoints
+  int chunk_;    // frames between checkpoints
   double clip_;  // a farther marker is a wrong one [m]
-  double dt_;  // [s]
+  double dt_;    // [s]
   std::vector<Checkpoint> checkpoints_;
   std::vector<double> distances_;  // of all markers in each frame [m]
   // Of the part that starts with the last checkpoint, then of the one that is smoothed: the

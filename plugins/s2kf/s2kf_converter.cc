@@ -99,12 +99,16 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
     return MotionConverter::Convert(recording, progress);
   }
   OfflineTracker offline(recording, settings_, &tracker_);
+  // Also where progress cancels.
+  struct Reset {
+    bool& flag;
+    ~Reset() { flag = false; }
+  } const reset{is_smoothed_};
   is_smoothed_ = true;
   ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
     offline.Keep(done - 1, track_, frame_);
     return !progress || progress(done);
   });
-  is_smoothed_ = false;
   offline.Smooth(&result);
   Differentiate(&result.trajectory);
   return result;

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "common/math/up_axis.h"
 #include "common/io/tables/column_names.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
+#include "common/math/up_axis.h"
 
 namespace mmm_converter {
 namespace {

@@ -6,9 +6,9 @@
 #include <cassert>
 #include <optional>
 
-#include "common/math/up_axis.h"
 #include "common/io/tables/column_names.h"
 #include "common/io/xml/xml_text.h"
+#include "common/math/up_axis.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
 
