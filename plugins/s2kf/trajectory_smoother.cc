@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/trajectory_smoother.h"
 
+#include <cmath>
+
 #include "common/math/dense.h"
 
 namespace mmm_converter::s2kf {
+
+namespace {
+
+// How far a smoothed parameter is followed from the filter's, where the sine is no longer straight
+// [rad].
+constexpr double kLinear = 1;
+
+}  // namespace
 
 TrajectorySmoother::TrajectorySmoother(const MotionModel& motion_model,
                                        const JointLimitTransform& transform, RootParameters root,
@@ -95,8 +105,8 @@ void TrajectorySmoother::EstimateAbout(const Belief& filtered, Belief* estimate)
   *estimate = smoothed_;
   for (int j = 0; j < filtered.parameters.size(); ++j) {
     const double from = filtered.parameters[j];
-    const double moved = transform_.Slope(j, from) * (smoothed_.parameters[j] - from);
-    estimate->parameters[j] = transform_.Parameter(j, transform_.Angle(j, from) + moved);
+    const double step = smoothed_.parameters[j] - from;
+    estimate->parameters[j] = from + kLinear * std::tanh(step / kLinear);
   }
 }
 

@@ -29,9 +29,9 @@ class TrajectorySmoother {
 
   const Belief& belief() const { return smoothed_; }
 
-  /// The belief with its angles moved to first order from those of `filtered`, of the same frame:
-  /// that is all that a pass which is linear about the filter's track says. Beside a limit
-  /// parameters may go far that no angle followed.
+  /// The belief with parameters no farther from those of `filtered`, of the same frame, than the
+  /// pass holds, which is linear about the filter's track: beside a limit they may go any way, as
+  /// no angle follows.
   void EstimateAbout(const Belief& filtered, Belief* estimate) const;
 
  private:

@@ -68,7 +68,7 @@ class Scene {
     for (int j = 0; j < model.num_joints(); ++j) joints.push_back(j);
     std::vector<MarkerAssignment> assignments;
     for (int m = 0; m < static_cast<int>(model.markers().size()); ++m) {
-      assignments.push_back({m, m, 1.0});
+      assignments.push_back({LabelIx(m), MarkerIx(m), 1.0});
     }
     return SetupOf(model, joints, assignments);
   }

@@ -111,9 +111,9 @@ TEST(SwappedBackTest, LabelsThatAreRightAgainDoNotStayExchanged) {
 TEST(SwappedBackTest, TheProcessNoiseIsThatOfTheMotion) {
   const Scene scene(false, 1);
   const S2kfSettings settings = Preset("offline");
-  const double clean = scene.Convert(settings, scene.markers).noise_scale.value();
+  const double clean = scene.Convert(settings, scene.markers).process_noise_scale.value();
   const MarkerSequence seen = SwapLimb(scene.markers, kArm, 100, 100 + kSecond);
-  EXPECT_NEAR(scene.Convert(settings, seen).noise_scale.value() / clean, 1, 0.05);
+  EXPECT_NEAR(scene.Convert(settings, seen).process_noise_scale.value() / clean, 1, 0.05);
 }
 
 TEST(MissingAtTheStartTest, TheTrackIsTheSameASecondAfterTheMarkersAreThere) {

@@ -200,23 +200,20 @@ TEST_P(TrajectorySmootherTest, IsTheBatchSolution) {
   }
 }
 
-TEST(SmoothedEstimateTest, AnglesMoveToFirstOrderFromTheFilters) {
-  const MotionModel model = SomeModel(false, 0);
-  const JointLimitTransform limits = SomeLimits(LimitFunction::kSine);
+TEST(SmoothedEstimateTest, ParametersMoveARadianAtMost) {
   Belief filtered;
   filtered.parameters = VectorXd::Zero(kJoints);
   filtered.parameters[0] = std::numbers::pi / 2;
   Belief smoothed = filtered;
-  smoothed.parameters[0] -= 1;    // beside a limit no angle follows
-  smoothed.parameters[1] = 0.01;  // far from one it does
-  smoothed.parameters[2] = 3;     // up to a limit
-  TrajectorySmoother smoother(model, limits, RootParameters::kSo3, kStates);
+  smoothed.parameters[0] -= 3;  // beside a limit no marker says how far
+  smoothed.parameters[1] = 0.01;
+  TrajectorySmoother smoother(SomeModel(false, 0), SomeLimits(LimitFunction::kSine),
+                              RootParameters::kSo3, kStates);
   smoother.Start(smoothed);
   Belief estimate;
   smoother.EstimateAbout(filtered, &estimate);
-  EXPECT_NEAR(limits.Angle(0, estimate.parameters[0]), 2, 0.002);
+  EXPECT_NEAR(estimate.parameters[0], std::numbers::pi / 2 - std::tanh(3), 1e-9);
   EXPECT_NEAR(estimate.parameters[1], 0.01, 1e-6);
-  EXPECT_NEAR(limits.Angle(2, estimate.parameters[2]), 2, 0.002);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, TrajectorySmootherTest,
