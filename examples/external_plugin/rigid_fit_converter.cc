@@ -104,9 +104,9 @@ class RigidFitConverter : public mmm_converter::MotionConverter {
   }
 
   Settings settings_;
-  std::vector<LabelIx> labels_;  // by assignment
-  Eigen::Matrix3Xd p_SM_;        // by assignment, zero posture, in axes of the root [m]
-  std::vector<int> seen_;        // assignments seen in the present frame
+  std::vector<mmm_converter::LabelIx> labels_;  // by assignment
+  Eigen::Matrix3Xd p_SM_;  // by assignment, zero posture, in axes of the root [m]
+  std::vector<int> seen_;  // assignments seen in the present frame
   FrameEstimate estimate_;
 };
 
