@@ -27,6 +27,7 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
       frame_(markers_.kinematics()),
       covariance_(markers_, settings) {
   deviations_.setZero(markers_.kinematics().num_dofs());
+  own_deviations_ = deviations_;
   estimate_.posture.joint_angles.setZero(setup.model->num_joints());
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
   estimate_.residuals.setConstant(markers_.kinematics().num_markers(), kNaN);
@@ -49,7 +50,9 @@ const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, dou
 void S2kfConverter::FillEstimate(double dt) {
   if (!is_smoothed_) {
     covariance_.Look(frame_.z, frame_.at, dt);
-    covariance_.Compute(frame_.posture.joint_angles, &frame_.at, &deviations_);
+    tracker_.filter().Deviations(track_.belief, &own_deviations_);
+    covariance_.Compute(frame_.posture.joint_angles, &frame_.at, &deviations_, nullptr,
+                        &own_deviations_);
   }
   estimate_.posture.position = frame_.posture.position;
   estimate_.posture.orientation = frame_.posture.orientation;

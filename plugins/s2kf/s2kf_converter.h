@@ -37,6 +37,7 @@ class S2kfConverter : public MotionConverter {
   ReportedCovariance covariance_;
   bool is_smoothed_ = false;  // the deviations come later
   Eigen::VectorXd deviations_;
+  Eigen::VectorXd own_deviations_;  // of the filter, which takes all noise for white
   FrameEstimate estimate_;
 };
 
