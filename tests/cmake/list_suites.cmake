@@ -9,11 +9,16 @@ execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMA
 string(REGEX MATCHALL "\n[^ \n]+\\.[^\n]*" suites "\n${list}")
 get_filename_component(program ${PROGRAM} NAME)
 set(entries "")
+# The long ones begin first, so that none runs alone at the end.
+set(cost 1)
+if(program MATCHES "_accuracy_test$")
+  set(cost 100)
+endif()
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n([^ ]+)\\..*$" "\\1" suite "${suite}")
   string(APPEND entries "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
     # Skipped are suites of which nothing was run, and nothing failed.
-    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES SKIP_REGULAR_EXPRESSION "
+    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES COST ${cost} SKIP_REGULAR_EXPRESSION "
     "[=[\\[  PASSED  \\] 0 tests\\.\n\\[  SKIPPED \\] [0-9]+ tests?, listed below:\n(\\[  SKIPPED \\] [^\n]*\n)*$]=])\n")
 endforeach()
 file(WRITE ${OUTPUT} "${entries}")

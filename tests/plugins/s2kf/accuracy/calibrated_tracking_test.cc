@@ -130,8 +130,9 @@ TEST(CalibratedTracking, HiddenMarkersOfKitRecordingsArePredicted) {
   EXPECT_LT(online, 0.008);
 }
 
-// 10 Hz. The project wants 4 mm; Pour has 4.7, as the filter holds that fast arm back, and 4.0 where
-// recovery replaces it by a framewise fit in 16 of its 39 frames. What smoothing costs is printed.
+// 10 Hz. The project wants 4 mm; Pour has 4.7, as the filter holds that fast arm back, and 4.0
+// where recovery replaces it by a framewise fit in 16 of its 39 frames. What smoothing costs is
+// printed.
 TEST(CalibratedTracking, HeldOutHalvesOfKitRecordingsAreWithinFiveMillimetres) {
   MMM_CONVERTER_NEEDS_SHARED_DATA()
   for (const KitRecording& recording : kKitRecordings) {
