@@ -32,7 +32,8 @@ void MemoryBudget::GiveBack(std::uint64_t bytes) {
 }
 
 std::uint64_t ConversionMemory(const std::string& file, std::uint64_t bytes, bool with_page) {
-  constexpr std::uint64_t kLeast = std::uint64_t{32} << 20;
+  // Smoothing keeps the beliefs of 1000 frames, 68 kB each.
+  constexpr std::uint64_t kLeast = std::uint64_t{112} << 20;
   const RecordingFormat* format = FindFormatOfName(file);
   const RecordingFormat& likely = format != nullptr ? *format : RecordingFormats().front();
   return kLeast + (with_page ? 2 : 1) * static_cast<std::uint64_t>(likely.memory_factor) * bytes;

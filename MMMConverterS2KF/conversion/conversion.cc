@@ -135,7 +135,7 @@ void CheckOutputs(const ConversionRequest& request,
 
 ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
                           const std::function<bool(int, int)>& progress) {
-  ConversionReport report{std::move(plan), {}, {}, {}};
+  ConversionReport report{std::move(plan), {}, {}, {}, {}};
   const MarkerSequence& markers = report.input.recording.markers;
   const WarningContext context(&report.warnings, report.input.recording.file,
                                report.input.recording.motion());
@@ -147,6 +147,7 @@ ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
   if (report.object) {
     JudgeObject(report.input, report.setup.mapping, report.result.residuals, &report.warnings);
   }
+  report.figures = MeasureConversion(report);
   report.verdict = JudgeConversion(report);
   return report;
 }

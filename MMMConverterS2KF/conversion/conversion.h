@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/conversion/object.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
@@ -52,6 +53,7 @@ struct ConversionPlan {
 struct ConversionReport : ConversionPlan {
   std::optional<CalibrationResult> calibration;  ///< of this recording
   ConversionResult result;
+  ConversionFigures figures;
   Verdict verdict;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/conversion/conversion_figures.h"
 
+#include "MMMConverterS2KF/conversion/conversion.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
 #include "common/motion/marker_residuals.h"
 
 namespace mmm_converter {
 
-/// Figures of a conversion that its summary and the results of a batch have alike.
+struct ConversionReport;
+
+/// Figures of a conversion that its verdict, its summary and the results of a batch have alike.
 struct ConversionFigures {
   ResidualSummary distance;                 ///< over all seen markers and frames [m]
   std::vector<ResidualSummary> of_markers;  ///< the same of each assignment
@@ -24,6 +25,7 @@ struct ConversionFigures {
   double median_ms = 0, p99_ms = 0;  ///< time of a frame
 };
 
+/// The report's own figures do not count.
 ConversionFigures MeasureConversion(const ConversionReport& report);
 
 /// The recording's label of an assignment.

@@ -10,6 +10,8 @@
 namespace mmm_converter {
 namespace {
 
+constexpr double kLongGap = 1;  // [s]
+
 Limb* FindLimb(const std::string& name, std::vector<Limb>* limbs) {
   const auto found = std::find_if(limbs->begin(), limbs->end(),
                                   [&](const Limb& limb) { return limb.name == name; });
@@ -31,7 +33,7 @@ std::optional<Gap> LongestGap(const std::string& what, const std::vector<LabelIx
     if (is_known(static_cast<int>(seen))) {
       begin = k + 1;
     } else if (!longest || k - begin > longest->last_frame - longest->first_frame) {
-      longest = Gap{what, begin, k};
+      longest = Gap{what, begin, k, (k - begin + 1) / recording.rate()};
     }
   }
   return longest;
@@ -60,12 +62,13 @@ std::vector<Limb> LimbsOf(const TrackingSetup& setup) {
   return limbs;
 }
 
-std::vector<Gap> LongestGaps(const TrackingSetup& setup, const MarkerSequence& recording) {
+std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,
+                          const MarkerSequence& recording) {
   std::vector<Gap> gaps;
   const auto of_body = LongestGap("the body", LabelIndices(setup.assignments()), recording,
                                   [](int seen) { return seen > 0; });
   if (of_body) gaps.push_back(*of_body);
-  for (const Limb& limb : LimbsOf(setup)) {
+  for (const Limb& limb : limbs) {
     if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) continue;
     const auto gap = LongestGap("the " + limb.name, limb.labels, recording,
                                 [&](int seen) { return limb.IsKnownBy(seen); });
@@ -73,6 +76,7 @@ std::vector<Gap> LongestGaps(const TrackingSetup& setup, const MarkerSequence& r
                           gap->last_frame == of_body->last_frame;
     if (gap && !is_bodys) gaps.push_back(*gap);
   }
+  std::erase_if(gaps, [](const Gap& gap) { return gap.seconds <= kLongGap; });
   return gaps;
 }
 

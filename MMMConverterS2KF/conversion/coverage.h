@@ -27,10 +27,13 @@ struct Gap {
   std::string what;  ///< a limb, or "the body"
   int first_frame = 0;
   int last_frame = 0;
+  double seconds = 0;
 };
 
-/// The longest time in which no marker is seen, and those in which a limb has fewer than it is
-/// known by; limbs that have fewer at all times, or are hidden with the whole body, are left out.
-std::vector<Gap> LongestGaps(const TrackingSetup& setup, const MarkerSequence& recording);
+/// limbs: LimbsOf(setup). The longest time in which no marker is seen, and those in which a limb
+/// has fewer than it is known by, where it is longer than a second, which a prediction bridges;
+/// limbs that have fewer at all times, or are hidden with the whole body, are left out.
+std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,
+                          const MarkerSequence& recording);
 
 }  // namespace mmm_converter

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/conversion/prospect.h"
 
+#include <utility>
+
 #include "MMMConverterS2KF/conversion/conversion.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
 
-Prospect FindProspect(const InputRequest& request) {
-  constexpr double kLongGap = 1;  // [s]
+Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recording> recording) {
   Prospect prospect;
   ConversionRequest conversion;
   conversion.input = request;
+  ReadBefore read_before;
+  read_before.motion.value = std::move(recording);
   try {
-    const ConversionPlan plan = PlanConversion(conversion, {});
-    const MarkerSequence& markers = plan.input.recording.markers;
+    const ConversionPlan plan = PlanConversion(conversion, read_before);
     prospect.marker_set = plan.setup.marker_set;
     prospect.mapping = plan.setup.mapping;
     prospect.person = plan.person;
     prospect.limbs = LimbsOf(plan.setup);
     prospect.doubts = plan.input.recording.doubts;
-    for (const Gap& gap : LongestGaps(plan.setup, markers)) {
-      const double seconds = (gap.last_frame - gap.first_frame + 1) / markers.rate();
-      if (seconds > kLongGap) prospect.gaps.push_back(gap);
-    }
+    prospect.gaps = LongGaps(plan.setup, prospect.limbs, plan.input.recording.markers);
   } catch (const Error& error) {
     prospect.failure = error.what();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct Prospect {
   std::vector<std::string> doubts;  ///< of unit and axis
 };
 
-/// Plans the conversion, and tracks nothing.
-Prospect FindProspect(const InputRequest& request);
+/// Plans the conversion of a recording that was read before, and tracks nothing.
+Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recording> recording);
 
 }  // namespace mmm_converter

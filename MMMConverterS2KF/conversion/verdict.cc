@@ -33,8 +33,10 @@ struct Limit {
   Level LevelOf(double value) const { return value > failed ? Level::kFailed : Level::kCheck; }
 };
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 // Right is what the recordings at hand have, real and synthetic, 10 to 120 Hz; the others were made
-// wrong from three of them. Distances in metres. tests/conversion has a case of each kind.
+// wrong from three of them. Distances in metres. tests/cli/verdict_test.cc has a case of each kind.
 //
 // Distances on average: right 0.025 to 0.045 (markers sit 0.028 off on each axis); left and right
 // exchanged or mirrored 0.055 to 0.12, grossly wrong 0.13 and more.
@@ -58,10 +60,8 @@ constexpr Limit kWrongLabels = {0.01, 0.2};
 constexpr Limit kNoise = {0.003, 0.03};
 // Of the six limbs: none, and half of the body.
 constexpr Limit kUnseenLimbs = {0, 2};
-// A prediction bridges a second [s].
-constexpr Limit kHiddenSeconds = {1, std::numeric_limits<double>::infinity()};
 // Share of the frames: who lies now and then also stands.
-constexpr Limit kLyingFrames = {0.9, 1};
+constexpr Limit kLyingFrames = {0.9, kNever};
 // Mean distance over an object's radius.
 constexpr Limit kObject = {kMostStray, 0.5};
 
@@ -70,14 +70,15 @@ class Judge {
   explicit Judge(const ConversionReport& report)
       : report_(report),
         markers_(report.input.recording.markers),
-        figures_(MeasureConversion(report)) {}
+        figures_(report.figures),
+        limbs_(LimbsOf(report.setup)) {}
 
   Verdict Run() {
     JudgeReading();
     if (report_.object) {
       JudgeObjectsDistance();
       JudgeGaps();
-      return std::move(verdict_);
+      return TakeVerdict();
     }
     const bool is_far = JudgeDistances();
     JudgeMarkers();
@@ -88,14 +89,26 @@ class Judge {
     JudgeUpright();
     JudgeHeight(is_far);
     if (is_far) JudgeSides();
-    return std::move(verdict_);
+    return TakeVerdict();
   }
 
  private:
+  void Add(Level level, std::string reason) { reasons_.emplace_back(level, std::move(reason)); }
+
+  // The gravest reasons first.
+  Verdict TakeVerdict() {
+    std::stable_sort(reasons_.begin(), reasons_.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    Verdict verdict;
+    if (!reasons_.empty()) verdict.level = reasons_.front().first;
+    for (auto& [unused, reason] : reasons_) verdict.reasons.push_back(std::move(reason));
+    return verdict;
+  }
+
   // Adds the reason where a figure is beyond its limit.
   bool AddBeyond(const Limit& limit, double value, const std::string& reason) {
     if (!limit.IsBeyond(value)) return false;
-    verdict_.Add(limit.LevelOf(value), reason);
+    Add(limit.LevelOf(value), reason);
     return true;
   }
 
@@ -107,7 +120,7 @@ class Judge {
 
   void JudgeReading() {
     for (const std::string& doubt : report_.input.recording.doubts) {
-      verdict_.Add(Level::kCheck, doubt);
+      Add(Level::kCheck, doubt);
     }
   }
 
@@ -169,14 +182,13 @@ class Judge {
   }
 
   void JudgeCoverage() {
-    const std::vector<Limb> limbs = LimbsOf(report_.setup);
     std::vector<std::string> unseen;
-    for (const Limb& limb : limbs) {
+    for (const Limb& limb : limbs_) {
       if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) {
         unseen.push_back(fmt::format("the {} ({} markers)", limb.name, limb.labels.size()));
       } else if (limb.free_joints > 0) {
-        verdict_.Add(Level::kCheck, fmt::format("{}: no marker shows {} of its {} joints",
-                                                limb.name, limb.free_joints, limb.num_joints));
+        Add(Level::kCheck, fmt::format("{}: no marker shows {} of its {} joints", limb.name,
+                                       limb.free_joints, limb.num_joints));
       }
     }
     AddBeyond(kUnseenLimbs, static_cast<double>(unseen.size()),
@@ -184,18 +196,16 @@ class Judge {
     const auto coordinates = 3 * report_.setup.assignments().size();
     const auto degrees = 6 + report_.setup.joints.size();
     if (coordinates >= degrees) return;
-    verdict_.Add(Level::kCheck,
-                 fmt::format("{} markers are too few for the {} degrees of freedom of the body",
-                             report_.setup.assignments().size(), degrees));
+    Add(Level::kCheck,
+        fmt::format("{} markers are too few for the {} degrees of freedom of the body",
+                    report_.setup.assignments().size(), degrees));
   }
 
   void JudgeGaps() {
-    for (const Gap& gap : LongestGaps(report_.setup, markers_)) {
-      const double seconds = (gap.last_frame - gap.first_frame + 1) / markers_.rate();
-      AddBeyond(kHiddenSeconds, seconds,
-                fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what, seconds,
-                            report_.input.first_frame + gap.first_frame,
-                            report_.input.first_frame + gap.last_frame));
+    for (const Gap& gap : LongGaps(report_.setup, limbs_, markers_)) {
+      Add(Level::kCheck, fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what,
+                                     gap.seconds, report_.input.first_frame + gap.first_frame,
+                                     report_.input.first_frame + gap.last_frame));
     }
   }
 
@@ -230,7 +240,7 @@ class Judge {
   void JudgeUpright() {
     constexpr double kUpright = 0.5;  // cosine of 60 degrees
     const Recording& recording = report_.input.recording;
-    if (!recording.doubts.empty()) return;  // they have said so
+    if (recording.up_axis_is_doubtful) return;  // that has been said
     double lying = 0;
     double upside_down = 0;
     for (const Posture& posture : report_.result.trajectory.postures) {
@@ -274,30 +284,23 @@ class Judge {
     ScaleToPerson(person, &setup);
     const auto exchanged = FindExchangedSides(setup, markers_);
     if (!exchanged) return;
-    verdict_.Add(Level::kFailed,
-                 fmt::format("left and right labels of {} are exchanged, or coordinates mirrored: "
-                             "exchanged, markers are {:.0f} mm from the model, else {:.0f}",
-                             exchanged->part, 1e3 * exchanged->exchanged_distance,
-                             1e3 * exchanged->distance));
+    Add(Level::kFailed,
+        fmt::format("left and right labels of {} are exchanged, or coordinates mirrored: "
+                    "exchanged, markers are {:.0f} mm from the model, else {:.0f}",
+                    exchanged->part, 1e3 * exchanged->exchanged_distance,
+                    1e3 * exchanged->distance));
   }
 
   const ConversionReport& report_;
   const MarkerSequence& markers_;
-  ConversionFigures figures_;
-  Verdict verdict_;
+  const ConversionFigures& figures_;
+  const std::vector<Limb> limbs_;
+  std::vector<std::pair<Level, std::string>> reasons_;
 };
 
 constexpr const char* kLevelNames[] = {"good", "check", "failed"};
 
 }  // namespace
-
-void Verdict::Add(Level reasons_level, std::string reason) {
-  level = std::max(level, reasons_level);
-  const bool is_failed = reasons_level == Level::kFailed;
-  const auto at =
-      is_failed ? reasons.begin() + static_cast<std::ptrdiff_t>(num_failed_++) : reasons.end();
-  reasons.insert(at, std::move(reason));
-}
 
 const char* Name(Verdict::Level level) { return kLevelNames[static_cast<int>(level)]; }
 

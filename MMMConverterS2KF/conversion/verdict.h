@@ -15,12 +15,6 @@ struct Verdict {
   };
   Level level = Level::kGood;
   std::vector<std::string> reasons;  ///< in words and numbers, the gravest first; good: none
-
-  /// Adds a reason, before those of lower levels; the level is that of the gravest.
-  void Add(Level reasons_level, std::string reason);
-
- private:
-  std::size_t num_failed_ = 0;  // reasons of kFailed, which stand in front
 };
 
 /// "good", "check" or "failed".
@@ -35,7 +29,7 @@ std::string DescribeVerdict(const Verdict& verdict);
 struct ConversionReport;
 
 /// By what the recording's markers, the person and the track are, beside what right recordings
-/// have. The report's own verdict does not count. README.md has the limits.
+/// have; verdict.cc has the limits. The report's own verdict does not count.
 Verdict JudgeConversion(const ConversionReport& report);
 
 }  // namespace mmm_converter

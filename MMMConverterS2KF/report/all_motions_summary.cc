@@ -25,7 +25,7 @@ std::string DescribeOutcome(const MotionOutcome& outcome) {
   if (!outcome.failure.empty()) return "not converted";
   if (!outcome.report) return "has no markers; left as it is";
   const ConversionReport& report = *outcome.report;
-  const ResidualSummary distance = SummarizeResiduals(report.result.residuals);
+  const ResidualSummary& distance = report.figures.distance;
   return fmt::format("{} frames, {} markers, mean distance {:.1f} mm, max {:.1f}; {}; {}",
                      report.input.recording.markers.num_frames(), report.setup.assignments().size(),
                      kMillimetres * distance.mean, kMillimetres * distance.max,

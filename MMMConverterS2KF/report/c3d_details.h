@@ -28,7 +28,7 @@ C3dDetails ReadC3dDetails(C3dFile* file, Warnings* warnings);
 /// A line for each kind of content, then tables.
 std::string FormatC3dDetails(const C3dFile& file, const C3dDetails& details);
 
-/// Adds the members points, marks, processor, analog, events, force_plates and parameters.
+/// Adds the members stored, positions, points, analog, force_plates, events and parameters.
 void AddC3dDetails(const C3dFile& file, const C3dDetails& details, Json* json);
 
 }  // namespace mmm_converter

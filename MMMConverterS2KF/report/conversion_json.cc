@@ -107,7 +107,7 @@ Json ToJson(const Verdict& verdict) {
 
 Json ToJson(const ConversionReport& report) {
   const MarkerSequence& markers = report.input.recording.markers;
-  const ConversionFigures figures = MeasureConversion(report);
+  const ConversionFigures& figures = report.figures;
   return {
       {"verdict", ToJson(report.verdict)},
       {"input", DescribeInput(report)},

@@ -12,19 +12,17 @@
 namespace mmm_converter {
 namespace {
 
-std::string DescribeForPage(const Verdict& verdict) {
-  return fmt::format("Verdict: {}.", DescribeVerdict(verdict));
-}
-
-// What a page says of the calibration; empty: there was none.
-std::string DescribeCalibration(const ConversionReport& report) {
-  if (!report.calibration) return "";
-  return fmt::format(
-      "The person \"{}\" was calibrated on {} frames of this recording: the best postures leave "
-      "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
-      report.person.subject->name, report.calibration->frames,
-      kMillimetres * report.calibration->distance_after,
-      kMillimetres * report.calibration->distance_before);
+// The verdict and, where there was one, the calibration.
+std::string DescribeForPage(const ConversionReport& report) {
+  std::string text = fmt::format("Verdict: {}.", DescribeVerdict(report.verdict));
+  if (!report.calibration) return text;
+  return text + fmt::format(
+                    "\n\nThe person \"{}\" was calibrated on {} frames of this recording: the best "
+                    "postures leave "
+                    "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
+                    report.person.subject->name, report.calibration->frames,
+                    kMillimetres * report.calibration->distance_after,
+                    kMillimetres * report.calibration->distance_before);
 }
 
 Comparison MakeComparison(const ConversionReport& report) {
@@ -50,9 +48,7 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
   sections.reserve(reports.size());
   for (const ConversionReport* report : reports) {
     comparisons.push_back(MakeComparison(*report));
-    sections.push_back({report->motion_name,
-                        DescribeForPage(report->verdict) + "\n\n" + DescribeCalibration(*report),
-                        &comparisons.back()});
+    sections.push_back({report->motion_name, DescribeForPage(*report), &comparisons.back()});
   }
   const std::string title =
       reports.size() == 1

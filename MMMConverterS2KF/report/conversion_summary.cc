@@ -107,7 +107,7 @@ std::string DescribeSubjectOutput(const ConversionReport& report) {
 std::string FormatSummary(const ConversionReport& report) {
   const Recording& recording = report.input.recording;
   const MarkerSequence& markers = recording.markers;
-  const ConversionFigures figures = MeasureConversion(report);
+  const ConversionFigures& figures = report.figures;
   std::string text;
   text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,

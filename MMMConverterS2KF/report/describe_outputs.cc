@@ -124,6 +124,7 @@ Description DescribeTable(const FileStart& file, const ReadRecordingOptions&) {
   bool is_header = *kind.header_end != '\0';
   std::vector<std::string> columns;
   long rows = 0;
+  bool is_in_quotes = false;
   ForEachLine(file.path, [&](std::string_view line) {
     if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
     if (is_header) {
@@ -131,7 +132,9 @@ Description DescribeTable(const FileStart& file, const ReadRecordingOptions&) {
     } else if (columns.empty()) {
       columns = Split(line, kind.separator);
     } else if (!Trim(line).empty()) {
-      ++rows;
+      // A field in quotes may have line ends.
+      is_in_quotes ^= std::count(line.begin(), line.end(), '"') % 2 != 0;
+      if (!is_in_quotes) ++rows;
     }
   });
   if (!columns.empty() && !EndsWithItsLine(file.path)) ++rows;

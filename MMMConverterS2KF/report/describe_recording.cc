@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -30,7 +30,7 @@ struct StoredRecording {
 
 /// The markers of a recording, or why there are none.
 struct Markers {
-  std::optional<Recording> recording;
+  std::shared_ptr<const Recording> recording;
   std::optional<Prospect> prospect;  ///< of its conversion
   std::string failure;
 };
@@ -39,16 +39,17 @@ struct Markers {
 Markers ReadMarkers(const std::string& path, const ReadRecordingOptions& options,
                     Warnings* warnings) {
   try {
-    Recording recording = ReadRecording(path, options, warnings);
+    const auto recording =
+        std::make_shared<const Recording>(ReadRecording(path, options, warnings));
     InputRequest conversion;
     conversion.file = path;
     conversion.reading = options;
-    return {std::move(recording), FindProspect(conversion), ""};
+    return {recording, FindProspect(conversion, recording), ""};
   } catch (const Error& error) {
     if (!options.subject.empty() || options.unit || options.up_axis) throw;
     std::string failure = error.what();
     if (failure.starts_with(path + ": ")) failure.erase(0, path.size() + 2);
-    return {std::nullopt, std::nullopt, failure};
+    return {nullptr, std::nullopt, failure};
   }
 }
 
@@ -75,7 +76,7 @@ Json RecordingJson(const std::string& path, const StoredRecording& stored, const
                {"frames", stored.frames},
                {"rate_hz", stored.rate > 0 ? Json(stored.rate) : Json(nullptr)},
                {"first_frame", stored.first_frame}};
-  json["can_be_converted"] = markers.recording.has_value();
+  json["can_be_converted"] = markers.recording != nullptr;
   json["failure"] = TextOrNull(markers.failure);
   if (!markers.recording) {
     json["unit"] = stored.unit;

@@ -8,8 +8,7 @@
 
 #include "MMMConverterS2KF/report/describe.h"
 #include "common/io/bytes/file_content.h"
-#include "common/io/c3d/c3d_content.h"
-#include "common/io/tables/trc_reader.h"
+#include "common/io/recording/recording_formats.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -39,9 +38,14 @@ bool IsPlugin(const FileStart& file) {
          std::filesystem::path(file.path).extension() == ".so";
 }
 
-bool IsC3d(const FileStart& file) { return LooksLikeC3d(file.head); }
+template <const char* const& kName>
+bool HasFormat(const FileStart& file) {
+  const RecordingFormat* format = FindFormatOfContent(file.path);
+  return format != nullptr && std::string_view(format->name) == kName;
+}
 
-bool IsTrc(const FileStart& file) { return file.root.empty() && LooksLikeTrc(file.head); }
+constexpr const char* kC3d = "C3D";
+constexpr const char* kTrc = "TRC";
 
 bool IsJson(const FileStart& file) { return Trim(file.head).starts_with('{'); }
 
@@ -76,8 +80,8 @@ const std::vector<FileKind>& FileKinds() {
       {"subjects", HasRoot<kSubject>, DescribeSubjectFile},
       {"persons (ModelProcessorConfig)", HasRoot<kPerson>, DescribePerson},
       {"pages of this program", HasRoot<kPage>, DescribePage},
-      {"C3D recordings", IsC3d, DescribeC3d},
-      {"TRC recordings", IsTrc, DescribeTrc},
+      {"C3D recordings", HasFormat<kC3d>, DescribeC3d},
+      {"TRC recordings", HasFormat<kTrc>, DescribeTrc},
       {"tables (CSV, MOT)", IsTable, DescribeTable},
       {"summaries (JSON)", IsJson, DescribeSummary},
       {"sample sets of filters", IsSampleSet, DescribeSampleSet},

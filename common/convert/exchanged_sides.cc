@@ -30,7 +30,7 @@ std::string OtherSide(std::string name) {
   return name;
 }
 
-// Of the limb farthest out that moves the marker.
+// The arm or leg that moves the marker; empty: none.
 std::string LimbOfMarker(const KinematicModel& model, const MarkerKinematics& kinematics,
                          int marker) {
   for (int j = 0; j < kinematics.num_joints(); ++j) {

@@ -22,9 +22,9 @@ struct GateState {
 
   /// All labels right, offsets unknown.
   void Reset(int num_markers);
-  /// The track was taken up anew: the offsets of the markers in use may be others.
+  /// The posture was assembled again: the offsets of the markers in use may be others.
   void Loosen();
-  /// Takes all markers that are left out back in, wherever they are.
+  /// Takes all markers that are left out back in, wherever they are; their offsets are unknown.
   void Open();
   /// A frame begins, dt [s] after the last.
   void Advance(double dt);

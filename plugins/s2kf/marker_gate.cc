@@ -17,9 +17,9 @@ namespace {
 // The worst go together with those within this share of them (squared distances): an estimate that
 // is drawn away by wrong markers is far from right ones too.
 constexpr double kWorstShare = 0.1;
-// Two markers that are farther than this [m] from where they were expected before the frame, and
-// whose exchange leaves no more than this share of that (squared), are swapped: seen before many
-// such draw the estimate away.
+// A marker that is farther than this [m] from where it was expected before the frame, and nearest
+// to another's place, of which it leaves no more than this share (squared), is swapped with that
+// one, which may be hidden: seen before many such draw the estimate away.
 constexpr double kFarSwap = 0.1;
 constexpr double kSwapShare = 0.1;
 // The estimate moves to what other markers make of it in so many frames.

@@ -37,7 +37,7 @@ class MarkerGate {
   void Reconsider(const Eigen::Matrix3Xd& measured, const MarkerJacobian& prior, GateState* state);
 
   /// Takes those for swapped that are far from where `prior`, the estimate before the frame, has
-  /// them, and explain each other. True where there are such.
+  /// them, and nearest to each other's places. True where there are such.
   bool ExchangeByPrior(const Eigen::Matrix3Xd& measured, const MarkerJacobian& prior,
                        GateState* state);
 

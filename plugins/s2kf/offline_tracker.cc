@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "plugins/s2kf/trajectory_smoother.h"
@@ -25,13 +26,13 @@ constexpr double kSamePlace = 0.01;  // [m]
 // this [m].
 constexpr double kMuchFarther = 0.03;
 
+constexpr double kNeverAgain = 1e3;  // [s]
+
 bool IsSamePosture(const Posture& a, const Posture& b) {
   const auto apart = (a.joint_angles - b.joint_angles).array().abs();
   return (a.position - b.position).norm() < kSamePlace &&
          a.orientation.angularDistance(b.orientation) < kSameAngle && (apart < kSameAngle).all();
 }
-
-constexpr double kNeverAgain = 1e3;  // [s]
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -51,7 +52,10 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       filtered_(std::min(chunk_, recording.num_frames())),
       used_(filtered_.size(), Eigen::Matrix3Xd(3, tracker->markers().kinematics().num_markers())),
       frame_(tracker->markers().kinematics()),
-      covariance_(tracker->markers(), settings) {}
+      covariance_(tracker->markers(), settings) {
+  verdicts_.setConstant(tracker->markers().kinematics().num_markers(), recording.num_frames(),
+                        kAsLabelled);
+}
 
 void OfflineTracker::Keep(int k, const TrackState& state, const TrackedFrame& frame) {
   KeepState(k, state);
@@ -70,6 +74,7 @@ void OfflineTracker::KeepBelief(int i, int k, const TrackState& state) {
   filtered_[i] = state.belief;
   Gather(k);
   state.gate.Select(frame_.measured, &frame_.relabelled, &used_[i]);
+  verdicts_.col(k) = state.gate.verdicts.cast<std::int16_t>();
 }
 
 void OfflineTracker::Smooth(ConversionResult* result) {
@@ -187,9 +192,9 @@ bool OfflineTracker::IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed,
 void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result) {
   Gather(k);
   tracker_.filter().Place(belief, &frame_.posture, &frame_.at);
-  tracker_.filter().Deviations(belief, &deviations_);
+  tracker_.filter().Deviations(belief, &own_deviations_);
   result->trajectory.postures[k] = frame_.posture;
-  result->trajectory.standard_deviations.col(k) = deviations_;
+  result->trajectory.standard_deviations.col(k) = own_deviations_;
   result->residuals.col(k) = (frame_.measured - frame_.at.p_WM).colwise().norm().transpose();
 }
 
@@ -197,25 +202,35 @@ void OfflineTracker::ReportDeviations(ConversionResult* result) {
   const int frames = recording_.num_frames();
   const Eigen::Index markers = result->residuals.rows();
   Eigen::MatrixXd& deviations = result->trajectory.standard_deviations;
-  std::vector<int> next(markers, 0);  // frame in which each marker is seen, k or later
+  const auto is_used = [&](Eigen::Index m, int k) {
+    const int verdict = verdicts_(m, k);
+    if (verdict == kAsLabelled) return result->residuals(m, k) <= clip_;
+    return verdict != m && std::isfinite(result->residuals(verdict, k));
+  };
+  std::vector<int> next(markers, 0);  // frame in which each marker is used, k or later
   Eigen::VectorXd until(markers);     // that [s]
+  GateState gate;
   covariance_.Restart();
   for (int k = 0; k < frames; ++k) {
     const Clock::time_point start = Clock::now();
     for (Eigen::Index m = 0; m < markers; ++m) {
       int& look = next[m];
       look = std::max(look, k);
-      while (look < frames && !(result->residuals(m, look) <= clip_)) ++look;
+      while (look < frames && !is_used(m, look)) ++look;
       until[m] = look < frames ? (look - k) * dt_ : kNeverAgain;
     }
     Gather(k);
+    gate.verdicts = verdicts_.col(k).cast<int>();
+    gate.Select(frame_.measured, &frame_.relabelled, &frame_.z);
     const Posture& q = result->trajectory.postures[k];
     tracker_.markers().kinematics().ComputeMarkers(q.position, q.orientation.toRotationMatrix(),
                                                    q.joint_angles, &frame_.at);
-    covariance_.Look(frame_.measured, frame_.at, dt_);
-    own_deviations_ = deviations.col(k);
-    covariance_.Compute(q.joint_angles, &frame_.at, &deviations_, &until, &own_deviations_);
-    deviations.col(k) = deviations_;
+    covariance_.Look(frame_.z, frame_.at, dt_);
+    if (covariance_.IsDue()) {
+      own_deviations_ = deviations.col(k);
+      covariance_.Compute(q.joint_angles, own_deviations_, &frame_.at, &until);
+    }
+    deviations.col(k) = covariance_.deviations();
     result->frames[k].seconds += SecondsSince(start);
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -44,8 +45,8 @@ class OfflineTracker {
   /// Of frame k, the i-th of its part; takes the markers of the frame into frame_.
   void KeepBelief(int i, int k, const TrackState& state);
 
-  /// Where the track was taken up anew, goes backwards from there as long as that is nearer to the
-  /// markers than the track was: the frame in which it ends is where to take it up.
+  /// Where the posture was assembled again, goes backwards from there as long as that is nearer to
+  /// the markers than the track was: the frame in which it ends is where to take it up.
   void FindRetakes(const ConversionResult& result);
   void TrackFromRetakes();
   /// The track of frame k from that of the frame before.
@@ -68,18 +69,20 @@ class OfflineTracker {
   double clip_;  // a farther marker is a wrong one [m]
   double dt_;    // [s]
   std::vector<Checkpoint> checkpoints_;
+  /// Of the gate, markers x frames (GateState::verdicts).
+  Eigen::Matrix<std::int16_t, Eigen::Dynamic, Eigen::Dynamic> verdicts_;
   std::vector<double> distances_;  // of all markers in each frame [m]
   // Of the part that starts with the last checkpoint, then of the one that is smoothed: the
   // filter's belief and the markers that it was updated by.
   std::vector<Belief> filtered_;
   std::vector<Eigen::Matrix3Xd> used_;
-  std::map<int, GateState> reassembled_;  // the gate in frames where the track was taken up anew
+  std::map<int, GateState>
+      reassembled_;  // the gate in frames where the posture was assembled again
   // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
   std::map<int, Posture> retakes_;
   TrackedFrame frame_;
   Eigen::RowVectorXd distances_of_filter_;
   ReportedCovariance covariance_;
-  Eigen::VectorXd deviations_;
   Eigen::VectorXd own_deviations_;
 };
 

@@ -14,7 +14,7 @@
 namespace mmm_converter::s2kf {
 
 /// Tracks frame by frame: predicts, updates by the markers that are right, and in frames where
-/// TrackWatch doubts the track takes it up anew from a posture that a least-squares fit found.
+/// TrackWatch doubts the track goes on from a posture that a least-squares fit found.
 /// State in, state out; what it holds is scratch and constants. points: 3 x labels of the recording
 /// [m], NaN = not seen.
 class OnlineTracker {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 #include <vector>
 
+#include "common/support/error.h"
 #include "plugins/s2kf/marker_filter.h"
 #include "plugins/s2kf/online_tracker.h"
 
@@ -31,7 +31,7 @@ constexpr double kStep = 0.5;
 class Likelihood {
  public:
   Likelihood(const MarkerSequence& recording, const TrackedMarkers& markers,
-             const S2kfSettings& settings)
+             const S2kfSettings& settings, const std::function<bool(int)>& progress)
       : markers_(markers), settings_(settings), dt_(1 / recording.rate()) {
     settings_.filter = FilterType::kEkf;
     const int frames = recording.num_frames();
@@ -41,7 +41,7 @@ class Likelihood {
       const int begin = parts > 1 ? static_cast<int>(1L * p * (frames - length) / (parts - 1)) : 0;
       parts_.push_back({begin, begin + length, {}, {}});
     }
-    TrackOnce(recording);
+    TrackOnce(recording, progress);
   }
 
   int num_frames() const {
@@ -84,7 +84,7 @@ class Likelihood {
 
   /// Takes the markers of all parts without those that are wrong, which are no motion. Tracks by a
   /// random walk, as the noise of the velocities is not known yet.
-  void TrackOnce(const MarkerSequence& recording) {
+  void TrackOnce(const MarkerSequence& recording, const std::function<bool(int)>& progress) {
     S2kfSettings settings = settings_;
     settings.motion_model = MotionModelType::kRandomWalk;
     settings.process_noise_scale = 1;
@@ -93,6 +93,7 @@ class Likelihood {
     TrackedFrame frame(markers_.kinematics());
     bool is_started = false;
     for (int k = 0; k < recording.num_frames(); ++k) {
+      if (progress && !progress(0)) throw Error("cancelled before the first frame");
       if (is_started) {
         tracker.Track(recording.frame(k), dt_, &state, &frame);
       } else if (markers_.Gather(recording.frame(k), &frame.measured) >= kFewestMarkers) {
@@ -128,8 +129,9 @@ double TopOfParabola(Likelihood& likelihood, double best) {
 }  // namespace
 
 double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMarkers& markers,
-                               const S2kfSettings& settings) {
-  Likelihood likelihood(recording, markers, settings);
+                               const S2kfSettings& settings,
+                               const std::function<bool(int)>& progress) {
+  Likelihood likelihood(recording, markers, settings, progress);
   if (likelihood.num_frames() < kFewestFrames) return 1;
   // Uphill from the calmest motion to the first top: under much noise joints also take up that
   // markers sit elsewhere than the model has them, which has a top of its own.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+
 #include "common/motion/marker_sequence.h"
 #include "plugins/s2kf/s2kf_settings.h"
 #include "plugins/s2kf/tracked_markers.h"
@@ -9,10 +11,12 @@ namespace mmm_converter::s2kf {
 
 /// The factor on the process noise, beside settings.process_noise_scale, under which a filter
 /// expects the recording most: the least one that locally maximises the likelihood of the
-/// innovations, the sum of -(NIS + log det S) / 2 over up to 1000 frames from all parts of the
+/// innovations, the sum of -(NIS + log det S) / 2 over up to 480 frames from all parts of the
 /// recording (Mehra 1970), of the filter with a Jacobian. Within 1e-3 and 1e3; 1 where fewer than
-/// ten frames can be judged.
+/// ten frames can be judged. progress(0) is asked frame by frame, may be empty.
+/// @throws Error where it returns false.
 double ChooseProcessNoiseScale(const MarkerSequence& recording, const TrackedMarkers& markers,
-                               const S2kfSettings& settings);
+                               const S2kfSettings& settings,
+                               const std::function<bool(int)>& progress);
 
 }  // namespace mmm_converter::s2kf

@@ -8,6 +8,7 @@
 
 #include "common/fit/posture_fit.h"
 #include "common/math/dense.h"
+#include "plugins/s2kf/posture_recovery.h"
 
 namespace mmm_converter::s2kf {
 
@@ -23,7 +24,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMemory = 1;  // [s]
 // What is expected before counts as one measured coordinate beside the residuals.
 constexpr double kPriorCoordinates = 1;
-// Deviations are computed so often [s]; at 100 Hz that costs 7 % of a frame's time in the mean.
+// Deviations are computed so often [s].
 constexpr double kInterval = 0.075;
 // What the pull to the natural posture weighs against one look at the markers, as a deviation in
 // halves of a joint's range. The filter's pull has the information a / P, where a = dt q^2 / (2
@@ -42,11 +43,11 @@ constexpr double kFarAway = 1e3;  // not seen yet [s]
 ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kfSettings& settings)
     : kinematics_(markers.kinematics()),
       place_deviation_(markers.place_deviation()),
+      noise_scale_(markers.noise_scale()),
       settings_(settings.deviations),
       look_variance_(settings.marker_deviation * settings.marker_deviation),
       prior_variance_(PriorVariance(settings)),
-      clip_(settings.robust_distance > 0 ? settings.robust_distance
-                                         : std::numeric_limits<double>::infinity()),
+      clip_(FitOptions(settings).robust_distance),
       unit_(VectorXd::Ones(kinematics_.num_dofs())),
       middle_(VectorXd::Zero(kinematics_.num_joints())),
       spread_(VectorXd::Constant(kinematics_.num_joints(), kUniformVariance)),
@@ -66,7 +67,7 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
     const double natural_from_middle = (natural[j] - middle_[j]) / unit_[6 + j];
     spread_[j] += natural_from_middle * natural_from_middle;
   }
-  kept_.setConstant(kinematics_.num_dofs(), kNaN);
+  deviations_.setConstant(kinematics_.num_dofs(), kNaN);
   Restart();
 }
 
@@ -87,6 +88,7 @@ void ReportedCovariance::Restart() {
   since_compute_ = 0;
   squares_ = seen_ = step_squares_ = steps_ = 0;
   fitted_ = kinematics_.num_dofs();
+  white_share_ = 1;
 }
 
 void ReportedCovariance::Look(const Matrix3Xd& z, const MarkerJacobian& at, double dt) {
@@ -103,7 +105,8 @@ void ReportedCovariance::Look(const Matrix3Xd& z, const MarkerJacobian& at, doub
       last.setConstant(kNaN);
       continue;
     }
-    const Vector3d r = at.R_WL[kinematics_.link_of_marker(static_cast<int>(m))].transpose() * r_W;
+    const Eigen::Matrix3d& R_WL = at.R_WL[kinematics_.link_of_marker(static_cast<int>(m))];
+    const Vector3d r = R_WL.transpose() * r_W / noise_scale_[m];
     const double step = (r - last).squaredNorm();
     if (std::isfinite(step)) {
       step_squares += 0.5 * step;
@@ -135,8 +138,7 @@ void ReportedCovariance::EstimateVariances() {
   slow_ = (1 - share) * total;
 }
 
-void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
-                                MarkerJacobian* at) {
+void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian& at) {
   const int n = kinematics_.num_dofs();
   const int num_markers = kinematics_.num_markers();
   variance_ = 0;
@@ -144,7 +146,8 @@ void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
     const double place = place_deviation_[m];
     const double hidden_from_residuals =
         std::isnan(place) ? settings_.length_share * slow_ : place * place;
-    const double variance = slow_ + hidden_from_residuals + white_share * white_;
+    const double scale = noise_scale_[m] * noise_scale_[m];
+    const double variance = scale * (slow_ + white_share_ * white_) + hidden_from_residuals;
     double age = age_[m];
     if (until_look != nullptr && age > 0) {
       // Known from both sides: the information of the two ways adds.
@@ -161,7 +164,7 @@ void ReportedCovariance::Invert(const VectorXd* until_look, double white_share,
       std::max(kLeastPull, look_variance_ / (variance_ * kPullDeviation * kPullDeviation));
   for (int j = 0; j < n - 6; ++j) pull_[j] = IsShown(j) ? weak : 1 / spread_[j];
   H_.SetZero();
-  AddWeightedSquare(at->J_transposed, weights_, &H_);
+  AddWeightedSquare(at.J_transposed, weights_, &H_);
   auto H = H_.view();
   for (int j = 0; j < n; ++j) {
     for (int i = j; i < n; ++i) H(i, j) *= unit_[i] * unit_[j];
@@ -209,19 +212,18 @@ double ReportedCovariance::ShareOf(const VectorXd& own) const {
   return sum / static_cast<double>(own.size());
 }
 
-void ReportedCovariance::Compute(const VectorXd& angles, MarkerJacobian* at, VectorXd* deviations,
-                                 const VectorXd* until_look, const VectorXd* own) {
-  if (frames_ > 2 && since_compute_ < kInterval) {
-    *deviations = kept_;
-    return;
-  }
+bool ReportedCovariance::IsDue() const { return frames_ <= 2 || since_compute_ >= kInterval; }
+
+void ReportedCovariance::Compute(const VectorXd& angles, const VectorXd& own, MarkerJacobian* at,
+                                 const VectorXd* until_look) {
   since_compute_ = 0;
   EstimateVariances();
   kinematics_.ComputeJacobian(at);
-  Invert(until_look, 1, at);
-  if (own != nullptr) Invert(until_look, ShareOf(*own), at);
-  for (int i = 0; i < kinematics_.num_dofs(); ++i) kept_[i] = std::sqrt(VarianceOf(i, angles));
-  *deviations = kept_;
+  Invert(until_look, *at);
+  white_share_ = ShareOf(own);
+  for (int i = 0; i < kinematics_.num_dofs(); ++i) {
+    deviations_[i] = std::sqrt(VarianceOf(i, angles));
+  }
 }
 
 }  // namespace mmm_converter::s2kf

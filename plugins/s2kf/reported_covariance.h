@@ -19,7 +19,7 @@ namespace mmm_converter::s2kf {
 /// residuals; N what draws the estimate to the natural posture, S how far joints are from that.
 /// Joints are angles in halves of their range, so that a limit is no certainty.
 ///
-/// Frame by frame: Look, then Compute. Nothing is allocated after construction.
+/// Frame by frame: Look, then Compute where it is due. Nothing is allocated after construction.
 class ReportedCovariance {
  public:
   /// markers must outlive the object.
@@ -32,23 +32,27 @@ class ReportedCovariance {
   /// estimate's markers and links.
   void Look(const Eigen::Matrix3Xd& z, const MarkerJacobian& at, double dt);
 
-  /// Standard deviations of [root position; root rotation; joint angles], num_dofs [m, rad]. In
-  /// between it says again what it said, as deviations change slowly. angles: the estimate's; at:
-  /// its markers and links, gets its Jacobian.
-  ///  - until_look: nullptr, or per marker the time until it is seen next [s].
-  ///  - own: nullptr, or what the estimator leaves of white noise, which it averages.
-  void Compute(const Eigen::VectorXd& angles, MarkerJacobian* at, Eigen::VectorXd* deviations,
-               const Eigen::VectorXd* until_look = nullptr, const Eigen::VectorXd* own = nullptr);
+  /// Whether deviations, which change slowly, are to be computed for the latest frame.
+  bool IsDue() const;
 
-  /// Variance of a marker's place, each coordinate: what is constant or slow, and white noise
-  /// [m^2].
+  ///  - angles: of the estimate [rad]; at: its markers and links, gets its Jacobian.
+  ///  - own: what the estimator, which averages white noise, leaves of it; as deviations().
+  ///  - until_look: nullptr, or per marker the time until it is seen next [s].
+  void Compute(const Eigen::VectorXd& angles, const Eigen::VectorXd& own, MarkerJacobian* at,
+               const Eigen::VectorXd* until_look = nullptr);
+
+  /// The latest computed, of [root position; root rotation; joint angles], num_dofs [m, rad].
+  const Eigen::VectorXd& deviations() const { return deviations_; }
+
+  /// Variance of a marker's place, each coordinate, at noise scale 1: what is constant or slow, and
+  /// white noise [m^2].
   double slow_variance() const { return slow_; }
   double white_variance() const { return white_; }
 
  private:
   double PriorVariance(const S2kfSettings& settings) const;
   void EstimateVariances();
-  void Invert(const Eigen::VectorXd* until_look, double white_share, MarkerJacobian* at);
+  void Invert(const Eigen::VectorXd* until_look, const MarkerJacobian& at);
   /// The mean share of one look's white noise that an estimator leaves.
   double ShareOf(const Eigen::VectorXd& own) const;
   /// A marker that it moves is seen now.
@@ -57,6 +61,7 @@ class ReportedCovariance {
 
   const MarkerKinematics& kinematics_;
   const Eigen::VectorXd& place_deviation_;
+  const Eigen::VectorXd& noise_scale_;
   DeviationSettings settings_;
   double look_variance_;    // that the filter's natural pull is meant for [m^2]
   double prior_variance_;   // of markers' places before any residual was seen [m^2]
@@ -66,7 +71,7 @@ class ReportedCovariance {
   Eigen::VectorXd spread_;  // S: of joints about the natural posture, squared, in these units
 
   // Of the recording:
-  Eigen::Matrix3Xd last_residual_;  // link axes; NaN: not seen
+  Eigen::Matrix3Xd last_residual_;  // link axes, over the noise scale; NaN: not seen
   Eigen::VectorXd age_;             // since the last look [s]
   int frames_ = 0;
   double since_compute_ = 0;  // [s]
@@ -77,8 +82,9 @@ class ReportedCovariance {
   double fitted_ = 0;         // coordinates that the posture takes up
   double slow_ = 0;
   double white_ = 0;
+  double white_share_ = 1;  // of it that the estimator left the last time
 
-  Eigen::VectorXd kept_;  // the latest deviations
+  Eigen::VectorXd deviations_;
   double variance_ = 0;   // mean of C, were all markers seen [m^2]
   Eigen::VectorXd pull_;  // N, of the joints
   PaddedMatrix weights_;  // C^-1

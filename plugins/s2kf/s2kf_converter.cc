@@ -26,8 +26,7 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
       tracker_(markers_, settings),
       frame_(markers_.kinematics()),
       covariance_(markers_, settings) {
-  deviations_.setZero(markers_.kinematics().num_dofs());
-  own_deviations_ = deviations_;
+  own_deviations_.setZero(markers_.kinematics().num_dofs());
   estimate_.posture.joint_angles.setZero(setup.model->num_joints());
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
   estimate_.residuals.setConstant(markers_.kinematics().num_markers(), kNaN);
@@ -50,18 +49,20 @@ const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, dou
 void S2kfConverter::FillEstimate(double dt) {
   if (!is_smoothed_) {
     covariance_.Look(frame_.z, frame_.at, dt);
-    tracker_.filter().Deviations(track_.belief, &own_deviations_);
-    covariance_.Compute(frame_.posture.joint_angles, &frame_.at, &deviations_, nullptr,
-                        &own_deviations_);
+    if (covariance_.IsDue()) {
+      tracker_.filter().Deviations(track_.belief, &own_deviations_);
+      covariance_.Compute(frame_.posture.joint_angles, own_deviations_, &frame_.at);
+    }
   }
+  const Eigen::VectorXd& deviations = covariance_.deviations();
   estimate_.posture.position = frame_.posture.position;
   estimate_.posture.orientation = frame_.posture.orientation;
-  estimate_.standard_deviations.head<6>() = deviations_.head<6>();
+  estimate_.standard_deviations.head<6>() = deviations.head<6>();
   const std::vector<int>& joints = setup().joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     estimate_.posture.joint_angles[joints[j]] = frame_.posture.joint_angles[i];
-    estimate_.standard_deviations[6 + joints[j]] = deviations_[6 + i];
+    estimate_.standard_deviations[6 + joints[j]] = deviations[6 + i];
   }
   for (Eigen::Index m = 0; m < estimate_.residuals.size(); ++m) {
     estimate_.residuals[m] = (frame_.measured.col(m) - frame_.at.p_WM.col(m)).norm();
@@ -90,7 +91,7 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
                                         const std::function<bool(int)>& progress) {
   if (settings_.choose_process_noise_scale) {
     S2kfSettings settings = settings_;
-    const double scale = ChooseProcessNoiseScale(recording, markers_, settings);
+    const double scale = ChooseProcessNoiseScale(recording, markers_, settings, progress);
     settings.process_noise_scale *= scale;
     settings.choose_process_noise_scale = false;
     S2kfConverter converter(setup(), settings);

@@ -35,8 +35,7 @@ class S2kfConverter : public MotionConverter {
   TrackState track_;
   TrackedFrame frame_;
   ReportedCovariance covariance_;
-  bool is_smoothed_ = false;  // the deviations come later
-  Eigen::VectorXd deviations_;
+  bool is_smoothed_ = false;        // the deviations come later
   Eigen::VectorXd own_deviations_;  // of the filter, which takes all noise for white
   FrameEstimate estimate_;
 };

@@ -21,7 +21,7 @@ struct TrackedFrame {
   UpdateOutcome outcome;        ///< of the last update, by z
   Posture posture;              ///< the estimate, tracked joints
   MarkerJacobian at;            ///< its markers (p_WM) and links
-  bool reassembled = false;     ///< the track was lost here and taken up anew
+  bool reassembled = false;     ///< the track was lost here; the posture was assembled again
 };
 
 /// How many of the markers are seen; z: 3 x markers, NaN = not seen.

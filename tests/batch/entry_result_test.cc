@@ -38,6 +38,7 @@ ConversionReport Report() {
   report.result.frames.resize(3);
   report.result.residuals.resize(2, 3);
   report.result.residuals << 0.001, 0.001, 0.001, 0.002, 0.002, 0.002;
+  report.figures = MeasureConversion(report);
   return report;
 }
 
@@ -70,6 +71,7 @@ TEST(EntryResult, AnObjectHasNoHeight) {
 TEST(EntryResult, NothingSeenHasNoDistance) {
   ConversionReport report = Report();
   report.result.residuals.setConstant(EntryFigures::kNone);
+  report.figures = MeasureConversion(report);
   const Json json = ToJson(Converted(report, 0));
   EXPECT_TRUE(json.at("worst_marker").is_null());
   EXPECT_TRUE(json.at("distance_mm").at("mean").is_null());

@@ -87,7 +87,7 @@ class EntryTable {
     this.show(this.chosen);
   }
 
-  // Those without a value stand last; equal ones as in the manifest.
+  // Those without a value stand last; equal ones as in the results.
   show(chosen) {
     const {converted} = this.entries;
     const {ranks} = this.sortedBy;
@@ -141,8 +141,7 @@ class EntryTable {
   }
 
   cell(column, entry) {
-    if (column.text) return element("td", {class: "text"}, this.entries.text(column.key, entry) || "–");
-    if (column.levels) return element("td", {class: "text"}, this.entries.text(column.key, entry) || "–");
+    if (column.text || column.levels) return element("td", {class: "text"}, this.entries.text(column.key, entry) || "–");
     const shown = formatNumber(column.ranks[entry], column.digits);
     const name = column.with ? this.entries.text(column.with, entry) : null;
     return element("td", {"data-key": column.key},

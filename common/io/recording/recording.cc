@@ -70,6 +70,7 @@ void BringToMetresAndZUp(const std::string& said_unit, const std::vector<UpAxis>
   if (!up.warning.empty()) {
     Warn(warnings, up.warning);
     recording->doubts.push_back(up.warning);
+    recording->up_axis_is_doubtful = true;
   }
   ToMetresAndZUp(unit.metres, recording->up_axis, &recording->markers);
 }

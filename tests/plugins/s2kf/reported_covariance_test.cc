@@ -50,14 +50,15 @@ class Scene {
 
   /// Measures with white noise; `hidden` are not seen.
   VectorXd Look(int frames, double noise, const std::set<int>& hidden = {}) {
-    VectorXd deviations;
+    // An estimator that averages nothing.
+    const VectorXd own = VectorXd::Constant(6 + num_joints(), 1e3);
     for (int k = 0; k < frames; ++k) {
       Matrix3Xd z = at_.p_WM + offset_ + Draw(noise);
       for (const int m : hidden) z.col(m).setConstant(NAN);
       covariance_.Look(z, at_, kFrame);
-      covariance_.Compute(posture_.joint_angles, &at_, &deviations);
+      if (covariance_.IsDue()) covariance_.Compute(posture_.joint_angles, own, &at_);
     }
-    return deviations;
+    return covariance_.deviations();
   }
 
   const ReportedCovariance& covariance() const { return covariance_; }
