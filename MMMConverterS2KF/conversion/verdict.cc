@@ -151,7 +151,7 @@ class Judge {
                   fmt::format("one in twenty marker positions is more than {:.0f} mm from the "
                               "model, of {} at most {:.0f}",
                               1e3 * figures_.distance.p95, person, 1e3 * percentile.check));
-    if (!report_.calibration) return is_far;
+    if (!is_calibrated) return is_far;
     std::vector<double> offsets;
     for (const MarkerOffset& offset : report_.person.subject->offsets) {
       offsets.push_back(offset.offset.norm());
@@ -212,7 +212,7 @@ class Judge {
   void JudgeTrack() {
     const double frames = markers_.num_frames();
     AddBeyond(kReassembled, figures_.frames_reassembled / frames,
-              fmt::format("the track was lost and taken up anew in {} of {} frames",
+              fmt::format("the track was lost and reinitialised in {} of {} frames",
                           figures_.frames_reassembled, markers_.num_frames()));
     double wrong = 0;
     std::vector<int> assignments;

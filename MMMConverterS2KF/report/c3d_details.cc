@@ -220,14 +220,17 @@ C3dDetails ReadC3dDetails(C3dFile* file, Warnings* warnings) {
 std::string FormatC3dDetails(const C3dFile& file, const C3dDetails& details) {
   const LabelCounts labels = CountLabels(details);
   const C3dPointCounts total = Total(details.points);
+  const std::string measured =
+      total.measured > 0 ? fmt::format("{} of them interpolated or computed", total.interpolated)
+                         : "no residual is stated";
   std::string text = fmt::format(
       "stored     {}, {}\npoints     {}: {} labelled, {} unlabelled, {} angles, forces and the "
       "like; {} seen at some time\n"
-      "positions  {} seen ({} of them interpolated or computed), {} marked invalid, {} at the "
+      "positions  {} seen ({}), {} marked invalid, {} at the "
       "origin, {} without numbers\n",
       ProcessorName(file.layout().processor), file.layout().floats ? "floats" : "integers",
       details.labels.size(), labels.labelled, labels.unlabelled, labels.outputs, labels.seen,
-      total.seen, total.interpolated, total.marked_invalid, total.at_origin, total.no_position);
+      total.seen, measured, total.marked_invalid, total.at_origin, total.no_position);
   if (total.measured > 0) {
     text += fmt::format("residual   {:.3g} on average, where one is stated\n", total.residual);
   }

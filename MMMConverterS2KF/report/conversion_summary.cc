@@ -138,7 +138,9 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
                       report.motion_name);
   text += DescribeSubjectOutput(report);
-  return text + fmt::format("verdict    {}\n", DescribeVerdict(report.verdict));
+  text += fmt::format("verdict    {}\n", Name(report.verdict.level));
+  for (const std::string& reason : report.verdict.reasons) text += "           " + reason + "\n";
+  return text;
 }
 
 }  // namespace mmm_converter

@@ -61,11 +61,16 @@ std::string FormatHead(const std::string& path, const StoredRecording& stored) {
                      stored.format, stored.frames, rate, stored.first_frame);
 }
 
+const char* UpAxisSource(const Recording& recording) {
+  if (recording.stated_up_axis == recording.up_axis) return " (stated by the file)";
+  return recording.up_axis_was_decided ? " (decided from the markers)" : "";
+}
+
 std::string FormatAxes(const Recording& recording) {
   return fmt::format(
       "unit       {}{}\nup         {}{}\nsubjects   {}\n", recording.unit,
       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis),
-      recording.up_axis_was_decided ? " (decided from the markers)" : "",
+      UpAxisSource(recording),
       recording.subjects.empty() ? "not named" : JoinNames(recording.subjects, ", "));
 }
 

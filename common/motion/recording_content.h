@@ -42,6 +42,7 @@ struct RecordingContent {
   std::vector<UpAxis> usual_up_axes;  ///< in files of the format
   double rate = 0;                    ///< [Hz]; 0: the file does not say
   long first_frame = 1;               ///< number of the first stored frame in the capture
+  long declared_frames = 0;           ///< that the file says it holds; 0: it does not say
   std::string comment;                ///< what the file says of itself
   std::optional<MmmPart> mmm;
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.

@@ -122,6 +122,26 @@ TEST(Verdict, TheSampleIsGood) {
   EXPECT_EQ(Convert(Handstand(), {"--height", "1.8", "--self-calibrate"}).level, "good");
 }
 
+TEST(Verdict, AFileThatIsCutIsToBeLookedAt) {
+  const std::string cut = TestFolder() + "/cut.c3d";
+  const std::string whole = testing::ReadText(Handstand());
+  WriteText(cut, whole.substr(0, whole.size() / 2));
+  const Judged judged = Convert(cut, {"--height", "1.8"});
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("cut off: it declares 675 frames"));
+}
+
+TEST(Verdict, APersonCalibratedOnExchangedSidesIsNot) {
+  const std::string recording = TestFolder() + "/exchanged.c3d";
+  WriteC3d(recording, Relabelled(WithSidesExchanged([](const std::string&) { return true; })));
+  const std::string subject = TestFolder() + "/exchanged_subject.xml";
+  const auto calibrated = RunProgram({"calibrate", recording, "--height", "1.8", "-o", subject});
+  ASSERT_EQ(calibrated.exit_code, 0) << calibrated.err;
+  const Judged judged = Convert(recording, {"--subject-file", subject});
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of all markers are exchanged"));
+}
+
 TEST(Verdict, RealRecordingsAreGood) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* file :

@@ -81,7 +81,8 @@ class Histogram {
     this.bins = new Bins(sorted);
     this.counts = new Array(this.bins.count).fill(0);
     for (const value of sorted) ++this.counts[this.bins.of(value)];
-    const shown = (share) => `${formatNumber(quantileOf(sorted, share), distribution.digits)}\u00a0${distribution.unit}`;
+    const atMost = (share) => sorted[Math.max(0, Math.ceil(share * sorted.length) - 1)];
+    const shown = (share) => `${formatNumber(atMost(share), distribution.digits)}\u00a0${distribution.unit}`;
     this.about = `Median ${shown(0.5)}, 95 of 100 at most ${shown(0.95)}`;
   }
 

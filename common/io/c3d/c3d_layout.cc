@@ -141,6 +141,7 @@ C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& paramet
       DataStart(header, parameters, section_start, section_blocks, file_size, warnings);
   const std::uint64_t room = file_size - std::min(layout.data_start, file_size);
   const std::uint64_t declared = DeclaredFrames(header, parameters);
+  layout.declared_frames = static_cast<long>(declared);
   layout.points = Points(header, parameters, layout.floats, declared, room, warnings);
   layout.frame_bytes = FrameBytes(layout.points, header, layout.floats);
   if (layout.frame_bytes == 0) return layout;

@@ -35,6 +35,7 @@ struct C3dLayout {
   double scale = 1;    ///< > 0; of integer coordinates and of residuals
   int points = 0;
   int frames = 0;                 ///< whole frames that the file holds
+  long declared_frames = 0;       ///< that it says it holds
   long first_frame = 1;           ///< in the capture
   double rate = 0;                ///< [Hz]; 0: the file does not say
   std::uint64_t data_start = 0;   ///< byte of the first frame

@@ -107,6 +107,11 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
     recording.stated_up_axis = StatedUpAxis(content.stated_up);
     BringToMetresAndZUp(content.unit, content.usual_up_axes, options, &recording, warnings);
   }
+  if (content.declared_frames > recording.markers.num_frames()) {
+    recording.doubts.push_back(
+        fmt::format("the file is cut off: it declares {} frames and holds {}",
+                    content.declared_frames, recording.markers.num_frames()));
+  }
   return recording;
 }
 

@@ -32,7 +32,7 @@ struct Recording {
   std::optional<UpAxis> stated_up_axis;  ///< what the file says
   bool up_axis_was_decided = false;      ///< from the markers; else given, stated or assumed
   bool up_axis_is_doubtful = false;      ///< something contradicts it
-  std::vector<std::string> doubts;       ///< why the unit or the axis may be wrong; warned of too
+  std::vector<std::string> doubts;       ///< why unit, axis or length may be wrong; warned of too
   std::vector<std::string> subjects;     ///< label prefixes found
   std::string subject;                   ///< the one that was read; empty: no prefix
   long first_frame = 1;                  ///< number of the first stored frame in the capture

@@ -218,7 +218,7 @@ UpAxisDecision WeighUsual(const MarkerSequence& markers, double metres,
           fmt::format("{}, but the ground is along {}; {} is taken", said, Name(axis), Name(axis))};
     }
   }
-  return {body, true, fmt::format("{}, which is unusual; it is taken", said)};
+  return {body, true, fmt::format("{}, which is unusual; {} is taken as up", said, Name(body))};
 }
 
 }  // namespace

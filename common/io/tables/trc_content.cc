@@ -19,6 +19,7 @@ RecordingContent ReadTrcContent(const std::string& file, const ContentOptions& /
   content.usual_up_axes = {UpAxis::kY, UpAxis::kZ};
   content.rate = trc.markers.rate();
   content.first_frame = trc.first_frame;
+  content.declared_frames = trc.declared_frames;
   const auto all = std::make_shared<const MarkerSequence>(std::move(trc.markers));
   content.read = [all](const std::vector<int>& points, const std::vector<std::string>& labels,
                        double rate) {

@@ -253,6 +253,9 @@ TrcFile ParseTrc(std::string_view content, const std::string& file, Warnings* wa
   if (std::isfinite(header.frames) && header.frames != frames) {
     Warn(warnings, fmt::format("NumFrames says {}, there are {} rows", header.frames, frames));
   }
+  if (header.frames > 0 && header.frames < 1e9) {
+    trc.declared_frames = static_cast<long>(header.frames);
+  }
   if (std::isfinite(header.markers) && header.markers != trc.markers.num_labels()) {
     Warn(warnings, fmt::format("NumMarkers says {}, there are {} labels", header.markers,
                                trc.markers.num_labels()));

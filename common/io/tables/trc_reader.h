@@ -15,6 +15,7 @@ struct TrcFile {
   MarkerSequence markers;  ///< file units and axes; missing: NaN
   std::string unit;        ///< empty: the file does not say
   long first_frame = 1;
+  long declared_frames = 0;  ///< NumFrames; 0: the file does not say
 };
 
 /// True if text can be a TRC file: it has a line that starts with `PathFileType` or `Frame#`.
