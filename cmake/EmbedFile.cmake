@@ -19,12 +19,10 @@ if(CMAKE_SCRIPT_MODE_FILE)
   file(WRITE ${OUTPUT} "// Made from${names}.
 #include <string_view>
 namespace ${namespace} {
-namespace {
-constexpr unsigned char kBytes[] = {
-${bytes}0};
-}
 std::string_view ${function}();
 std::string_view ${function}() {
+  static constexpr unsigned char kBytes[] = {
+${bytes}0};
   return {reinterpret_cast<const char*>(kBytes), sizeof(kBytes) - 1};
 }
 }

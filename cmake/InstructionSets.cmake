@@ -12,6 +12,7 @@ function(mmm_converter_kernels target)
     set(kernels ${target}_kernels_${variant})
     if(NOT TARGET ${kernels})
       add_library(${kernels} OBJECT)
+      set_target_properties(${kernels} PROPERTIES UNITY_BUILD OFF)
       target_include_directories(${kernels} PRIVATE ${PROJECT_SOURCE_DIR})
       target_compile_definitions(${kernels} PRIVATE MMM_CONVERTER_VARIANT=${variant})
       # Optimised in every build: under the sanitizers they would take most of the tests' time.

@@ -6,7 +6,7 @@
 
 #include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "MMMConverterS2KF/report/units.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

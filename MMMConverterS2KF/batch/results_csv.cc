@@ -25,12 +25,12 @@ std::string CellOf(const Json& value) {
   return value.is_string() ? value.get<std::string>() : FormatJsonLine(value);
 }
 
-struct Cell {
+struct CsvCell {
   std::string column, text;
 };
 
 // Objects become columns "a.b", arrays one text.
-void AddCells(const std::string& name, const Json& value, std::vector<Cell>* row) {
+void AddCells(const std::string& name, const Json& value, std::vector<CsvCell>* row) {
   if (value.is_object()) {
     for (const auto& [key, part] : value.items()) {
       std::string column = name;
@@ -47,12 +47,12 @@ void AddCells(const std::string& name, const Json& value, std::vector<Cell>* row
 }
 
 // Columns in the order of the first row that has them; those of metadata by name, after the others.
-std::vector<std::string> ColumnsOf(const std::vector<std::vector<Cell>>& rows) {
+std::vector<std::string> ColumnsOf(const std::vector<std::vector<CsvCell>>& rows) {
   std::vector<std::string> columns;
   std::set<std::string> known;
   std::set<std::string> metadata;
-  for (const std::vector<Cell>& row : rows) {
-    for (const Cell& cell : row) {
+  for (const std::vector<CsvCell>& row : rows) {
+    for (const CsvCell& cell : row) {
       if (cell.column.starts_with("metadata.")) {
         metadata.insert(cell.column);
       } else if (known.insert(cell.column).second) {
@@ -73,15 +73,15 @@ std::string FormatRow(const std::vector<std::string>& texts) {
 }  // namespace
 
 std::string FormatResultsCsv(const std::vector<Json>& lines) {
-  std::vector<std::vector<Cell>> rows(lines.size());
+  std::vector<std::vector<CsvCell>> rows(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) AddCells("", lines[i], &rows[i]);
   const std::vector<std::string> columns = ColumnsOf(rows);
   std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < columns.size(); ++i) places[columns[i]] = i;
   std::string csv = FormatRow(columns);
-  for (const std::vector<Cell>& row : rows) {
+  for (const std::vector<CsvCell>& row : rows) {
     std::vector<std::string> texts(columns.size());
-    for (const Cell& cell : row) texts[places.at(cell.column)] = cell.text;
+    for (const CsvCell& cell : row) texts[places.at(cell.column)] = cell.text;
     csv += FormatRow(texts);
   }
   return csv;

@@ -11,16 +11,15 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/support/data_directory.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
 // The person and the seed of the sample recording, examples/handstand.c3d.
-constexpr double kHeight = 1.8;  // [m]
-constexpr double kMass = 75;     // [kg]
+constexpr double kReferenceHeight = 1.8;  // [m]
+constexpr double kMass = 75;              // [kg]
 constexpr int kSeed = 1;
-constexpr double kMillimetres = 1000;  // in a metre
-constexpr double kMilliseconds = 1000;
 
 constexpr const char* kComplete = "complete";
 constexpr const char* kOcclusion = "occlusion";
@@ -155,7 +154,7 @@ std::vector<Experiment> Evaluate(
     const EvaluationRequest& request,
     const std::function<void(const std::string&, int, int)>& progress) {
   const auto model = std::make_shared<KinematicModel>(
-      ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")), {kHeight, kMass, {}}));
+      ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")), {kReferenceHeight, kMass, {}}));
   const Trial handstand = MakeHandstandTrial(model, 1);
   Stages stages(progress);
 

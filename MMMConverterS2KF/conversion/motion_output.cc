@@ -24,7 +24,7 @@ bool AreMarkersAsInFile(const Recording& recording) {
 }
 
 // The format has no place for a subject: players see the reference, scaled by height and mass.
-std::string DescribeSubject(const ConversionReport& report) {
+std::string SubjectComment(const ConversionReport& report) {
   if (!report.person.subject) return "";
   const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
   const std::string& file =
@@ -46,7 +46,7 @@ MmmMotionOutput DescribeMotion(const ConversionRequest& request, const Conversio
   output.height = report.person.height.value;
   output.mass = report.person.mass.value;
   output.hand_length = report.person.hand_length;
-  output.comment = DescribeSubject(report);
+  output.comment = SubjectComment(report);
   output.trajectory = &report.result.trajectory;
   output.markers = &report.input.recording.markers;
   return output;

@@ -16,6 +16,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_object_model.h"
+#include "common/model/posture.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
@@ -25,8 +26,6 @@ namespace mmm_converter {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kFewestMarkers = 3;
 
 // How many labels the configuration or a set has for markers of the model.
 int CountKnown(const std::vector<MarkerPair>& pairs, const MarkerSequence& recording,

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/support/units.h"
+
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Why forces, and all that is made of accelerations, say nothing; empty: they do.
 std::string WhyNoForces(const MotionDynamics& dynamics) {

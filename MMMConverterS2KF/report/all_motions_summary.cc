@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "MMMConverterS2KF/report/units.h"
 #include "common/motion/marker_residuals.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

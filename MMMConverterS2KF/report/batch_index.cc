@@ -15,7 +15,7 @@ namespace mmm_converter {
 namespace {
 
 // A member of all entries, each as JSON; "null" where an entry has none.
-struct Column {
+struct IndexColumn {
   std::string name;
   std::vector<std::string> values;
 };
@@ -32,11 +32,11 @@ class Columns {
     columns_[place->second].values[entry] = FormatJsonLine(value);
   }
 
-  const std::vector<Column>& columns() const { return columns_; }
+  const std::vector<IndexColumn>& columns() const { return columns_; }
 
  private:
   std::size_t num_entries_;
-  std::vector<Column> columns_;  // in the order in which they first had a value
+  std::vector<IndexColumn> columns_;  // in the order in which they first had a value
   std::unordered_map<std::string, std::size_t> places_;
 };
 
@@ -82,7 +82,7 @@ std::string JsonArray(const Range& values) {
 
 // [value of each entry], or {"values": the different ones, "index": which of them each entry has}
 // where that is shorter; without an index, all have the one value.
-std::string FormatColumn(const Column& column) {
+std::string FormatColumn(const IndexColumn& column) {
   std::vector<std::string_view> different;
   std::unordered_map<std::string_view, std::size_t> places;
   std::vector<std::size_t> index;
@@ -103,7 +103,7 @@ std::string FormatEntries(const std::vector<Json>& results) {
   Columns columns(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) AddEntry(results[i], i, &columns);
   std::string formatted;
-  for (const Column& column : columns.columns()) {
+  for (const IndexColumn& column : columns.columns()) {
     if (!formatted.empty()) formatted += ",\n";
     formatted += FormatJsonLine(column.name) + ":" + FormatColumn(column);
   }

@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/subject_json.h"
-#include "MMMConverterS2KF/report/units.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kChanged = 0.01;       // of a scale, to be told
-constexpr double kUndetermined = 0.5;   // observability: more is assumed than measured
-constexpr std::size_t kNamesShown = 6;  // in a line
-constexpr std::size_t kLineStart = 11;  // width of a line's name
+constexpr double kChanged = 0.01;                  // of a scale, to be told
+constexpr double kUndetermined = 0.5;              // observability: more is assumed than measured
+constexpr std::size_t kNamesShown = 6;             // in a line
+constexpr std::size_t kCalibrationLineStart = 11;  // width of a line's name
 
 struct Named {
   double size = 0;  ///< what the list is sorted by
@@ -96,18 +96,19 @@ int FramesTaken(const Subject& subject, const std::string& file) {
   return 0;
 }
 
-std::string Line(const std::string& name, const std::string& text) {
-  return fmt::format("{:<{}}{}\n", name, kLineStart, text);
+std::string CalibrationLine(const std::string& name, const std::string& text) {
+  return fmt::format("{:<{}}{}\n", name, kCalibrationLineStart, text);
 }
 
 }  // namespace
 
 std::string FormatSubjectSummary(const Subject& subject) {
-  return Line("segments", ChangedSegments(subject)) +
-         Line("offsets", fmt::format("mean {:.1f} mm; largest: {}",
+  return CalibrationLine("segments", ChangedSegments(subject)) +
+         CalibrationLine("offsets",
+                         fmt::format("mean {:.1f} mm; largest: {}",
                                      kMillimetres * MeanOffset(subject), MovedMarkers(subject))) +
-         Line("unknown",
-              UndeterminedNames(subject) + " (half or more of it is what was assumed beforehand)");
+         CalibrationLine("unknown", UndeterminedNames(subject) +
+                                        " (half or more of it is what was assumed beforehand)");
 }
 
 std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file) {
@@ -116,20 +117,22 @@ std::string FormatCalibrationSummary(const CalibrationReport& report, const std:
   for (const CalibrationInput& one : report.recordings) {
     const MarkerSequence& markers = one.input.recording.markers;
     const int used = FramesTaken(result.subject, one.input.recording.file);
-    text += Line(
+    text += CalibrationLine(
         "recording",
         fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file, used,
                     markers.num_frames(), one.setup.assignments().size(),
                     one.setup.marker_set.empty() ? "" : ", marker set " + one.setup.marker_set));
   }
-  text += Line("person", fmt::format("\"{}\", {:.3g} m ({}), {:.4g} kg ({})", result.subject.name,
-                                     report.person.height.value, report.person.height.source,
-                                     report.person.mass.value, report.person.mass.source));
-  text += Line("model", report.recordings.front().input.model_file);
-  text += Line("distance",
-               fmt::format("mean {:.1f} mm before, {:.1f} after, over {} frames; {} iterations",
-                           kMillimetres * result.distance_before,
-                           kMillimetres * result.distance_after, result.frames, result.iterations));
+  text += CalibrationLine("person",
+                          fmt::format("\"{}\", {:.3g} m ({}), {:.4g} kg ({})", result.subject.name,
+                                      report.person.height.value, report.person.height.source,
+                                      report.person.mass.value, report.person.mass.source));
+  text += CalibrationLine("model", report.recordings.front().input.model_file);
+  text += CalibrationLine(
+      "distance",
+      fmt::format("mean {:.1f} mm before, {:.1f} after, over {} frames; {} iterations",
+                  kMillimetres * result.distance_before, kMillimetres * result.distance_after,
+                  result.frames, result.iterations));
   text += FormatSubjectSummary(result.subject);
   return text + fmt::format(
                     "{} has the person: with it, the best postures leave {:.1f} mm to the markers "

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "MMMConverterS2KF/report/units.h"
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "MMMConverterS2KF/report/units.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

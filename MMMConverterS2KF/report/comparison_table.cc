@@ -8,14 +8,12 @@
 #include <limits>
 #include <span>
 
-#include "MMMConverterS2KF/report/units.h"
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A figure in the unit that its name says.
 struct Column {
@@ -61,24 +59,25 @@ std::string Cell(const Column& column, const Quality& quality) {
 }
 
 // A contender's figures, for a line of the table.
-struct Line {
+struct TableLine {
   std::string name;
   Quality quality;
 };
 
 // Columns in which some line has a number.
-std::vector<const Column*> UsedColumns(const std::vector<Line>& lines) {
+std::vector<const Column*> UsedColumns(const std::vector<TableLine>& lines) {
   std::vector<const Column*> used;
   for (const Column& column : kColumns) {
-    if (std::any_of(lines.begin(), lines.end(),
-                    [&](const Line& line) { return std::isfinite(column.value(line.quality)); })) {
+    if (std::any_of(lines.begin(), lines.end(), [&](const TableLine& line) {
+          return std::isfinite(column.value(line.quality));
+        })) {
       used.push_back(&column);
     }
   }
   return used;
 }
 
-std::string FormatLines(const std::vector<Line>& lines, std::size_t name_width) {
+std::string FormatLines(const std::vector<TableLine>& lines, std::size_t name_width) {
   const std::vector<const Column*> columns = UsedColumns(lines);
   std::string text = fmt::format("  {:<{}}", "", name_width);
   std::string units;
@@ -87,7 +86,7 @@ std::string FormatLines(const std::vector<Line>& lines, std::size_t name_width) 
     units += fmt::format(" {:>9}", column->unit);
   }
   text += fmt::format("\n  {:<{}}{}\n", "", name_width, units);
-  for (const Line& line : lines) {
+  for (const TableLine& line : lines) {
     text += fmt::format("  {:<{}}", line.name, name_width);
     for (const Column* column : columns) {
       const std::string cell = Cell(*column, line.quality);
@@ -112,7 +111,7 @@ std::string DescribeHiding(const ComparisonOptions& options) {
 }
 
 std::string FormatTrial(const Comparison& comparison, int trial, std::size_t name_width) {
-  std::vector<Line> lines;
+  std::vector<TableLine> lines;
   for (const ComparisonRow& row : comparison.rows) {
     if (row.trial != trial || !row.failure.empty()) continue;
     lines.push_back({comparison.contenders[row.contender].name, row.quality});
@@ -133,7 +132,7 @@ std::string FormatTrial(const Comparison& comparison, int trial, std::size_t nam
 
 // Means over the recordings, of contenders that failed on none.
 std::string FormatMeans(const Comparison& comparison, std::size_t name_width) {
-  std::vector<Line> lines;
+  std::vector<TableLine> lines;
   for (std::size_t c = 0; c < comparison.contenders.size(); ++c) {
     std::vector<Quality> all;
     for (const ComparisonRow& row : comparison.rows) {

@@ -5,7 +5,7 @@
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
-#include "MMMConverterS2KF/report/units.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/report/report.h"
-#include "MMMConverterS2KF/report/units.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

@@ -36,7 +36,7 @@ Json DescribeMotion(const DynamicsReport& report) {
         {"subject", motion.person.subject ? Json(motion.person.subject->name) : Json(nullptr)}}}};
 }
 
-Json DescribeDifferentiation(const Differentiation& differentiation) {
+Json DifferentiationJson(const Differentiation& differentiation) {
   const bool of_motion = differentiation.source == DerivativeSource::kMotion;
   return {{"source", of_motion ? "motion" : "differences"},
           {"low_pass_hz", differentiation.cutoff > 0 ? Digits(differentiation.cutoff) : nullptr},
@@ -86,7 +86,7 @@ Json DescribeForces(const MotionDynamics& dynamics) {
           {"largest_residual_moment_body_weight_metres", Digits(moment / weight)}};
 }
 
-Json DescribeContacts(const MotionDynamics& dynamics) {
+Json ContactsJson(const MotionDynamics& dynamics) {
   Json contacts = Json::array();
   for (std::size_t b = 0; b < dynamics.contact_bodies.size(); ++b) {
     const auto row = static_cast<Eigen::Index>(b);
@@ -156,12 +156,12 @@ Json ToJson(const DynamicsReport& report) {
            {{"marker_distance_m", Digits(kinematics.marker_distance)},
             {"segment_distance_m", Digits(kinematics.segment_distance)},
             {"segment_angle_rad", Digits(kinematics.segment_angle)}}},
-          {"derivatives", DescribeDifferentiation(dynamics.differentiation)},
+          {"derivatives", DifferentiationJson(dynamics.differentiation)},
           {"mass_kg", Digits(dynamics.mass)},
           {"center_of_mass", DescribeCenterOfMass(dynamics)},
           {"forces", DescribeForces(dynamics)},
           {"ground_m", Digits(dynamics.ground_height)},
-          {"contacts", DescribeContacts(dynamics)},
+          {"contacts", ContactsJson(dynamics)},
           {"flights", DescribeFlights(dynamics)},
           {"joints", DescribePeaks(judged.peaks)},
           {"checks", DescribeChecks(judged.checks)},

@@ -13,11 +13,11 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kLineStart = 12;
+constexpr std::size_t kDynamicsLineStart = 12;
 constexpr std::size_t kShownPeaks = 8;
 
-std::string Line(const std::string& name, const std::string& text) {
-  return fmt::format("{:<{}}{}\n", name, kLineStart, text);
+std::string DynamicsLine(const std::string& name, const std::string& text) {
+  return fmt::format("{:<{}}{}\n", name, kDynamicsLineStart, text);
 }
 
 // Characters, not bytes: figures have signs such as ±.
@@ -76,21 +76,22 @@ std::string DescribeFlight(const MotionDynamics& dynamics, const BallisticPhase&
 
 std::string FormatFigures(const MotionDynamics& dynamics) {
   const Eigen::VectorXd height = dynamics.com.row(2);
-  std::string text = Line(
+  std::string text = DynamicsLine(
       "body", fmt::format("{:.4g} kg, weight {:.1f} N", dynamics.mass, dynamics.body_weight()));
-  text += Line("com", fmt::format("height mean {:.3f} m, {:.3f} to {:.3f}; speed up to {:.2f} m/s",
-                                  height.mean(), height.minCoeff(), height.maxCoeff(),
-                                  dynamics.com_velocity.colwise().norm().maxCoeff()));
-  text += Line("contacts", DescribeContacts(dynamics));
+  text += DynamicsLine("com",
+                       fmt::format("height mean {:.3f} m, {:.3f} to {:.3f}; speed up to {:.2f} m/s",
+                                   height.mean(), height.minCoeff(), height.maxCoeff(),
+                                   dynamics.com_velocity.colwise().norm().maxCoeff()));
+  text += DynamicsLine("contacts", DescribeContacts(dynamics));
   for (const BallisticPhase& flight : dynamics.ballistic_phases)
-    text += Line("flight", DescribeFlight(dynamics, flight));
+    text += DynamicsLine("flight", DescribeFlight(dynamics, flight));
   return text;
 }
 
 // Joints that the motion asks for something, the largest torque first.
 std::string FormatPeaks(const Plausibility& judged) {
   if (!judged.differentiation.empty()) {
-    return Line("torques", "not shown: " + judged.differentiation);
+    return DynamicsLine("torques", "not shown: " + judged.differentiation);
   }
   std::string text = fmt::format("\n{:<18}{:>8}{:>9}{:>10}{:>9}{:>14}\n", "joint, off ground",
                                  "N m", "at s", "W", "at s", "% of frames");
@@ -173,13 +174,13 @@ std::string DynamicsSentence(const DynamicsReport& report) {
 std::string FormatDynamicsSummary(const DynamicsReport& report) {
   const CheckedMotion& motion = report.motion;
   const MotionDynamics& dynamics = report.dynamics;
-  std::string text =
-      Line("motion", fmt::format("{}: \"{}\", {} frames at {:.6g} Hz ({:.3f} s)", motion.file,
-                                 motion.name, dynamics.num_frames(), dynamics.rate,
-                                 (dynamics.num_frames() - 1) / dynamics.rate));
-  text += Line("person", DescribePerson(motion.person));
-  text += Line("model", motion.model_file);
-  text += Line("derivatives", DescribeDifferentiation(dynamics.differentiation));
+  std::string text = DynamicsLine(
+      "motion", fmt::format("{}: \"{}\", {} frames at {:.6g} Hz ({:.3f} s)", motion.file,
+                            motion.name, dynamics.num_frames(), dynamics.rate,
+                            (dynamics.num_frames() - 1) / dynamics.rate));
+  text += DynamicsLine("person", DescribePerson(motion.person));
+  text += DynamicsLine("model", motion.model_file);
+  text += DynamicsLine("derivatives", DescribeDifferentiation(dynamics.differentiation));
   text += FormatFigures(dynamics) + FormatPeaks(report.plausibility);
   return text + FormatChecks(report.plausibility) + DynamicsSentence(report) + "\n";
 }

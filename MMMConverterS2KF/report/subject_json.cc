@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/report/units.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

@@ -12,6 +12,7 @@
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -119,7 +120,6 @@ Json TrialJson(const Trial& trial, const CommonGround& ground) {
 /// NIS over its degrees of freedom, and what 95 of 100 frames of a consistent filter stay within;
 /// NaN where no marker was seen or the converter states none.
 void AddNis(const ConversionResult& result, int frames, Json* out) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   MatrixXd nis = MatrixXd::Constant(frames, 3, kNaN);
   std::map<int, std::pair<double, double>> bands;
   for (std::size_t k = 0; k < result.frames.size(); ++k) {

@@ -13,7 +13,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr int kFrames = 24;
-constexpr int kLeastMarkers = 10;
+constexpr int kLeastHeightMarkers = 10;
 constexpr int kAttempts = 4;
 constexpr double kAnyMass = 70;  // [kg]; Winter's scaling wants one, no length depends on it
 
@@ -43,7 +43,7 @@ std::vector<CalibrationFrame> ChooseFrames(const TrackingSetup& setup,
       CalibrationFrame frame;
       frame.frame = k;
       frame.z = recording.frame(k)(Eigen::all, labels);
-      if (frame.z.row(0).array().isFinite().count() < kLeastMarkers) continue;
+      if (frame.z.row(0).array().isFinite().count() < kLeastHeightMarkers) continue;
       frames.push_back(std::move(frame));
       break;
     }

@@ -12,8 +12,8 @@
 namespace mmm_converter {
 namespace {
 
-constexpr int kFrames = 8;
-constexpr int kAttempts = 4;
+constexpr int kSideFrames = 8;
+constexpr int kSideAttempts = 4;
 constexpr double kClearlyNearer = 0.75;  // of the distance with the labels as they are
 
 // Two assignments whose markers are called alike but for the side.
@@ -60,10 +60,10 @@ std::vector<Pair> FindPairs(const KinematicModel& model, const MarkerKinematics&
 std::vector<Eigen::Matrix3Xd> ChooseFrames(const std::vector<LabelIx>& labels,
                                            const MarkerSequence& recording) {
   std::vector<Eigen::Matrix3Xd> frames;
-  for (int part = 0; part < kFrames; ++part) {
+  for (int part = 0; part < kSideFrames; ++part) {
     const long n = recording.num_frames();
-    const int end = static_cast<int>(n * (part + 1) / kFrames);
-    for (int k = static_cast<int>(n * part / kFrames); k < end; ++k) {
+    const int end = static_cast<int>(n * (part + 1) / kSideFrames);
+    for (int k = static_cast<int>(n * part / kSideFrames); k < end; ++k) {
       Eigen::Matrix3Xd z = recording.frame(k)(Eigen::all, labels);
       if (2 * (z.row(0).array().isFinite().count()) < z.cols()) continue;
       frames.push_back(std::move(z));
@@ -83,7 +83,7 @@ double MeanDistance(const MarkerKinematics& kinematics, const std::vector<Eigen:
   for (const Eigen::Matrix3Xd& frame : frames) {
     Posture posture;
     const Eigen::Matrix3Xd z = frame(Eigen::all, order);
-    sum += search.Assemble(z, scale, options, kAttempts, &posture).mean_distance;
+    sum += search.Assemble(z, scale, options, kSideAttempts, &posture).mean_distance;
   }
   return sum / static_cast<double>(frames.size());
 }

@@ -10,12 +10,11 @@
 #include <utility>
 
 #include "common/model/forward_kinematics.h"
+#include "common/model/posture.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr int kFewestMarkers = 3;
 
 // An incident goes on where it stops for no longer than this [s].
 constexpr double kBridgedTime = 0.1;

@@ -9,14 +9,13 @@
 
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
 using Eigen::Index;
 using Eigen::Vector2d;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Body index of each segment, -1 for those of none; `names` gets the bodies' names.
 std::vector<int> EndsOfReferenceModel(const KinematicModel& model,

@@ -8,13 +8,13 @@
 #include "common/fit/posture_fit.h"
 #include "common/fit/posture_search.h"
 #include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
 #include "common/motion/marker_synthesis.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr int kFewestMarkers = 3;
-constexpr int kAttempts = 20;
+constexpr int kFitAttempts = 20;
 
 // Fits frames of a recording, each starting from the one before.
 class OptimumFit {
@@ -43,7 +43,7 @@ class OptimumFit {
       if (starts) StartFromNearest(k, z, starts);
       result = search_.fit().Solve(z, scale_, options_, &posture_);
     } else {
-      result = search_.Assemble(z, scale_, options_, kAttempts, &posture_);
+      result = search_.Assemble(z, scale_, options_, kFitAttempts, &posture_);
       is_assembled_ = true;
     }
     Optimum& optimum = optima_[static_cast<std::size_t>(k)];

@@ -10,6 +10,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -17,9 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // A joint is on a limit where it is nearer to it than this share of its range.
-constexpr double kOnLimit = 1e-3;
+constexpr double kNearLimit = 1e-3;
 
 DistanceFigures MeasureDistances(const MatrixXd& distances) {
   const ResidualSummary summary = SummarizeResiduals(distances);
@@ -64,7 +64,7 @@ void MeasureJoints(const QualityReference& reference, const PoseTrajectory& traj
   for (std::size_t j = 0; j < reference.joints.size(); ++j) {
     const Segment& joint = reference.model->joint(reference.joints[j]);
     if (IsEndless(joint)) continue;
-    const double margin = kOnLimit * (joint.upper - joint.lower);
+    const double margin = kNearLimit * (joint.upper - joint.lower);
     const auto row = angles.row(static_cast<int>(j)).array();
     on_limit += (row <= joint.lower + margin || row >= joint.upper - margin).count();
   }

@@ -15,9 +15,9 @@ namespace mmm_converter {
 
 namespace {
 
-constexpr int kFrames = 12;
+constexpr int kHeightFrames = 12;
 constexpr int kLeastMarkers = 10;
-constexpr int kAttempts = 4;
+constexpr int kHeightAttempts = 4;
 constexpr double kShortest = 1.0;
 constexpr double kTallest = 2.2;
 constexpr double kTypical = 1.7;
@@ -29,15 +29,15 @@ struct FittedFrame {
   Posture posture;
 };
 
-/// One frame out of each of kFrames equal parts of the recording.
+/// One frame out of each of kHeightFrames equal parts of the recording.
 std::vector<FittedFrame> ChooseFrames(const std::vector<LabelIx>& labels,
                                       const MarkerSequence& recording,
                                       const std::vector<Posture>* track) {
   std::vector<FittedFrame> frames;
-  for (int part = 0; part < kFrames; ++part) {
+  for (int part = 0; part < kHeightFrames; ++part) {
     const long n = recording.num_frames();
-    const int begin = static_cast<int>(n * part / kFrames);
-    const int end = static_cast<int>(n * (part + 1) / kFrames);
+    const int begin = static_cast<int>(n * part / kHeightFrames);
+    const int end = static_cast<int>(n * (part + 1) / kHeightFrames);
     int best = -1;
     int most = kLeastMarkers - 1;
     for (int k = begin; k < end; ++k) {
@@ -82,7 +82,7 @@ HeightEstimate EstimateHeight(const KinematicModel& reference, const std::vector
     for (FittedFrame& frame : frames) {
       PostureFit::Result fit;
       if (frame.posture.joint_angles.size() == 0) {
-        fit = search.Assemble(frame.z, scale, options, kAttempts, &frame.posture);
+        fit = search.Assemble(frame.z, scale, options, kHeightAttempts, &frame.posture);
       } else {
         fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
       }

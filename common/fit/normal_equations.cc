@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace {
 
 // A step onto a limit ends there but for rounding [rad].
-constexpr double kOnLimit = 1e-12;
+constexpr double kAtLimit = 1e-12;
 
 }  // namespace
 
@@ -70,8 +70,8 @@ void NormalEquations::HoldPressingJoints(const VectorXd& angles) {
   std::fill(is_held_.begin(), is_held_.end(), 0);
   held_step_.setZero();
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    if ((angles[j] <= kinematics_.lower()[j] + kOnLimit && g_[6 + j] < 0) ||
-        (angles[j] >= kinematics_.upper()[j] - kOnLimit && g_[6 + j] > 0)) {
+    if ((angles[j] <= kinematics_.lower()[j] + kAtLimit && g_[6 + j] < 0) ||
+        (angles[j] >= kinematics_.upper()[j] - kAtLimit && g_[6 + j] > 0)) {
       Hold(j, 0);
     }
   }

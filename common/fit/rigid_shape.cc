@@ -13,6 +13,7 @@
 #include "common/math/statistics.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -26,12 +27,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFewest = 3;  // markers of a pose
 
 // Frames that are looked at; more make the shape hardly better. A marker that few of them show gets
 // this many of its own.
-constexpr int kMostFrames = 1000;
+constexpr int kMostShapeFrames = 1000;
 constexpr int kFewestFrames = 20;
 
 // Markers whose distance from a marker is looked at; more say hardly more of a frame.
@@ -131,7 +131,7 @@ class ShapeEstimator {
 
   void TakeFrames() {
     const std::vector<int> usable = FindUsableFrames();
-    std::set<int> chosen = Spread(usable, kMostFrames);
+    std::set<int> chosen = Spread(usable, kMostShapeFrames);
     for (int i = 0; i < recording_.num_labels(); ++i) {
       const auto is_seen = [&](int k) { return IsPoint(recording_.frame(k).col(i)); };
       if (std::count_if(chosen.begin(), chosen.end(), is_seen) >= kFewestFrames) continue;

@@ -7,12 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/support/units.h"
+
 namespace mmm_converter {
-namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 double Mean(std::span<const double> values) {
   double sum = 0;

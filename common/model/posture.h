@@ -8,6 +8,9 @@ namespace mmm_converter {
 
 class KinematicModel;
 
+/// Markers that must be seen for a pose in space to be determined.
+inline constexpr int kFewestMarkers = 3;
+
 /// A posture of a KinematicModel: pose X_WS of the floating root and all joint angles.
 struct Posture {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< root origin in W [m]

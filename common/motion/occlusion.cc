@@ -8,11 +8,10 @@
 
 #include "common/math/seeded_random.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 int IndexOf(const MarkerSequence& sequence, const std::string& label) {
   const int index = sequence.FindLabel(label);

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kKibi = 1024;
-constexpr std::array kUnits = {'K', 'M', 'G', 'T'};
+constexpr std::array kMemoryUnits = {'K', 'M', 'G', 'T'};
 
 std::string ReadWord(std::istream& stream) {
   std::string word;
@@ -141,9 +141,10 @@ std::optional<std::uint64_t> ParseByteSize(const std::string& text) {
   std::string number(Trim(text));
   double factor = 1;
   if (!number.empty()) {
-    const auto unit = std::find(kUnits.begin(), kUnits.end(), ToLower(number).back() - 'a' + 'A');
-    if (unit != kUnits.end()) {
-      factor = std::pow(kKibi, static_cast<double>(unit - kUnits.begin() + 1));
+    const auto unit =
+        std::find(kMemoryUnits.begin(), kMemoryUnits.end(), ToLower(number).back() - 'a' + 'A');
+    if (unit != kMemoryUnits.end()) {
+      factor = std::pow(kKibi, static_cast<double>(unit - kMemoryUnits.begin() + 1));
       number.pop_back();
     }
   }
@@ -156,11 +157,11 @@ std::optional<std::uint64_t> ParseByteSize(const std::string& text) {
 std::string FormatByteSize(std::uint64_t bytes) {
   double value = static_cast<double>(bytes) / kKibi;
   std::size_t unit = 0;
-  while (value >= kKibi && unit + 1 < kUnits.size()) {
+  while (value >= kKibi && unit + 1 < kMemoryUnits.size()) {
     value /= kKibi;
     ++unit;
   }
-  return fmt::format("{:.3g} {}iB", value, kUnits[unit]);
+  return fmt::format("{:.3g} {}iB", value, kMemoryUnits[unit]);
 }
 
 }  // namespace mmm_converter

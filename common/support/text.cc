@@ -7,7 +7,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::string_view kBlanks("\0 \t\r\n\v\f", 7);
+constexpr std::string_view kTextBlanks("\0 \t\r\n\v\f", 7);
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -24,9 +24,9 @@ std::optional<Number> Parse(std::string_view text) {
 }  // namespace
 
 std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
+  const std::size_t begin = text.find_first_not_of(kTextBlanks);
   if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  return text.substr(begin, text.find_last_not_of(kTextBlanks) - begin + 1);
 }
 
 std::string ToLower(std::string_view text) {
@@ -46,12 +46,12 @@ std::optional<long> ParseLong(std::string_view text) { return Parse<long>(text);
 
 bool AppendDoubles(std::string_view text, std::vector<double>* numbers) {
   for (text = Trim(text); !text.empty();) {
-    const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+    const std::string_view word = text.substr(0, text.find_first_of(kTextBlanks));
     const std::optional<double> number = ParseDouble(word);
     if (!number) return false;
     numbers->push_back(*number);
     text.remove_prefix(word.size());
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(kTextBlanks), text.size()));
   }
   return true;
 }

@@ -5,7 +5,9 @@
 #include <limits>
 #include <string>
 
+#include "common/model/posture.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter::jacobian {
 
@@ -14,8 +16,6 @@ using Eigen::Ref;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kFewestMarkers = 3;
 // Steps have converged where the last one asked for less than this [rad].
 constexpr double kSmallStep = 1e-3;
 

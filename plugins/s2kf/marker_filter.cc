@@ -7,6 +7,7 @@
 #include "common/fit/posture_fit.h"
 #include "common/math/dense.h"
 #include "common/math/rotation.h"
+#include "common/support/units.h"
 #include "plugins/s2kf/lcd_sampling.h"
 
 namespace mmm_converter::s2kf {
@@ -20,7 +21,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr unsigned kRotationSeed = 1;
 // A frame is linearised again while the samples leave more of the marker variance unexplained than
 // this share of the measurement noise.

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/model/posture.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::s2kf {
@@ -10,11 +11,7 @@ namespace mmm_converter::s2kf {
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
 
-namespace {
-
-constexpr int kFewestMarkers = 3;
-
-}  // namespace
+namespace {}  // namespace
 
 OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& settings)
     : markers_(markers),

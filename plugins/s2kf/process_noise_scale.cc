@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "common/model/posture.h"
 #include "common/support/error.h"
 #include "plugins/s2kf/marker_filter.h"
 #include "plugins/s2kf/online_tracker.h"
@@ -22,7 +23,6 @@ constexpr int kParts = 6;
 constexpr int kPartFrames = 80;
 constexpr int kSettling = 25;
 constexpr int kFewestFrames = 10;
-constexpr int kFewestMarkers = 3;
 // Of the scale, to the base 10.
 constexpr double kLargestLog = 3;
 constexpr double kStep = 0.5;

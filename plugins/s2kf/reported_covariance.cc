@@ -8,6 +8,7 @@
 
 #include "common/fit/posture_fit.h"
 #include "common/math/dense.h"
+#include "common/support/units.h"
 #include "plugins/s2kf/posture_recovery.h"
 
 namespace mmm_converter::s2kf {
@@ -18,7 +19,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Offsets are constant, so a second of residuals tells their size; over it, posture changes which
 // of them show.
 constexpr double kMemory = 1;  // [s]

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/motion/trajectory_derivatives.h"
+#include "common/support/units.h"
 #include "plugins/s2kf/offline_tracker.h"
 #include "plugins/s2kf/process_noise_scale.h"
 
@@ -13,11 +14,7 @@ namespace mmm_converter::s2kf {
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
 
-namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings)
     : MotionConverter(setup),

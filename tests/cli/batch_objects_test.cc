@@ -21,7 +21,7 @@ using testing::WriteText;
 
 constexpr double kMarkers[3][3] = {{0, 20, 0}, {160, -10, 30}, {10, 90, 50}};  // [mm]
 
-std::string Out() { return TestFolder() + "/out"; }
+std::string ObjectsOut() { return TestFolder() + "/out"; }
 
 void WriteModel() {
   std::string xml = "<Robot Type=\"box\" RootNode=\"r\"><RobotNode name=\"r\">";
@@ -56,15 +56,16 @@ std::string WriteManifest() {
 }
 
 std::string Resume(const std::string& manifest) {
-  const auto run = RunProgram({"batch", manifest, "-o", Out(), "--resume", "--reports", "none"});
+  const auto run =
+      RunProgram({"batch", manifest, "-o", ObjectsOut(), "--resume", "--reports", "none"});
   return run.out + run.err;
 }
 
 TEST(BatchObjects, AnObjectIsConverted) {
-  const auto run = RunProgram({"batch", WriteManifest(), "-o", Out()});
+  const auto run = RunProgram({"batch", WriteManifest(), "-o", ObjectsOut()});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("1 recordings, 1 converted, 0 failed, 0 missing"));
-  const auto line = nlohmann::json::parse(ReadText(Out() + "/results.jsonl"));
+  const auto line = nlohmann::json::parse(ReadText(ObjectsOut() + "/results.jsonl"));
   EXPECT_EQ(line["state"], "converted");
   EXPECT_TRUE(line["height_m"].is_null());
   EXPECT_TRUE(line["mass_source"].is_null());
@@ -77,7 +78,7 @@ TEST(BatchObjects, ResumeNoticesAChangeOfTheModelThatTheMotionNames) {
   EXPECT_THAT(Resume(manifest), HasSubstr("0 converted, 0 failed, 1 unchanged"));
   const std::string model = TestFolder() + "/models/box.xml";
   WriteText(model, ReadText(model) + "<!-- another -->");
-  EXPECT_THAT(RunProgram({"batch", manifest, "-o", Out(), "--merge"}).out,
+  EXPECT_THAT(RunProgram({"batch", manifest, "-o", ObjectsOut(), "--merge"}).out,
               HasSubstr("0 converted, 0 failed, 1 missing"));
   EXPECT_THAT(Resume(manifest), HasSubstr("1 converted, 0 failed in"));
   std::filesystem::remove(model);

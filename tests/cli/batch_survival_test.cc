@@ -31,8 +31,8 @@ using testing::WriteManifest;
 
 constexpr int kEntries = 100;  // more than a run gets done before it is ended, on any machine
 
-std::string Out(const std::string& name = "out") { return TestFolder() + "/" + name; }
-std::string Journal() { return Out() + "/journal.jsonl"; }
+std::string SurvivalOut(const std::string& name = "out") { return TestFolder() + "/" + name; }
+std::string Journal() { return SurvivalOut() + "/journal.jsonl"; }
 
 std::vector<std::string> Words(const std::string& manifest, const std::string& out) {
   return {"batch", manifest, "-o", out, "--resume", "--reports", "none", "--jobs", "2"};
@@ -45,11 +45,11 @@ long LinesOf(const std::string& file) {
 
 TEST(BatchSurvival, KilledTenTimesTheOutputsAreThoseOfAnUndisturbedRun) {
   const std::string manifest = WriteManifest(kEntries, "mass_kg='75' csv='true'");
-  ASSERT_EQ(RunProgram(Words(manifest, Out("undisturbed"))).exit_code, 0);
+  ASSERT_EQ(RunProgram(Words(manifest, SurvivalOut("undisturbed"))).exit_code, 0);
   std::mt19937 random(6);
   for (int kill = 0; kill < 10; ++kill) {
     const long done = LinesOf(Journal());
-    StartedProgram program(Words(manifest, Out()));
+    StartedProgram program(Words(manifest, SurvivalOut()));
     // A few entries on, at a random step of the work on the next.
     program.WaitForLines(Journal(), static_cast<int>(done + random() % 3));
     std::atomic<unsigned> steps = random() % 3000000;  // up to some hundredths of a second
@@ -58,11 +58,12 @@ TEST(BatchSurvival, KilledTenTimesTheOutputsAreThoseOfAnUndisturbedRun) {
     EXPECT_EQ(program.Wait(), -SIGKILL);
   }
   EXPECT_LT(LinesOf(Journal()), kEntries);
-  const auto run = RunProgram(Words(manifest, Out()));
+  const auto run = RunProgram(Words(manifest, SurvivalOut()));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("unchanged"));
-  EXPECT_EQ(Contents(Out() + "/motions"), Contents(Out("undisturbed") + "/motions"));
-  EXPECT_EQ(Contents(Out() + "/csv"), Contents(Out("undisturbed") + "/csv"));
+  EXPECT_EQ(Contents(SurvivalOut() + "/motions"),
+            Contents(SurvivalOut("undisturbed") + "/motions"));
+  EXPECT_EQ(Contents(SurvivalOut() + "/csv"), Contents(SurvivalOut("undisturbed") + "/csv"));
   EXPECT_EQ(LinesOf(Journal()), kEntries);
 }
 
@@ -70,50 +71,51 @@ TEST(BatchSurvival, InterruptedItEndsInOrder) {
   const std::string manifest = WriteManifest(kEntries, "mass_kg='75'");
   for (const int signal : {SIGINT, SIGTERM}) {
     const long done = LinesOf(Journal());
-    StartedProgram program(Words(manifest, Out()));
+    StartedProgram program(Words(manifest, SurvivalOut()));
     program.WaitForLines(Journal(), static_cast<int>(done) + 2);
     program.Send(signal);
     EXPECT_EQ(program.Wait(), 128 + signal);
     EXPECT_THAT(program.Said(),
                 AllOf(HasSubstr("go on with --resume"), HasSubstr(" not done in ")));
-    const auto motions = Contents(Out() + "/motions");
+    const auto motions = Contents(SurvivalOut() + "/motions");
     EXPECT_EQ(static_cast<long>(motions.size()), LinesOf(Journal()));
-    EXPECT_FALSE(fs::exists(Out() + "/index.html"));
+    EXPECT_FALSE(fs::exists(SurvivalOut() + "/index.html"));
   }
-  const auto run = RunProgram(Words(manifest, Out()));
+  const auto run = RunProgram(Words(manifest, SurvivalOut()));
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_EQ(Contents(Out() + "/motions").size(), static_cast<std::size_t>(kEntries));
+  EXPECT_EQ(Contents(SurvivalOut() + "/motions").size(), static_cast<std::size_t>(kEntries));
 }
 
 TEST(BatchSurvival, OneRunAtATimeHasAFolder) {
   const std::string manifest = WriteManifest(kEntries, "");
-  StartedProgram program(Words(manifest, Out()));
+  StartedProgram program(Words(manifest, SurvivalOut()));
   program.WaitForLines(Journal(), 1);
-  const auto run = RunProgram(Words(manifest, Out()));
+  const auto run = RunProgram(Words(manifest, SurvivalOut()));
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("another process is writing to it"));
 }
 
 TEST(BatchSurvival, AFullDiskEndsTheRunAndResumeGoesOn) {
   const std::string manifest = WriteManifest(10, QuickConverter());
-  const std::string undisturbed = Out("undisturbed");
+  const std::string undisturbed = SurvivalOut("undisturbed");
   ASSERT_EQ(RunProgram(Words(manifest, undisturbed)).exit_code, 0);
-  fs::create_directories(Out());
+  fs::create_directories(SurvivalOut());
   if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
-      mount("tmpfs", Out().c_str(), "tmpfs", 0, "size=192k") != 0) {
+      mount("tmpfs", SurvivalOut().c_str(), "tmpfs", 0, "size=192k") != 0) {
     GTEST_SKIP() << "needs the right to mount a small disk: run as root";
   }
-  const auto full = RunProgram(Words(manifest, Out()));
+  const auto full = RunProgram(Words(manifest, SurvivalOut()));
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_THAT(full.err,
               AllOf(HasSubstr("No space left on device"), HasSubstr("go on with --resume")));
   EXPECT_THAT(full.out, HasSubstr(" not done in "));
   const auto whole = Contents(undisturbed + "/motions");
-  for (const auto& [name, text] : Contents(Out() + "/motions")) EXPECT_EQ(text, whole.at(name));
-  ASSERT_EQ(mount("tmpfs", Out().c_str(), "tmpfs", MS_REMOUNT, "size=64m"), 0);
-  const auto run = RunProgram(Words(manifest, Out()));
+  for (const auto& [name, text] : Contents(SurvivalOut() + "/motions"))
+    EXPECT_EQ(text, whole.at(name));
+  ASSERT_EQ(mount("tmpfs", SurvivalOut().c_str(), "tmpfs", MS_REMOUNT, "size=64m"), 0);
+  const auto run = RunProgram(Words(manifest, SurvivalOut()));
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(Contents(Out() + "/motions"), whole);
+  EXPECT_EQ(Contents(SurvivalOut() + "/motions"), whole);
 }
 
 TEST(BatchSurvival, RecordingsThatGoAwayAreTriedAgain) {
@@ -125,14 +127,14 @@ TEST(BatchSurvival, RecordingsThatGoAwayAreTriedAgain) {
   const std::string manifest = WriteManifest(0, "", more);
   fs::create_directories(TestFolder() + "/archive");
   fs::copy_file(testing::Handstand(), TestFolder() + "/archive/handstand.c3d");
-  StartedProgram program(Words(manifest, Out()));
+  StartedProgram program(Words(manifest, SurvivalOut()));
   program.WaitForLines(Journal(), 3);
   fs::rename(TestFolder() + "/archive", TestFolder() + "/lost");
   EXPECT_EQ(program.Wait(), 1);
-  EXPECT_THAT(ReadText(Out() + "/results.jsonl"),
+  EXPECT_THAT(ReadText(SurvivalOut() + "/results.jsonl"),
               HasSubstr("archive/handstand.c3d: can't be read"));
   fs::rename(TestFolder() + "/lost", TestFolder() + "/archive");
-  const auto run = RunProgram(Words(manifest, Out()));
+  const auto run = RunProgram(Words(manifest, SurvivalOut()));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("100 recordings, 100 converted, 0 failed, 0 missing"));
 }

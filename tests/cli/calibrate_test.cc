@@ -172,7 +172,7 @@ TEST(Calibrate, MarksEachRecordingsOwnOptions) {
   EXPECT_EQ(wrong.exit_code, 2);
 }
 
-void ExpectRefused(std::vector<std::string> call, const std::string& message) {
+void ExpectCalibrateRefuses(std::vector<std::string> call, const std::string& message) {
   WriteText(TestFolder() + "/s.xml", "as it was");
   call.insert(call.end(), {"-o", TestFolder() + "/s.xml", "--model-out", TestFolder() + "/m.xml",
                            "--summary", TestFolder() + "/s.json"});
@@ -186,7 +186,7 @@ void ExpectRefused(std::vector<std::string> call, const std::string& message) {
 }
 
 TEST(Calibrate, TooShortARecordingSaysSoAndWritesNothing) {
-  ExpectRefused({"calibrate", Handstand(), "--height", "1.8", "--frames", ":3"}, "short");
+  ExpectCalibrateRefuses({"calibrate", Handstand(), "--height", "1.8", "--frames", ":3"}, "short");
 }
 
 TEST(Calibrate, TooStillARecordingSaysSoAndWritesNothing) {
@@ -195,7 +195,7 @@ TEST(Calibrate, TooStillARecordingSaysSoAndWritesNothing) {
   for (int k = 0; k < still.num_frames(); ++k) still.frame(k) = moving.frame(0);
   const std::string file = TestFolder() + "/still.c3d";
   WriteC3d(file, still);
-  ExpectRefused({"calibrate", file, "--height", "1.8"}, "still");
+  ExpectCalibrateRefuses({"calibrate", file, "--height", "1.8"}, "still");
   const auto run = RunProgram({"convert", file, "--height", "1.8", "--self-calibrate", "-o",
                                TestFolder() + "/o.xml", "--subject-out", TestFolder() + "/p.xml"});
   EXPECT_EQ(run.exit_code, 1);
@@ -204,10 +204,12 @@ TEST(Calibrate, TooStillARecordingSaysSoAndWritesNothing) {
 }
 
 TEST(Calibrate, RecordingsThatCanNotBeReadAreRefused) {
-  ExpectRefused({"calibrate", Handstand(), TestFolder() + "/nothing.c3d", "--height", "1.8"},
-                "nothing.c3d: no such file");
+  ExpectCalibrateRefuses(
+      {"calibrate", Handstand(), TestFolder() + "/nothing.c3d", "--height", "1.8"},
+      "nothing.c3d: no such file");
   WriteText(TestFolder() + "/notes.c3d", "Not a recording.");
-  ExpectRefused({"calibrate", TestFolder() + "/notes.c3d", "--height", "1.8"}, "notes.c3d");
+  ExpectCalibrateRefuses({"calibrate", TestFolder() + "/notes.c3d", "--height", "1.8"},
+                         "notes.c3d");
 }
 
 TEST(Calibrate, RecordingsOfTwoPersonsAreRefused) {
@@ -219,7 +221,8 @@ TEST(Calibrate, RecordingsOfTwoPersonsAreRefused) {
                   .exit_code,
               0);
   }
-  ExpectRefused({"calibrate", files[0], files[1]}, "calibrate with recordings of one person");
+  ExpectCalibrateRefuses({"calibrate", files[0], files[1]},
+                         "calibrate with recordings of one person");
 }
 
 TEST(Calibrate, NeverOverwritesWhatItReads) {
@@ -234,7 +237,7 @@ TEST(Calibrate, NeverOverwritesWhatItReads) {
 TEST(Calibrate, UnscaledModelsAreRefused) {
   const std::string config = TestFolder() + "/config.xml";
   WriteText(config, "<ConverterConfig type='S2KFConverter'><Model name='None'/></ConverterConfig>");
-  ExpectRefused({"calibrate", Handstand(), "-c", config}, "<Model name=\"None\">");
+  ExpectCalibrateRefuses({"calibrate", Handstand(), "-c", config}, "<Model name=\"None\">");
   const auto run = RunProgram(
       {"convert", Handstand(), "-c", config, "--self-calibrate", "-o", TestFolder() + "/o.xml"});
   EXPECT_EQ(run.exit_code, 1);

@@ -84,7 +84,7 @@ long Width(const std::string& line) {
                        [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; });
 }
 
-std::string LastLine(const std::string& text) {
+std::string LastLineOf(const std::string& text) {
   return text.substr(text.find_last_of('\n', text.size() - 2) + 1);
 }
 
@@ -103,9 +103,9 @@ TEST(CheckDynamics, StandingIsPlausible) {
     const auto run = RunProgram({"check-dynamics", file, "--summary", summary});
     EXPECT_EQ(run.exit_code, 0) << run.out;
     EXPECT_EQ(run.err, "");
-    EXPECT_EQ(LastLine(run.out), file +
-                                     " is plausible: a body can move like that (7 of 9 checks, "
-                                     "2 not judged).\n");
+    EXPECT_EQ(LastLineOf(run.out), file +
+                                       " is plausible: a body can move like that (7 of 9 checks, "
+                                       "2 not judged).\n");
     const Json json = Json::parse(ReadText(summary));
     // MMM files have 1e-7 m; differentiated twice over 0.01 s and low-passed that is below 1e-3
     // m/s².
@@ -136,7 +136,7 @@ TEST(CheckDynamics, TheSampleAndItsConversionsArePlausible) {
   const auto run = RunProgram({"check-dynamics", truth});
   if (run.err.find("built without Simbody") != std::string::npos) GTEST_SKIP() << run.err;
   EXPECT_EQ(run.exit_code, 0) << run.out;
-  EXPECT_THAT(LastLine(run.out), HasSubstr("is plausible"));
+  EXPECT_THAT(LastLineOf(run.out), HasSubstr("is plausible"));
   for (const char* config : {"s2kf_default", "s2kf_offline"}) {
     const std::string motion = TestFolder() + "/" + config + ".xml";
     const auto converted = RunProgram(
@@ -147,7 +147,7 @@ TEST(CheckDynamics, TheSampleAndItsConversionsArePlausible) {
     EXPECT_EQ(reported.exit_code, 0) << reported.err;
     const auto checked = RunProgram({"check-dynamics", motion});
     EXPECT_EQ(checked.exit_code, 0) << checked.out;
-    EXPECT_THAT(LastLine(checked.out), HasSubstr("is plausible"));
+    EXPECT_THAT(LastLineOf(checked.out), HasSubstr("is plausible"));
   }
 }
 
@@ -166,7 +166,7 @@ TEST(CheckDynamics, FreeFallIsMeasuredAndSlowFallIsImplausible) {
     EXPECT_EQ(run.exit_code, json["verdict"] == "implausible" ? 1 : 0);
     if (!is_free) {
       EXPECT_EQ(run.exit_code, 1);
-      EXPECT_THAT(LastLine(run.out),
+      EXPECT_THAT(LastLineOf(run.out),
                   AllOf(HasSubstr("is implausible"), HasSubstr("fall in flight")));
     }
   }
@@ -196,7 +196,7 @@ TEST(CheckDynamics, StandingInTheAirIsImplausible) {
   });
   const auto run = RunProgram({"check-dynamics", WriteMotion(motion, "hover")});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(LastLine(run.out), HasSubstr("is implausible: carried beside the ground ("));
+  EXPECT_THAT(LastLineOf(run.out), HasSubstr("is implausible: carried beside the ground ("));
   EXPECT_THAT(run.out, HasSubstr("it stands in the air, or not all on one level; worst at"));
 }
 
@@ -225,7 +225,7 @@ TEST(CheckDynamics, NoiseIsNotPrintedAsTorque) {
   EXPECT_EQ(raw.exit_code, 0);
   EXPECT_THAT(raw.out, AllOf(HasSubstr("torques     not shown: accelerations are noise"),
                              Not(HasSubstr("joint, off ground"))));
-  EXPECT_THAT(LastLine(raw.out), HasSubstr("is not judged: accelerations are noise"));
+  EXPECT_THAT(LastLineOf(raw.out), HasSubstr("is not judged: accelerations are noise"));
   const auto smooth = RunProgram({"check-dynamics", file});
   EXPECT_EQ(smooth.exit_code, 0) << smooth.out;
   EXPECT_THAT(smooth.out, AllOf(HasSubstr("differences after a low-pass at 6 Hz"),
@@ -332,7 +332,7 @@ TEST(CheckDynamics, RatesThatAreTooLowAreNotJudged) {
   slow.rate = 10;
   const auto run = RunProgram({"check-dynamics", WriteMotion(slow, "slow")});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(LastLine(run.out),
+  EXPECT_THAT(LastLineOf(run.out),
               HasSubstr("is not judged: the rate shows nothing faster than 4 Hz"));
 }
 

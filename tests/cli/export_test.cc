@@ -47,7 +47,7 @@ Eigen::Matrix3d YUp() {
   return Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX()).toRotationMatrix();
 }
 
-struct Converted {
+struct ExportedMotion {
   PoseTrajectory trajectory;
   MarkerSequence markers;
   StrictTable csv, mot;
@@ -55,7 +55,7 @@ struct Converted {
 };
 
 // A part of the sample with all exports.
-Converted Convert(const std::string& input, std::vector<std::string> more) {
+ExportedMotion Convert(const std::string& input, std::vector<std::string> more) {
   const std::string base = TestFolder() + "/" + std::filesystem::path(input).stem().string() + "_";
   std::vector<std::string> arguments = {
       "convert",      input,          "--height",     "1.8",          "--mass",
@@ -112,7 +112,7 @@ void ExpectMotOf(const PoseTrajectory& trajectory, const StrictTable& mot) {
 }
 
 // The measured markers are the motion's; the model's are those of the scaled model in its postures.
-void ExpectTrcOf(const Converted& converted, const std::map<std::string, std::string>& pairs) {
+void ExpectTrcOf(const ExportedMotion& converted, const std::map<std::string, std::string>& pairs) {
   const StrictTrc& trc = converted.trc;
   const KinematicModel model = ScaleWinter(
       ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.8, 75, std::nullopt});
@@ -146,7 +146,7 @@ std::map<std::string, std::string> PairsOf(const std::string& summary) {
 }
 
 TEST(Export, AllSayWhatTheMotionSays) {
-  const Converted converted = Convert(Handstand(), {"--frames", "100:140"});
+  const ExportedMotion converted = Convert(Handstand(), {"--frames", "100:140"});
   ExpectCsvOf(converted.trajectory, converted.csv);
   ExpectMotOf(converted.trajectory, converted.mot);
   const auto pairs = PairsOf(TestFolder() + "/handstand_o.json");
@@ -161,7 +161,7 @@ TEST(Export, AllSayWhatTheMotionSays) {
 }
 
 TEST(Export, SmoothedPosturesHaveTheirDerivatives) {
-  const Converted converted = Convert(Handstand(), {"--frames", ":60", "-c", "s2kf_offline"});
+  const ExportedMotion converted = Convert(Handstand(), {"--frames", ":60", "-c", "s2kf_offline"});
   ExpectCsvOf(converted.trajectory, converted.csv);
   const StrictTable& csv = converted.csv;
   for (std::size_t k = 1; k + 1 < csv.rows.size(); ++k) {

@@ -22,7 +22,7 @@ struct Call {
   std::string lost;  // "{R}"
 };
 
-std::string Replaced(std::string text, const std::string& mark, const std::string& value) {
+std::string WithReplaced(std::string text, const std::string& mark, const std::string& value) {
   for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark)) {
     text.replace(at, mark.size(), value);
   }
@@ -33,9 +33,9 @@ class Outputs : public ::testing::TestWithParam<Call> {
  protected:
   std::string In(const std::string& name) const { return TestFolder() + "/" + name; }
   std::string Filled(const std::string& text) const {
-    std::string filled = Replaced(text, "{R}", In("walk.c3d"));
-    filled = Replaced(filled, "{M}", In("walk_mmm.xml"));
-    return Replaced(filled, "{NEW}", In("new"));
+    std::string filled = WithReplaced(text, "{R}", In("walk.c3d"));
+    filled = WithReplaced(filled, "{M}", In("walk_mmm.xml"));
+    return WithReplaced(filled, "{NEW}", In("new"));
   }
   std::vector<std::string> Words(const std::string& text) const {
     std::vector<std::string> words;

@@ -125,7 +125,7 @@ TEST(Verdict, TheSampleIsGood) {
 TEST(Verdict, AFileThatIsCutIsToBeLookedAt) {
   const std::string cut = TestFolder() + "/cut.c3d";
   const std::string whole = testing::ReadText(Handstand());
-  WriteText(cut, whole.substr(0, whole.size() / 2));
+  testing::WriteText(cut, whole.substr(0, whole.size() / 2));
   const Judged judged = Convert(cut, {"--height", "1.8"});
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("cut off: it declares 675 frames"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/packed_array.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(PackedArray, Base64IsThatOfRfc4648) {
   EXPECT_EQ(EncodeBase64(""), "");

@@ -10,6 +10,7 @@
 
 #include "MMMConverterS2KF/report/comparison_json.h"
 #include "MMMConverterS2KF/report/drawn_frames.h"
+#include "common/support/units.h"
 #include "tests/report/comparison_cases.h"
 
 namespace mmm_converter {
@@ -18,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-int Count(const std::string& text, const std::string& part) {
+int CountOf(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
     ++count;
@@ -48,9 +49,9 @@ TEST(Report, FiguresAreThoseOfTheJson) {
 TEST(Report, HostileTextEndsNoElement) {
   const std::string page = HostilePage();
   // Three libraries' and our scripts, three data blocks.
-  EXPECT_EQ(Count(page, "<script"), 6);
-  EXPECT_EQ(Count(page, "</script"), 6);
-  EXPECT_EQ(Count(page, "<title>"), 1);
+  EXPECT_EQ(CountOf(page, "<script"), 6);
+  EXPECT_EQ(CountOf(page, "</script"), 6);
+  EXPECT_EQ(CountOf(page, "<title>"), 1);
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   EXPECT_THAT(page, HasSubstr("<title>&lt;/script&gt;&lt;script&gt;window.hacked=1"));
   EXPECT_EQ(nlohmann::json::parse(Block(page, "heading"))["text"], testing::kHostileText);
@@ -110,7 +111,6 @@ TEST(DrawnFrames, AreAllOfAShortRecording) {
 }
 
 TEST(DrawnFrames, KeepTheLeastAndMostOfWhatIsNotDrawn) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const DrawnFrames drawn(6002);  // blocks of two
   EXPECT_EQ(drawn.every(), 2);
   EXPECT_EQ(drawn.count(), 3001);

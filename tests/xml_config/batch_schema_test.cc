@@ -10,7 +10,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr const char* kSchema = "batch.xsd";
+constexpr const char* kBatchSchema = "batch.xsd";
 
 bool IsReadable(const std::string& xml) {
   try {
@@ -22,7 +22,7 @@ bool IsReadable(const std::string& xml) {
 }
 
 TEST(BatchSchema, TakesTheTemplate) {
-  EXPECT_TRUE(testing::IsValidText(kSchema, ManifestTemplate()));
+  EXPECT_TRUE(testing::IsValidText(kBatchSchema, ManifestTemplate()));
 }
 
 TEST(BatchSchema, AgreesWithTheReader) {
@@ -34,7 +34,7 @@ TEST(BatchSchema, AgreesWithTheReader) {
         recording("up='-X' frames=':' format='1.0' rate_hz='0.1' ignoreResiduals='false'"),
         std::string("<Batch><Metadata name='a' value=''/><Recording file='a'><Metadata name='a' "
                     "value='b'/></Recording></Batch>")}) {
-    EXPECT_TRUE(testing::IsValidText(kSchema, xml)) << xml;
+    EXPECT_TRUE(testing::IsValidText(kBatchSchema, xml)) << xml;
     EXPECT_TRUE(IsReadable(xml)) << xml;
   }
   for (const std::string& xml :
@@ -45,7 +45,7 @@ TEST(BatchSchema, AgreesWithTheReader) {
         recording("id=''"), std::string("<Batch><Group file='a.c3d'/></Batch>"),
         std::string("<Batch><Recording/></Batch>"),
         std::string("<Batch><Metadata value='1'/><Recording file='a'/></Batch>")}) {
-    EXPECT_FALSE(testing::IsValidText(kSchema, xml)) << xml;
+    EXPECT_FALSE(testing::IsValidText(kBatchSchema, xml)) << xml;
     EXPECT_FALSE(IsReadable(xml)) << xml;
   }
 }
@@ -63,7 +63,7 @@ TEST(BatchSchema, HasEveryAttribute) {
     }
     const std::string xml = manifest();
     EXPECT_TRUE(IsReadable(xml)) << xml;
-    EXPECT_TRUE(testing::IsValidText(kSchema, xml)) << xml;
+    EXPECT_TRUE(testing::IsValidText(kBatchSchema, xml)) << xml;
   }
 }
 

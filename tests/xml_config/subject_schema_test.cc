@@ -9,9 +9,9 @@
 namespace mmm_converter {
 namespace {
 
-constexpr const char* kSchema = "subject.xsd";
+constexpr const char* kSubjectSchema = "subject.xsd";
 
-bool IsReadable(const std::string& xml) {
+bool IsReadableSubject(const std::string& xml) {
   try {
     ParseSubject(xml, "subject.xml", testing::StickModel());
     return true;
@@ -27,7 +27,7 @@ TEST(SubjectSchema, TakesWhatIsWritten) {
   subject.height = 1.7;
   subject.mass = 70;
   subject.hand_length = 0.18;
-  EXPECT_TRUE(testing::IsValidText(kSchema, FormatSubject(subject, "program")));
+  EXPECT_TRUE(testing::IsValidText(kSubjectSchema, FormatSubject(subject, "program")));
   subject.scales = {{"knee", 1.05, 0.01, 0.06}};
   MarkerOffset offset;
   offset.marker = "MARKER_A";
@@ -35,7 +35,7 @@ TEST(SubjectSchema, TakesWhatIsWritten) {
   offset.frames = 3;
   subject.offsets = {offset};
   subject.sources = {{"walk.c3d", 3}};
-  EXPECT_TRUE(testing::IsValidText(kSchema, FormatSubject(subject, "program")));
+  EXPECT_TRUE(testing::IsValidText(kSubjectSchema, FormatSubject(subject, "program")));
 }
 
 TEST(SubjectSchema, AgreesWithTheReader) {
@@ -48,8 +48,8 @@ TEST(SubjectSchema, AgreesWithTheReader) {
        {subject(""), subject("<Markers/><Segments/>"), subject(marker + "500'/></Markers>"),
         subject(segment + "0.5' observability='?'/></Segments>"),
         subject("<Provenance><Recording frames='0'/></Provenance>")}) {
-    EXPECT_TRUE(testing::IsValidText(kSchema, xml)) << xml;
-    EXPECT_TRUE(IsReadable(xml)) << xml;
+    EXPECT_TRUE(testing::IsValidText(kSubjectSchema, xml)) << xml;
+    EXPECT_TRUE(IsReadableSubject(xml)) << xml;
   }
   for (const std::string& xml :
        {std::string("<Subject model='stick' mass_kg='70'/>"),
@@ -64,8 +64,8 @@ TEST(SubjectSchema, AgreesWithTheReader) {
         subject(segment + "1'/><Segment name='knee' scale='1'/></Segments>"),
         subject("<Segments><Segment scale='1'/></Segments>"),
         subject("<Provenance><Recording frames='-1'/></Provenance>")}) {
-    EXPECT_FALSE(testing::IsValidText(kSchema, xml)) << xml;
-    EXPECT_FALSE(IsReadable(xml)) << xml;
+    EXPECT_FALSE(testing::IsValidText(kSubjectSchema, xml)) << xml;
+    EXPECT_FALSE(IsReadableSubject(xml)) << xml;
   }
 }
 

@@ -7,13 +7,13 @@
 #include <set>
 
 #include "common/io/bytes/file_content.h"
+#include "common/io/c3d/c3d_numbers.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr std::uint64_t kBlock = 512;
 constexpr std::uint64_t kMaxLeadingZeros = 64 * kBlock;
 constexpr std::uint64_t kMaxSectionBytes = 65536 * kBlock;
 

@@ -8,11 +8,11 @@
 #include <limits>
 #include <optional>
 
+#include "common/io/c3d/c3d_numbers.h"
+
 namespace mmm_converter {
 namespace {
 
-constexpr std::uint64_t kBlock = 512;
-constexpr int kFullWord = 65535;                   // "more than a word can say"
 constexpr double kMaxFrames = 4.0 * (1ULL << 30);  // two words
 
 /// A parameter that counts something: finite and positive.

@@ -6,6 +6,10 @@
 
 namespace mmm_converter {
 
+inline constexpr std::uint64_t kBlock = 512;  ///< bytes; sections of a C3D file begin at multiples
+inline constexpr int kFullWord = 65535;       ///< "more than a word can say"
+inline constexpr std::uint64_t kBufferBytes = 1 << 20;  ///< that are read at once
+
 /// How a C3D file stores numbers; the values are those of its processor byte.
 enum class C3dProcessor {
   kIntel = 84,  ///< little endian, IEEE floats

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "common/io/c3d/c3d_data.h"
+#include "common/io/c3d/c3d_numbers.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr std::uint64_t kBufferBytes = 1 << 20;
 
 /// Adds a stored point; `residual` is a sum here.
 void Count(const unsigned char* stored, const C3dLayout& layout, C3dPointCounts* counts) {

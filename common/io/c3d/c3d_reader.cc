@@ -7,14 +7,11 @@
 #include <limits>
 
 #include "common/io/c3d/c3d_data.h"
+#include "common/io/c3d/c3d_numbers.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
-namespace {
-
-constexpr std::uint64_t kBufferBytes = 1 << 20;
-
-}  // namespace
+namespace {}  // namespace
 
 C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, warnings) {
   const WarningContext context(warnings, path);

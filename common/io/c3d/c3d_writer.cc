@@ -11,19 +11,18 @@
 #include <string_view>
 #include <vector>
 
+#include "common/io/c3d/c3d_numbers.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 #include "common/support/text_pieces.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kBlock = 512;
-constexpr int kFullWord = 65535;
 constexpr int kLabelsPerParameter = 255;
 constexpr std::size_t kMaxLabelLength = 127;  // so that 255 labels fit behind a 16 bit offset
 constexpr std::size_t kMaxParameterBlocks = 255;
-constexpr double kMillimetres = 1000;
 
 void AppendWord(std::string* bytes, int word) {
   bytes->push_back(static_cast<char>(word & 0xFF));

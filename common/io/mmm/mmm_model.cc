@@ -20,9 +20,9 @@ namespace {
 constexpr double kLengthTolerance = 1e-5;  // [m]; model files have 6 digits
 constexpr const char* kFloatingRoot = "root_joint";
 
-class ModelBuilder {
+class MmmModelBuilder {
  public:
-  ModelBuilder(const XmlElement& robot, const std::string& file, Warnings* warnings)
+  MmmModelBuilder(const XmlElement& robot, const std::string& file, Warnings* warnings)
       : robot_(robot), diagnostics_(file, warnings) {}
 
   KinematicModel Build();
@@ -57,7 +57,7 @@ class ModelBuilder {
   std::vector<bool> reachable_;  ///< from the floating root
 };
 
-void ModelBuilder::ReadNodes() {
+void MmmModelBuilder::ReadNodes() {
   std::map<std::string, int> marker_lines;
   for (const XmlElement* element : robot_.FindChildren("RobotNode")) {
     ModelNode node = ReadModelNode(*element, diagnostics_);
@@ -80,7 +80,7 @@ void ModelBuilder::ReadNodes() {
   if (nodes_.empty()) Fail(robot_.line, "the model has no <RobotNode>");
 }
 
-void ModelBuilder::LinkChild(std::size_t parent, const ModelNode::Child& child) {
+void MmmModelBuilder::LinkChild(std::size_t parent, const ModelNode::Child& child) {
   const int node = Find(child.name);
   const std::string& parent_name = nodes_[parent].segment.name;
   if (child.name.empty()) return;  // already reported
@@ -95,7 +95,7 @@ void ModelBuilder::LinkChild(std::size_t parent, const ModelNode::Child& child) 
   }
 }
 
-void ModelBuilder::LinkChildren() {
+void MmmModelBuilder::LinkChildren() {
   parent_.assign(nodes_.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     for (const ModelNode::Child& child : nodes_[i].children) LinkChild(i, child);
@@ -103,7 +103,7 @@ void ModelBuilder::LinkChildren() {
 }
 
 /// The node that the file calls RootNode, or the only one that is nobody's child.
-int ModelBuilder::FindTop() {
+int MmmModelBuilder::FindTop() {
   if (const std::string* name = robot_.FindAttribute("RootNode")) {
     const int top = Find(*name);
     if (top < 0) Fail(robot_.line, fmt::format("there is no node '{}', the RootNode", *name));
@@ -121,7 +121,7 @@ int ModelBuilder::FindTop() {
   return static_cast<int>(top - parent_.begin());
 }
 
-void ModelBuilder::CheckVirtualNodesAbove(int root, int top) {
+void MmmModelBuilder::CheckVirtualNodesAbove(int root, int top) {
   std::size_t steps = 0;
   for (int node = root; node != top;) {
     node = parent_[node];
@@ -143,7 +143,7 @@ void ModelBuilder::CheckVirtualNodesAbove(int root, int top) {
   }
 }
 
-int ModelBuilder::FindFloatingRoot() {
+int MmmModelBuilder::FindFloatingRoot() {
   const int top = FindTop();
   if (top < 0) return -1;
   int root = Find(kFloatingRoot);
@@ -155,7 +155,7 @@ int ModelBuilder::FindFloatingRoot() {
   return root;
 }
 
-void ModelBuilder::CheckFloatingRoot(int root) {
+void MmmModelBuilder::CheckFloatingRoot(int root) {
   ModelNode& node = nodes_[root];
   if (node.segment.type == JointType::kRevolute && node.segment.lower < node.segment.upper) {
     Fail(node.line, fmt::format("node '{}' is the floating root and can't be a joint as well; give "
@@ -170,7 +170,7 @@ void ModelBuilder::CheckFloatingRoot(int root) {
   }
 }
 
-void ModelBuilder::FindReachable(int root) {
+void MmmModelBuilder::FindReachable(int root) {
   reachable_.assign(nodes_.size(), false);
   std::vector<int> open{root};
   while (!open.empty()) {
@@ -186,7 +186,7 @@ void ModelBuilder::FindReachable(int root) {
 }
 
 /// Loose nodes are left out with a warning; circles are errors.
-void ModelBuilder::ReportUnreachable(int top) {
+void MmmModelBuilder::ReportUnreachable(int top) {
   std::vector<char> state(nodes_.size(), 0);  // 1: on the way up now, 2: seen before
   for (int start = 0; start < static_cast<int>(nodes_.size()); ++start) {
     std::vector<int> way;
@@ -210,7 +210,7 @@ void ModelBuilder::ReportUnreachable(int top) {
   }
 }
 
-void ModelBuilder::CheckPrismaticLengths() {
+void MmmModelBuilder::CheckPrismaticLengths() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Segment& segment = nodes_[i].segment;
     const bool slides = segment.lower < 0 && segment.upper > 0;
@@ -226,7 +226,7 @@ void ModelBuilder::CheckPrismaticLengths() {
   }
 }
 
-std::map<std::string, std::vector<std::string>> ModelBuilder::ReadNodeSets() {
+std::map<std::string, std::vector<std::string>> MmmModelBuilder::ReadNodeSets() {
   std::map<std::string, std::vector<std::string>> sets;
   for (const XmlElement* element : robot_.FindChildren("RobotNodeSet")) {
     const std::string* set_name = element->FindAttribute("name");
@@ -249,7 +249,7 @@ std::map<std::string, std::vector<std::string>> ModelBuilder::ReadNodeSets() {
   return sets;
 }
 
-ModelDescription ModelBuilder::Describe(int root) {
+ModelDescription MmmModelBuilder::Describe(int root) {
   ModelDescription description;
   const std::string* name = robot_.FindAttribute("name");
   if (name == nullptr) name = robot_.FindAttribute("Type");
@@ -272,7 +272,7 @@ ModelDescription ModelBuilder::Describe(int root) {
   return description;
 }
 
-KinematicModel ModelBuilder::Build() {
+KinematicModel MmmModelBuilder::Build() {
   ReadNodes();
   LinkChildren();
   const int root = nodes_.empty() ? -1 : FindFloatingRoot();
@@ -291,7 +291,7 @@ KinematicModel ParseMmmModel(std::string_view content, const std::string& file,
                             robot.name,
                             robot.Is("MMM") ? "; this is a motion, give the model file" : ""));
   }
-  return ModelBuilder(robot, file, warnings).Build();
+  return MmmModelBuilder(robot, file, warnings).Build();
 }
 
 KinematicModel ReadMmmModel(const std::string& path, Warnings* warnings) {

@@ -16,10 +16,10 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kDegree = EIGEN_PI / 180;
-constexpr double kLongestOffset = 10;           // [m]; no body part is longer
+constexpr double kLongestPartOffset = 10;       // [m]; no body part is longer
 constexpr double kLargestAngle = 4 * EIGEN_PI;  // [rad]; beyond it the unit must be wrong
-constexpr double kLargestMass = 1000;           // [kg]
-constexpr double kLargestInertia = 1e6;         // [kg m^2]
+constexpr double kLargestPartMass = 1000;       // [kg]
+constexpr double kLargestPartInertia = 1e6;     // [kg m^2]
 constexpr double kRotationTolerance = 1e-3;     // files have 3 to 6 digits
 
 enum class Quantity { kLength, kAngle, kMass, kInertia };
@@ -30,7 +30,7 @@ struct UnitName {
   double factor;  ///< to SI
 };
 
-constexpr UnitName kUnits[] = {
+constexpr UnitName kModelUnits[] = {
     {"mm", Quantity::kLength, 1e-3},    {"millimeter", Quantity::kLength, 1e-3},
     {"cm", Quantity::kLength, 1e-2},    {"centimeter", Quantity::kLength, 1e-2},
     {"m", Quantity::kLength, 1},        {"meter", Quantity::kLength, 1},
@@ -42,7 +42,7 @@ constexpr UnitName kUnits[] = {
 };
 
 const UnitName* FindUnit(std::string_view name) {
-  for (const UnitName& unit : kUnits) {
+  for (const UnitName& unit : kModelUnits) {
     if (EqualIgnoringCase(unit.name, Trim(name))) return &unit;
   }
   return nullptr;
@@ -139,9 +139,9 @@ double NodeReader::Unit(const XmlElement& element, std::string_view default_unit
 }
 
 void NodeReader::CheckOffset(const XmlElement& element, const Eigen::Vector3d& offset) {
-  if (offset.norm() <= kLongestOffset) return;
+  if (offset.norm() <= kLongestPartOffset) return;
   Fail(element, "<{}> is {:.6g} m long, more than {} m; check its numbers and its unit",
-       element.name, offset.norm(), kLongestOffset);
+       element.name, offset.norm(), kLongestPartOffset);
 }
 
 /// The rotation nearest to the upper left 3 x 3 numbers.
@@ -228,7 +228,7 @@ void NodeReader::ReadLimits(const XmlElement& joint) {
   const double unit = revolute ? AngleUnit(*limits) : LengthUnit(*limits);
   const double lower = Number(*limits, "lo") * unit;
   const double upper = Number(*limits, "hi") * unit;
-  const double largest = revolute ? kLargestAngle : 1e3 * kLongestOffset;
+  const double largest = revolute ? kLargestAngle : 1e3 * kLongestPartOffset;
   if (lower > upper) {
     Fail(*limits, "the limits are crossed: lo=\"{}\" is above hi=\"{}\"",
          *limits->FindAttribute("lo"), *limits->FindAttribute("hi"));
@@ -285,8 +285,8 @@ void NodeReader::ReadInertia(const XmlElement& inertia) {
     Fail(inertia, "<{}> must be symmetric, without negative numbers on its diagonal", inertia.name);
     return;
   }
-  if (I.cwiseAbs().maxCoeff() > kLargestInertia) {
-    Fail(inertia, "<{}> has a number above {} kg*m^2", inertia.name, kLargestInertia);
+  if (I.cwiseAbs().maxCoeff() > kLargestPartInertia) {
+    Fail(inertia, "<{}> has a number above {} kg*m^2", inertia.name, kLargestPartInertia);
     return;
   }
   node_.segment.inertia = 0.5 * (I + I.transpose()) * Unit(inertia, "kg*m^2");
@@ -295,8 +295,9 @@ void NodeReader::ReadInertia(const XmlElement& inertia) {
 void NodeReader::ReadPhysics(const XmlElement& physics) {
   if (const XmlElement* mass = physics.FindChild("Mass")) {
     node_.segment.mass = Number(*mass, "value") * Unit(*mass, "kg");
-    if (node_.segment.mass < 0 || node_.segment.mass > kLargestMass) {
-      Fail(*mass, "a mass of {:.6g} kg is outside 0 to {} kg", node_.segment.mass, kLargestMass);
+    if (node_.segment.mass < 0 || node_.segment.mass > kLargestPartMass) {
+      Fail(*mass, "a mass of {:.6g} kg is outside 0 to {} kg", node_.segment.mass,
+           kLargestPartMass);
     }
   }
   if (const XmlElement* com = physics.FindChild("CoM")) ReadCenterOfMass(*com);

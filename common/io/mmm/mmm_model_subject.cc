@@ -18,13 +18,14 @@
 #include "common/model/model_scaling.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
 constexpr int kDepth = 5;  // Robot / RobotNode / Sensor / Transform / Matrix4x4 / row
 
-struct Edit {
+struct LengthEdit {
   std::uint64_t begin;
   std::uint64_t end;
   std::string text;
@@ -79,7 +80,7 @@ class ModelEditor {
     });
     std::string edited;
     std::uint64_t done = 0;
-    for (const Edit& edit : edits_) {
+    for (const LengthEdit& edit : edits_) {
       edited.append(content_, done, edit.begin - done).append(edit.text);
       done = edit.end;
     }
@@ -199,7 +200,7 @@ class ModelEditor {
                    const XmlElement& element) {
     const std::string_view tag =
         std::string_view(content_).substr(range.begin, range.inner_begin - range.begin);
-    std::vector<Edit> edits;
+    std::vector<LengthEdit> edits;
     for (const NumberChange& change : changes) {
       const std::string* text = element.FindAttribute(change.attribute);
       if (text == nullptr || (change.factor == 1 && change.offset == 0)) continue;
@@ -210,13 +211,12 @@ class ModelEditor {
                        NumberText(*number * change.factor + change.offset)});
     }
     std::sort(edits.begin(), edits.end(),
-              [](const Edit& a, const Edit& b) { return a.begin < b.begin; });
+              [](const LengthEdit& a, const LengthEdit& b) { return a.begin < b.begin; });
     edits_.insert(edits_.end(), edits.begin(), edits.end());
   }
 
   static std::string TranslationOf(const Change& change) {
-    constexpr double kMillimetresPerMetre = 1e3;
-    const Eigen::Vector3d place = change.offset * kMillimetresPerMetre;
+    const Eigen::Vector3d place = change.offset * kMillimetres;
     return fmt::format("<Translation x=\"{}\" y=\"{}\" z=\"{}\" units=\"mm\"/>",
                        NumberText(place.x()), NumberText(place.y()), NumberText(place.z()));
   }
@@ -234,7 +234,7 @@ class ModelEditor {
   const std::string& file_;
   std::map<std::string, double> scales_;
   std::map<std::string, Eigen::Vector3d> offsets_;  // for a person of 1 m [m]
-  std::vector<Edit> edits_;
+  std::vector<LengthEdit> edits_;
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ Edit Removal(const ByteSource& content, std::uint64_t from, const XmlRange& rang
   return {from + space.find_last_not_of(" \t\r\n") + 1, range.end, ""};
 }
 
-std::string NameOf(const XmlElement& motion) {
+std::string NameOfMotion(const XmlElement& motion) {
   const std::string* name = motion.FindAttribute("name");
   return name != nullptr ? *name : "";
 }
@@ -63,7 +63,7 @@ std::size_t FindMotion(const XmlElement& root, const std::string& file, const st
   for (std::size_t i = 0; i < root.children.size(); ++i) {
     const XmlElement& child = root.children[i];
     if (!child.Is("Motion")) continue;
-    names.push_back(NameOf(child));
+    names.push_back(NameOfMotion(child));
     if (names.back() != name) continue;
     if (found) {
       throw Error(

@@ -12,14 +12,11 @@
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr int kDecimalsOfMillimetres = 4;
-constexpr int kDecimalsOfRadians = 8;
-constexpr int kDecimalsOfSeconds = 9;
-constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kCentimetresPerMetre = 1e2;
 
 double Rounded(double value, double scale) { return std::round(value * scale) / scale; }
@@ -43,7 +40,7 @@ class RpyWriter {
       rpy = ContinuousRpy(rpy, rpy_);
     }
     is_first_ = false;
-    for (double& angle : rpy) angle = Rounded(angle, std::pow(10.0, kDecimalsOfRadians));
+    for (double& angle : rpy) angle = Rounded(angle, std::pow(10.0, kRadianDecimals));
     rpy_ = rpy;
     return rpy_;
   }
@@ -65,25 +62,25 @@ class Text {
   Text& Millimetres(const Eigen::Ref<const Eigen::Vector3d>& position) {
     for (int i = 0; i < 3; ++i) {
       if (i > 0) text_ += ' ';
-      AppendDecimal(position[i] * kMillimetresPerMetre, kDecimalsOfMillimetres, &text_);
+      AppendDecimal(position[i] * kMillimetres, kMillimetreDecimals, &text_);
     }
     return *this;
   }
   Text& Radians(const Eigen::Ref<const Eigen::VectorXd>& angles) {
     for (Eigen::Index i = 0; i < angles.size(); ++i) {
       if (i > 0) text_ += ' ';
-      AppendDecimal(angles[i], kDecimalsOfRadians, &text_);
+      AppendDecimal(angles[i], kRadianDecimals, &text_);
     }
     return *this;
   }
   /// Time of frame k; first_time counts as it is written, which makes reading it back exact.
   Text& Seconds(double first_time, double rate, int k) {
-    AppendDecimal(Rounded(first_time, std::pow(10.0, kDecimalsOfSeconds)) + k / rate,
-                  kDecimalsOfSeconds, &text_);
+    AppendDecimal(Rounded(first_time, std::pow(10.0, kSecondDecimals)) + k / rate, kSecondDecimals,
+                  &text_);
     return *this;
   }
   Text& Number(double value) {
-    AppendDecimal(value, kDecimalsOfSeconds, &text_);
+    AppendDecimal(value, kSecondDecimals, &text_);
     return *this;
   }
 

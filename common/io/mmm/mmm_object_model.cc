@@ -6,16 +6,14 @@
 #include <cassert>
 
 #include "common/io/xml/xml_text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr int kDecimalsOfMillimetres = 4;
-constexpr double kMillimetresPerMetre = 1e3;
-
 void AppendMillimetres(const char* attribute, double metres, std::string* text) {
   *text += fmt::format(" {}=\"", attribute);
-  AppendDecimal(metres * kMillimetresPerMetre, kDecimalsOfMillimetres, text);
+  AppendDecimal(metres * kMillimetres, kMillimetreDecimals, text);
   *text += '"';
 }
 

@@ -9,7 +9,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kRateOfASingleTime = 100;
-constexpr double kMostFrames = 1e15;
+constexpr double kMostTimelineFrames = 1e15;
 constexpr double kHalfNanosecond = 0.5e-9;  // of the nine decimals that are written here
 
 double MedianStep(const std::vector<double>& times) {
@@ -27,7 +27,7 @@ std::vector<std::int64_t> FramesOf(const std::vector<double>& times, double step
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double steps = std::max(1.0, std::round((times[i] - times[i - 1]) / step));
     const double next = static_cast<double>(frames.back()) + steps;
-    frames.push_back(static_cast<std::int64_t>(std::min(next, kMostFrames)));
+    frames.push_back(static_cast<std::int64_t>(std::min(next, kMostTimelineFrames)));
   }
   return frames;
 }

@@ -17,13 +17,13 @@
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
 constexpr std::size_t kMaxSubjectBytes = std::size_t{8} << 20;
 constexpr double kMillimetre = 1e-3;
-constexpr int kDecimalsOfMillimetres = 4;
 constexpr int kDecimals = 6;
 // What a body has: beyond, a unit or a sign is wrong.
 constexpr double kSmallestScale = 0.5;
@@ -220,7 +220,7 @@ std::string Attribute(const char* name, double value, int decimals = kDecimals) 
 }
 
 std::string Millimetres(const char* name, double metres) {
-  return Attribute(name, metres / kMillimetre, kDecimalsOfMillimetres);
+  return Attribute(name, metres / kMillimetre, kMillimetreDecimals);
 }
 
 std::string Name(const std::string& name) { return fmt::format(" name=\"{}\"", EscapeXml(name)); }

@@ -135,13 +135,13 @@ std::vector<Group> GroupByPrefix(std::vector<Label> labels) {
   return groups;
 }
 
-std::string NameOf(const Group& group) {
+std::string NameOfGroup(const Group& group) {
   return group.prefix.empty() ? "(labels without prefix)" : group.prefix;
 }
 
 std::string Names(const std::vector<Group>& groups) {
   std::vector<std::string> names(groups.size());
-  std::transform(groups.begin(), groups.end(), names.begin(), NameOf);
+  std::transform(groups.begin(), groups.end(), names.begin(), NameOfGroup);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

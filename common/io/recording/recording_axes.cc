@@ -17,7 +17,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr int kMaxSampledFrames = 500;
-constexpr std::pair<const char*, double> kUnits[] = {
+constexpr std::pair<const char*, double> kLengthUnits[] = {
     {"mm", 0.001}, {"m", 1}, {"cm", 0.01}, {"in", 0.0254}};
 
 /// Frames spread evenly over the trial.
@@ -75,7 +75,7 @@ std::vector<int> LabelsIn(const MarkerSequence& markers, BodyRegion region) {
 std::optional<UnitDecision> UnitFromText(const std::string& text) {
   const std::string name = NormalizeLabel(text);
   const auto unit = [](int i) {
-    return UnitDecision{kUnits[i].first, kUnits[i].second, false, "", false};
+    return UnitDecision{kLengthUnits[i].first, kLengthUnits[i].second, false, "", false};
   };
   if (name == "mm" || name.starts_with("millim")) return unit(0);
   if (name == "m" || name.starts_with("mete") || name.starts_with("metr")) return unit(1);
@@ -243,7 +243,7 @@ UnitDecision DecideUnit(const MarkerSequence& markers, const std::string& said) 
   const std::string claim =
       unit ? fmt::format("the file says {}", said)
            : fmt::format("the file gives no unit that is known (\"{}\")", said);
-  for (const auto& [name, metres] : kUnits) {
+  for (const auto& [name, metres] : kLengthUnits) {
     if (name == std::string("in") || !plausible(metres)) continue;
     if (unit && !person) continue;
     return {name, metres, true,

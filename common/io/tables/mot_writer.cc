@@ -10,17 +10,17 @@
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
 #include "common/math/up_axis.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 // Nanoseconds, 0.1 micrometres, 0.0000001 degrees: not less than in the motion files.
-constexpr int kTimeDecimals = 9;
 constexpr int kMetreDecimals = 7;
 constexpr int kDegreeDecimals = 7;
 
-std::string Header(const PoseTrajectory& trajectory, const std::string& root) {
+std::string MotHeader(const PoseTrajectory& trajectory, const std::string& root) {
   std::vector<std::string> columns = {"time"};
   for (const char* part : {"_tx", "_ty", "_tz", "_rx", "_ry", "_rz"})
     columns.push_back(root + part);
@@ -35,7 +35,7 @@ std::string Header(const PoseTrajectory& trajectory, const std::string& root) {
       trajectory.num_frames(), columns.size(), OneWord(root), fmt::join(columns, "\t"));
 }
 
-void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
+void AppendMotRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
   const Eigen::Matrix3d to_y_up = RotationToZUp(UpAxis::kY).transpose();
   std::string* const out = pieces->text();
   const auto append = [out](const auto& values, int decimals) {
@@ -49,7 +49,7 @@ void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
     const Posture& q = trajectory.postures[k];
     const Eigen::Vector3d principal = RpyFromRotation(q.orientation.toRotationMatrix());
     rpy = k == 0 ? principal : ContinuousRpy(principal, rpy);
-    AppendDecimal(trajectory.time(k), kTimeDecimals, out);
+    AppendDecimal(trajectory.time(k), kSecondDecimals, out);
     append(Eigen::Vector3d(to_y_up * q.position), kMetreDecimals);
     // Turning the axes of both sides turns the three rotations' axes.
     append(Eigen::Vector3d(kDegrees * (to_y_up * rpy)), kDegreeDecimals);
@@ -64,8 +64,8 @@ void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
 TextPieces FormatMot(const PoseTrajectory& trajectory, const std::string& root) {
   return [&trajectory, root](const TextSink& sink) {
     PieceWriter pieces(sink);
-    *pieces.text() += Header(trajectory, root);
-    AppendRows(trajectory, &pieces);
+    *pieces.text() += MotHeader(trajectory, root);
+    AppendMotRows(trajectory, &pieces);
     pieces.Flush();
   };
 }

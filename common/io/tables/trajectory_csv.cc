@@ -5,16 +5,13 @@
 
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
 namespace {
 
-constexpr double kMillimetres = 1e3;
 // Nanoseconds, 0.1 micrometres, 0.01 microradians, as in the motion files.
-constexpr int kTimeDecimals = 9;
-constexpr int kLengthDecimals = 4;
-constexpr int kAngleDecimals = 8;
 
 void AppendCell(double value, int decimals, std::string* out) {
   *out += ',';
@@ -27,7 +24,7 @@ void AppendCells(const Vector& values, double factor, int decimals, std::string*
 }
 
 // joint names hold no comma: they are XML node names that readers split at blanks.
-std::string Header(const PoseTrajectory& trajectory) {
+std::string CsvHeader(const PoseTrajectory& trajectory) {
   std::string header = "time_s";
   const auto append = [&](const std::string& prefix, const std::vector<std::string>& turns,
                           const std::string& per) {
@@ -49,22 +46,22 @@ std::string Header(const PoseTrajectory& trajectory) {
   return header + "\n";
 }
 
-void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
+void AppendCsvRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
   std::string* const csv = pieces->text();
   Eigen::Vector3d rpy = Eigen::Vector3d::Zero();
   for (int k = 0; k < trajectory.num_frames(); ++k) {
     const Posture& q = trajectory.postures[k];
     const Eigen::Vector3d principal = RpyFromRotation(q.orientation.toRotationMatrix());
     rpy = k == 0 ? principal : ContinuousRpy(principal, rpy);
-    AppendDecimal(trajectory.time(k), kTimeDecimals, csv);
-    AppendCells(q.position, kMillimetres, kLengthDecimals, csv);
-    AppendCells(rpy, 1, kAngleDecimals, csv);
-    AppendCells(q.joint_angles, 1, kAngleDecimals, csv);
+    AppendDecimal(trajectory.time(k), kSecondDecimals, csv);
+    AppendCells(q.position, kMillimetres, kMillimetreDecimals, csv);
+    AppendCells(rpy, 1, kRadianDecimals, csv);
+    AppendCells(q.joint_angles, 1, kRadianDecimals, csv);
     for (const Eigen::MatrixXd* values :
          {&trajectory.standard_deviations, &trajectory.velocities, &trajectory.accelerations}) {
       if (values->size() == 0) continue;
-      AppendCells(values->col(k).head<3>(), kMillimetres, kLengthDecimals, csv);
-      AppendCells(values->col(k).tail(values->rows() - 3), 1, kAngleDecimals, csv);
+      AppendCells(values->col(k).head<3>(), kMillimetres, kMillimetreDecimals, csv);
+      AppendCells(values->col(k).tail(values->rows() - 3), 1, kRadianDecimals, csv);
     }
     *csv += '\n';
     pieces->EndPart();
@@ -76,8 +73,8 @@ void AppendRows(const PoseTrajectory& trajectory, PieceWriter* pieces) {
 TextPieces FormatTrajectoryCsv(const PoseTrajectory& trajectory) {
   return [&trajectory](const TextSink& sink) {
     PieceWriter pieces(sink);
-    *pieces.text() += Header(trajectory);
-    AppendRows(trajectory, &pieces);
+    *pieces.text() += CsvHeader(trajectory);
+    AppendCsvRows(trajectory, &pieces);
     pieces.Flush();
   };
 }

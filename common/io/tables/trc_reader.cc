@@ -72,15 +72,15 @@ bool StartsWithIgnoringCase(std::string_view text, std::string_view start) {
 }
 
 /// What the keys in line 2 and the values in line 3 say; NaN where they don't.
-struct Header {
+struct TrcHeader {
   double rate = kUnknown;
   double frames = kUnknown;
   double markers = kUnknown;
   std::string unit;
 };
 
-Header ReadHeader(std::string_view keys_line, std::string_view values_line) {
-  Header header;
+TrcHeader ReadHeader(std::string_view keys_line, std::string_view values_line) {
+  TrcHeader header;
   const char separator = SeparatorOf(keys_line);
   std::vector<std::string_view> keys;
   std::vector<std::string_view> values;
@@ -189,7 +189,7 @@ Rows ReadRows(LineReader* lines, const Columns& columns, char separator, const s
   return rows;
 }
 
-double ChooseRate(const Header& header, const Rows& rows, const std::string& file,
+double ChooseRate(const TrcHeader& header, const Rows& rows, const std::string& file,
                   Warnings* warnings) {
   const std::optional<double> by_times = RateOf(rows.times);
   const bool said = std::isfinite(header.rate) && header.rate > 0;
@@ -222,7 +222,7 @@ TrcFile ParseTrc(std::string_view content, const std::string& file, Warnings* wa
   const WarningContext context(warnings, file);
   if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);
   LineReader lines(content);
-  Header header;
+  TrcHeader header;
   std::string_view line;
   std::string_view previous;
   bool found = false;

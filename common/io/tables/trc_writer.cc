@@ -11,14 +11,12 @@
 #include "common/math/up_axis.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 // Nanoseconds, 0.1 micrometres, as in the motion files.
-constexpr int kTimeDecimals = 9;
-constexpr int kLengthDecimals = 4;
 
 /// Where the model has its markers, frame by frame.
 class ModelMarkers {
@@ -68,7 +66,7 @@ void AppendHeader(const TrcOutput& output, std::string* out) {
   const std::vector<std::string> labels = Labels(output);
   const int frames = output.measured->num_frames();
   std::string rate;
-  AppendDecimal(output.measured->rate(), kTimeDecimals, &rate);
+  AppendDecimal(output.measured->rate(), kSecondDecimals, &rate);
   *out += fmt::format(
       "PathFileType\t4\t(X/Y/Z)\t{}\n"
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
@@ -92,7 +90,7 @@ void AppendPoints(const Eigen::Ref<const Eigen::Matrix3Xd>& p_WM, std::string* o
     }
     const Eigen::Vector3d p = kMillimetres * (rotation * p_WM.col(i));
     for (const double coordinate : p) {
-      AppendDecimal(coordinate, kLengthDecimals, out);
+      AppendDecimal(coordinate, kMillimetreDecimals, out);
       *out += '\t';
     }
   }
@@ -112,7 +110,7 @@ TextPieces FormatTrc(const TrcOutput& output) {
     AppendHeader(output, pieces.text());
     for (int k = 0; k < measured.num_frames(); ++k) {
       *pieces.text() += fmt::format("{}\t", output.first_frame + k);
-      AppendDecimal(measured.time(k), kTimeDecimals, pieces.text());
+      AppendDecimal(measured.time(k), kSecondDecimals, pieces.text());
       *pieces.text() += '\t';
       AppendPoints(measured.frame(k), pieces.text());
       if (model) AppendPoints(model->At(k), pieces.text());

@@ -21,9 +21,9 @@ namespace mmm_converter {
 namespace {
 
 // What no robot has; larger numbers are of another unit.
-constexpr double kLongestOffset = 100;   // [m]
-constexpr double kLargestMass = 1e6;     // [kg]
-constexpr double kLargestInertia = 1e9;  // [kg m^2]
+constexpr double kLongestLinkOffset = 100;   // [m]
+constexpr double kLargestLinkMass = 1e6;     // [kg]
+constexpr double kLargestLinkInertia = 1e9;  // [kg m^2]
 
 /// What urdfdom would print, for as long as it lives.
 class CapturedLog : public console_bridge::OutputHandler {
@@ -101,14 +101,14 @@ Eigen::Isometry3d ToEigen(const urdf::Pose& pose) {
   return Eigen::Translation3d(ToEigen(pose.position)) * q.normalized();
 }
 
-std::string NameOf(const XmlElement& element) {
+std::string NameOfElement(const XmlElement& element) {
   for (const auto& [key, value] : element.attributes) {
     if (key == "name") return std::string(Trim(value));
   }
   return "";
 }
 
-bool IsWithin(const Eigen::Vector3d& offset) { return offset.stableNorm() <= kLongestOffset; }
+bool IsWithin(const Eigen::Vector3d& offset) { return offset.stableNorm() <= kLongestLinkOffset; }
 
 class DocumentBuilder {
  public:
@@ -145,11 +145,11 @@ class DocumentBuilder {
 
 void DocumentBuilder::FailToFind(const XmlElement& element) {
   throw Error(fmt::format("{}:{}: <{} name=\"{}\">: use a name of letters, digits and underscores",
-                          diagnostics_.file(), element.line, element.name, NameOf(element)));
+                          diagnostics_.file(), element.line, element.name, NameOfElement(element)));
 }
 
 void DocumentBuilder::AddLink(const XmlElement& element) {
-  const auto source = model_.getLink(NameOf(element));
+  const auto source = model_.getLink(NameOfElement(element));
   if (!source || source->name.empty()) FailToFind(element);
   link_indices_[source->name] = static_cast<int>(document_.links.size());
   UrdfLink& link = document_.links.emplace_back();
@@ -164,15 +164,15 @@ void DocumentBuilder::ReadInertial(const urdf::Inertial& inertial, UrdfLink* lin
   I << inertial.ixx, inertial.ixy, inertial.ixz,  //
       inertial.ixy, inertial.iyy, inertial.iyz,   //
       inertial.ixz, inertial.iyz, inertial.izz;
-  if (!(inertial.mass >= 0 && inertial.mass <= kLargestMass)) {
+  if (!(inertial.mass >= 0 && inertial.mass <= kLargestLinkMass)) {
     Fail(link->line, "link '{}': its mass of {:.6g} kg is outside 0 to {:g} kg", link->name,
-         inertial.mass, kLargestMass);
+         inertial.mass, kLargestLinkMass);
   } else if (!IsWithin(X_LB.translation())) {
     Fail(link->line, "link '{}': its centre of mass is more than {} m away; URDF is in metres",
-         link->name, kLongestOffset);
-  } else if (!(I.cwiseAbs().maxCoeff() <= kLargestInertia)) {
+         link->name, kLongestLinkOffset);
+  } else if (!(I.cwiseAbs().maxCoeff() <= kLargestLinkInertia)) {
     Fail(link->line, "link '{}': its inertia has a number above {:g} kg m^2", link->name,
-         kLargestInertia);
+         kLargestLinkInertia);
   } else {
     link->mass = inertial.mass;
     link->p_LB = X_LB.translation();
@@ -200,7 +200,7 @@ void DocumentBuilder::ReadOrigin(const urdf::Joint& source, UrdfJoint* joint) {
   joint->X_PF = ToEigen(source.parent_to_joint_origin_transform);
   if (IsWithin(joint->X_PF.translation())) return;
   Fail(joint->line, "joint '{}': its origin is more than {} m away; URDF is in metres", joint->name,
-       kLongestOffset);
+       kLongestLinkOffset);
 }
 
 void DocumentBuilder::ReadAxis(const urdf::Joint& source, UrdfJoint* joint) {
@@ -257,7 +257,7 @@ void DocumentBuilder::AddJoint(const XmlElement& element) {
       {urdf::Joint::PRISMATIC, UrdfJointType::kPrismatic},
       {urdf::Joint::FLOATING, UrdfJointType::kFloating},
       {urdf::Joint::PLANAR, UrdfJointType::kPlanar}};
-  const auto found = model_.getJoint(NameOf(element));
+  const auto found = model_.getJoint(NameOfElement(element));
   if (!found || found->name.empty()) FailToFind(element);
   const urdf::Joint& source = *found;
   UrdfJoint joint;

@@ -20,9 +20,9 @@ constexpr std::string_view kMarkerSuffix = "_marker";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWidestRange = 4 * EIGEN_PI;  // [rad]; beyond it a limit limits nothing
 
-class ModelBuilder {
+class UrdfModelBuilder {
  public:
-  ModelBuilder(const UrdfDocument& document, Diagnostics* diagnostics)
+  UrdfModelBuilder(const UrdfDocument& document, Diagnostics* diagnostics)
       : document_(document), diagnostics_(*diagnostics) {}
 
   UrdfModel Build();
@@ -49,14 +49,14 @@ class ModelBuilder {
   std::vector<std::string> mimics_, slides_, stiff_;      ///< joints
 };
 
-bool ModelBuilder::IsMarker(const UrdfLink& link) const {
+bool UrdfModelBuilder::IsMarker(const UrdfLink& link) const {
   return link.parent_joint >= 0 && link.name.size() > kMarkerSuffix.size() &&
          link.name.ends_with(kMarkerSuffix) &&
          document_.joints[link.parent_joint].type == UrdfJointType::kFixed;
 }
 
 /// Markers without mass and children.
-void ModelBuilder::FindMarkers() {
+void UrdfModelBuilder::FindMarkers() {
   std::vector<bool> has_children(document_.links.size(), false);
   for (const UrdfJoint& joint : document_.joints) has_children[joint.parent] = true;
   is_marker_.resize(document_.links.size());
@@ -67,7 +67,7 @@ void ModelBuilder::FindMarkers() {
 }
 
 /// The root's link may be called as one of the joints.
-std::string ModelBuilder::RootName() const {
+std::string UrdfModelBuilder::RootName() const {
   std::set<std::string> taken;
   for (const UrdfJoint& joint : document_.joints) taken.insert(joint.name);
   std::string name = document_.links[document_.root].name;
@@ -75,7 +75,7 @@ std::string ModelBuilder::RootName() const {
   return name;
 }
 
-void ModelBuilder::HoldAt(const UrdfJoint& joint, double value, Segment* segment) {
+void UrdfModelBuilder::HoldAt(const UrdfJoint& joint, double value, Segment* segment) {
   segment->type = JointType::kFixed;
   segment->lower = segment->upper = 0;
   if (joint.type == UrdfJointType::kPrismatic) {
@@ -85,7 +85,7 @@ void ModelBuilder::HoldAt(const UrdfJoint& joint, double value, Segment* segment
   }
 }
 
-void ModelBuilder::SetRange(const UrdfJoint& joint, Segment* segment) {
+void UrdfModelBuilder::SetRange(const UrdfJoint& joint, Segment* segment) {
   segment->type = JointType::kRevolute;
   segment->lower = joint.lower;
   segment->upper = joint.upper;
@@ -103,7 +103,7 @@ void ModelBuilder::SetRange(const UrdfJoint& joint, Segment* segment) {
   }
 }
 
-void ModelBuilder::SetJoint(const UrdfJoint& joint, Segment* segment) {
+void UrdfModelBuilder::SetJoint(const UrdfJoint& joint, Segment* segment) {
   segment->name = joint.name;
   segment->X_PF = joint.X_PF;
   segment->axis = joint.axis;
@@ -124,7 +124,7 @@ void ModelBuilder::SetJoint(const UrdfJoint& joint, Segment* segment) {
   }
 }
 
-void ModelBuilder::AddSegment(int link) {
+void UrdfModelBuilder::AddSegment(int link) {
   const UrdfLink& source = document_.links[link];
   Segment& segment = description_.segments.emplace_back();
   segment.mass = source.mass;
@@ -141,7 +141,7 @@ void ModelBuilder::AddSegment(int link) {
 }
 
 /// The mimic joint nearest above a link; nullptr: there is none.
-const UrdfJoint* ModelBuilder::FindMimic(int link) const {
+const UrdfJoint* UrdfModelBuilder::FindMimic(int link) const {
   for (int joint = document_.links[link].parent_joint; joint >= 0;
        joint = document_.links[document_.joints[joint].parent].parent_joint) {
     if (!document_.joints[joint].mimicked.empty()) return &document_.joints[joint];
@@ -149,7 +149,7 @@ const UrdfJoint* ModelBuilder::FindMimic(int link) const {
   return nullptr;
 }
 
-void ModelBuilder::AddMarkers() {
+void UrdfModelBuilder::AddMarkers() {
   for (std::size_t i = 0; i < document_.links.size(); ++i) {
     const UrdfLink& link = document_.links[i];
     if (!IsMarker(link)) continue;
@@ -168,13 +168,13 @@ void ModelBuilder::AddMarkers() {
   }
 }
 
-void ModelBuilder::WarnOf(const std::vector<std::string>& joints, const char* what) {
+void UrdfModelBuilder::WarnOf(const std::vector<std::string>& joints, const char* what) {
   if (joints.empty()) return;
   diagnostics_.AddWarning(0, fmt::format("{} {} {}", joints.size() == 1 ? "joint" : "joints",
                                          fmt::join(joints, ", "), what));
 }
 
-UrdfModel ModelBuilder::Build() {
+UrdfModel UrdfModelBuilder::Build() {
   FindMarkers();
   description_.name = document_.name;
   int num_segments = 0;
@@ -200,7 +200,7 @@ UrdfModel ModelBuilder::Build() {
 UrdfModel ParseUrdfModel(std::string_view content, const std::string& file, Warnings* warnings) {
   Diagnostics diagnostics(file, warnings);
   const UrdfDocument document = ParseUrdf(content, &diagnostics);
-  return ModelBuilder(document, &diagnostics).Build();
+  return UrdfModelBuilder(document, &diagnostics).Build();
 }
 
 UrdfModel ReadUrdfModel(const std::string& path, Warnings* warnings) {

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "common/calibrate/frame_equations.h"
+#include "common/support/units.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/test_models.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<MarkerIx> AllMarkers(const KinematicModel& model) {
   return AllIndices<MarkerIx>(model.markers().size());

@@ -14,7 +14,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kHeight = 1.8;  // [m]
+constexpr double kTrueHeight = 1.8;  // [m]
 
 PersonHeight Estimate(const MarkerSequence& recording, double visible_share) {
   const KinematicModel reference = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
@@ -25,13 +25,13 @@ PersonHeight Estimate(const MarkerSequence& recording, double visible_share) {
 }
 
 TEST(PersonHeight, KnowsHowSureItIs) {
-  const KinematicModel model = testing::ScaledReferenceModel(kHeight);
+  const KinematicModel model = testing::ScaledReferenceModel(kTrueHeight);
   for (const std::uint64_t seed : {71, 72, 73}) {
     const KinematicModel person = FitToSubject(model, testing::DrawPerson(model, seed));
     const MarkerSequence recording =
         testing::RecordPerson(person, testing::RangeOfMotion(model, 6, 0.7, seed), seed);
     const PersonHeight estimate = Estimate(recording, 1);
-    EXPECT_LT(std::abs(estimate.height - kHeight), 3 * estimate.deviation) << seed;
+    EXPECT_LT(std::abs(estimate.height - kTrueHeight), 3 * estimate.deviation) << seed;
     // Lengths that are 3 % off by themselves, of some twelve segments, do not tell it any better.
     EXPECT_GT(estimate.deviation, 0.01);
     EXPECT_LT(estimate.deviation, 0.03);
@@ -40,15 +40,15 @@ TEST(PersonHeight, KnowsHowSureItIs) {
 }
 
 TEST(PersonHeight, IsExactForThePersonOfTheModel) {
-  const KinematicModel model = testing::ScaledReferenceModel(kHeight);
+  const KinematicModel model = testing::ScaledReferenceModel(kTrueHeight);
   const MarkerSequence recording =
       testing::RecordPerson(model, testing::RangeOfMotion(model, 6, 0.7, 1), 1);
   // Soft tissue of 4 mm is left, and the weak pulls to natural angles and lengths.
-  EXPECT_NEAR(Estimate(recording, 1).height, kHeight, 0.01);
+  EXPECT_NEAR(Estimate(recording, 1).height, kTrueHeight, 0.01);
 }
 
 TEST(PersonHeight, TooFewMarkersAreAnError) {
-  const KinematicModel model = testing::ScaledReferenceModel(kHeight);
+  const KinematicModel model = testing::ScaledReferenceModel(kTrueHeight);
   const MarkerSequence recording =
       testing::RecordPerson(model, testing::RangeOfMotion(model, 1, 0.7, 1), 1);
   EXPECT_THROW(Estimate(recording, 0.15), Error);

@@ -14,14 +14,14 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-enum class Kind { kS2kf, kUkf, kEkf };
+enum class FilterKind { kS2kf, kUkf, kEkf };
 
 struct Values {
   double deviation = 0.005;  // [m]
   double damping = 0.5;
   int samples = 301;
   bool robust = true;
-  Kind kind = Kind::kS2kf;
+  FilterKind kind = FilterKind::kS2kf;
 };
 
 SettingTable MakeTable(Values* values) {
@@ -31,9 +31,10 @@ SettingTable MakeTable(Values* values) {
             "white noise of a marker");
   table.Add("Noise", "damping", &values->damping, 1, 0, SettingTable::kUnlimited, "of velocities");
   table.AddElement("Filter", "Which filter.");
-  table.AddChoice<Kind>("Filter", "kind", &values->kind,
-                        {{"s2kf", Kind::kS2kf}, {"ukf", Kind::kUkf}, {"ekf", Kind::kEkf}},
-                        "which Kalman filter");
+  table.AddChoice<FilterKind>(
+      "Filter", "kind", &values->kind,
+      {{"s2kf", FilterKind::kS2kf}, {"ukf", FilterKind::kUkf}, {"ekf", FilterKind::kEkf}},
+      "which Kalman filter");
   table.Add("Filter", "samples", &values->samples, 3, 9999, "number of samples");
   table.Add("Filter", "robust", &values->robust, "gives far markers less weight");
   return table;
@@ -59,7 +60,7 @@ TEST(SettingTable, ReadsEachKindOfValue) {
   EXPECT_EQ(values.damping, 1000);
   EXPECT_EQ(values.samples, 93);
   EXPECT_FALSE(values.robust);
-  EXPECT_EQ(values.kind, Kind::kEkf);
+  EXPECT_EQ(values.kind, FilterKind::kEkf);
 }
 
 TEST(SettingTable, WhatIsNotSaidKeepsItsValue) {
@@ -68,7 +69,7 @@ TEST(SettingTable, WhatIsNotSaidKeepsItsValue) {
   MakeTable(&values).Read(ParseXml("<C><Noise damping='2'/></C>", "walk.xml").children,
                           &diagnostics);
   EXPECT_EQ(values.deviation, 0.005);
-  EXPECT_EQ(values.kind, Kind::kS2kf);
+  EXPECT_EQ(values.kind, FilterKind::kS2kf);
 }
 
 TEST(SettingTable, ErrorsSayWhereAndWhatIsAllowed) {
@@ -108,7 +109,7 @@ TEST(SettingTable, RefusesRepeatedAndNestedElementsAndText) {
 TEST(SettingTable, TemplateIsReadBackToTheSameValues) {
   Values values;
   values.deviation = 0.0123456789;
-  values.kind = Kind::kUkf;
+  values.kind = FilterKind::kUkf;
   const std::string xml = "<C>\n" + MakeTable(&values).ToXml(2) + "</C>";
   Values again;
   Diagnostics diagnostics("template");

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
-std::shared_ptr<const KinematicModel> ShippedModel() {
+std::shared_ptr<const KinematicModel> SharedShippedModel() {
   return std::make_shared<const KinematicModel>(
       ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")));
 }
@@ -37,7 +37,7 @@ ConverterConfig StickConfig() {
 }
 
 TEST(TrackingSetup, NeedsLabelsOnly) {
-  const auto reference = ShippedModel();
+  const auto reference = SharedShippedModel();
   const std::vector<std::string> labels = {"LAEL", "other", "LAOL", "C7"};
   const TrackingSetup setup =
       MakeTrackingSetup({labels}, reference, {}, {.size = WinterScaling{1.8, 70, {}}});
@@ -58,9 +58,9 @@ TEST(TrackingSetup, FitsTheModelToTheSubject) {
   subject.offsets.push_back({"MARKER_C7", {0.01, 0.02, 0.03}});
   const PersonScaling known = {WinterScaling{1.8, 70, {}}, std::make_shared<Subject>(subject)};
   const TrackingSetup plain =
-      MakeTrackingSetup({{"LAEL", "LAOL", "C7"}}, ShippedModel(), {}, {.size = known.size});
+      MakeTrackingSetup({{"LAEL", "LAOL", "C7"}}, SharedShippedModel(), {}, {.size = known.size});
   const TrackingSetup fitted =
-      MakeTrackingSetup({{"LAEL", "LAOL", "C7"}}, ShippedModel(), {}, known);
+      MakeTrackingSetup({{"LAEL", "LAOL", "C7"}}, SharedShippedModel(), {}, known);
   const int c7 = plain.model->FindMarker("MARKER_C7");
   EXPECT_TRUE((fitted.model->markers()[c7].p_SM - plain.model->markers()[c7].p_SM)
                   .isApprox(Eigen::Vector3d(0.01, 0.02, 0.03), 1e-9));

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 // Chains of some 20 rotations on lengths of up to 4 m: rounding stays below 1e-13.
-constexpr double kRounding = 1e-12;
+constexpr double kModelRounding = 1e-12;
 
 void ExpectSimbodyAgrees(const KinematicModel& model) {
   const SimbodyModel simbody(model);
@@ -33,13 +33,13 @@ void ExpectSimbodyAgrees(const KinematicModel& model) {
     const std::vector<Eigen::Isometry3d> X_WS = SegmentPoses(model, posture);
     ASSERT_EQ(oracle.X_WS.size(), X_WS.size());
     for (std::size_t i = 0; i < X_WS.size(); ++i) {
-      ASSERT_LT((X_WS[i].matrix() - oracle.X_WS[i].matrix()).norm(), kRounding)
+      ASSERT_LT((X_WS[i].matrix() - oracle.X_WS[i].matrix()).norm(), kModelRounding)
           << model.segments()[i].name;
     }
     ASSERT_LT((MarkerPositions(model, posture) - oracle.p_WM).colwise().norm().maxCoeff(),
-              kRounding);
-    EXPECT_NEAR(oracle.mass, model.total_mass(), kRounding * model.total_mass());
-    EXPECT_LT((CenterOfMass(model, posture) - oracle.center_of_mass).norm(), kRounding);
+              kModelRounding);
+    EXPECT_NEAR(oracle.mass, model.total_mass(), kModelRounding * model.total_mass());
+    EXPECT_LT((CenterOfMass(model, posture) - oracle.center_of_mass).norm(), kModelRounding);
     const Eigen::Matrix3d inertia = testing::WholeBodyInertia(model, posture);
     EXPECT_LT((inertia - oracle.central_inertia).norm(), 1e-11 * inertia.norm());
   }

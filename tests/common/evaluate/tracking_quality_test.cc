@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/support/units.h"
 #include "tests/support/stick_model.h"
 
 namespace mmm_converter {
@@ -15,8 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
 // Sums of a few numbers: rounding only.
-constexpr double kRounding = 1e-12;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kQualityRounding = 1e-12;
 
 class TrackingQualityTest : public ::testing::Test {
  protected:
@@ -64,13 +64,13 @@ TEST_F(TrackingQualityTest, DistancesAreOverAllMeasuredAndOverHiddenMarkers) {
   reference_.hidden(1, 1) = true;
   reference_.hidden(0, 2) = true;  // was not measured
   const TrackingQuality quality = Measure(distances, Move({{0, 0}, {0, 0}, {0, 0}}));
-  EXPECT_NEAR(quality.all.mean, 0.17 / 5, kRounding);
-  EXPECT_NEAR(quality.all.max, 0.06, kRounding);
+  EXPECT_NEAR(quality.all.mean, 0.17 / 5, kQualityRounding);
+  EXPECT_NEAR(quality.all.max, 0.06, kQualityRounding);
   // Sorted 1 2 3 5 6 cm: 95 % is 0.8 of the way between the last two.
-  EXPECT_NEAR(quality.all.p95, 0.058, kRounding);
-  EXPECT_NEAR(quality.all.worst_frame, 0.05, kRounding);
-  EXPECT_NEAR(quality.hidden.mean, 0.06, kRounding);
-  EXPECT_NEAR(quality.hidden.worst_frame, 0.06, kRounding);
+  EXPECT_NEAR(quality.all.p95, 0.058, kQualityRounding);
+  EXPECT_NEAR(quality.all.worst_frame, 0.05, kQualityRounding);
+  EXPECT_NEAR(quality.hidden.mean, 0.06, kQualityRounding);
+  EXPECT_NEAR(quality.hidden.worst_frame, 0.06, kQualityRounding);
 }
 
 TEST_F(TrackingQualityTest, WithoutHiddenMarkersThereIsNoHiddenDistance) {
@@ -108,7 +108,8 @@ TEST_F(TrackingQualityTest, JitterIsTheRmsJointAcceleration) {
 }
 
 TEST_F(TrackingQualityTest, LargestStepIsOfAnyJointInEitherDirection) {
-  EXPECT_NEAR(Measure(Move({{0, 0}, {0.1, -0.4}, {0.3, -0.4}})).largest_step, 0.4, kRounding);
+  EXPECT_NEAR(Measure(Move({{0, 0}, {0.1, -0.4}, {0.3, -0.4}})).largest_step, 0.4,
+              kQualityRounding);
 }
 
 TEST_F(TrackingQualityTest, LimitShareCountsSamplesOnEitherLimit) {
@@ -125,9 +126,9 @@ TEST_F(TrackingQualityTest, TruthGivesJointCentersAndAngles) {
   const PoseTrajectory truth = Move({{0, 0}, {0, 0}});
   reference_.truth = &truth;
   const TrackingQuality quality = Measure(Move({{0.2, 0}, {0, -0.2}}));
-  EXPECT_NEAR(quality.joint_angle_error, 0.4 / 4, kRounding);
+  EXPECT_NEAR(quality.joint_angle_error, 0.4 / 4, kQualityRounding);
   // Of two joints and frames only the hip's centre, 0.5 m above the knee, moved once.
-  EXPECT_NEAR(quality.joint_center_error, 2 * 0.5 * std::sin(0.1) / 4, kRounding);
+  EXPECT_NEAR(quality.joint_center_error, 2 * 0.5 * std::sin(0.1) / 4, kQualityRounding);
   reference_.truth = nullptr;
   EXPECT_TRUE(std::isnan(Measure(Move({{0.2, 0}})).joint_angle_error));
 }
@@ -138,8 +139,8 @@ TEST_F(TrackingQualityTest, TimesLeaveOutFramesThatTookNone) {
   frames_[2].seconds = 0.002;
   frames_[3].seconds = 0.003;
   const TrackingQuality quality = Measure(Move({{0, 0}, {0, 0}, {0, 0}, {0, 0}}));
-  EXPECT_NEAR(quality.median_seconds, 0.002, kRounding);
-  EXPECT_NEAR(quality.p99_seconds, 0.00298, kRounding);
+  EXPECT_NEAR(quality.median_seconds, 0.002, kQualityRounding);
+  EXPECT_NEAR(quality.p99_seconds, 0.00298, kQualityRounding);
 }
 
 TEST(Summarize, TakesMeansAndLargestValues) {

@@ -9,6 +9,7 @@
 
 #include "common/fit/posture_search.h"
 #include "common/math/rotation.h"
+#include "common/support/units.h"
 #include "tests/support/test_models.h"
 
 namespace mmm_converter {
@@ -17,8 +18,6 @@ namespace {
 using testing::MakeBranchedModel;
 using testing::MakeFullKinematics;
 using testing::RandomPosture;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class PostureFitTest : public ::testing::Test {
  protected:

@@ -10,6 +10,7 @@
 
 #include "common/math/rotation.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -18,8 +19,6 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Four markers without any symmetry [m].
 const Matrix3Xd kCup = (Matrix3Xd(3, 4) << 0.00, 0.06, 0.01, -0.05,  //

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 // Products of a few orthogonal matrices and trigonometric functions: some ten roundings of 1e-16.
-constexpr double kRounding = 1e-14;
+constexpr double kRotationRounding = 1e-14;
 
 Vector3d RandomVector(std::mt19937& generator, double scale) {
   std::normal_distribution<double> normal(0.0, scale);
@@ -26,15 +26,15 @@ Vector3d RandomVector(std::mt19937& generator, double scale) {
 TEST(RotationTest, RpyIsYawTimesPitchTimesRoll) {
   // 90 degrees about x takes y to z; then 90 degrees about z takes x to y.
   const Matrix3d R = RotationFromRpy({kPi / 2, 0, kPi / 2});
-  EXPECT_TRUE((R * Vector3d::UnitX()).isApprox(Vector3d::UnitY(), kRounding));
-  EXPECT_TRUE((R * Vector3d::UnitY()).isApprox(Vector3d::UnitZ(), kRounding));
+  EXPECT_TRUE((R * Vector3d::UnitX()).isApprox(Vector3d::UnitY(), kRotationRounding));
+  EXPECT_TRUE((R * Vector3d::UnitY()).isApprox(Vector3d::UnitZ(), kRotationRounding));
 }
 
 TEST(RotationTest, RpyRoundTrip) {
   std::mt19937 generator(1);
   for (int i = 0; i < 1000; ++i) {
     const Matrix3d R = Exp(RandomVector(generator, 2.0)).toRotationMatrix();
-    EXPECT_LT((RotationFromRpy(RpyFromRotation(R)) - R).norm(), kRounding * 10);
+    EXPECT_LT((RotationFromRpy(RpyFromRotation(R)) - R).norm(), kRotationRounding * 10);
   }
 }
 

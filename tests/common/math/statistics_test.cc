@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/math/statistics.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Statistics, KnownValues) {
   const std::vector<double> values = {4, 1, kNaN, 3, 2};

@@ -18,7 +18,7 @@ using testing::MakeFullKinematics;
 using testing::RandomPosture;
 
 // A chain of five rotations and offsets below 1 m: some tens of roundings of 1e-16.
-constexpr double kRounding = 1e-14;
+constexpr double kMarkerRounding = 1e-14;
 
 TEST(MarkerKinematicsTest, OnePostureEqualsTheModelsForwardKinematics) {
   const KinematicModel model = MakeBranchedModel();
@@ -28,7 +28,7 @@ TEST(MarkerKinematicsTest, OnePostureEqualsTheModelsForwardKinematics) {
   for (int i = 0; i < 100; ++i) {
     const Posture q = RandomPosture(kinematics, 1.0, &random);
     kinematics.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
-    EXPECT_LT((at.p_WM - MarkerPositions(model, q)).cwiseAbs().maxCoeff(), kRounding);
+    EXPECT_LT((at.p_WM - MarkerPositions(model, q)).cwiseAbs().maxCoeff(), kMarkerRounding);
   }
 }
 
@@ -47,7 +47,7 @@ TEST(MarkerKinematicsTest, UntrackedJointsStayAtZeroAndMarkersKeepTheirOrder) {
   q.joint_angles[joints[1]] = -0.4;
   const Eigen::Matrix3Xd expected = MarkerPositions(model, q);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_LT((at.p_WM.col(i) - expected.col(markers[i])).norm(), kRounding);
+    EXPECT_LT((at.p_WM.col(i) - expected.col(markers[i])).norm(), kMarkerRounding);
   }
   EXPECT_TRUE(kinematics.Moves(0, 0));
   EXPECT_FALSE(kinematics.Moves(0, 1));
@@ -77,7 +77,7 @@ TEST(MarkerKinematicsTest, BatchEqualsOnePostureAtATime) {
       const Posture& q = postures[i];
       kinematics.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
       const Eigen::VectorXd row = batch.markers.view().row(i).transpose();
-      EXPECT_LT((row - at.p_WM.reshaped()).cwiseAbs().maxCoeff(), kRounding)
+      EXPECT_LT((row - at.p_WM.reshaped()).cwiseAbs().maxCoeff(), kMarkerRounding)
           << ToString(set) << ", sample " << i;
     }
   }

@@ -39,19 +39,19 @@ KinematicModel Arm() {
 }
 
 // Products of a few numbers: rounding only.
-constexpr double kRounding = 1e-15;
+constexpr double kScalingRounding = 1e-15;
 
 TEST(WinterScaling, ScalesLengthsMassesAndInertia) {
   const KinematicModel scaled = ScaleWinter(Arm(), {1.6, 50, std::nullopt});
   for (const Segment& segment : scaled.segments()) {
-    EXPECT_NEAR(segment.X_PF.translation().z(), 0.16, kRounding) << segment.name;
-    EXPECT_NEAR(segment.p_SB.x(), 0.016, kRounding);
+    EXPECT_NEAR(segment.X_PF.translation().z(), 0.16, kScalingRounding) << segment.name;
+    EXPECT_NEAR(segment.p_SB.x(), 0.016, kScalingRounding);
     EXPECT_NEAR(segment.mass, 10, 1e-14);
     EXPECT_NEAR(segment.inertia(1, 1), 2e-3 * 50 * 1.6 * 1.6, 1e-14);
   }
-  EXPECT_NEAR(scaled.segments()[1].upper, 0.16, kRounding);  // the prismatic length record
-  EXPECT_EQ(scaled.segments()[2].upper, 1.5);                // an angle
-  EXPECT_NEAR(scaled.markers()[0].p_SM.y(), 0.032, kRounding);
+  EXPECT_NEAR(scaled.segments()[1].upper, 0.16, kScalingRounding);  // the prismatic length record
+  EXPECT_EQ(scaled.segments()[2].upper, 1.5);                       // an angle
+  EXPECT_NEAR(scaled.markers()[0].p_SM.y(), 0.032, kScalingRounding);
   EXPECT_EQ(scaled.node_sets(), Arm().node_sets());
 }
 
@@ -61,13 +61,13 @@ TEST(WinterScaling, HandLengthScalesWhatIsBelowTheWrist) {
   const double lengths[] = {1.6, 1.6, 1.6, hand, hand, 1.6};
   for (int i = 0; i < 6; ++i) {
     const Segment& segment = scaled.segments()[i];
-    EXPECT_NEAR(segment.X_PF.translation().z(), 0.1 * lengths[i], kRounding) << segment.name;
-    EXPECT_NEAR(segment.p_SB.x(), 0.01 * lengths[i], kRounding);
+    EXPECT_NEAR(segment.X_PF.translation().z(), 0.1 * lengths[i], kScalingRounding) << segment.name;
+    EXPECT_NEAR(segment.p_SB.x(), 0.01 * lengths[i], kScalingRounding);
     EXPECT_NEAR(segment.mass, 10, 1e-14);
     EXPECT_NEAR(segment.inertia(0, 0), 1e-3 * 50 * lengths[i] * lengths[i], 1e-14);
   }
-  EXPECT_NEAR(scaled.markers()[0].p_SM.y(), 0.032, kRounding);
-  EXPECT_NEAR(scaled.markers()[1].p_SM.y(), 0.03 * hand, kRounding);
+  EXPECT_NEAR(scaled.markers()[0].p_SM.y(), 0.032, kScalingRounding);
+  EXPECT_NEAR(scaled.markers()[1].p_SM.y(), 0.03 * hand, kScalingRounding);
 }
 
 TEST(WinterScaling, LengthsAreSaidForEachSegment) {
@@ -81,7 +81,7 @@ TEST(WinterScaling, WintersOwnHandLengthChangesNothing) {
   const KinematicModel plain = ScaleWinter(Arm(), {1.75, 70, std::nullopt});
   const KinematicModel with_hand = ScaleWinter(Arm(), {1.75, 70, 0.108 * 1.75});
   for (std::size_t i = 0; i < plain.segments().size(); ++i) {
-    EXPECT_TRUE(with_hand.segments()[i].X_PF.isApprox(plain.segments()[i].X_PF, kRounding));
+    EXPECT_TRUE(with_hand.segments()[i].X_PF.isApprox(plain.segments()[i].X_PF, kScalingRounding));
   }
 }
 

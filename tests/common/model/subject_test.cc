@@ -21,7 +21,7 @@ using testing::StickModel;
 using ::testing::ThrowsMessage;
 
 // Products and sums of a few numbers below 1: rounding only.
-constexpr double kRounding = 1e-15;
+constexpr double kSubjectRounding = 1e-15;
 
 Subject Somebody(const std::string& model) {
   Subject subject;
@@ -64,14 +64,15 @@ TEST(FitToSubject, ScalesTheNamedSegmentOnly) {
   for (int i = 0; i < 4; ++i) {
     const Segment& before = model.segments()[i];
     const Segment& after = fitted.segments()[i];
-    EXPECT_NEAR(after.X_PF.translation().z(), scales[i] * before.X_PF.translation().z(), kRounding);
-    EXPECT_TRUE(after.p_SB.isApprox(scales[i] * before.p_SB, kRounding));
-    EXPECT_TRUE(after.inertia.isApprox(scales[i] * scales[i] * before.inertia, kRounding));
+    EXPECT_NEAR(after.X_PF.translation().z(), scales[i] * before.X_PF.translation().z(),
+                kSubjectRounding);
+    EXPECT_TRUE(after.p_SB.isApprox(scales[i] * before.p_SB, kSubjectRounding));
+    EXPECT_TRUE(after.inertia.isApprox(scales[i] * scales[i] * before.inertia, kSubjectRounding));
     EXPECT_EQ(after.mass, before.mass);
   }
-  EXPECT_EQ(fitted.segments()[1].upper, 1);                    // an angle stays
-  EXPECT_NEAR(fitted.segments()[3].upper, 0.09, kRounding);    // a length does not
-  EXPECT_NEAR(fitted.markers()[2].p_SM.z(), 0.22, kRounding);  // at the knee
+  EXPECT_EQ(fitted.segments()[1].upper, 1);                           // an angle stays
+  EXPECT_NEAR(fitted.segments()[3].upper, 0.09, kSubjectRounding);    // a length does not
+  EXPECT_NEAR(fitted.markers()[2].p_SM.z(), 0.22, kSubjectRounding);  // at the knee
   EXPECT_EQ(fitted.markers()[3].p_SM.z(), 0.3);
 }
 
@@ -84,14 +85,15 @@ TEST(FitToSubject, MovesMarkersAfterScaling) {
   offset.standard_deviations = {0.002, 0.002, 0.002};
   subject.offsets = {offset};
   const KinematicModel fitted = FitToSubject(StickModel(), subject);
-  EXPECT_NEAR(fitted.markers()[2].deviation.value(), 0.002, kRounding);
+  EXPECT_NEAR(fitted.markers()[2].deviation.value(), 0.002, kSubjectRounding);
   EXPECT_FALSE(fitted.markers()[1].deviation.has_value());
-  EXPECT_TRUE(fitted.markers()[2].p_SM.isApprox(Eigen::Vector3d(0.01, -0.02, 0.25), kRounding));
+  EXPECT_TRUE(
+      fitted.markers()[2].p_SM.isApprox(Eigen::Vector3d(0.01, -0.02, 0.25), kSubjectRounding));
   // At the zero posture the knee stands 0.55 m above the root.
   Posture zero;
   zero.joint_angles.setZero(fitted.num_joints());
   const Eigen::Vector3d p_WM = SegmentPoses(fitted, zero)[1] * fitted.markers()[2].p_SM;
-  EXPECT_TRUE(p_WM.isApprox(Eigen::Vector3d(0.01, -0.02, 0.80), kRounding));
+  EXPECT_TRUE(p_WM.isApprox(Eigen::Vector3d(0.01, -0.02, 0.80), kSubjectRounding));
 }
 
 TEST(FitToSubject, OfTheShippedModelMovesWhatHangsBelow) {
@@ -143,7 +145,7 @@ TEST(Observability, IsWhatTheRecordingsReplaced) {
 TEST(Observability, OfAMarkerIsAboutItsMeanVariance) {
   MarkerOffset offset;
   offset.standard_deviations = {0.01, 0.02, 0.02};
-  EXPECT_NEAR(Deviation(offset), std::sqrt(3e-4), kRounding);
+  EXPECT_NEAR(Deviation(offset), std::sqrt(3e-4), kSubjectRounding);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/motion/marker_residuals.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::MatrixXd ThreeMarkersFourFrames() {
   Eigen::MatrixXd residuals(3, 4);

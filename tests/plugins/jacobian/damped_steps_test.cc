@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/jacobian/damped_steps.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,6 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class DampedStepsTest : public ::testing::Test {
  protected:

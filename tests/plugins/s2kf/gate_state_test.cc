@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/gate_state.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMarkers = 4;
 
 class GateStateTest : public ::testing::Test {

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Solves of well-conditioned systems of size below 10.
-constexpr double kRounding = 1e-12;
+constexpr double kUpdateRounding = 1e-12;
 
 /// A linear measurement z = H x + v of x ~ N(x0, P), and the textbook Kalman update of it.
 struct LinearProblem {
@@ -72,9 +72,9 @@ TEST_P(GaussianUpdateTest, IsTheKalmanFilterOnALinearModel) {
   double nis = 0;
   problem.Textbook(&x, &P, &nis);
   const MatrixXd T = Spread(update, problem.L);
-  EXPECT_LT((problem.x0 + problem.L * update.mean() - x).norm(), kRounding);
-  EXPECT_LT((T * T.transpose() - P).norm(), kRounding);
-  EXPECT_NEAR(update.nis(), nis, kRounding * nis);
+  EXPECT_LT((problem.x0 + problem.L * update.mean() - x).norm(), kUpdateRounding);
+  EXPECT_LT((T * T.transpose() - P).norm(), kUpdateRounding);
+  EXPECT_NEAR(update.nis(), nis, kUpdateRounding * nis);
 }
 
 TEST_P(GaussianUpdateTest, ACoordinateThatWasNotMeasuredIsLeftOut) {
@@ -92,11 +92,11 @@ TEST_P(GaussianUpdateTest, ACoordinateThatWasNotMeasuredIsLeftOut) {
   problem.noise = VectorXd(problem.noise(kept));
   GaussianUpdate fewer(4, 5);
   fewer.Compute(problem.Moments(), problem.z, problem.noise, GetParam());
-  EXPECT_LT((all.mean() - fewer.mean()).norm(), kRounding);
+  EXPECT_LT((all.mean() - fewer.mean()).norm(), kUpdateRounding);
   const MatrixXd T = Spread(all, MatrixXd::Identity(4, 4));
   const MatrixXd U = Spread(fewer, MatrixXd::Identity(4, 4));
-  EXPECT_LT((T * T.transpose() - U * U.transpose()).norm(), kRounding);
-  EXPECT_NEAR(all.nis(), fewer.nis(), kRounding * fewer.nis());
+  EXPECT_LT((T * T.transpose() - U * U.transpose()).norm(), kUpdateRounding);
+  EXPECT_NEAR(all.nis(), fewer.nis(), kUpdateRounding * fewer.nis());
 }
 
 TEST_P(GaussianUpdateTest, NothingMeasuredChangesNothing) {
@@ -121,7 +121,8 @@ TEST_P(GaussianUpdateTest, WithNothingMeasuredExpectsThePrior) {
   update.Expect(moments, VectorXd::Ones(6), &scratch, &expected);
   EXPECT_EQ(expected, moments.mean);
   const MatrixXd prior = (problem.H * problem.P * problem.H.transpose()).block(3, 3, 3, 3);
-  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3, &scratch) - prior).norm(), kRounding);
+  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3, &scratch) - prior).norm(),
+            kUpdateRounding);
   EXPECT_EQ(update.nis(), 0);
 }
 
@@ -152,9 +153,10 @@ TEST_P(GaussianUpdateTest, ExpectsWhatAnotherMeasurementWouldHaveGiven) {
   VectorXd expected;
   GaussianUpdate::Scratch scratch(5, 8);
   update.Expect(moments, problem.z, &scratch, &expected);
-  EXPECT_LT((expected - problem.H * x).norm(), kRounding);
+  EXPECT_LT((expected - problem.H * x).norm(), kUpdateRounding);
   const MatrixXd covariance = (problem.H * P * problem.H.transpose()).block(3, 3, 3, 3);
-  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3, &scratch) - covariance).norm(), kRounding);
+  EXPECT_LT((update.PosteriorCovariance(moments.C_sz, 3, &scratch) - covariance).norm(),
+            kUpdateRounding);
 }
 
 TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {
@@ -166,8 +168,8 @@ TEST(GaussianUpdateFormsTest, AgreeWhereTheResidualIsDiagonal) {
   GaussianUpdate regression(5, 8);
   exact.Compute(moments, problem.z, problem.noise, UpdateForm::kExact);
   regression.Compute(moments, problem.z, problem.noise, UpdateForm::kRegression);
-  EXPECT_LT((exact.mean() - regression.mean()).norm(), kRounding);
-  EXPECT_NEAR(exact.nis(), regression.nis(), kRounding * exact.nis());
+  EXPECT_LT((exact.mean() - regression.mean()).norm(), kUpdateRounding);
+  EXPECT_NEAR(exact.nis(), regression.nis(), kUpdateRounding * exact.nis());
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, GaussianUpdateTest,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/marker_filter.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class MarkerFilterTest : public ::testing::TestWithParam<FilterType> {
  protected:

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 constexpr int kJoints = 4;
 constexpr int kStates = 6 + kJoints;
 // Products of matrices of size below 20 with entries of about 1.
-constexpr double kRounding = 1e-13;
+constexpr double kMotionRounding = 1e-13;
 
 Belief SomeBelief(bool velocity) {
   std::srand(3);
@@ -53,7 +53,7 @@ TEST(MotionModelTest, RandomWalkStaysAndSpreadsWithTime) {
   EXPECT_EQ(belief.position, before.position);
   EXPECT_EQ(belief.parameters, before.parameters);
   const MatrixXd Q = 0.02 * NoiseOf(SomeModel().noise).asDiagonal().toDenseMatrix();
-  EXPECT_LT((belief.P - before.P - Q).norm(), kRounding);
+  EXPECT_LT((belief.P - before.P - Q).norm(), kMotionRounding);
 }
 
 TEST(MotionModelTest, TwoHalfStepsAreOneStep) {
@@ -61,7 +61,7 @@ TEST(MotionModelTest, TwoHalfStepsAreOneStep) {
   Belief whole = halves;
   for (int i = 0; i < 2; ++i) SomeModel().Predict(0.01, RootParameters::kSo3, &halves);
   SomeModel().Predict(0.02, RootParameters::kSo3, &whole);
-  EXPECT_LT((halves.P - whole.P).norm(), kRounding);
+  EXPECT_LT((halves.P - whole.P).norm(), kMotionRounding);
 }
 
 TEST(MotionModelTest, ThePapersNoiseIsThatOfA10MsFrame) {
@@ -114,15 +114,16 @@ TEST(MotionModelTest, VelocityIsTheLinearModelWithDamping) {
       MatrixXd::Identity(kStates, kStates) * T;
   const MatrixXd Q = G * (NoiseOf(model.noise) / dt).asDiagonal() * G.transpose();
   const MatrixXd P = F * before.P * F.transpose() + Q;
-  EXPECT_LT((belief.P - P).norm(), kRounding);
+  EXPECT_LT((belief.P - P).norm(), kMotionRounding);
   // Columns are moved before rows: a term may be rounded otherwise than its mirror image.
-  EXPECT_LT((belief.P - belief.P.transpose()).norm(), kRounding);
-  EXPECT_LT((belief.rate - a * before.rate).norm(), kRounding);
-  EXPECT_LT((belief.position - before.position - T * before.rate.head<3>()).norm(), kRounding);
+  EXPECT_LT((belief.P - belief.P.transpose()).norm(), kMotionRounding);
+  EXPECT_LT((belief.rate - a * before.rate).norm(), kMotionRounding);
+  EXPECT_LT((belief.position - before.position - T * before.rate.head<3>()).norm(),
+            kMotionRounding);
   EXPECT_LT((belief.parameters - before.parameters - T * before.rate.tail(kJoints)).norm(),
-            kRounding);
+            kMotionRounding);
   const Eigen::Vector3d turned = Log(before.orientation.conjugate() * belief.orientation);
-  EXPECT_LT((turned - T * before.rate.segment<3>(3)).norm(), kRounding);
+  EXPECT_LT((turned - T * before.rate.segment<3>(3)).norm(), kMotionRounding);
 }
 
 TEST(MotionModelTest, TheSpringEndsAtTheNaturalPostureWithItsSpread) {
@@ -147,8 +148,8 @@ TEST(MotionModelTest, TheSpringSwingsAsItsClosedForm) {
   Belief halves = whole;
   model.Predict(0.2, RootParameters::kSo3, &whole);
   for (int i = 0; i < 2; ++i) model.Predict(0.1, RootParameters::kSo3, &halves);
-  EXPECT_LT((whole.parameters - halves.parameters).norm(), kRounding);
-  EXPECT_LT((whole.rate.tail(kJoints) - halves.rate.tail(kJoints)).norm(), kRounding);
+  EXPECT_LT((whole.parameters - halves.parameters).norm(), kMotionRounding);
+  EXPECT_LT((whole.rate.tail(kJoints) - halves.rate.tail(kJoints)).norm(), kMotionRounding);
   // x'' = -2 omega x' - omega^2 x, by a step so short that h^2 counts.
   const double omega = std::cbrt(9 / (4 * 0.25));
   const Belief start = SomeBelief(true);
@@ -169,7 +170,7 @@ TEST(BeliefTest, DifferenceUndoesMove) {
   b.rate += dx.tail(kStates);
   VectorXd difference;
   Difference(a, b, RootParameters::kSo3, &difference);
-  EXPECT_LT((difference - dx).norm(), kRounding);
+  EXPECT_LT((difference - dx).norm(), kMotionRounding);
 }
 
 TEST(BeliefTest, FoldingTurnsTheSignsOfRateAndCovariance) {
@@ -183,9 +184,9 @@ TEST(BeliefTest, FoldingTurnsTheSignsOfRateAndCovariance) {
   // Cov(theta_1, r) and d theta_1 / dt are the same before and after.
   const double slope = limits.Slope(1, before.parameters[1]);
   const double folded = limits.Slope(1, belief.parameters[1]);
-  EXPECT_NEAR(folded * belief.P(7, 0), slope * before.P(7, 0), kRounding);
-  EXPECT_NEAR(folded * belief.P(kStates + 7, 0), slope * before.P(kStates + 7, 0), kRounding);
-  EXPECT_NEAR(folded * belief.rate[7], slope * before.rate[7], kRounding);
+  EXPECT_NEAR(folded * belief.P(7, 0), slope * before.P(7, 0), kMotionRounding);
+  EXPECT_NEAR(folded * belief.P(kStates + 7, 0), slope * before.P(kStates + 7, 0), kMotionRounding);
+  EXPECT_NEAR(folded * belief.rate[7], slope * before.rate[7], kMotionRounding);
   EXPECT_EQ(belief.P(7, kStates + 7), before.P(7, kStates + 7));
   EXPECT_EQ(belief.P, belief.P.transpose());
 }
@@ -198,11 +199,12 @@ TEST(BeliefTest, MoveTurnsInTheBodyOrAddsToRollPitchYaw) {
   Move(dx, RootParameters::kSo3, &so3);
   Move(dx, RootParameters::kRpy, &rpy);
   const Belief before = SomeBelief(false);
-  EXPECT_LT((so3.position - before.position - dx.head<3>()).norm(), kRounding);
+  EXPECT_LT((so3.position - before.position - dx.head<3>()).norm(), kMotionRounding);
   EXPECT_LT(so3.orientation.angularDistance(before.orientation * Exp(dx.segment<3>(3))), 1e-7);
-  EXPECT_LT((rpy.rpy - Eigen::Vector3d(0.3, 0.2, 0.1) - dx.segment<3>(3)).norm(), kRounding);
-  EXPECT_LT((rpy.orientation.toRotationMatrix() - RotationFromRpy(rpy.rpy)).norm(), kRounding);
-  EXPECT_LT((so3.parameters - before.parameters - dx.tail(kJoints)).norm(), kRounding);
+  EXPECT_LT((rpy.rpy - Eigen::Vector3d(0.3, 0.2, 0.1) - dx.segment<3>(3)).norm(), kMotionRounding);
+  EXPECT_LT((rpy.orientation.toRotationMatrix() - RotationFromRpy(rpy.rpy)).norm(),
+            kMotionRounding);
+  EXPECT_LT((so3.parameters - before.parameters - dx.tail(kJoints)).norm(), kMotionRounding);
 }
 
 }  // namespace

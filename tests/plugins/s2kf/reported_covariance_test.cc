@@ -27,9 +27,9 @@ using Eigen::VectorXd;
 constexpr double kFrame = 0.01;  // [s]
 
 /// A model in a posture, and what is said of it after frames in which its markers are measured.
-class Scene {
+class CovarianceScene {
  public:
-  explicit Scene(const KinematicModel& model, const S2kfSettings& settings = {})
+  explicit CovarianceScene(const KinematicModel& model, const S2kfSettings& settings = {})
       : markers_(Setup(model)), covariance_(markers_, settings) {
     std::mt19937 random(3);
     posture_ = testing::RandomPosture(markers_.kinematics(), 0.4, &random);
@@ -90,10 +90,10 @@ class Scene {
 
 TEST(ReportedCovarianceTest, ResidualsTellOffsetsFromWhiteNoise) {
   const KinematicModel model = ScaledReferenceModel(1.8);
-  Scene offsets(model);
+  CovarianceScene offsets(model);
   offsets.MoveMarkers(0.02);
   offsets.Look(200, 0.001);
-  Scene noise(model);
+  CovarianceScene noise(model);
   noise.Look(200, 0.02);
   EXPECT_GT(offsets.covariance().slow_variance(), 50 * offsets.covariance().white_variance());
   EXPECT_GT(noise.covariance().white_variance(), 5 * noise.covariance().slow_variance());
@@ -101,7 +101,7 @@ TEST(ReportedCovarianceTest, ResidualsTellOffsetsFromWhiteNoise) {
 
 // Deviations are those of one look, however long it lasts.
 TEST(ReportedCovarianceTest, TimeDoesNotMakeOffsetsBetterKnown) {
-  Scene scene(ScaledReferenceModel(1.8));
+  CovarianceScene scene(ScaledReferenceModel(1.8));
   scene.MoveMarkers(0.02);
   const VectorXd early = scene.Look(20, 0.0005);
   const VectorXd late = scene.Look(500, 0.0005);
@@ -110,7 +110,7 @@ TEST(ReportedCovarianceTest, TimeDoesNotMakeOffsetsBetterKnown) {
 
 TEST(ReportedCovarianceTest, DeviationsGrowWithTheOffsets) {
   const auto deviations_with = [](double offset) {
-    Scene scene(ScaledReferenceModel(1.8));
+    CovarianceScene scene(ScaledReferenceModel(1.8));
     scene.MoveMarkers(offset);
     return scene.Look(50, 0.0005);
   };
@@ -125,7 +125,7 @@ TEST(ReportedCovarianceTest, DeviationsGrowWithTheOffsets) {
 }
 
 TEST(ReportedCovarianceTest, AHiddenLimbIsLostWithTimeUpToItsRange) {
-  Scene scene(testing::MakeBranchedModel());
+  CovarianceScene scene(testing::MakeBranchedModel());
   const VectorXd seen = scene.Look(50, 0.001);
   const std::set<int> hidden = {10, 11};  // all of the joint "d_x"
   const int joint = scene.num_joints() - 1;
@@ -140,7 +140,7 @@ TEST(ReportedCovarianceTest, AHiddenLimbIsLostWithTimeUpToItsRange) {
 }
 
 TEST(ReportedCovarianceTest, UnseenJointsHaveTheDeviationOfTheirRange) {
-  Scene scene(testing::MakeBranchedModel());
+  CovarianceScene scene(testing::MakeBranchedModel());
   const std::set<int> hidden = {10, 11};
   const VectorXd deviations = scene.Look(20, 0.001, hidden);
   const int joint = scene.num_joints() - 1;
@@ -154,7 +154,7 @@ TEST(ReportedCovarianceTest, WhatTheSubjectLeavesUnknownCounts) {
     const KinematicModel model = testing::MakeBranchedModel();
     ModelDescription known{model.name(), model.segments(), model.markers(), model.node_sets()};
     for (ModelMarker& marker : known.markers) marker.deviation = deviation;
-    return Scene(KinematicModel(known)).Look(50, 0.001);
+    return CovarianceScene(KinematicModel(known)).Look(50, 0.001);
   };
   const VectorXd well = deviations_with(0.001);
   EXPECT_TRUE((deviations_with(0.02).array() > 1.2 * well.array()).all());

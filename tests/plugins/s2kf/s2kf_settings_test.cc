@@ -54,7 +54,7 @@ TEST(S2kfSettingsTest, WhatCanNotBeIsAnErrorWithItsLine) {
 
 TEST(S2kfSettingsTest, ThePapersConfigurationIsThePapers) {
   const S2kfSettings paper = PaperSettings();
-  constexpr double kFrame = 0.01;  // [s]
+  constexpr double kPaperFrame = 0.01;  // [s]
   EXPECT_EQ(paper.filter, FilterType::kS2kf);
   EXPECT_EQ(paper.samples, 301);
   EXPECT_EQ(paper.update, UpdateForm::kExact);
@@ -66,9 +66,9 @@ TEST(S2kfSettingsTest, ThePapersConfigurationIsThePapers) {
   EXPECT_EQ(paper.natural_spread, 0);
   EXPECT_EQ(paper.robust_distance, 0);
   // 25 mm^2, 1e-10 rad^2 and 1e-4 mm^2, to the rounding of their roots.
-  EXPECT_NEAR(paper.noise.position * paper.noise.position * kFrame, 25e-6, 1e-18);
-  EXPECT_NEAR(paper.noise.orientation * paper.noise.orientation * kFrame, 1e-10, 1e-23);
-  EXPECT_NEAR(paper.noise.parameters * paper.noise.parameters * kFrame, 1e-10, 1e-23);
+  EXPECT_NEAR(paper.noise.position * paper.noise.position * kPaperFrame, 25e-6, 1e-18);
+  EXPECT_NEAR(paper.noise.orientation * paper.noise.orientation * kPaperFrame, 1e-10, 1e-23);
+  EXPECT_NEAR(paper.noise.parameters * paper.noise.parameters * kPaperFrame, 1e-10, 1e-23);
   EXPECT_NEAR(paper.marker_deviation * paper.marker_deviation, 1e-10, 1e-23);
 }
 

@@ -22,7 +22,7 @@ namespace mmm_converter::s2kf {
 
 namespace {
 
-constexpr double kHeight = 1.8;  // [m]
+constexpr double kSessionHeight = 1.8;  // [m]
 constexpr double kHiddenShare = 0.1;
 constexpr double kHiddenFrames = 30;  // of a block, in the mean
 constexpr double kCalibrationSeconds = 40;
@@ -93,7 +93,7 @@ std::vector<NamedMotion> SessionMotions(const KinematicModel& model, int frames,
 
 Session::Session(std::uint64_t number)
     : seed(number),
-      model(testing::ScaledReferenceModel(kHeight)),
+      model(testing::ScaledReferenceModel(kSessionHeight)),
       person(FitToSubject(
           model, testing::DrawPerson(model, seed,
                                      0.020 + 0.008 * SeededRandom(seed + 1000000).Uniform()))),

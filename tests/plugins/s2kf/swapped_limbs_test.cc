@@ -39,8 +39,8 @@ MarkerSequence SwapLimb(MarkerSequence markers, const std::vector<std::string>& 
 }
 
 /// A cartwheel of a person whom the model does not know, or whom it knows exactly.
-struct Scene {
-  explicit Scene(bool is_exact, std::uint64_t seed) {
+struct SwapScene {
+  explicit SwapScene(bool is_exact, std::uint64_t seed) {
     const KinematicModel person =
         is_exact ? model : FitToSubject(model, testing::DrawPerson(model, seed));
     const MarkerErrors errors = {0, is_exact ? 0 : 0.004, 0.3, 0.0005};
@@ -75,7 +75,7 @@ struct Scene {
 class SwappedLimbTest : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SwappedLimbTest, CostsNothingThoughATenthIsHidden) {
-  const Scene scene(false, 1);
+  const SwapScene scene(false, 1);
   const S2kfSettings settings = Preset(GetParam());
   const ConversionResult clean = scene.Convert(settings, scene.markers);
   for (const auto& limb : {kLeg, kArm}) {
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Presets, SwappedLimbTest, ::testing::Values("default", 
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(SwappedBackTest, LabelsThatAreRightAgainDoNotStayExchanged) {
-  const Scene scene(true, 1);
+  const SwapScene scene(true, 1);
   const ConversionResult clean = scene.Convert({}, scene.markers);
   for (int begin = 40; begin < 220; begin += 20) {
     const int end = begin + 30;
@@ -109,7 +109,7 @@ TEST(SwappedBackTest, LabelsThatAreRightAgainDoNotStayExchanged) {
 }
 
 TEST(SwappedBackTest, TheProcessNoiseIsThatOfTheMotion) {
-  const Scene scene(false, 1);
+  const SwapScene scene(false, 1);
   const S2kfSettings settings = Preset("offline");
   const double clean = scene.Convert(settings, scene.markers).process_noise_scale.value();
   const MarkerSequence seen = SwapLimb(scene.markers, kArm, 100, 100 + kSecond);
@@ -118,7 +118,7 @@ TEST(SwappedBackTest, TheProcessNoiseIsThatOfTheMotion) {
 
 TEST(MissingAtTheStartTest, TheTrackIsTheSameASecondAfterTheMarkersAreThere) {
   constexpr int kMissing = 50;
-  const Scene scene(false, 1);
+  const SwapScene scene(false, 1);
   const ConversionResult clean = scene.Convert({}, scene.markers);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     MarkerSequence seen = scene.markers;

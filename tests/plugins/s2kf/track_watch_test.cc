@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The watch by itself: distances and gaps in, doubt out.
 #include "plugins/s2kf/track_watch.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +10,15 @@
 namespace mmm_converter::s2kf {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDt = 0.01;
-constexpr int kMarkers = 6;
+constexpr int kWatchedMarkers = 6;
 constexpr double kUsual = 0.030;  // [m]
 /// Frames for which a cause of doubt lasts.
 constexpr int kDoubtFrames = 20;
 
 class TrackWatchTest : public ::testing::Test {
  protected:
-  TrackWatchTest() { watch_.Start(kMarkers, kUsual, &state_); }
+  TrackWatchTest() { watch_.Start(kWatchedMarkers, kUsual, &state_); }
 
   bool IsInDoubt(double distance) { return watch_.IsInDoubt(z_, distance, kDt, &state_); }
 
@@ -39,7 +39,7 @@ class TrackWatchTest : public ::testing::Test {
   S2kfSettings settings_;
   TrackWatch watch_{settings_};
   TrackWatch::State state_;
-  Eigen::Matrix3Xd z_ = Eigen::Matrix3Xd::Zero(3, kMarkers);
+  Eigen::Matrix3Xd z_ = Eigen::Matrix3Xd::Zero(3, kWatchedMarkers);
 };
 
 TEST_F(TrackWatchTest, ANewTrackIsInDoubtForTwentyFrames) {

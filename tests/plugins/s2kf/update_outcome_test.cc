@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an update leaves behind, against dense matrices: z = h + J dx + v at the prior's posture.
 #include "plugins/s2kf/update_outcome.h"
+#include "common/support/units.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,6 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Relative, of products and solves of some 20 states and 36 coordinates with P spread over 1e-4 to
 // 1e-8.
 constexpr double kRounding = 1e-9;

@@ -18,10 +18,10 @@ namespace {
 // Persons whose lengths are off by up to 5 % and whose markers sit 28 mm off on each axis. Lengths
 // alone leave 15 to 20 mm.
 TEST(PersonHeight, IsNearAndHonestOverManyPersons) {
-  constexpr double kHeight = 1.8;  // [m]
+  constexpr double kPersonHeight = 1.8;  // [m]
   constexpr int kPersons = 20;
   const KinematicModel reference = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
-  const KinematicModel model = testing::ScaledReferenceModel(kHeight);
+  const KinematicModel model = testing::ScaledReferenceModel(kPersonHeight);
   const std::vector<int> joints = testing::TrackedJoints(model);
   for (const bool is_cartwheel : {false, true}) {
     double squares = 0;
@@ -35,7 +35,7 @@ TEST(PersonHeight, IsNearAndHonestOverManyPersons) {
       const MarkerSequence recording = testing::RecordPerson(person, motion, seed);
       const PersonHeight estimate = EstimatePersonHeight(
           testing::SetupOf(reference, joints, testing::AssignAll(reference, recording)), recording);
-      const double error = std::abs(estimate.height - kHeight);
+      const double error = std::abs(estimate.height - kPersonHeight);
       squares += error * error;
       worst = std::max(worst, error);
       within_one += error < estimate.deviation ? 1 : 0;

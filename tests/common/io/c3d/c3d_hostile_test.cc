@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 
 std::string TempPath() { return testing::TestFolder() + "/hostile.c3d"; }
 
-std::string WriteTemp(const std::string& content) {
+std::string WriteHostile(const std::string& content) {
   std::string path = TempPath();
   std::filesystem::remove(path);  // to overwrite a file makes some file systems wait for the disk
   std::ofstream(path, std::ios::binary)
@@ -43,7 +43,7 @@ std::string Synthetic(const std::string& name) {
 /// Frames read from these bytes; -1 where they are refused. Anything but an Error fails the test.
 int FramesRead(const std::string& content) {
   try {
-    const Recording recording = ReadRecording(WriteTemp(content), {});
+    const Recording recording = ReadRecording(WriteHostile(content), {});
     // Every coordinate comes from at least two bytes of the file.
     EXPECT_LE(recording.markers.num_frames() * std::uint64_t{6} * recording.markers.num_labels(),
               content.size());
@@ -54,9 +54,9 @@ int FramesRead(const std::string& content) {
   }
 }
 
-std::string MessageOf(const std::string& content) {
+std::string C3dMessageOf(const std::string& content) {
   try {
-    ReadRecording(WriteTemp(content), {});
+    ReadRecording(WriteHostile(content), {});
   } catch (const Error& error) {
     return error.what();
   }
@@ -100,11 +100,11 @@ TEST(HostileC3d, IsCutAnywhere) {
 
 TEST(HostileC3d, SaysWhereItIsCut) {
   const std::string file = SmallFile();
-  EXPECT_THAT(MessageOf(""), HasSubstr("empty"));
-  EXPECT_THAT(MessageOf(file.substr(0, 132)), HasSubstr("truncated: 132 bytes end before"));
-  EXPECT_THAT(MessageOf(file.substr(0, 511)), HasSubstr("truncated: 511 bytes end before"));
-  EXPECT_THAT(MessageOf(file.substr(0, 512)), HasSubstr("truncated: 512 bytes end before"));
-  EXPECT_THAT(MessageOf(file.substr(0, 1024)), HasSubstr("no whole frame"));
+  EXPECT_THAT(C3dMessageOf(""), HasSubstr("empty"));
+  EXPECT_THAT(C3dMessageOf(file.substr(0, 132)), HasSubstr("truncated: 132 bytes end before"));
+  EXPECT_THAT(C3dMessageOf(file.substr(0, 511)), HasSubstr("truncated: 511 bytes end before"));
+  EXPECT_THAT(C3dMessageOf(file.substr(0, 512)), HasSubstr("truncated: 512 bytes end before"));
+  EXPECT_THAT(C3dMessageOf(file.substr(0, 1024)), HasSubstr("no whole frame"));
 }
 
 TEST(HostileC3d, HasFlippedBytes) {
@@ -166,7 +166,7 @@ TEST(HostileC3d, ContradictsItself) {
   EXPECT_EQ(FramesRead(file), 6);
   file = good;
   PutWord(&file, 3, 65535);  // analog samples: not one frame is left
-  EXPECT_THAT(MessageOf(file), HasSubstr("no whole frame"));
+  EXPECT_THAT(C3dMessageOf(file), HasSubstr("no whole frame"));
 }
 
 TEST(HostileC3d, HasNoRate) {
@@ -177,7 +177,7 @@ TEST(HostileC3d, HasNoRate) {
     PutFloat(&file, DataOf(file, "RATE"), rate);
     EXPECT_EQ(FramesRead(file), 6);  // the header's
     PutFloat(&file, 20, rate);
-    EXPECT_THAT(MessageOf(file), HasSubstr("no frame rate"));
+    EXPECT_THAT(C3dMessageOf(file), HasSubstr("no frame rate"));
     EXPECT_EQ(ReadRecording(TempPath(), {.rate = 50}).markers.rate(), 50);
   }
 }
@@ -200,7 +200,7 @@ TEST(HostileC3d, MarksMissingPointsInEveryWay) {
     PutFloat(&file, data + 4, p.y);
     PutFloat(&file, data + 8, p.z);
     PutFloat(&file, data + 12, p.word);
-    C3dReader reader(WriteTemp(file));
+    C3dReader reader(WriteHostile(file));
     EXPECT_EQ(IsSeen(reader.ReadPoints({0}, {"C7"}, 100).frame(0).col(0)), p.seen)
         << p.x << " " << p.y << " " << p.z << " " << p.word;
     const bool by_position = std::isfinite(p.x) && p.x < 1e6 && (p.x != 0 || p.z != 0);
@@ -214,7 +214,7 @@ TEST(HostileC3d, StartsWithZerosOrMarksAllPointsInvalid) {
   std::string file = good;
   const std::size_t data = 512 * (static_cast<unsigned char>(good[16]) - 1);
   for (int i = 0; i < 24; ++i) PutFloat(&file, data + 16 * i + 12, -1);
-  EXPECT_THAT(MessageOf(file), HasSubstr("ignore the marks"));
+  EXPECT_THAT(C3dMessageOf(file), HasSubstr("ignore the marks"));
   EXPECT_EQ(ReadRecording(TempPath(), {.ignore_residuals = true}).markers.num_frames(), 6);
 }
 

@@ -55,7 +55,7 @@ MmmMotionOutput Output(const PoseTrajectory& trajectory, const std::string& name
   return output;
 }
 
-std::string MessageOf(const std::string& content, const std::string& name) {
+std::string EditMessageOf(const std::string& content, const std::string& name) {
   const PoseTrajectory trajectory = OneFrame();
   try {
     Join(WithConvertedMotions(BytesOf(content), "walk.xml", {Output(trajectory, name)}));
@@ -128,17 +128,17 @@ TEST(MmmMotionEdit, FillsWhatIsMissing) {
 }
 
 TEST(MmmMotionEdit, SaysWhyItCannot) {
-  EXPECT_THAT(MessageOf(kFile, "nobody"),
+  EXPECT_THAT(EditMessageOf(kFile, "nobody"),
               HasSubstr("walk.xml: has no motion \"nobody\"; its motions are: cup, human"));
-  EXPECT_THAT(MessageOf("<MMM><Motion name='a'><Sensors/></Motion>\n"
-                        "<Motion name='a'><Sensors/></Motion></MMM>",
-                        "a"),
+  EXPECT_THAT(EditMessageOf("<MMM><Motion name='a'><Sensors/></Motion>\n"
+                            "<Motion name='a'><Sensors/></Motion></MMM>",
+                            "a"),
               HasSubstr("walk.xml:2: a second motion \"a\""));
-  EXPECT_THAT(MessageOf("<MMM><Motion name='a'><MotionFrames/></Motion></MMM>", "a"),
+  EXPECT_THAT(EditMessageOf("<MMM><Motion name='a'><MotionFrames/></Motion></MMM>", "a"),
               HasSubstr("has no <Sensors>"));
-  EXPECT_THAT(MessageOf("<MMM><Motion name='a'/></MMM>", "a"), HasSubstr("has no <Sensors>"));
-  EXPECT_THAT(MessageOf("<Robot/>", "a"), HasSubstr("the root is <Robot>"));
-  EXPECT_THAT(MessageOf("<MMM>", "a"), HasSubstr("not well-formed"));
+  EXPECT_THAT(EditMessageOf("<MMM><Motion name='a'/></MMM>", "a"), HasSubstr("has no <Sensors>"));
+  EXPECT_THAT(EditMessageOf("<Robot/>", "a"), HasSubstr("the root is <Robot>"));
+  EXPECT_THAT(EditMessageOf("<MMM>", "a"), HasSubstr("not well-formed"));
 }
 
 // Where a damaged file is still XML, the edited one is XML too.

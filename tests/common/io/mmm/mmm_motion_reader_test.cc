@@ -18,7 +18,7 @@ using ::testing::SizeIs;
 // Decimal text times 0.001 is off by a rounding error of double precision at most.
 constexpr double kRounding = 1e-12;
 
-std::string MessageOf(const std::string& xml) {
+std::string MotionMessageOf(const std::string& xml) {
   try {
     ParseMmmMotionFile(xml, "walk.xml");
   } catch (const Error& error) {
@@ -213,7 +213,7 @@ TEST(MmmMotionReader, MarkerSensorsAreMerged) {
 }
 
 TEST(MmmMotionReader, NamesFileAndLineOfEveryProblem) {
-  const std::string message = MessageOf(
+  const std::string message = MotionMessageOf(
       "<MMM>\n<Motion name='a'>\n<ModelProcessorConfig><Height>tall</Height>\n"
       "<Mass>-1</Mass></ModelProcessorConfig>\n"
       "<JointOrder><Joint name='j'/><Joint name='k'/>\n<Joint name='j'/></JointOrder>\n"
@@ -230,7 +230,7 @@ TEST(MmmMotionReader, NamesFileAndLineOfEveryProblem) {
   EXPECT_THAT(message, HasSubstr("walk.xml:10: the time -1 s comes after 0 s"));
   EXPECT_THAT(message, HasSubstr("walk.xml:11: <MotionFrame> has no <Timestep>"));
 
-  const std::string markers = MessageOf(
+  const std::string markers = MotionMessageOf(
       Markers(Marker("0", "A", "1 2 3x") + Marker("0", "A", "") + Marker("inf", "A", "1 2 3") +
               "<Measurement><MarkerPosition name='A'>1 2 3</MarkerPosition></Measurement>\n"
               "<Measurement timestep='1'><MarkerPosition name='A'>1 2 3</MarkerPosition>"
@@ -242,11 +242,11 @@ TEST(MmmMotionReader, NamesFileAndLineOfEveryProblem) {
 }
 
 TEST(MmmMotionReader, RejectsWhatIsNoMotion) {
-  EXPECT_THAT(MessageOf("C3D, not XML"), HasSubstr("walk.xml:"));
-  EXPECT_THAT(MessageOf("<Robot><RobotNode/></Robot>"), HasSubstr("this is a model"));
-  EXPECT_THAT(MessageOf("<MMM/>"), HasSubstr("there is no <Motion>"));
-  EXPECT_THAT(MessageOf(Motion2("<Sensor/>")), HasSubstr("walk.xml:2: <Sensor> has no type"));
-  EXPECT_EQ(MessageOf("<MMM><Motion/></MMM>"), "no error");
+  EXPECT_THAT(MotionMessageOf("C3D, not XML"), HasSubstr("walk.xml:"));
+  EXPECT_THAT(MotionMessageOf("<Robot><RobotNode/></Robot>"), HasSubstr("this is a model"));
+  EXPECT_THAT(MotionMessageOf("<MMM/>"), HasSubstr("there is no <Motion>"));
+  EXPECT_THAT(MotionMessageOf(Motion2("<Sensor/>")), HasSubstr("walk.xml:2: <Sensor> has no type"));
+  EXPECT_EQ(MotionMessageOf("<MMM><Motion/></MMM>"), "no error");
   EXPECT_TRUE(LooksLikeMmmMotion("\xEF\xBB\xBF<?xml version='1.0'?>\n<!-- <a> -->\n<MMM>"));
   EXPECT_TRUE(LooksLikeMmmMotion("<mmm version='2.0'>"));
   EXPECT_FALSE(LooksLikeMmmMotion("<MMMModel>"));
@@ -259,15 +259,15 @@ TEST(MmmMotionReader, HugeGapsDoNotTakeMemory) {
   const std::string two = Markers(Marker("0", "A", "1 2 3") + Marker("1e9", "A", "1 2 3"));
   EXPECT_EQ(ParseMmmMotionFile(two, "walk.xml").motions[0].markers.num_frames(), 2);
   for (const char* const far : {"1e9", "1e18", "1e300"}) {
-    EXPECT_THAT(MessageOf(Markers(Marker("0", "A", "1 2 3") + Marker("0.01", "A", "1 2 3") +
-                                  Marker(far, "A", "1 2 3"))),
+    EXPECT_THAT(MotionMessageOf(Markers(Marker("0", "A", "1 2 3") + Marker("0.01", "A", "1 2 3") +
+                                        Marker(far, "A", "1 2 3"))),
                 HasSubstr("more than such a file can need"));
   }
   // Each frame with a label of its own: quadratic, were it not for the budget.
   std::string rare;
   for (int i = 0; i < 3000; ++i)
     rare += Marker(std::to_string(i), "m" + std::to_string(i), "1 2 3");
-  EXPECT_THAT(MessageOf(Markers(rare)), HasSubstr("more than such a file can need"));
+  EXPECT_THAT(MotionMessageOf(Markers(rare)), HasSubstr("more than such a file can need"));
   std::string joints;
   for (int i = 0; i < 10000; ++i) joints += "<Joint name='" + std::to_string(i) + "'/>";
   std::string angles;
@@ -285,7 +285,7 @@ TEST(MmmMotionReader, TruncatedRealFilesAreErrors) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string content = ReadFileContent(testing::WavingFile());
   for (int part = 1; part < 40; ++part) {
-    EXPECT_THAT(MessageOf(content.substr(0, content.size() * part / 40)),
+    EXPECT_THAT(MotionMessageOf(content.substr(0, content.size() * part / 40)),
                 HasSubstr("not well-formed XML"));
   }
 }

@@ -41,7 +41,7 @@ std::string MessageOf(const std::string& path, const ReadRecordingOptions& optio
   return "no error";
 }
 
-std::string WriteTemp(const std::string& name, const std::string& content) {
+std::string WriteRecording(const std::string& name, const std::string& content) {
   std::string path = testing::TestFolder() + "/" + name;
   std::ofstream(path, std::ios::binary) << content;
   return path;
@@ -339,16 +339,17 @@ TEST(Recording, ReadsMarkersOfMmmMotions) {
 TEST(Recording, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(MessageOf("/no/such/file.c3d"), HasSubstr("no such file"));
   EXPECT_THAT(MessageOf(testing::TestFolder()), HasSubstr("is a folder"));
-  EXPECT_THAT(MessageOf(WriteTemp("empty.c3d", "")), HasSubstr("the file is empty"));
-  EXPECT_THAT(MessageOf(WriteTemp("text.c3d", "hello\n")), HasSubstr("is text, but neither"));
-  EXPECT_THAT(
-      MessageOf(WriteTemp("lfs.c3d", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")),
-      HasSubstr("Git LFS pointer"));
-  EXPECT_THAT(MessageOf(WriteTemp("page.c3d", "<!DOCTYPE html><html></html>")),
+  EXPECT_THAT(MessageOf(WriteRecording("empty.c3d", "")), HasSubstr("the file is empty"));
+  EXPECT_THAT(MessageOf(WriteRecording("text.c3d", "hello\n")), HasSubstr("is text, but neither"));
+  EXPECT_THAT(MessageOf(WriteRecording(
+                  "lfs.c3d", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")),
+              HasSubstr("Git LFS pointer"));
+  EXPECT_THAT(MessageOf(WriteRecording("page.c3d", "<!DOCTYPE html><html></html>")),
               HasSubstr("root <html>, not an MMM motion"));
-  EXPECT_THAT(MessageOf(WriteTemp("zeros.c3d", std::string(2000, '\0'))),
+  EXPECT_THAT(MessageOf(WriteRecording("zeros.c3d", std::string(2000, '\0'))),
               HasSubstr("not a C3D file"));
-  EXPECT_THAT(MessageOf(WriteTemp("packed.c3d", "\x1f\x8b\x08\x01")), HasSubstr("not a C3D file"));
+  EXPECT_THAT(MessageOf(WriteRecording("packed.c3d", "\x1f\x8b\x08\x01")),
+              HasSubstr("not a C3D file"));
 }
 
 }  // namespace

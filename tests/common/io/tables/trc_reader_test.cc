@@ -23,7 +23,7 @@ const char kHeader[] =
     "100\t100\t2\t2\tmm\t100\t1\t2\n";
 const char kLabels[] = "Frame#\tTime\tC7\t\t\tR Knee\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n";
 
-std::string MessageOf(const std::string& text) {
+std::string TrcMessageOf(const std::string& text) {
   try {
     ParseTrc(text, "walk.trc");
   } catch (const Error& error) {
@@ -88,11 +88,11 @@ TEST(TrcReader, PrefersTheTimeColumnToAWrongRate) {
 }
 
 TEST(TrcReader, SaysWhatIsMissing) {
-  EXPECT_THAT(MessageOf(kHeader), HasSubstr("without the line Frame#"));
-  EXPECT_THAT(MessageOf(std::string(kHeader) + "Frame#\tTime\n1\t0\n"),
+  EXPECT_THAT(TrcMessageOf(kHeader), HasSubstr("without the line Frame#"));
+  EXPECT_THAT(TrcMessageOf(std::string(kHeader) + "Frame#\tTime\n1\t0\n"),
               HasSubstr("without marker labels"));
-  EXPECT_THAT(MessageOf(std::string(kHeader) + kLabels), HasSubstr("without rows"));
-  EXPECT_THAT(MessageOf("Frame#\tTime\tA\n1\t0\t1\t2\t3\n"), HasSubstr("no frame rate"));
+  EXPECT_THAT(TrcMessageOf(std::string(kHeader) + kLabels), HasSubstr("without rows"));
+  EXPECT_THAT(TrcMessageOf("Frame#\tTime\tA\n1\t0\t1\t2\t3\n"), HasSubstr("no frame rate"));
 }
 
 TEST(TrcReader, DoesNotAllocateForCellsThatAreNotThere) {
@@ -100,7 +100,7 @@ TEST(TrcReader, DoesNotAllocateForCellsThatAreNotThere) {
   for (int i = 0; i < 20000; ++i) text += "\tM" + std::to_string(i) + "\t\t";
   text += '\n';
   for (int k = 0; k < 20000; ++k) text += "1\t" + std::to_string(k) + "\n";
-  EXPECT_THAT(MessageOf(text), HasSubstr("rows are too short"));
+  EXPECT_THAT(TrcMessageOf(text), HasSubstr("rows are too short"));
 }
 
 TEST(TrcReader, ReadsRealFiles) {

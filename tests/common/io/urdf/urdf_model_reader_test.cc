@@ -24,7 +24,7 @@ using ::testing::IsEmpty;
 using testing::SourcePath;
 
 // Sums and products of a few numbers of order 1.
-constexpr double kRounding = 1e-14;
+constexpr double kUrdfRounding = 1e-14;
 
 std::string Humanoid() { return SourcePath("tests/support/humanoid.urdf"); }
 
@@ -43,7 +43,7 @@ std::string Hinge(const std::string& type, const std::string& more) {
   return Robot("<link name='a'/><link name='b'/>\n" + Joint("j", type, "a", "b", more));
 }
 
-std::string MessageOf(const std::string& urdf) {
+std::string UrdfMessageOf(const std::string& urdf) {
   ::testing::internal::CaptureStderr();
   std::string message = "no error";
   try {
@@ -78,7 +78,7 @@ TEST(UrdfModel, HasTreeLimitsMassesAndMarkers) {
   EXPECT_EQ(model.segments()[0].p_SB, Eigen::Vector3d(0.1, 0, 0));
   Eigen::Matrix3d turned;  // by a quarter about z: x is y, y is -x
   turned << 2, -0.1, -0.3, -0.1, 1, 0.2, -0.3, 0.2, 2.5;
-  EXPECT_TRUE(model.segments()[0].inertia.isApprox(turned, kRounding));
+  EXPECT_TRUE(model.segments()[0].inertia.isApprox(turned, kUrdfRounding));
   ASSERT_EQ(model.num_joints(), 1);
   EXPECT_EQ(model.joint(0).name, "shoulder");
   EXPECT_EQ(model.joint(0).lower, -1);
@@ -89,7 +89,7 @@ TEST(UrdfModel, HasTreeLimitsMassesAndMarkers) {
   Posture posture;
   posture.joint_angles = Eigen::VectorXd::Constant(1, EIGEN_PI / 2);
   EXPECT_TRUE(
-      MarkerPositions(model, posture).col(0).isApprox(Eigen::Vector3d(0, 0.5, 1), kRounding));
+      MarkerPositions(model, posture).col(0).isApprox(Eigen::Vector3d(0, 0.5, 1), kUrdfRounding));
   EXPECT_EQ(read.segment_of_link.at("arm"), "shoulder");
   EXPECT_THAT(warnings.texts(), IsEmpty());
 }
@@ -120,7 +120,7 @@ TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
   EXPECT_EQ(held("prismatic", limit + "lower='0.2' upper='1'/>").translation().z(), 0.2);
   EXPECT_EQ(held("prismatic", limit + "lower='-1' upper='1'/>").translation().z(), 0);
   const Eigen::Isometry3d X = held("revolute", limit + "lower='0.5' upper='0.5'/>");
-  EXPECT_NEAR(Eigen::AngleAxisd(X.linear()).angle(), 0.5, kRounding);
+  EXPECT_NEAR(Eigen::AngleAxisd(X.linear()).angle(), 0.5, kUrdfRounding);
 }
 
 TEST(UrdfModel, MimicJointsAreHeldAndMarkersBelowThemLeftOut) {
@@ -134,7 +134,7 @@ TEST(UrdfModel, MimicJointsAreHeldAndMarkersBelowThemLeftOut) {
       "r.urdf", &warnings);
   ASSERT_EQ(read.model.num_joints(), 1);
   const Segment& held = read.model.segments()[read.model.FindSegment("j")];
-  EXPECT_NEAR(Eigen::AngleAxisd(held.X_PF.linear()).angle(), 0.3, kRounding);
+  EXPECT_NEAR(Eigen::AngleAxisd(held.X_PF.linear()).angle(), 0.3, kUrdfRounding);
   ASSERT_EQ(read.model.markers().size(), 1u);
   EXPECT_EQ(read.model.markers()[0].name, "L");
   EXPECT_THAT(warnings.texts(),
@@ -243,13 +243,14 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
       {Robot("<link NAME='a' name='b'/><Link name='c'/><Joint name='j'/>"), "no error"},
       {Robot("<link name='\xff'/>"), "use a name of letters"}};
   for (const auto& [urdf, message] : cases)
-    EXPECT_THAT(MessageOf(urdf), HasSubstr(message)) << urdf;
+    EXPECT_THAT(UrdfMessageOf(urdf), HasSubstr(message)) << urdf;
 }
 
 TEST(UrdfModel, DeepAndLongFilesEndWithAnError) {
   std::string deep;
   for (int i = 0; i < 200000; ++i) deep += "<a>";
-  EXPECT_THAT(MessageOf(Robot("<link name='a'>" + deep + "</link>")), HasSubstr("nested too deep"));
+  EXPECT_THAT(UrdfMessageOf(Robot("<link name='a'>" + deep + "</link>")),
+              HasSubstr("nested too deep"));
   std::string chain = "<link name='l0'/>";
   for (std::size_t i = 1; i < kMaxUrdfLinks; ++i) {
     const std::string name = "l" + std::to_string(i);
@@ -258,7 +259,7 @@ TEST(UrdfModel, DeepAndLongFilesEndWithAnError) {
   }
   EXPECT_EQ(ParseUrdfModel(Robot(chain), "r.urdf").model.num_joints(),
             static_cast<int>(kMaxUrdfLinks) - 1);
-  EXPECT_THAT(MessageOf(Robot(chain + "<link name='second root'/>")),
+  EXPECT_THAT(UrdfMessageOf(Robot(chain + "<link name='second root'/>")),
               HasSubstr("has 4097 links, more than the 4096"));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string MessageOf(const std::string& xml) {
+std::string XmlMessageOf(const std::string& xml) {
   try {
     ParseXml(xml, "walk.xml");
   } catch (const Error& error) {
@@ -40,17 +40,17 @@ TEST(XmlDocument, KeepsNamesAttributesTextChildrenAndLines) {
 }
 
 TEST(XmlDocument, SaysFileAndLineOfWhatIsWrong) {
-  EXPECT_THAT(MessageOf("<a>\n<b>\n</a>"),
+  EXPECT_THAT(XmlMessageOf("<a>\n<b>\n</a>"),
               HasSubstr("walk.xml:2: not well-formed XML: an element"));
-  EXPECT_THAT(MessageOf("<a>\n<b c=1/>\n</a>"), HasSubstr("walk.xml:2: not well-formed XML"));
-  EXPECT_THAT(MessageOf("<a/>\n<b/>"),
+  EXPECT_THAT(XmlMessageOf("<a>\n<b c=1/>\n</a>"), HasSubstr("walk.xml:2: not well-formed XML"));
+  EXPECT_THAT(XmlMessageOf("<a/>\n<b/>"),
               HasSubstr("walk.xml:2: not well-formed XML: <b> is a second"));
-  EXPECT_THAT(MessageOf("   "), HasSubstr("there is no element"));
-  EXPECT_THAT(MessageOf("just text"), HasSubstr("walk.xml:"));
-  EXPECT_THAT(MessageOf("<!-- nothing -->"), HasSubstr("there is no element"));
+  EXPECT_THAT(XmlMessageOf("   "), HasSubstr("there is no element"));
+  EXPECT_THAT(XmlMessageOf("just text"), HasSubstr("walk.xml:"));
+  EXPECT_THAT(XmlMessageOf("<!-- nothing -->"), HasSubstr("there is no element"));
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  EXPECT_THAT(MessageOf(deep), HasSubstr("nested too deeply"));
+  EXPECT_THAT(XmlMessageOf(deep), HasSubstr("nested too deeply"));
 }
 
 TEST(XmlDocument, SaysWhatIsWrongWithAFile) {

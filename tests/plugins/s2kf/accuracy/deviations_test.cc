@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kFirstPerson = 301;
 constexpr int kPersons = 20;
-constexpr int kFrames = 300;
+constexpr int kSessionFrames = 300;
 constexpr int kSettled = 25;
 
 /// The person as calibrated; kept, as both presets want it.
@@ -67,7 +67,7 @@ TEST_P(DeviationsTest, Uncalibrated) {
   Coverage coverage;
   for (int seed = kFirstPerson; seed < kFirstPerson + kPersons; ++seed) {
     const Session session(seed);
-    for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+    for (const NamedMotion& named : SessionMotions(session.model, kSessionFrames, seed)) {
       const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
       coverage.Add(session.model, session.joints, named.motion,
                    Convert(session.model, session.joints, seen), kSettled, seen.num_frames());
@@ -84,7 +84,7 @@ TEST_P(DeviationsTest, Calibrated) {
   for (int seed = kFirstPerson; seed < kFirstPerson + kPersons; ++seed) {
     const Session session(seed);
     const KinematicModel& known = Calibrated(session);
-    for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+    for (const NamedMotion& named : SessionMotions(session.model, kSessionFrames, seed)) {
       const MarkerSequence all = session.Record(named.motion);
       const MarkerSequence seen = HideBlocks(all, seed);
       coverage.Add(known, session.joints, named.motion, Convert(known, session.joints, seen),
@@ -108,7 +108,7 @@ TEST_P(DeviationsTest, ExactBody) {
   const KinematicModel model = ScaledReferenceModel(1.8);
   const std::vector<int> joints = testing::TrackedJoints(model);
   for (int seed = kFirstPerson; seed < kFirstPerson + kPersons; ++seed) {
-    for (const NamedMotion& named : SessionMotions(model, kFrames, seed)) {
+    for (const NamedMotion& named : SessionMotions(model, kSessionFrames, seed)) {
       const MarkerErrors errors = {0, 0, 0.3, S2kfSettings{}.marker_deviation};
       const MarkerSequence seen =
           HideBlocks(SynthesizeMarkers(model, named.motion, errors, seed), seed);

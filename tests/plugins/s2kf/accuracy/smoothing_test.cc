@@ -35,9 +35,9 @@ S2kfSettings WithoutSmoothing(S2kfSettings settings) {
 }
 
 /// A person, a motion and markers made from it.
-struct Scene {
-  Scene(PoseTrajectory trajectory, int num_joints, std::uint64_t seed,
-        const MarkerErrors& marker_errors = MarkerErrors{})
+struct SmoothedScene {
+  SmoothedScene(PoseTrajectory trajectory, int num_joints, std::uint64_t seed,
+                const MarkerErrors& marker_errors = MarkerErrors{})
       : motion(std::move(trajectory)),
         errors(marker_errors),
         joints(MotionJoints(model, num_joints)),
@@ -65,14 +65,18 @@ struct Scene {
   std::vector<MarkerAssignment> assignments;
 };
 
-PoseTrajectory Recorded(const std::string& file) {
+PoseTrajectory RecordedScene(const std::string& file) {
   return LowPassed(
       ReadMmmMotionFile(testing::SharedData("mmm/motions_legacy/" + file)).motions[0].trajectory);
 }
 
-Scene Walking() { return {Recorded("walking_medium01_motion395.xml"), 44, 1}; }
-Scene QuickMotion() { return {Recorded("test_mmm_subject314_40joints_100Hz.xml"), 40, 2}; }
-Scene Handstand() { return {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1}; }
+SmoothedScene Walking() { return {RecordedScene("walking_medium01_motion395.xml"), 44, 1}; }
+SmoothedScene SmoothedQuickMotion() {
+  return {RecordedScene("test_mmm_subject314_40joints_100Hz.xml"), 40, 2};
+}
+SmoothedScene SmoothedHandstand() {
+  return {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1};
+}
 
 MatrixXd Angles(const PoseTrajectory& trajectory) {
   MatrixXd angles(trajectory.joint_names.size(), trajectory.num_frames());
@@ -105,7 +109,7 @@ double LargestStep(const MatrixXd& angles, const MatrixXd& truth) {
 }
 
 /// The best posture of each frame by itself, from the frame before.
-MatrixXd FramewiseFit(const Scene& scene) {
+MatrixXd FramewiseFit(const SmoothedScene& scene) {
   const std::vector<LabelIx> labels = LabelIndices(scene.assignments);
   const MarkerKinematics kinematics(scene.model, scene.joints, MarkerIndices(scene.assignments));
   PostureFit fit(kinematics);
@@ -122,7 +126,7 @@ MatrixXd FramewiseFit(const Scene& scene) {
   return angles;
 }
 
-void ExpectInsideLimits(const Scene& scene, const PoseTrajectory& trajectory) {
+void ExpectInsideLimits(const SmoothedScene& scene, const PoseTrajectory& trajectory) {
   for (const Posture& q : trajectory.postures) {
     for (std::size_t j = 0; j < scene.joints.size(); ++j) {
       const Segment& joint = scene.model.joint(scene.joints[j]);
@@ -134,7 +138,7 @@ void ExpectInsideLimits(const Scene& scene, const PoseTrajectory& trajectory) {
 }
 
 /// What the markers of KIT's set determine well: shoulders, elbows, hips, knees in flexion and
-/// abduction. Recorded angles of necks, ankles' twists and toes jump, as no marker shows them.
+/// abduction. RecordedScene angles of necks, ankles' twists and toes jump, as no marker shows them.
 bool IsLarge(const std::string& joint) {
   const std::vector<std::string> names = {"LSx_joint", "LSy_joint", "RSx_joint", "RSy_joint",
                                           "LEx_joint", "REx_joint", "LHx_joint", "LHy_joint",
@@ -142,7 +146,7 @@ bool IsLarge(const std::string& joint) {
   return std::find(names.begin(), names.end(), joint) != names.end();
 }
 
-MatrixXd LargeJoints(const Scene& scene, const MatrixXd& values) {
+MatrixXd LargeJoints(const SmoothedScene& scene, const MatrixXd& values) {
   std::vector<int> rows;
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     if (IsLarge(scene.model.joint(scene.joints[j]).name)) rows.push_back(static_cast<int>(j));
@@ -157,7 +161,7 @@ struct Figures {
   double step = 0;          // LargestStep
 };
 
-Figures Measure(const std::string& name, const Scene& scene) {
+Figures Measure(const std::string& name, const SmoothedScene& scene) {
   const ConversionResult smoothed = scene.Convert(OfflineSettings(), scene.markers);
   S2kfSettings settings = WithoutSmoothing(OfflineSettings());
   settings.choose_process_noise_scale = false;
@@ -192,7 +196,7 @@ Figures Measure(const std::string& name, const Scene& scene) {
 // The errors of calibrated markers: soft tissue and noise.
 const MarkerErrors kCalibrated = {0, 0.004, 0.25, 0.0001};
 
-TEST(SmoothingTest, Handstand) { Measure("handstand", Handstand()); }
+TEST(SmoothingTest, SmoothedHandstand) { Measure("handstand", SmoothedHandstand()); }
 
 TEST(SmoothingTest, Cartwheel) {
   Measure("cartwheel", {MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
@@ -205,23 +209,23 @@ TEST(SmoothingTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
   EXPECT_NEAR(raw.jitter_large, 1, 0.2);
   EXPECT_LE(raw.step, 0.05);
   const Figures calibrated = Measure(
-      "walking, calibrated", {Recorded("walking_medium01_motion395.xml"), 44, 1, kCalibrated});
+      "walking, calibrated", {RecordedScene("walking_medium01_motion395.xml"), 44, 1, kCalibrated});
   EXPECT_NEAR(calibrated.jitter_large, 1, 0.2);
   EXPECT_LE(calibrated.step, 0.05);
 }
 
 TEST(SmoothingTest, QuickMotionIsAsSmoothAsTheTruthWhereMarkersShowIt) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
-  const Figures raw = Measure("quick motion", QuickMotion());
+  const Figures raw = Measure("quick motion", SmoothedQuickMotion());
   EXPECT_NEAR(raw.jitter_large, 1, 0.2);
   const Figures calibrated =
       Measure("quick motion, calibrated",
-              {Recorded("test_mmm_subject314_40joints_100Hz.xml"), 40, 2, kCalibrated});
+              {RecordedScene("test_mmm_subject314_40joints_100Hz.xml"), 40, 2, kCalibrated});
   EXPECT_NEAR(calibrated.jitter_large, 1, 0.2);
 }
 
 /// Exactly half of all markers hidden throughout; distances to all of them.
-void ExpectHalfHiddenIsBorne(const std::string& name, const Scene& scene) {
+void ExpectHalfHiddenIsBorne(const std::string& name, const SmoothedScene& scene) {
   const MarkerSequence seen = OccludeShare(scene.markers, 0.5, 100, 1);
   const ConversionResult result = scene.Convert(OfflineSettings(), seen);
   double mean = 0;
@@ -252,11 +256,11 @@ TEST(SmoothingTest, HalfOfTheMarkersHiddenOnTheHandstand) {
 TEST(SmoothingTest, HalfOfTheMarkersHiddenWhileWalking) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   ExpectHalfHiddenIsBorne("walking",
-                          {Recorded("walking_medium01_motion395.xml"), 44, 1, kCalibrated});
+                          {RecordedScene("walking_medium01_motion395.xml"), 44, 1, kCalibrated});
 }
 
 TEST(SmoothingTest, TheResultDoesNotDependOnTheChunks) {
-  const Scene scene = Handstand();
+  const SmoothedScene scene = SmoothedHandstand();
   const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 100), 0.3, 20, 1);
   S2kfSettings settings = OfflineSettings();
   settings.choose_process_noise_scale = false;
@@ -271,7 +275,7 @@ TEST(SmoothingTest, TheResultDoesNotDependOnTheChunks) {
 }
 
 TEST(SmoothingTest, EndsWithTheFilterAndIsMoreCertainBefore) {
-  const Scene scene = Handstand();
+  const SmoothedScene scene = SmoothedHandstand();
   S2kfSettings settings = OfflineSettings();
   settings.choose_process_noise_scale = false;
   const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 300), 0.3, 50, 1);
@@ -287,7 +291,7 @@ TEST(SmoothingTest, EndsWithTheFilterAndIsMoreCertainBefore) {
 }
 
 TEST(SmoothingTest, LeadingFramesWithoutMarkersTakeTheFirstSmoothedPosture) {
-  const Scene scene = Handstand();
+  const SmoothedScene scene = SmoothedHandstand();
   const MarkerSequence seen = HideAllMarkers(scene.markers.Slice(0, 80), 0, 10);
   const ConversionResult result = scene.Convert(OfflineSettings(), seen);
   for (int k = 0; k < 10; ++k) {
@@ -297,7 +301,7 @@ TEST(SmoothingTest, LeadingFramesWithoutMarkersTakeTheFirstSmoothedPosture) {
 }
 
 TEST(SmoothingTest, OneAndTwoFrames) {
-  const Scene scene = Handstand();
+  const SmoothedScene scene = SmoothedHandstand();
   for (const int frames : {1, 2}) {
     const ConversionResult result =
         scene.Convert(OfflineSettings(), scene.markers.Slice(0, frames));
