@@ -9,6 +9,8 @@
 
 #include "common/io/mmm/subject_file.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -53,6 +55,32 @@ void CheckOnePerson(const CalibrationRequest& request,
   }
 }
 
+// Markers that are not the person's draw the body out of all proportion.
+void CheckProportions(const Subject& subject) {
+  std::vector<std::string> segments;
+  for (const SegmentScale& scale : subject.scales) {
+    if (scale.scale < kLeastSegmentScale || scale.scale > kLargestSegmentScale) {
+      segments.push_back(scale.segment);
+    }
+  }
+  std::vector<std::string> markers;
+  for (const MarkerOffset& offset : subject.offsets) {
+    if (offset.offset.cwiseAbs().maxCoeff() > kLargestMarkerOffset)
+      markers.push_back(offset.marker);
+  }
+  if (segments.empty() && markers.empty()) return;
+  throw Error(
+      markers.empty()
+          ? fmt::format("no person has these proportions: with segments between half and twice the "
+                        "model's length, {} do not fit the markers; check unit, height and labels",
+                        FirstNames(segments))
+          : fmt::format("the recordings are not of one person with these labels: {} of {} markers "
+                        "would sit more than {:.0f} mm from where the model has them ({}); look "
+                        "for exchanged labels, another person's markers and the unit",
+                        markers.size(), subject.offsets.size(), kMillimetres * kLargestMarkerOffset,
+                        FirstNames(markers)));
+}
+
 }  // namespace
 
 std::string SubjectProgram() { return "MMMConverterS2KF " MMM_CONVERTER_VERSION; }
@@ -75,6 +103,7 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
   result.subject.height = person.height.value;
   result.subject.mass = person.mass.value;
   result.subject.hand_length = person.hand_length;
+  CheckProportions(result.subject);
   const std::string file = FormatSubject(result.subject, SubjectProgram());
   result.subject = ParseSubject(file, "the estimated subject", scaled);
   return result;
@@ -115,6 +144,7 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   report.person.subject = std::make_shared<Subject>(report.result.subject);
   report.model =
       std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));
+  report.verdict = JudgeCalibration(report, config);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/conversion/verdict.h"
 #include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
@@ -34,6 +35,7 @@ struct CalibrationReport {
   Person person;                                ///< with the subject
   std::shared_ptr<const KinematicModel> model;  ///< fitted to the subject
   CalibrationResult result;
+  Verdict verdict;
   Warnings warnings;
 };
 

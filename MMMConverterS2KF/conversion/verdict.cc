@@ -6,60 +6,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/conversion/coverage.h"
-#include "common/convert/exchanged_sides.h"
+#include "MMMConverterS2KF/conversion/judgement.h"
+#include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "common/fit/rigid_shape.h"
-#include "common/math/statistics.h"
-#include "common/motion/marker_noise.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
 using Level = Verdict::Level;
 
-// A figure beyond the first is to be looked at, one beyond the second can't be right.
-struct Limit {
-  double check, failed;
-
-  bool IsBeyond(double value) const { return value > check; }  // NaN is not
-  Level LevelOf(double value) const { return value > failed ? Level::kFailed : Level::kCheck; }
-};
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-// Right is what the recordings at hand have, real and synthetic, 10 to 120 Hz; the others were made
-// wrong from three of them. Distances in metres. tests/cli/verdict_test.cc has a case of each kind.
-//
-// Distances on average: right 0.025 to 0.045 (markers sit 0.028 off on each axis); left and right
-// exchanged or mirrored 0.055 to 0.12, grossly wrong 0.13 and more.
-constexpr Limit kMean = {0.055, 0.15};
-// Their 95th percentile: right 0.05 to 0.11; legs exchanged 0.19, others' markers 0.5 to 1.8.
+// The 95th percentile of the distances: right 0.05 to 0.11; legs exchanged 0.19, others' markers
+// 0.5 to 1.8.
 constexpr Limit kPercentile = {0.15, 0.4};
-// The same of a calibrated person: right 0.002 to 0.009 and 0.006 to 0.024.
-constexpr Limit kCalibratedMean = {0.02, 0.06};
+// The same of a calibrated person: right 0.006 to 0.024.
 constexpr Limit kCalibratedPercentile = {0.06, 0.2};
 // The average of one marker: right at most 0.18; another person's 1.1 to 1.7.
 constexpr Limit kMarkerMean = {0.22, 0.6};
-// Offsets of calibrated markers, the 95th percentile: right 0.06 to 0.16; legs exchanged 0.19.
-constexpr Limit kOffset = {0.18, 0.4};
 // A height beside the estimated one, relative, which is within 0.035 of the true one.
 constexpr Limit kHeight = {0.08, 0.2};
 // Share of the frames: right at most 0.06; left and right exchanged 0.1 to 0.8.
 constexpr Limit kReassembled = {0.1, 0.5};
 // Share of the seen positions: right at most 0.001; legs exchanged 0.02.
 constexpr Limit kWrongLabels = {0.01, 0.2};
-// Of a capture below 0.001.
-constexpr Limit kNoise = {0.003, 0.03};
-// Of the six limbs: none, and half of the body.
-constexpr Limit kUnseenLimbs = {0, 2};
 // Share of the frames: who lies now and then also stands.
 constexpr Limit kLyingFrames = {0.9, kNever};
 // Mean distance over an object's radius.
@@ -74,54 +51,32 @@ class Judge {
         limbs_(LimbsOf(report.setup)) {}
 
   Verdict Run() {
-    JudgeReading();
+    JudgeReading(report_.input.recording, &judgement_);
     if (report_.object) {
       JudgeObjectsDistance();
       JudgeGaps();
-      return TakeVerdict();
+      return judgement_.Take();
     }
     const bool is_far = JudgeDistances();
     JudgeMarkers();
-    JudgeCoverage();
+    JudgeCoverage(report_.setup, limbs_, &judgement_);
     JudgeGaps();
     JudgeTrack();
-    JudgeNoise();
+    JudgeNoise(report_.setup, markers_, &judgement_);
     JudgeUpright();
     JudgeHeight(is_far);
-    if (is_far) JudgeSides();
-    return TakeVerdict();
+    if (is_far) {
+      JudgeSides(report_.setup, report_.input.reference,
+                 ScalingOf(report_.person, report_.converter.config), markers_, &judgement_);
+    }
+    return judgement_.Take();
   }
 
  private:
-  void Add(Level level, std::string reason) { reasons_.emplace_back(level, std::move(reason)); }
-
-  // The gravest reasons first.
-  Verdict TakeVerdict() {
-    std::stable_sort(reasons_.begin(), reasons_.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    Verdict verdict;
-    if (!reasons_.empty()) verdict.level = reasons_.front().first;
-    for (auto& [unused, reason] : reasons_) verdict.reasons.push_back(std::move(reason));
-    return verdict;
-  }
-
-  // Adds the reason where a figure is beyond its limit.
-  bool AddBeyond(const Limit& limit, double value, const std::string& reason) {
-    if (!limit.IsBeyond(value)) return false;
-    Add(limit.LevelOf(value), reason);
-    return true;
-  }
-
   std::string LabelsOf(const std::vector<int>& assignments) const {
     std::vector<std::string> labels;
     for (const int i : assignments) labels.push_back(LabelOf(report_, i));
     return FirstNames(labels, 6);
-  }
-
-  void JudgeReading() {
-    for (const std::string& doubt : report_.input.recording.doubts) {
-      Add(Level::kCheck, doubt);
-    }
   }
 
   void JudgeObjectsDistance() {
@@ -131,37 +86,30 @@ class Judge {
       places.col(i) = report_.setup.model->markers()[marker].p_SM;
     }
     const double radius = RadiusOf(places);
-    AddBeyond(kObject, figures_.distance.mean / radius,
-              fmt::format("the markers are {:.1f} mm from the model, whose radius is {:.0f} mm",
-                          1e3 * figures_.distance.mean, 1e3 * radius));
+    judgement_.AddBeyond(
+        kObject, figures_.distance.mean / radius,
+        fmt::format("the markers are {:.1f} mm from the model, whose radius is {:.0f} mm",
+                    kMillimetres * figures_.distance.mean, kMillimetres * radius));
   }
 
   // Whether the markers are farther from the model than a person's are.
   bool JudgeDistances() {
     const bool is_calibrated = report_.person.subject != nullptr;
-    const Limit& mean = is_calibrated ? kCalibratedMean : kMean;
+    const Limit& mean = is_calibrated ? kCalibratedMeanDistance : kMeanDistance;
     const Limit& percentile = is_calibrated ? kCalibratedPercentile : kPercentile;
     const char* person = is_calibrated ? "a calibrated person" : "a person of that height";
-    bool is_far = AddBeyond(mean, figures_.distance.mean,
-                            fmt::format("markers are {:.0f} mm from the model on average, those of "
-                                        "{} at most {:.0f}",
-                                        1e3 * figures_.distance.mean, person, 1e3 * mean.check));
-    is_far |=
-        AddBeyond(percentile, figures_.distance.p95,
-                  fmt::format("one in twenty marker positions is more than {:.0f} mm from the "
-                              "model, of {} at most {:.0f}",
-                              1e3 * figures_.distance.p95, person, 1e3 * percentile.check));
+    bool is_far = judgement_.AddBeyond(
+        mean, figures_.distance.mean,
+        fmt::format("markers are {:.0f} mm from the model on average, those of "
+                    "{} at most {:.0f}",
+                    kMillimetres * figures_.distance.mean, person, kMillimetres * mean.check));
+    is_far |= judgement_.AddBeyond(
+        percentile, figures_.distance.p95,
+        fmt::format("one in twenty marker positions is more than {:.0f} mm from the "
+                    "model, of {} at most {:.0f}",
+                    kMillimetres * figures_.distance.p95, person, kMillimetres * percentile.check));
     if (!is_calibrated) return is_far;
-    std::vector<double> offsets;
-    for (const MarkerOffset& offset : report_.person.subject->offsets) {
-      offsets.push_back(offset.offset.norm());
-    }
-    const double most = Percentile(offsets, 95);
-    is_far |= AddBeyond(
-        kOffset, most,
-        fmt::format("one in twenty markers sits more than {:.0f} mm from where the model has it, "
-                    "of a person of that height at most {:.0f}",
-                    1e3 * most, 1e3 * kOffset.check));
+    is_far |= JudgeOffsets(*report_.person.subject, &judgement_);
     return is_far;
   }
 
@@ -174,46 +122,28 @@ class Judge {
       far.push_back(static_cast<int>(i));
       most = std::max(most, mean);
     }
-    AddBeyond(kMarkerMean, most,
-              fmt::format("{} of {} markers are on average more than {:.0f} mm from where the body "
-                          "can have them: {}; are they this person's?",
-                          far.size(), figures_.of_markers.size(), 1e3 * kMarkerMean.check,
-                          LabelsOf(far)));
-  }
-
-  void JudgeCoverage() {
-    std::vector<std::string> unseen;
-    for (const Limb& limb : limbs_) {
-      if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) {
-        unseen.push_back(fmt::format("the {} ({} markers)", limb.name, limb.labels.size()));
-      } else if (limb.free_joints > 0) {
-        Add(Level::kCheck, fmt::format("{}: no marker shows {} of its {} joints", limb.name,
-                                       limb.free_joints, limb.num_joints));
-      }
-    }
-    AddBeyond(kUnseenLimbs, static_cast<double>(unseen.size()),
-              fmt::format("too few markers to know {}", JoinNames(unseen, " and ")));
-    const auto coordinates = 3 * report_.setup.assignments().size();
-    const auto degrees = 6 + report_.setup.joints.size();
-    if (coordinates >= degrees) return;
-    Add(Level::kCheck,
-        fmt::format("{} markers are too few for the {} degrees of freedom of the body",
-                    report_.setup.assignments().size(), degrees));
+    judgement_.AddBeyond(
+        kMarkerMean, most,
+        fmt::format("{} of {} markers are on average more than {:.0f} mm from where the body "
+                    "can have them: {}; are they this person's?",
+                    far.size(), figures_.of_markers.size(), kMillimetres * kMarkerMean.check,
+                    LabelsOf(far)));
   }
 
   void JudgeGaps() {
     for (const Gap& gap : LongGaps(report_.setup, limbs_, markers_)) {
-      Add(Level::kCheck, fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what,
-                                     gap.seconds, report_.input.first_frame + gap.first_frame,
-                                     report_.input.first_frame + gap.last_frame));
+      judgement_.Add(Level::kCheck,
+                     fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what,
+                                 gap.seconds, report_.input.first_frame + gap.first_frame,
+                                 report_.input.first_frame + gap.last_frame));
     }
   }
 
   void JudgeTrack() {
     const double frames = markers_.num_frames();
-    AddBeyond(kReassembled, figures_.frames_reassembled / frames,
-              fmt::format("the track was lost and reinitialised in {} of {} frames",
-                          figures_.frames_reassembled, markers_.num_frames()));
+    judgement_.AddBeyond(kReassembled, figures_.frames_reassembled / frames,
+                         fmt::format("the track was lost and reinitialised in {} of {} frames",
+                                     figures_.frames_reassembled, markers_.num_frames()));
     double wrong = 0;
     std::vector<int> assignments;
     for (const MarkerIncident& incident : report_.result.incidents) {
@@ -224,16 +154,10 @@ class Judge {
       }
     }
     const double share = wrong / std::max(1.0, static_cast<double>(figures_.distance.seen));
-    AddBeyond(kWrongLabels, share,
-              fmt::format("{:.0f} % of the marker positions are not where their labels belong: {}",
-                          1e2 * share, LabelsOf(assignments)));
-  }
-
-  void JudgeNoise() {
-    const double noise = MeasureMarkerNoise(markers_, LabelIndices(report_.setup.assignments()));
-    AddBeyond(kNoise, noise,
-              fmt::format("marker positions have noise of {:.1f} mm, a capture less than 1",
-                          1e3 * noise));
+    judgement_.AddBeyond(
+        kWrongLabels, share,
+        fmt::format("{:.0f} % of the marker positions are not where their labels belong: {}",
+                    kPercent * share, LabelsOf(assignments)));
   }
 
   // Whether the trunk was ever upright.
@@ -251,11 +175,12 @@ class Judge {
     const auto frames = static_cast<double>(report_.result.trajectory.postures.size());
     const std::string throughout = fmt::format(
         "in more than {:.0f} % of the frames, with {} of the file as up; is that axis right?",
-        1e2 * kLyingFrames.check, Name(recording.up_axis));
-    if (AddBeyond(kLyingFrames, upside_down / frames, "the body is upside down " + throughout)) {
+        kPercent * kLyingFrames.check, Name(recording.up_axis));
+    if (judgement_.AddBeyond(kLyingFrames, upside_down / frames,
+                             "the body is upside down " + throughout)) {
       return;
     }
-    AddBeyond(kLyingFrames, lying / frames, "the trunk lies " + throughout);
+    judgement_.AddBeyond(kLyingFrames, lying / frames, "the trunk lies " + throughout);
   }
 
   // A height that was given beside the one that the markers tell.
@@ -269,33 +194,19 @@ class Judge {
     } catch (const Error&) {
       return;  // too few markers
     }
-    if (kMean.IsBeyond(estimate->mean_distance)) return;  // no height explains the markers
-    AddBeyond(kHeight, std::abs(estimate->height / height - 1),
-              fmt::format("the height is {:.2f} m ({}), but the markers are those of a person of "
-                          "{:.2f} m",
-                          height, report_.person.height.source, estimate->height));
-  }
-
-  void JudgeSides() {
-    TrackingSetup setup = report_.setup;  // without the subject, whose markers may have taken it up
-    setup.model = report_.input.reference;
-    PersonScaling person = ScalingOf(report_.person, report_.converter.config);
-    person.subject = nullptr;
-    ScaleToPerson(person, &setup);
-    const auto exchanged = FindExchangedSides(setup, markers_);
-    if (!exchanged) return;
-    Add(Level::kFailed,
-        fmt::format("left and right labels of {} are exchanged, or coordinates mirrored: "
-                    "exchanged, markers are {:.0f} mm from the model, else {:.0f}",
-                    exchanged->part, 1e3 * exchanged->exchanged_distance,
-                    1e3 * exchanged->distance));
+    if (kMeanDistance.IsBeyond(estimate->mean_distance)) return;  // no height explains the markers
+    judgement_.AddBeyond(
+        kHeight, std::abs(estimate->height / height - 1),
+        fmt::format("the height is {:.2f} m ({}), but the markers are those of a person of "
+                    "{:.2f} m",
+                    height, report_.person.height.source, estimate->height));
   }
 
   const ConversionReport& report_;
   const MarkerSequence& markers_;
   const ConversionFigures& figures_;
   const std::vector<Limb> limbs_;
-  std::vector<std::pair<Level, std::string>> reasons_;
+  Judgement judgement_;
 };
 
 constexpr const char* kLevelNames[] = {"good", "check", "failed"};
@@ -318,5 +229,33 @@ std::string DescribeVerdict(const Verdict& verdict) {
 }
 
 Verdict JudgeConversion(const ConversionReport& report) { return Judge(report).Run(); }
+
+Verdict JudgeCalibration(const CalibrationReport& report, const ConverterConfig& config) {
+  Judgement judgement;
+  const CalibrationResult& result = report.result;
+  bool is_far = judgement.AddBeyond(
+      kMeanDistance, result.distance_before,
+      fmt::format("before calibration, markers are {:.0f} mm from the model on average, those of "
+                  "a person of that height at most {:.0f}",
+                  kMillimetres * result.distance_before, kMillimetres * kMeanDistance.check));
+  is_far |= judgement.AddBeyond(
+      kCalibratedMeanDistance, result.distance_after,
+      fmt::format("after calibration, markers are still {:.0f} mm from the model, those of a "
+                  "person at most {:.0f}",
+                  kMillimetres * result.distance_after,
+                  kMillimetres * kCalibratedMeanDistance.check));
+  is_far |= JudgeOffsets(result.subject, &judgement);
+  for (const CalibrationInput& one : report.recordings) {
+    const Recording& recording = one.input.recording;
+    JudgeReading(recording, &judgement);
+    JudgeCoverage(one.setup, LimbsOf(one.setup), &judgement);
+    JudgeNoise(one.setup, recording.markers, &judgement);
+    if (is_far) {
+      JudgeSides(one.setup, one.input.reference, ScalingOf(report.person, config),
+                 recording.markers, &judgement);
+    }
+  }
+  return judgement.Take();
+}
 
 }  // namespace mmm_converter

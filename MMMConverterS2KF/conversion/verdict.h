@@ -6,12 +6,12 @@
 
 namespace mmm_converter {
 
-/// How far a motion can be trusted.
+/// How far a motion, or a calibrated person, can be trusted.
 struct Verdict {
   enum class Level {
     kGood,    ///< nothing speaks against it
     kCheck,   ///< someone has to look at it
-    kFailed,  ///< it is not the person's motion
+    kFailed,  ///< it is not the person's
   };
   Level level = Level::kGood;
   std::vector<std::string> reasons;  ///< in words and numbers, the gravest first; good: none
@@ -31,5 +31,11 @@ struct ConversionReport;
 /// By what the recording's markers, the person and the track are, beside what right recordings
 /// have; verdict.cc has the limits. The report's own verdict does not count.
 Verdict JudgeConversion(const ConversionReport& report);
+
+struct CalibrationReport;
+struct ConverterConfig;
+
+/// Likewise by what was estimated. config: what the person is scaled by.
+Verdict JudgeCalibration(const CalibrationReport& report, const ConverterConfig& config);
 
 }  // namespace mmm_converter

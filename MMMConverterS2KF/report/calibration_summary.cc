@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
@@ -134,11 +135,12 @@ std::string FormatCalibrationSummary(const CalibrationReport& report, const std:
                   kMillimetres * result.distance_before, kMillimetres * result.distance_after,
                   result.frames, result.iterations));
   text += FormatSubjectSummary(result.subject);
-  return text + fmt::format(
-                    "{} has the person: with it, the best postures leave {:.1f} mm to the markers "
-                    "where the scaled model leaves {:.1f}.\n",
-                    file, kMillimetres * result.distance_after,
-                    kMillimetres * result.distance_before);
+  return text +
+         fmt::format(
+             "{} has the person: with it, the best postures leave {:.1f} mm to the markers "
+             "where the scaled model leaves {:.1f}.\n",
+             file, kMillimetres * result.distance_after, kMillimetres * result.distance_before) +
+         FormatVerdict(report.verdict);
 }
 
 Json ToJson(const CalibrationReport& report, const std::string& file) {
@@ -161,6 +163,7 @@ Json ToJson(const CalibrationReport& report, const std::string& file) {
           {"mass_source", report.person.mass.source},
           {"calibration", ToJson(result)},
           {"subject", ToJson(result.subject)},
+          {"verdict", ToJson(report.verdict)},
           {"warnings", report.warnings.texts()}};
 }
 

@@ -69,7 +69,7 @@ std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
   std::string text = fmt::format("{} used", mapping.assignments.size());
   if (!mapping.absent_markers.empty()) {
     text += fmt::format(", {} not in the recording ({})", mapping.absent_markers.size(),
-                        JoinNames(mapping.absent_markers, ", "));
+                        FirstNames(mapping.absent_markers));
   }
   if (!mapping.ignored_labels.empty()) {
     text += fmt::format(", {} labels ignored", mapping.ignored_labels.size());
@@ -138,8 +138,12 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
                       report.motion_name);
   text += DescribeSubjectOutput(report);
-  text += fmt::format("verdict    {}\n", Name(report.verdict.level));
-  for (const std::string& reason : report.verdict.reasons) text += "           " + reason + "\n";
+  return text + FormatVerdict(report.verdict);
+}
+
+std::string FormatVerdict(const Verdict& verdict) {
+  std::string text = fmt::format("verdict    {}\n", Name(verdict.level));
+  for (const std::string& reason : verdict.reasons) text += "           " + reason + "\n";
   return text;
 }
 

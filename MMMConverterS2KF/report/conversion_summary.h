@@ -14,6 +14,9 @@ std::string FormatSummary(const ConversionReport& report);
 /// The same as JSON; README.md says what is in it.
 Json ToJson(const ConversionReport& report);
 
+/// A line of the level, and one of each reason.
+std::string FormatVerdict(const Verdict& verdict);
+
 /// {"level", "reasons"}.
 Json ToJson(const Verdict& verdict);
 

@@ -19,7 +19,7 @@ constexpr std::size_t kShownJoints = 8;  // as many as the page has colours
 // Row by row: a whole series after the other.
 Json Series(const MatrixXd& rows) { return ToJson(PackFloats(rows.transpose())); }
 
-Json ContactsJson(const MotionDynamics& dynamics) {
+Json ContactsOfPage(const MotionDynamics& dynamics) {
   Json bodies = Json::array();
   for (std::size_t b = 0; b < dynamics.contact_bodies.size(); ++b) {
     const auto row = static_cast<Eigen::Index>(b);
@@ -56,7 +56,7 @@ Json SeriesJson(const MotionDynamics& dynamics, const Plausibility& judged) {
           {"acceleration", Series(dynamics.com_acceleration)},
           {"angular_momentum", Series(dynamics.angular_momentum)},
           {"outside_support", Series(dynamics.outside_support.transpose())},
-          {"contacts", ContactsJson(dynamics)},
+          {"contacts", ContactsOfPage(dynamics)},
           {"joints", JointsJson(dynamics, judged)}};
 }
 

@@ -137,9 +137,9 @@ void WarnOfSubject(const Subject& subject, Warnings* warnings) {
     }
   }
   if (!open.empty()) {
-    Warn(warnings,
-         fmt::format("not determined by the recordings, left near the model's: length of {}",
-                     fmt::join(open, ", ")));
+    Warn(warnings, fmt::format("the recordings tell little of the length of {}: their markers or "
+                               "movements do not show it",
+                               fmt::join(open, ", ")));
   }
   for (const MarkerOffset& offset : subject.offsets) {
     if (offset.offset.norm() > kFarOffset) {

@@ -10,6 +10,11 @@
 
 namespace mmm_converter {
 
+// What a body has: beyond, a unit, a sign or a label is wrong.
+inline constexpr double kLeastSegmentScale = 0.5;
+inline constexpr double kLargestSegmentScale = 2;
+inline constexpr double kLargestMarkerOffset = 0.5;  ///< of a coordinate [m]
+
 /// How much longer a person's segment is than Winter's proportions have it.
 struct SegmentScale {
   std::string segment;            ///< the node whose translation from its parent is scaled

@@ -30,10 +30,12 @@ struct Judged {
   std::string reasons;
 };
 
-Judged Convert(const std::string& recording, const std::vector<std::string>& options) {
+std::string SubjectOutput() { return TestFolder() + "/subject.xml"; }
+
+Judged Run(const std::string& command, const std::string& recording, const std::string& output,
+           const std::vector<std::string>& options) {
   const std::string summary = TestFolder() + "/verdict.json";
-  std::vector<std::string> arguments = {"convert",   recording, "-o", TestFolder() + "/verdict.xml",
-                                        "--summary", summary};
+  std::vector<std::string> arguments = {command, recording, "-o", output, "--summary", summary};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const auto run = RunProgram(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -44,6 +46,10 @@ Judged Convert(const std::string& recording, const std::vector<std::string>& opt
   EXPECT_THAT(run.out, HasSubstr("verdict    " + level));
   EXPECT_EQ(level == "good", reasons.empty()) << reasons;
   return {level, reasons};
+}
+
+Judged Convert(const std::string& recording, const std::vector<std::string>& options) {
+  return Run("convert", recording, TestFolder() + "/verdict.xml", options);
 }
 
 // The sample from standing into the handstand.
@@ -57,6 +63,12 @@ Judged ConvertMarkers(const MarkerSequence& markers,
   const std::string file = TestFolder() + "/made.c3d";
   WriteC3d(file, markers);  // states that z is up
   return Convert(file, options);
+}
+
+Judged CalibrateOn(const MarkerSequence& markers) {
+  const std::string file = TestFolder() + "/calibration.c3d";
+  WriteC3d(file, markers);
+  return Run("calibrate", file, SubjectOutput(), {"--height", "1.8"});
 }
 
 using Point = Eigen::Ref<Eigen::Vector3d>;
@@ -131,15 +143,32 @@ TEST(Verdict, AFileThatIsCutIsToBeLookedAt) {
   EXPECT_THAT(judged.reasons, HasSubstr("cut off: it declares 675 frames"));
 }
 
-TEST(Verdict, APersonCalibratedOnExchangedSidesIsNot) {
-  const std::string recording = TestFolder() + "/exchanged.c3d";
-  WriteC3d(recording, Relabelled(WithSidesExchanged([](const std::string&) { return true; })));
-  const std::string subject = TestFolder() + "/exchanged_subject.xml";
-  const auto calibrated = RunProgram({"calibrate", recording, "--height", "1.8", "-o", subject});
-  ASSERT_EQ(calibrated.exit_code, 0) << calibrated.err;
-  const Judged judged = Convert(recording, {"--subject-file", subject});
+TEST(Verdict, OfACalibration) {
+  EXPECT_EQ(CalibrateOn(Sample()).level, "good");
+  const auto any = [](const std::string&) { return true; };
+  const MarkerSequence exchanged = Relabelled(WithSidesExchanged(any));
+  Judged judged = CalibrateOn(exchanged);
   EXPECT_EQ(judged.level, "failed");
   EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of all markers are exchanged"));
+  // A person that was calibrated like that does not hide it.
+  const std::string recording = TestFolder() + "/exchanged.c3d";
+  WriteC3d(recording, exchanged);
+  judged = Convert(recording, {"--subject-file", SubjectOutput()});
+  EXPECT_EQ(judged.level, "failed");
+  EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of all markers are exchanged"));
+}
+
+TEST(Verdict, NoCalibrationOnOthersMarkers) {
+  const MarkerSequence& sample = Sample();
+  const std::string merged = TestFolder() + "/merged.c3d";
+  WriteC3d(merged, Changed([&](int k, int i, Point p) {
+             if (i % 7 != 0) return;
+             p = sample.frame((k + 100) % sample.num_frames()).col(i);
+             p += Eigen::Vector3d(1, 0.5, 0);
+           }));
+  const auto run = RunProgram({"calibrate", merged, "--height", "1.8", "-o", SubjectOutput()});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("are not of one person with these labels: 8 of 53 markers"));
 }
 
 TEST(Verdict, RealRecordingsAreGood) {

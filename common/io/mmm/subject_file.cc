@@ -25,10 +25,6 @@ namespace {
 constexpr std::size_t kMaxSubjectBytes = std::size_t{8} << 20;
 constexpr double kMillimetre = 1e-3;
 constexpr int kDecimals = 6;
-// What a body has: beyond, a unit or a sign is wrong.
-constexpr double kSmallestScale = 0.5;
-constexpr double kLargestScale = 2;
-constexpr double kLargestOffset = 0.5;  // [m]
 constexpr double kLargestDeviation = 1;
 
 /// What an attribute may be, in SI units, and the factor from its own unit.
@@ -99,7 +95,7 @@ class SubjectReader {
                     {"name", "scale", "standardDeviation", "priorDeviation", "observability"});
     SegmentScale scale;
     scale.segment = KnownName(element, segments_, &segment_lines_);
-    scale.scale = Needed(element, "scale", {kSmallestScale, kLargestScale});
+    scale.scale = Needed(element, "scale", {kLeastSegmentScale, kLargestSegmentScale});
     const NumberRange deviation{0, kLargestDeviation};
     scale.standard_deviation = Number(element, "standardDeviation", deviation).value_or(0);
     scale.prior_deviation = Number(element, "priorDeviation", deviation).value_or(0);
@@ -111,7 +107,7 @@ class SubjectReader {
                               "zDeviation_mm", "priorDeviation_mm", "frames", "observability"});
     MarkerOffset offset;
     offset.marker = KnownName(element, markers_, &marker_lines_);
-    const NumberRange place{-kLargestOffset, kLargestOffset, kMillimetre};
+    const NumberRange place{-kLargestMarkerOffset, kLargestMarkerOffset, kMillimetre};
     const NumberRange deviation{0, kLargestDeviation, kMillimetre};
     for (int i = 0; i < 3; ++i) {
       const char axis = "xyz"[i];
