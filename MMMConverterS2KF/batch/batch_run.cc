@@ -150,6 +150,10 @@ class BatchRunner {
     journal_.Append(record);
     ++outcome_.converted;
     progress_->Converted(record.id, DescribeShortly(record.result));
+    const Verdict& verdict = record.result.figures->verdict;
+    if (verdict.level == Verdict::Level::kFailed) {
+      progress_->Warn(fmt::format("{}: verdict {}", record.id, DescribeVerdict(verdict)));
+    }
   }
 
   void NoteFailed(const BatchEntry& entry, const std::string& fingerprint,

@@ -74,8 +74,9 @@ void TakeFrames(const InputRequest& request, CheckedMotion* checked) {
   const int end =
       std::min(request.end_frame.value_or(trajectory.num_frames()), trajectory.num_frames());
   if (begin >= end) {
-    throw Error(fmt::format("{}: --frames {}:{} has no frame of the motion's {}, counted from 0",
-                            request.file, begin, end, trajectory.num_frames()));
+    throw Error(fmt::format(
+        "{}: --frames {}:{} has no frame of the motion's {}, counted from 0", request.file, begin,
+        request.end_frame.value_or(trajectory.num_frames()), trajectory.num_frames()));
   }
   const auto unknown = std::find_if_not(postures.begin() + begin, postures.end(), IsKnown);
   const auto known_end = static_cast<int>(unknown - postures.begin());

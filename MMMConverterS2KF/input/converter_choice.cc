@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/io/bytes/file_content.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -22,10 +26,23 @@ std::string ShippedConfig(const std::string& name) {
   return DataDirectory() + "/converters/" + name + ".xml";
 }
 
+std::vector<std::string> ShippedConfigs() {
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (const auto& file : fs::directory_iterator(DataDirectory() + "/converters", failure)) {
+    names.push_back(file.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 // A file, or the shipped configuration of that name.
 std::string FindConfig(const std::string& config) {
+  if (fs::exists(config)) return config;
   const std::string shipped = ShippedConfig(config);
-  return !fs::exists(config) && fs::exists(shipped) ? shipped : config;
+  if (fs::exists(shipped)) return shipped;
+  throw Error(fmt::format("{}: no such file, nor a shipped configuration; these are {}", config,
+                          JoinNames(ShippedConfigs(), ", ")));
 }
 
 // The configuration given, or else the shipped one of the default converter.

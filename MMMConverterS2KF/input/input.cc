@@ -23,7 +23,8 @@ void TakeFrames(const InputRequest& request, Input* input) {
   const int end = std::min(request.end_frame.value_or(markers.num_frames()), markers.num_frames());
   if (begin >= end) {
     throw Error(fmt::format("{}: --frames {}:{} has no frame of the recording's {}, counted from 0",
-                            request.file, begin, end, markers.num_frames()));
+                            request.file, begin, request.end_frame.value_or(markers.num_frames()),
+                            markers.num_frames()));
   }
   input->first_frame = begin;
   if (begin > 0 || end < markers.num_frames()) markers = markers.Slice(begin, end);

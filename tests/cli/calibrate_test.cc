@@ -32,10 +32,6 @@ Subject ReadResult(const std::string& file) {
   return ReadSubject(file, ReadMmmModel(SourcePath("xml_config/models/mmm.xml")));
 }
 
-std::string LastLine(const std::string& text) {
-  return text.substr(text.rfind('\n', text.size() - 2) + 1);
-}
-
 std::string Kit(const std::string& name) {
   return SharedData("recordings/kit_bimanual_c3d/" + name);
 }
@@ -60,7 +56,8 @@ TEST(Calibrate, WritesThePersonTheModelThePageAndTheSummary) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("handstand.c3d"), HasSubstr("before"),
                              HasSubstr("segments "), HasSubstr("offsets "), HasSubstr("unknown ")));
-  EXPECT_THAT(LastLine(run.out), HasSubstr(folder + "/s.xml has the person: with it, the best"));
+  EXPECT_THAT(run.out, HasSubstr(folder + "/s.xml has the person: with it, the best"));
+  EXPECT_THAT(run.out, ::testing::EndsWith("verdict    good\n"));
   const Subject subject = ReadResult(folder + "/s.xml");
   EXPECT_EQ(subject.name, "the gymnast");
   EXPECT_EQ(subject.model, "MMM");
