@@ -20,6 +20,18 @@ Json ToJson(const DistanceFigures& distance) {
           {"worst_frame", Number(kMillimetres * distance.worst_frame)}};
 }
 
+// How often the truth is within what the deviations claim.
+Json ReliabilityJson(const TrackingQuality& quality) {
+  if (quality.reliability.empty()) return nullptr;
+  Json points = Json::array();
+  for (std::size_t m = 0; m < kReliabilityMultiples.size(); ++m) {
+    points.push_back({{"deviations", kReliabilityMultiples[m]},
+                      {"claimed", Number(NormalShareWithin(kReliabilityMultiples[m]))},
+                      {"observed", Number(quality.reliability[m])}});
+  }
+  return points;
+}
+
 Json ToJson(const TrackingQuality& quality) {
   return {{"distance_mm", ToJson(quality.all)},
           {"hidden_distance_mm", ToJson(quality.hidden)},
@@ -32,7 +44,10 @@ Json ToJson(const TrackingQuality& quality) {
            {{"median", Number(kMilliseconds * quality.median_seconds)},
             {"p99", Number(kMilliseconds * quality.p99_seconds)}}},
           {"joint_center_error_mm", Number(kMillimetres * quality.joint_center_error)},
-          {"joint_angle_error_deg", Number(kDegrees * quality.joint_angle_error)}};
+          {"joint_angle_error_deg", Number(kDegrees * quality.joint_angle_error)},
+          {"within_1_sd", Number(quality.ReliabilityAt(1))},
+          {"within_2_sd", Number(quality.ReliabilityAt(2))},
+          {"reliability", ReliabilityJson(quality)}};
 }
 
 Json DescribeOptions(const ComparisonOptions& options) {

@@ -51,7 +51,11 @@ const Column kColumns[] = {
     {"centres", "mm", "joint_center_error_mm", 1,
      [](const Quality& q) { return kMillimetres * q.joint_center_error; }},
     {"angles", "deg", "joint_angle_error_deg", 2,
-     [](const Quality& q) { return kDegrees * q.joint_angle_error; }}};
+     [](const Quality& q) { return kDegrees * q.joint_angle_error; }},
+    {"in 1 sd", "%", "within_1_sd_percent", 0,
+     [](const Quality& q) { return kPercent * q.ReliabilityAt(1); }},
+    {"in 2 sd", "%", "within_2_sd_percent", 0,
+     [](const Quality& q) { return kPercent * q.ReliabilityAt(2); }}};
 
 std::string Cell(const Column& column, const Quality& quality) {
   const double value = column.value(quality);

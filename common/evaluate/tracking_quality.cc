@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
+#include <utility>
 
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
@@ -105,6 +107,39 @@ void MeasureAgainstTruth(const QualityReference& reference, const PoseTrajectory
   quality->joint_angle_error = angles / count;
 }
 
+void MeasureReliability(const QualityReference& reference, const PoseTrajectory& trajectory,
+                        TrackingQuality* quality) {
+  constexpr int kRootRows = 6;
+  const MatrixXd& deviations = trajectory.standard_deviations;
+  if (reference.truth == nullptr || deviations.cols() != trajectory.num_frames()) return;
+  const KinematicModel& model = *reference.model;
+  std::vector<std::pair<Eigen::Index, int>> compared;  // row of the deviations, joint of the model
+  for (std::size_t i = 0; i < trajectory.joint_names.size(); ++i) {
+    const int j = model.FindJoint(trajectory.joint_names[i]);
+    if (std::find(reference.joints.begin(), reference.joints.end(), j) != reference.joints.end()) {
+      compared.emplace_back(kRootRows + static_cast<Eigen::Index>(i), j);
+    }
+  }
+  std::vector<double> within(kReliabilityMultiples.size(), 0);
+  double count = 0;
+  for (int k = 0; k < trajectory.num_frames(); ++k) {
+    const Posture truth = ModelPosture(model, *reference.truth, k);
+    const Posture posture = ModelPosture(model, trajectory, k);
+    for (const auto& [row, j] : compared) {
+      const double deviation = deviations(row, k);
+      if (!std::isfinite(deviation)) continue;
+      const double error = std::abs(truth.joint_angles[j] - posture.joint_angles[j]);
+      ++count;
+      for (std::size_t m = 0; m < within.size(); ++m) {
+        within[m] += error <= kReliabilityMultiples[m] * deviation ? 1 : 0;
+      }
+    }
+  }
+  if (count == 0) return;
+  for (double& share : within) share /= count;
+  quality->reliability = std::move(within);
+}
+
 template <typename Get>
 double MeanOf(const std::vector<TrackingQuality>& runs, Get get) {
   std::vector<double> values;
@@ -130,6 +165,15 @@ DistanceFigures SummarizeDistances(const std::vector<TrackingQuality>& runs,
 
 }  // namespace
 
+double NormalShareWithin(double multiple) { return std::erf(multiple / std::numbers::sqrt2); }
+
+double TrackingQuality::ReliabilityAt(double multiple) const {
+  const auto found =
+      std::find(kReliabilityMultiples.begin(), kReliabilityMultiples.end(), multiple);
+  if (reliability.empty() || found == kReliabilityMultiples.end()) return kNaN;
+  return reliability[static_cast<std::size_t>(found - kReliabilityMultiples.begin())];
+}
+
 bool IsGoodFrame(double distance, double optimum) { return distance <= 1.2 * optimum + 0.002; }
 bool IsLostFrame(double distance, double optimum) { return distance > 2 * optimum + 0.020; }
 
@@ -144,6 +188,7 @@ TrackingQuality MeasureQuality(const QualityReference& reference, const MatrixXd
   MeasureJoints(reference, trajectory, &quality);
   MeasureTimes(frames, &quality);
   MeasureAgainstTruth(reference, trajectory, &quality);
+  MeasureReliability(reference, trajectory, &quality);
   return quality;
 }
 
@@ -165,6 +210,12 @@ TrackingQuality Summarize(const std::vector<TrackingQuality>& runs) {
   all.p99_seconds = MeanOf(runs, [](const Quality& q) { return q.p99_seconds; });
   all.joint_center_error = MeanOf(runs, [](const Quality& q) { return q.joint_center_error; });
   all.joint_angle_error = MeanOf(runs, [](const Quality& q) { return q.joint_angle_error; });
+  const bool all_reliable = std::all_of(runs.begin(), runs.end(),
+                                        [](const Quality& q) { return !q.reliability.empty(); });
+  if (!all_reliable || runs.empty()) return all;
+  for (std::size_t m = 0; m < kReliabilityMultiples.size(); ++m) {
+    all.reliability.push_back(MeanOf(runs, [&](const Quality& q) { return q.reliability[m]; }));
+  }
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,13 @@ struct DistanceFigures {
   double worst_frame = 0;  ///< largest mean over the markers of a frame
 };
 
+/// Multiples of a standard deviation at which reliability is measured.
+inline constexpr std::array kReliabilityMultiples = {0.25, 0.5, 0.75, 1.0, 1.25, 1.5,
+                                                     1.75, 2.0, 2.25, 2.5, 3.0};
+
+/// Share of normal deviates that are within so many standard deviations.
+double NormalShareWithin(double multiple);
+
 /// How well a motion was tracked. Figures of joints are over those that are compared.
 struct TrackingQuality {
   DistanceFigures all;               ///< over every measured marker, hidden ones too
@@ -33,6 +41,12 @@ struct TrackingQuality {
   double p99_seconds = 0;         ///< 99th percentile of the same
   double joint_center_error = 0;  ///< mean distance of joint centres [m]; NaN without truth
   double joint_angle_error = 0;   ///< mean |angle - truth| [rad]; NaN without truth
+  /// Share of the joint angles within each of kReliabilityMultiples of their own deviations from
+  /// the truth; empty where these or the truth are not known.
+  std::vector<double> reliability;
+
+  /// One of these; NaN where there is none. multiple: of kReliabilityMultiples.
+  double ReliabilityAt(double multiple) const;
 };
 
 // A frame is judged by its mean marker distance d beside that of its least-squares optimum o

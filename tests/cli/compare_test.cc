@@ -85,7 +85,7 @@ TEST_F(Compare, JsonHasAllFigures) {
     EXPECT_GT(low["hidden_distance_mm"][key], 0) << key;
   }
   for (const char* key : {"frames_lost", "jitter_rad_per_s2", "largest_step_rad", "limit_share",
-                          "joint_center_error_mm", "joint_angle_error_deg"}) {
+                          "joint_center_error_mm", "joint_angle_error_deg", "within_2_sd"}) {
     EXPECT_TRUE(low[key].is_number()) << key;
   }
   EXPECT_GT(low["ms_per_frame"]["p99"], 0);

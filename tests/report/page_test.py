@@ -119,13 +119,13 @@ class ReportPage(PageCase):
                 value = row
                 for key in path.split("."):
                     value = value[key]
-                if path == "limit_share":
+                if path in ("limit_share", "within_1_sd", "within_2_sd"):
                     value *= 100  # shown in per cent
                 digits = len(shown.partition(".")[2])
                 # Half a unit of the last digit, and the rounding of a double.
                 self.assertAlmostEqual(float(shown), value, delta=0.5 * 10**-digits + 1e-9, msg=path)
                 compared += 1
-        self.assertEqual(compared, 2 * 17)
+        self.assertEqual(compared, 2 * 19)
 
     def test_failure_is_a_row_with_its_reason(self):
         self.open("compare.html")
@@ -170,6 +170,16 @@ class ReportPage(PageCase):
         self.assertTrue(self.find("#distance-plot").is_displayed())
         self.assertFalse(self.find("#time-part").is_displayed())
         self.assertNotIn("Time a frame", self.text("table.figures"))
+
+    def test_reliability_of_the_deviations(self):
+        self.open("compare.html")
+        curves = self.run_script("return [...document.querySelectorAll('#reliability-plot .curve')]"
+                                 ".map((curve) => curve.getAttribute('points').split(' ').length)")
+        points = len(json.loads((self.folder / "compare.json").read_text())["rows"][0]["reliability"])
+        self.assertEqual(curves, [points + 1] * 2)  # of those that have a result, from the origin
+        self.assertIn("in 2 sd, %", self.text("table.figures"))
+        self.open("finished.html")
+        self.assertFalse(self.find("#reliability-part").is_displayed())
 
     def test_joint_can_be_chosen(self):
         self.open("compare.html")

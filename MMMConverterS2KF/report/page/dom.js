@@ -59,19 +59,19 @@ function converterDash(index) {
   return kDashes[index % kDashes.length];
 }
 
+function svgElement(tag, attributes, ...children) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+
 // The line that stands for a curve in a legend.
 function lineSwatch(colour, dash) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", "0 0 28 8");
-  svg.setAttribute("class", "swatch");
-  svg.setAttribute("aria-hidden", "true");
-  const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-  for (const [name, value] of Object.entries({x1: 1, y1: 4, x2: 27, y2: 4, "stroke-width": 3})) {
-    line.setAttribute(name, value);
-  }
+  const line = svgElement("line", {x1: 1, y1: 4, x2: 27, y2: 4, "stroke-width": 3});
+  const svg = svgElement("svg", {viewBox: "0 0 28 8", class: "swatch", "aria-hidden": "true"}, line);
   if (dash) line.setAttribute("stroke-dasharray", dash.join(" "));
   line.style.stroke = colour;
-  svg.append(line);
   return svg;
 }
 

@@ -58,13 +58,6 @@ class Bins {
   }
 }
 
-function svgElement(tag, attributes, ...children) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.append(...children);
-  return made;
-}
-
 // Of the picture, in its own units.
 const kWidth = 250;
 const kHeight = 160;

@@ -9,7 +9,7 @@ class View {
     this.trial = null;
     this.player = new Player(this);
     this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player),
-      new PersonPart()];
+      new PersonPart(), new ReliabilityPart(this)];
     byId("trial").addEventListener("change", (event) => this.showTrial(Number(event.target.value)));
   }
 

@@ -133,6 +133,24 @@ TEST_F(TrackingQualityTest, TruthGivesJointCentersAndAngles) {
   EXPECT_TRUE(std::isnan(Measure(Move({{0.2, 0}})).joint_angle_error));
 }
 
+TEST_F(TrackingQualityTest, ReliabilityIsTheShareWithinTheDeviations) {
+  const PoseTrajectory truth = Move({{0, 0}, {0, 0}});
+  reference_.truth = &truth;
+  PoseTrajectory estimated = Move({{0.2, 0.05}, {0, -0.1}});
+  EXPECT_TRUE(Measure(estimated).reliability.empty());  // it claims nothing
+  estimated.standard_deviations = Eigen::MatrixXd::Constant(6 + 2, 2, 0.09);
+  const TrackingQuality quality = Measure(estimated);
+  EXPECT_EQ(quality.ReliabilityAt(0.25), 0.25);
+  EXPECT_EQ(quality.ReliabilityAt(1), 0.5);
+  EXPECT_EQ(quality.ReliabilityAt(2), 0.75);
+  EXPECT_EQ(quality.ReliabilityAt(3), 1);
+  EXPECT_EQ(Summarize({quality, quality}).ReliabilityAt(2), 0.75);
+  EXPECT_NEAR(NormalShareWithin(1), 0.6827, 1e-4);
+  // Joints that have no deviation do not count.
+  estimated.standard_deviations.row(6).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(Measure(estimated).ReliabilityAt(2), 1);
+}
+
 TEST_F(TrackingQualityTest, TimesLeaveOutFramesThatTookNone) {
   frames_.resize(4);
   frames_[1].seconds = 0.001;
