@@ -336,6 +336,15 @@ TEST(Recording, ReadsMarkersOfMmmMotions) {
   EXPECT_THAT(MessageOf(wave), HasSubstr("no motion carries markers"));
 }
 
+TEST(Recording, TheRateGivenIsPossible) {
+  const std::string path = SharedData("mmm/motions_mmm2/wave_left01.xml");
+  for (const double rate : {-1.0, 0.0, 0.5, 1e6, 1e300, std::nan("")}) {
+    ReadRecordingOptions options;
+    options.rate = rate;
+    EXPECT_THAT(MessageOf(path, options), HasSubstr("Hz; it must be 1 to 100000 Hz"));
+  }
+}
+
 TEST(Recording, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(MessageOf("/no/such/file.c3d"), HasSubstr("no such file"));
   EXPECT_THAT(MessageOf(testing::TestFolder()), HasSubstr("is a folder"));
