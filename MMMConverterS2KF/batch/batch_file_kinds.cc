@@ -8,6 +8,7 @@
 
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/support/error.h"
 #include "common/support/line_file.h"
 #include "common/support/text.h"
 
@@ -59,6 +60,15 @@ std::string TextOf(const Json& object, const char* name) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+/// null: it can't be understood.
+Json ParseLine(std::string_view text) {
+  try {
+    return ParseJson(text);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
 /// "converted", "failed", ...; empty where a line is not understood. A journal's lines have the
 /// state in their result.
 std::string StateOf(const Json& line) {
@@ -74,7 +84,7 @@ Description DescribeLines(const FileStart& file, const char* kind, const char* t
   long unclear = 0;
   ForEachLine(file.path, [&](std::string_view text) {
     ++lines;
-    const Json line = Json::parse(text, nullptr, false);
+    const Json line = ParseLine(text);
     const std::string state = StateOf(line);
     const std::string id = state.empty() ? "" : TextOf(line, "id");
     if (id.empty()) {

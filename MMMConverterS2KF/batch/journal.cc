@@ -47,7 +47,7 @@ std::map<std::string, FileState> ParseStates(const Json& json) {
 
 std::optional<JournalRecord> ParseRecord(std::string_view line) {
   try {
-    const Json json = Json::parse(line);
+    const Json json = ParseJson(line);
     JournalRecord record;
     record.id = json.at("id").get<std::string>();
     record.time = json.at("time_ms").get<std::int64_t>();
@@ -58,6 +58,8 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
     record.result = ParseEntryResult(json.at("result"));
     return record;
   } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
     return std::nullopt;
   }
 }

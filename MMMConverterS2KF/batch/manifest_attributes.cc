@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/model/model_scaling.h"
+#include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -143,7 +144,7 @@ std::vector<ManifestAttribute> MakeAttributes() {
        }},
       {"rate_hz", "frames a second, instead of what the file says",
        [](Value v, Value, Settings s) {
-         return TakeNumber(v, 1, 0.1, 1e5, &s->request.input.reading.rate);
+         return TakeNumber(v, 1, kLowestRate, kHighestRate, &s->request.input.reading.rate);
        }},
       {"up", "the file's axis that points up: x, y, z, -x, -y or -z",
        [](Value v, Value, Settings s) {

@@ -87,7 +87,7 @@ ConverterChoice ChooseConverter(const ConverterRequest& request, Warnings* warni
   }
   ReadConfig(request, converter, &choice, warnings);
   if (!choice.plugin) {
-    choice.plugin = std::make_shared<LoadedPlugin>(LoadPluginByName(choice.config.type));
+    choice.plugin = std::make_shared<LoadedPlugin>(LoadPluginByName(choice.config.type, warnings));
   }
   if (choice.text.empty()) choice.text = choice.plugin->factory().config_template();
   return choice;

@@ -47,7 +47,7 @@ double NumberOf(const C3dParameter& parameter, std::size_t index) {
 
 std::string FirstValues(const C3dParameter& parameter) {
   constexpr std::size_t kMost = 8;
-  if (parameter.type == -1) return FirstNames(parameter.Texts(), kMost);
+  if (parameter.type == -1) return FirstNames(parameter.Texts(kMost + 1), kMost);
   std::string text;
   for (std::size_t i = 0; i < std::min(parameter.size(), kMost); ++i) {
     text += fmt::format("{}{:.6g}", i == 0 ? "" : " ", NumberOf(parameter, i));
@@ -88,7 +88,7 @@ Json ParametersJson(const C3dParameters& parameters) {
       continue;
     }
     if (parameter.type == -1) {
-      group[parameter.name] = parameter.Texts();
+      group[parameter.name] = parameter.Texts(parameter.num_texts());
       continue;
     }
     Json values = Json::array();
@@ -209,7 +209,7 @@ C3dDetails ReadC3dDetails(C3dFile* file, Warnings* warnings) {
   const WarningContext context(warnings, file->path());
   C3dDetails details;
   details.labels = C3dPointNames(*file, warnings);
-  details.outputs = C3dOutputNames(file->parameters());
+  details.outputs = C3dOutputNames(*file);
   details.analog = ReadC3dAnalog(*file, warnings);
   details.events = ReadC3dEvents(*file, warnings);
   details.plates = ReadC3dForcePlates(file->parameters(), warnings);

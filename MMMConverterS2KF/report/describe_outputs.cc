@@ -90,10 +90,11 @@ const char* SummaryName(const Json& json) {
 }
 
 Json ReadJson(const std::string& path) {
+  const std::string content = ReadFileContent(path, kMostJsonBytes);
   try {
-    return Json::parse(ReadFileContent(path, kMostJsonBytes));
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(fmt::format("{}: is not JSON: byte {} can't be understood", path, error.byte));
+    return ParseJson(content);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", path, error.what()));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 namespace mmm_converter {
 
@@ -15,6 +16,11 @@ Json Number(double value, int decimals = 4);
 
 /// null: the text is empty.
 Json TextOrNull(const std::string& text);
+
+/// Of a file that somebody else may have written.
+/// @throws Error, without the file's name, where it is not JSON or is nested deeper than anything
+/// that is written here.
+Json ParseJson(std::string_view text);
 
 /// The text of a file, indented. Bytes that are no UTF-8, as names of files may have, are replaced.
 std::string FormatJson(const Json& json);

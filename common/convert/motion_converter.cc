@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/convert/checked_converter.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/posture.h"
 #include "common/support/error.h"
@@ -142,6 +143,7 @@ ConversionResult MotionConverter::Convert(const MarkerSequence& recording,
     const FrameEstimate& estimate =
         k == first ? Assemble(recording.frame(k)) : Track(recording.frame(k), dt);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    CheckEstimate(estimate, setup_);
     writer.Write(k, estimate, seconds);
     if (k == first) writer.WriteEarlier(first, estimate);
     if (progress && !progress(k + 1)) {

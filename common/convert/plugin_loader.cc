@@ -7,7 +7,9 @@
 #include <boost/dll/shared_library.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
+#include "common/convert/checked_converter.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
@@ -70,7 +72,12 @@ LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).s
   library_ = std::make_unique<Library>(path_);
   auto* get_version = library_->Find<GetVersionFunction>("getVersion");
   auto* get_factory = library_->Find<GetFactoryFunction>("getFactory");
-  const char* version = get_version();
+  const char* version = nullptr;
+  try {
+    version = get_version();
+  } catch (...) {
+    throw Error(fmt::format("{}: getVersion threw an exception", path));
+  }
   version_ = version == nullptr ? "" : version;
   if (version_ != kConverterInterfaceVersion) {
     throw Error(
@@ -78,8 +85,14 @@ LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).s
                     "\"{}\"; rebuild the plugin",
                     path, version_, kConverterInterfaceVersion));
   }
-  factory_.reset(get_factory());
-  if (factory_ == nullptr) throw Error(fmt::format("{}: getFactory gave no factory", path));
+  std::unique_ptr<MotionConverterFactory> factory;
+  try {
+    factory.reset(get_factory());
+  } catch (...) {
+    throw Error(fmt::format("{}: getFactory threw an exception", path));
+  }
+  if (factory == nullptr) throw Error(fmt::format("{}: getFactory gave no factory", path));
+  factory_ = WithChecks(std::move(factory), path);
 }
 
 std::vector<std::string> PluginFolders() {
@@ -111,12 +124,19 @@ std::vector<FoundPlugin> FindPlugins() {
   return plugins;
 }
 
-LoadedPlugin LoadPluginByName(const std::string& name) {
+LoadedPlugin LoadPluginByName(const std::string& name, Warnings* warnings) {
   const std::vector<FoundPlugin> plugins = FindPlugins();
   std::vector<std::string> names;
   for (const FoundPlugin& plugin : plugins) {
-    if (plugin.name == name) return LoadedPlugin(plugin.path);
     if (!plugin.name.empty()) names.push_back(plugin.name);
+  }
+  const auto found = std::find_if(plugins.begin(), plugins.end(),
+                                  [&](const FoundPlugin& plugin) { return plugin.name == name; });
+  if (found != plugins.end()) {
+    for (const FoundPlugin& plugin : plugins) {
+      if (plugin.name.empty()) Warn(warnings, plugin.description + "; it is left out");
+    }
+    return LoadedPlugin(found->path);
   }
   const std::string closest = ClosestName(name, names);
   throw Error(fmt::format("there is no converter \"{}\"{}; found {}; {}", name,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/convert/motion_converter.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -21,6 +22,7 @@ class LoadedPlugin {
 
   const std::string& path() const { return path_; }  ///< absolute
   const std::string& version() const { return version_; }
+  /// The plugin's, WithChecks.
   const MotionConverterFactory& factory() const { return *factory_; }
 
  private:
@@ -46,8 +48,8 @@ struct FoundPlugin {
 /// Every *.so in PluginFolders(), loaded for a moment and asked for its name.
 std::vector<FoundPlugin> FindPlugins();
 
-/// Loads the first plugin of that name in PluginFolders().
+/// Loads the first plugin of that name in PluginFolders(); warns of those that can't be loaded.
 /// @throws Error listing what there is and where it was looked for.
-LoadedPlugin LoadPluginByName(const std::string& name);
+LoadedPlugin LoadPluginByName(const std::string& name, Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

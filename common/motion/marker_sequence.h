@@ -12,6 +12,12 @@ namespace mmm_converter {
 /// Into MarkerSequence::labels(): a column of a frame.
 using LabelIx = ListIndex<struct LabelTag>;
 
+// [Hz] Slower or faster is a wrong unit or a damaged file, and squares of its steps overflow.
+inline constexpr double kLowestRate = 1;
+inline constexpr double kHighestRate = 1e5;
+
+constexpr bool IsFrameRate(double rate) { return rate >= kLowestRate && rate <= kHighestRate; }
+
 /// Labelled marker positions over time. A marker that is not seen is NaN in all three coordinates.
 class MarkerSequence {
  public:

@@ -7,16 +7,29 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <string>
 
 #include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
+
+constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+
+[[noreturn]] void ThrowNotRegular(const std::string& path) {
+  throw Error(fmt::format(
+      "{}: is not a regular file, but a device, a pipe or the like; move it away", path));
+}
+
+bool IsRegular(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
 
 void SyncFolder(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -29,8 +42,12 @@ void SyncFolder(const std::string& path) {
 }  // namespace
 
 LineFile::LineFile(const std::string& path) : path_(path) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
   if (descriptor_ < 0) throw WriteError(path, errno);
+  if (!IsRegular(descriptor_)) {
+    ::close(descriptor_);
+    ThrowNotRegular(path);
+  }
   // A file system without locks has to do without.
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);
@@ -69,14 +86,27 @@ void LineFile::Append(std::string_view line) {
 }
 
 void ForEachLine(const std::string& path, const std::function<void(std::string_view)>& visit) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    if (!std::filesystem::exists(path)) return;
-    throw Error(fmt::format("{}: can't be read: {}", path, std::strerror(errno)));
-  }
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor < 0 && errno == ENOENT) return;
+  if (descriptor < 0) throw Error(fmt::format("{}: can't be read: {}", path, std::strerror(errno)));
+  const std::unique_ptr<const int, void (*)(const int*)> closed(
+      &descriptor, [](const int* opened) { ::close(*opened); });
+  if (!IsRegular(descriptor)) ThrowNotRegular(path);
+  std::string block(kBlockBytes, '\0');
   std::string line;
-  while (std::getline(file, line)) {
-    if (!file.eof()) visit(line);
+  for (;;) {
+    const ssize_t count = ::read(descriptor, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw Error(fmt::format("{}: can't be read: {}", path, std::strerror(errno)));
+    if (count == 0) return;
+    std::string_view rest(block.data(), static_cast<std::size_t>(count));
+    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+      line += rest.substr(0, std::min(end, kMostLineBytes - line.size()));
+      visit(line);
+      line.clear();
+      rest.remove_prefix(end + 1);
+    }
+    line += rest.substr(0, std::min(rest.size(), kMostLineBytes - line.size()));
   }
 }
 

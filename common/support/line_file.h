@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -13,7 +14,8 @@ class LineFile {
  public:
   /// Creates or opens the file; a last line without its end, from a process that was killed in it,
   /// is cut off.
-  /// @throws Error naming the system's reason, and where another process has the file.
+  /// @throws Error naming the system's reason, and where it is not a regular file or another
+  /// process has it.
   explicit LineFile(const std::string& path);
   ~LineFile();
   LineFile(const LineFile&) = delete;
@@ -31,8 +33,11 @@ class LineFile {
   long size_ = 0;  // [bytes] of whole lines
 };
 
+/// Of a longer line ForEachLine gives that much.
+inline constexpr std::size_t kMostLineBytes = std::size_t{64} << 20;
+
 /// Calls visit for each whole line of a file, without its end; nothing where there is no such file.
-/// @throws Error where it can't be read.
+/// @throws Error where it can't be read or is not a regular file.
 void ForEachLine(const std::string& path, const std::function<void(std::string_view)>& visit);
 
 }  // namespace mmm_converter

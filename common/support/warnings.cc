@@ -8,6 +8,18 @@ namespace mmm_converter {
 
 void Warnings::Add(std::string text) { all_.push_back({file_, motion_, std::move(text)}); }
 
+void Warnings::AddOfKind(const std::string& kind, std::string text) {
+  constexpr long kMostShown = 10;
+  Kind& known = kinds_[{file_, motion_, kind}];
+  ++known.count;
+  if (known.count <= kMostShown) return Add(std::move(text));
+  if (known.count == kMostShown + 1) {
+    known.summary = all_.size();
+    Add({});
+  }
+  all_[known.summary].text = std::to_string(known.count - kMostShown) + " more " + kind;
+}
+
 void Warnings::Append(const Warnings& more) {
   all_.insert(all_.end(), more.all_.begin(), more.all_.end());
 }
@@ -29,6 +41,10 @@ std::vector<std::string> Warnings::texts() const {
 
 void Warn(Warnings* warnings, std::string text) {
   if (warnings != nullptr) warnings->Add(std::move(text));
+}
+
+void WarnOfKind(Warnings* warnings, const std::string& kind, std::string text) {
+  if (warnings != nullptr) warnings->AddOfKind(kind, std::move(text));
 }
 
 WarningContext::WarningContext(Warnings* warnings, std::string file, std::string motion)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace mmm_converter {
@@ -19,6 +22,9 @@ class Warnings {
  public:
   /// About the file and motion of the innermost WarningContext.
   void Add(std::string text);
+  /// As Add, the first ten of a kind about one file and motion; of those beyond there is one that
+  /// counts them: "5 more parameters that can't be read". kind: what that says, in plural.
+  void AddOfKind(const std::string& kind, std::string text);
   void Append(const Warnings& more);
   /// Those whose text is not there yet.
   void AppendNew(const Warnings& more);
@@ -30,12 +36,20 @@ class Warnings {
  private:
   friend class WarningContext;
 
+  struct Kind {
+    long count = 0;
+    std::size_t summary = 0;  // in all_, of those beyond the tenth
+  };
+
   std::vector<Warning> all_;
+  std::map<std::tuple<std::string, std::string, std::string>, Kind> kinds_;  // file, motion, kind
   std::string file_, motion_;
 };
 
 /// warnings->Add(text), if anybody listens.
 void Warn(Warnings* warnings, std::string text);
+
+void WarnOfKind(Warnings* warnings, const std::string& kind, std::string text);
 
 /// What is added while it lives is about this file, and this motion of it. warnings may be null.
 class WarningContext {

@@ -93,8 +93,10 @@ std::optional<MatrixXd> ReadCached(const std::filesystem::path& file, int dimens
 
 /// A cache that can't be written only costs time.
 void WriteCached(const std::filesystem::path& file, const MatrixXd& half_samples) {
-  if (file.empty()) return;
   std::error_code ignored;
+  const bool exists = std::filesystem::exists(file, ignored);
+  // Writing to a pipe would wait for a reader.
+  if (file.empty() || (exists && !std::filesystem::is_regular_file(file, ignored))) return;
   std::filesystem::create_directories(file.parent_path(), ignored);
   try {
     WriteFileAtomically(file.string(), FormatLcdSamples(half_samples));

@@ -75,6 +75,15 @@ TEST_F(JournalTest, LeavesOutWhatItDoesNotUnderstand) {
   EXPECT_TRUE(ReadJournals(folder_ + "/nowhere").empty());
 }
 
+TEST_F(JournalTest, LeavesOutWhatIsNestedWithoutEnd) {
+  constexpr int kDepth = 200000;
+  std::ofstream(folder_ + "/journal.jsonl") << std::string(kDepth, '[') + std::string(kDepth, ']') +
+                                                   "\n{\"id\":" + std::string(kDepth, '[') +
+                                                   std::string(kDepth, ']') + "}\n";
+  Journal(folder_, 1, 1).Append(Record("b"));
+  EXPECT_EQ(ReadJournals(folder_).size(), 1U);
+}
+
 TEST_F(JournalTest, KnowsWhetherAFileHasChanged) {
   const std::string file = folder_ + "/walk.c3d";
   std::ofstream(file) << "old";

@@ -5,8 +5,8 @@
 
 namespace mmm_converter::testing {
 
-/// Path of a plugin of tests/support/test_plugin: "test_converter", "old_version", "no_factory" or
-/// "null_factory".
+/// Path of a plugin of tests/support/test_plugin: "test_converter", "faulty_converter",
+/// "old_version", "no_factory" or "null_factory".
 inline std::string TestPlugin(const std::string& name) {
   return std::string(MMM_CONVERTER_BINARY_DIR "/tests/plugins/") + name + "/" + name + ".so";
 }

@@ -31,7 +31,7 @@ TEST(BatchSchema, AgreesWithTheReader) {
   };
   for (const std::string& xml :
        {recording("height_m='0.5' mass_kg='400' handLength_mm='50' csv='true' unit='in'"),
-        recording("up='-X' frames=':' format='1.0' rate_hz='0.1' ignoreResiduals='false'"),
+        recording("up='-X' frames=':' format='1.0' rate_hz='1' ignoreResiduals='false'"),
         std::string("<Batch><Metadata name='a' value=''/><Recording file='a'><Metadata name='a' "
                     "value='b'/></Recording></Batch>")}) {
     EXPECT_TRUE(testing::IsValidText(kBatchSchema, xml)) << xml;
@@ -40,7 +40,7 @@ TEST(BatchSchema, AgreesWithTheReader) {
   for (const std::string& xml :
        {recording("height_m='0.4'"), recording("mass_kg='x'"), recording("handLength_mm='0.18'"),
         recording("csv='yes'"), recording("unit='ft'"), recording("up='w'"),
-        recording("frames='5'"), recording("format='3'"), recording("rate_hz='0'"),
+        recording("frames='5'"), recording("format='3'"), recording("rate_hz='0.5'"),
         recording("selfCalibrate='1'"), recording("ignoreResiduals=''"), recording("what='1'"),
         recording("id=''"), std::string("<Batch><Group file='a.c3d'/></Batch>"),
         std::string("<Batch><Recording/></Batch>"),

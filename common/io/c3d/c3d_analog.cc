@@ -54,9 +54,10 @@ C3dAnalog ReadC3dAnalog(const C3dFile& file, Warnings* warnings) {
     Warn(warnings,
          fmt::format("the header says {} analog channels, ANALOG:USED {}", words / samples, used));
   }
-  const std::vector<std::string> labels = parameters.TextList("ANALOG", "LABELS");
-  const std::vector<std::string> units = parameters.TextList("ANALOG", "UNITS");
-  const std::vector<std::string> descriptions = parameters.TextList("ANALOG", "DESCRIPTIONS");
+  const std::size_t most = analog.channels.size();
+  const std::vector<std::string> labels = parameters.TextList("ANALOG", "LABELS", most);
+  const std::vector<std::string> units = parameters.TextList("ANALOG", "UNITS", most);
+  const std::vector<std::string> descriptions = parameters.TextList("ANALOG", "DESCRIPTIONS", most);
   for (std::size_t i = 0; i < analog.channels.size(); ++i) {
     C3dAnalogChannel& channel = analog.channels[i];
     if (i < labels.size()) channel.label = labels[i];

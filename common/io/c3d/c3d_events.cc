@@ -30,9 +30,9 @@ void ReadGroup(const C3dParameters& parameters, std::vector<C3dEvent>* events, W
   if (used > stored) {
     Warn(warnings, fmt::format("EVENT:USED says {} events, {} have a time", used, stored));
   }
-  const std::vector<std::string> labels = parameters.TextList("EVENT", "LABELS");
-  const std::vector<std::string> contexts = parameters.TextList("EVENT", "CONTEXTS");
-  const std::vector<std::string> subjects = parameters.TextList("EVENT", "SUBJECTS");
+  const std::vector<std::string> labels = parameters.TextList("EVENT", "LABELS", stored);
+  const std::vector<std::string> contexts = parameters.TextList("EVENT", "CONTEXTS", stored);
+  const std::vector<std::string> subjects = parameters.TextList("EVENT", "SUBJECTS", stored);
   std::size_t without_time = 0;
   for (std::size_t i = 0; i < std::min(used, stored); ++i) {
     const double time = *times->Number(2 * i) * kMinute + *times->Number(2 * i + 1);

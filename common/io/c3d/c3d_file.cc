@@ -28,13 +28,17 @@ C3dProcessor ProcessorOf(int byte, const std::string& path, Warnings* warnings) 
       byte));
 }
 
-std::vector<std::string> ListedNames(const C3dParameters& parameters) {
-  std::vector<std::string> names = parameters.TextList("POINT", "LABELS");
+/// there: how many the file has.
+std::vector<std::string> ListedNames(const C3dParameters& parameters, std::size_t points,
+                                     std::size_t* there) {
+  std::vector<std::string> names = parameters.TextList("POINT", "LABELS", points, there);
   if (!ToLower(parameters.Text("MANUFACTURER", "COMPANY")).starts_with("motion analysis")) {
     return names;
   }
-  const std::vector<std::string> descriptions = parameters.TextList("POINT", "DESCRIPTIONS");
+  const std::vector<std::string> descriptions =
+      parameters.TextList("POINT", "DESCRIPTIONS", points);
   names.resize(std::max(names.size(), descriptions.size()));
+  *there = std::max(*there, names.size());
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     if (!descriptions[i].empty()) names[i] = descriptions[i];
   }
@@ -98,11 +102,10 @@ void C3dFile::ReadFrames(int first, int count, std::vector<unsigned char>* bytes
 }
 
 std::vector<std::string> C3dPointNames(const C3dFile& file, Warnings* warnings) {
-  std::vector<std::string> names = ListedNames(file.parameters());
   const std::size_t points = file.layout().points;
-  if (names.size() != points) {
-    Warn(warnings, fmt::format("{} labels for {} points", names.size(), points));
-  }
+  std::size_t there = 0;
+  std::vector<std::string> names = ListedNames(file.parameters(), points, &there);
+  if (there != points) Warn(warnings, fmt::format("{} labels for {} points", there, points));
   names.resize(points);
   std::set<std::string> seen;
   std::string repeated;
@@ -119,11 +122,14 @@ std::vector<std::string> C3dPointNames(const C3dFile& file, Warnings* warnings) 
   return names;
 }
 
-std::vector<std::string> C3dOutputNames(const C3dParameters& parameters) {
+std::vector<std::string> C3dOutputNames(const C3dFile& file) {
+  const C3dParameters& parameters = file.parameters();
+  const std::size_t points = file.layout().points;
   std::vector<std::string> outputs;
   for (const char* kind :
        {"ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS", "MODELED_MARKERS"}) {
-    for (std::string& name : parameters.TextList("POINT", kind)) outputs.push_back(std::move(name));
+    for (std::string& name : parameters.TextList("POINT", kind, points))
+      outputs.push_back(std::move(name));
   }
   return outputs;
 }

@@ -49,6 +49,6 @@ class C3dFile {
 std::vector<std::string> C3dPointNames(const C3dFile& file, Warnings* warnings);
 
 /// Names of points that the file lists as angles, forces, powers, ... rather than markers.
-std::vector<std::string> C3dOutputNames(const C3dParameters& parameters);
+std::vector<std::string> C3dOutputNames(const C3dFile& file);
 
 }  // namespace mmm_converter

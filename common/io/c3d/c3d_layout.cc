@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "common/io/c3d/c3d_numbers.h"
+#include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
 namespace {
@@ -92,10 +93,9 @@ int Points(const C3dHeader& header, const C3dParameters& parameters, bool floats
 }
 
 double Rate(const C3dHeader& header, const C3dParameters& parameters) {
-  for (const double rate : {parameters.Number("POINT", "RATE").value_or(0), double{header.rate}}) {
-    if (std::isfinite(rate) && rate > 0) return rate;
-  }
-  return 0;
+  const double by_parameter = parameters.Number("POINT", "RATE").value_or(0);
+  if (IsFrameRate(by_parameter) || !(header.rate > 0)) return by_parameter;
+  return IsFrameRate(header.rate) || !(by_parameter > 0) ? header.rate : by_parameter;
 }
 
 }  // namespace

@@ -17,6 +17,10 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
+// Each costs far more than its bytes. Files have some hundreds; names for all points that there can
+// be take 257.
+constexpr std::size_t kMostParameters = 10000;
+
 int SignedByte(unsigned char byte) { return static_cast<std::int8_t>(byte); }
 
 std::string UpperName(Bytes bytes) {
@@ -84,8 +88,9 @@ Step NextRecord(Bytes section, const Record& record, std::size_t by_size, C3dPro
     if (!step.record && !into_itself && IsEnd(section, by_offset)) return step;
   }
   if (auto next = ReadRecord(section, by_size, processor)) {
-    Warn(warnings, fmt::format("parameter {}: the offset {} to the next one is wrong", record.name,
-                               static_cast<std::int16_t>(record.offset)));
+    WarnOfKind(warnings, "parameters whose offset to the next one is wrong",
+               fmt::format("parameter {}: the offset {} to the next one is wrong", record.name,
+                           static_cast<std::int16_t>(record.offset)));
     return {by_size, std::move(next)};
   }
   if (forward && IsEnd(section, by_offset)) return {by_offset, std::nullopt};
@@ -137,11 +142,17 @@ std::optional<double> C3dParameter::Number(std::size_t index) const {
   return C3dFloat(&data[4 * index], processor);
 }
 
-std::vector<std::string> C3dParameter::Texts() const {
-  std::vector<std::string> texts;
-  if (type != -1 || data.empty()) return texts;
+std::size_t C3dParameter::num_texts() const {
+  if (type != -1 || data.empty()) return 0;
   const std::size_t width = dimensions.empty() ? 1 : dimensions[0];
-  for (std::size_t at = 0; at < data.size(); at += width) {
+  return (data.size() + width - 1) / width;
+}
+
+std::vector<std::string> C3dParameter::Texts(std::size_t most) const {
+  std::vector<std::string> texts;
+  const std::size_t width = dimensions.empty() ? 1 : dimensions[0];
+  const std::size_t count = std::min(most, num_texts());
+  for (std::size_t at = 0; at < count * width; at += width) {
     const Bytes text = data.subspan(at, std::min(width, data.size() - at));
     texts.emplace_back(Trim({reinterpret_cast<const char*>(text.data()), text.size()}));
   }
@@ -149,7 +160,7 @@ std::vector<std::string> C3dParameter::Texts() const {
 }
 
 std::string C3dParameter::Text() const {
-  const std::vector<std::string> texts = Texts();
+  const std::vector<std::string> texts = Texts(1);
   return texts.empty() ? std::string() : texts.front();
 }
 
@@ -162,6 +173,11 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
     std::size_t by_size = section.size();
     if (content < section.size()) by_size = std::min(content + 1 + section[content], by_size);
     std::optional<C3dParameter> parameter;
+    if (record->id > 0 && parameters_.size() == kMostParameters) {
+      Warn(warnings,
+           fmt::format("more than {} parameters; the others are left out", kMostParameters));
+      break;
+    }
     if (record->id > 0) parameter = ReadParameter(section, *record, processor, &by_size);
     Step next = NextRecord(section, *record, by_size, processor, warnings);
     end_ = next.at;
@@ -175,7 +191,8 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
       group_ids.push_back(record->id);
       parameters_.push_back(std::move(*parameter));
     } else {
-      Warn(warnings, fmt::format("parameter {} can't be read", record->name));
+      WarnOfKind(warnings, "parameters that can't be read",
+                 fmt::format("parameter {} can't be read", record->name));
     }
     record = std::move(next.record);
   }
@@ -184,8 +201,9 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
     if (group != groups.end()) parameters_[i].group = group->second;
     const auto& [group_name, name] = std::tie(parameters_[i].group, parameters_[i].name);
     if (!places_.emplace(std::pair(group_name, name), i).second) {
-      Warn(warnings,
-           fmt::format("parameter {}:{} is there twice; the first is used", group_name, name));
+      WarnOfKind(
+          warnings, "parameters that are there twice",
+          fmt::format("parameter {}:{} is there twice; the first is used", group_name, name));
     }
   }
 }
@@ -205,13 +223,15 @@ std::string C3dParameters::Text(std::string_view group, std::string_view name) c
   return parameter == nullptr ? std::string() : parameter->Text();
 }
 
-std::vector<std::string> C3dParameters::TextList(std::string_view group,
-                                                 const std::string& name) const {
+std::vector<std::string> C3dParameters::TextList(std::string_view group, const std::string& name,
+                                                 std::size_t most, std::size_t* there) const {
   std::vector<std::string> all;
+  if (there != nullptr) *there = 0;
   for (int i = 1;; ++i) {
     const C3dParameter* parameter = Find(group, i == 1 ? name : fmt::format("{}{}", name, i));
     if (parameter == nullptr) return all;
-    for (std::string& text : parameter->Texts()) all.push_back(std::move(text));
+    for (std::string& text : parameter->Texts(most - all.size())) all.push_back(std::move(text));
+    if (there != nullptr) *there += parameter->num_texts();
   }
 }
 

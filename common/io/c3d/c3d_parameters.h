@@ -24,10 +24,11 @@ struct C3dParameter {
   std::span<const unsigned char> data;  ///< at most what dimensions ask for
   C3dProcessor processor = C3dProcessor::kIntel;
 
-  std::size_t size() const;                               ///< numbers that are there
-  std::optional<double> Number(std::size_t index) const;  ///< words unsigned
-  std::vector<std::string> Texts() const;  ///< trimmed; empty for a parameter of numbers
-  std::string Text() const;                ///< the first text, or empty
+  std::size_t size() const;                                ///< numbers that are there
+  std::optional<double> Number(std::size_t index) const;   ///< words unsigned
+  std::size_t num_texts() const;                           ///< 0 for a parameter of numbers
+  std::vector<std::string> Texts(std::size_t most) const;  ///< trimmed, the first ones
+  std::string Text() const;                                ///< the first text, or empty
 };
 
 /// The parameters of a C3D file, as far as they can be made out.
@@ -45,8 +46,10 @@ class C3dParameters {
   const C3dParameter* Find(std::string_view group, std::string_view name) const;
   std::optional<double> Number(std::string_view group, std::string_view name) const;
   std::string Text(std::string_view group, std::string_view name) const;
-  /// Texts of NAME, NAME2, NAME3, ... as one list.
-  std::vector<std::string> TextList(std::string_view group, const std::string& name) const;
+  /// Texts of NAME, NAME2, NAME3, ... as one list, the first ones; a text takes far more memory
+  /// than its bytes. there: how many the file has; may be null.
+  std::vector<std::string> TextList(std::string_view group, const std::string& name,
+                                    std::size_t most, std::size_t* there = nullptr) const;
 
   std::size_t end() const { return end_; }  ///< byte of the section behind the last record
 

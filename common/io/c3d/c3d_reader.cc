@@ -26,8 +26,8 @@ C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, 
   const C3dParameters& parameters = file_.parameters();
   info_.unit = parameters.Text("POINT", "UNITS");
   info_.labels = C3dPointNames(file_, warnings);
-  info_.outputs = C3dOutputNames(parameters);
-  info_.label_prefixes = parameters.TextList("SUBJECTS", "LABEL_PREFIXES");
+  info_.outputs = C3dOutputNames(file_);
+  info_.label_prefixes = parameters.TextList("SUBJECTS", "LABEL_PREFIXES", info_.labels.size());
   info_.comment = parameters.Text("MANUFACTURER", "COMMENT");
   info_.up = parameters.Text("POINT", "Y_SCREEN");
 }

@@ -229,9 +229,11 @@ void NodeReader::ReadLimits(const XmlElement& joint) {
   const double lower = Number(*limits, "lo") * unit;
   const double upper = Number(*limits, "hi") * unit;
   const double largest = revolute ? kLargestAngle : 1e3 * kLongestPartOffset;
+  const std::string* lower_text = limits->FindAttribute("lo");
+  const std::string* upper_text = limits->FindAttribute("hi");
+  if (lower_text == nullptr || upper_text == nullptr) return;  // Number has said so
   if (lower > upper) {
-    Fail(*limits, "the limits are crossed: lo=\"{}\" is above hi=\"{}\"",
-         *limits->FindAttribute("lo"), *limits->FindAttribute("hi"));
+    Fail(*limits, "the limits are crossed: lo=\"{}\" is above hi=\"{}\"", *lower_text, *upper_text);
   } else if (std::max(std::abs(lower), std::abs(upper)) > largest) {
     Fail(*limits, "the limits {:.6g} to {:.6g} {} are too wide; check their unit", lower, upper,
          revolute ? "radian" : "m");

@@ -52,6 +52,14 @@ class Budget {
   Diagnostics& diagnostics_;
 };
 
+void CheckRate(const TimeGrid& grid, int line, Diagnostics* diagnostics) {
+  if (IsFrameRate(grid.rate)) return;
+  diagnostics->AddError(
+      line, fmt::format("timesteps from {} s on are {:.6g} s apart, which is {:.6g} Hz and outside "
+                        "{:.0f} to {:.0f} Hz; are they in seconds?",
+                        grid.first_time, 1 / grid.rate, grid.rate, kLowestRate, kHighestRate));
+}
+
 void WarnIfUneven(const TimeGrid& grid, int line, Diagnostics* diagnostics) {
   if (grid.even) return;
   diagnostics->AddWarning(
@@ -144,6 +152,7 @@ void BuildTrajectory(const TimedRows& poses, const std::vector<JointRows>& joint
   if (base->times.empty()) return;
   const TimeGrid grid = FitTimeGrid(base->times);
   if (!budget->Take(grid, 7 + num_joints, line)) return;
+  CheckRate(grid, line, diagnostics);
   WarnIfUneven(grid, line, diagnostics);
 
   PoseTrajectory& trajectory = motion->trajectory;
@@ -175,6 +184,7 @@ void BuildMarkers(const MarkerRows& rows, int line, MmmMotion* motion, Budget* b
   times.erase(std::unique(times.begin(), times.end()), times.end());
   const TimeGrid grid = FitTimeGrid(times);
   if (!budget->Take(grid, 3 * rows.labels.size(), line)) return;
+  CheckRate(grid, line, diagnostics);
   WarnIfUneven(grid, line, diagnostics);
   std::vector<int> order(rows.labels.size());
   std::iota(order.begin(), order.end(), 0);

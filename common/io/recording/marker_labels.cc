@@ -2,9 +2,9 @@
 #include "common/io/recording/marker_labels.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "common/support/error.h"
@@ -49,7 +49,7 @@ struct Label {
   std::string name;
 };
 
-Label TakeApart(int index, std::string_view label, const std::vector<std::string>& prefixes) {
+Label TakeApart(int index, std::string_view label, const std::set<std::string_view>& prefixes) {
   const auto part = [&](std::size_t at) {
     return Label{index, std::string(Trim(label.substr(0, at))),
                  std::string(Trim(label.substr(at + 1)))};
@@ -59,9 +59,7 @@ Label TakeApart(int index, std::string_view label, const std::vector<std::string
   const std::size_t bar = label.find('_');
   if (bar != std::string_view::npos && bar > 0) {
     const std::string_view prefix = label.substr(0, bar);
-    const bool declared = std::any_of(prefixes.begin(), prefixes.end(), [&](const auto& p) {
-      return p == prefix || p == label.substr(0, bar + 1);
-    });
+    const bool declared = prefixes.contains(prefix) || prefixes.contains(label.substr(0, bar + 1));
     if (declared || FindBodyRegion(label.substr(bar + 1))) return part(bar);
   }
   return {index, "", std::string(Trim(label))};
@@ -85,7 +83,7 @@ std::set<std::string> BoneAxes(const std::vector<std::string>& labels) {
 /// What is left when everything that is no marker is gone.
 std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
                                const std::vector<std::string>& outputs,
-                               const std::vector<std::string>& prefixes, Warnings* warnings) {
+                               const std::set<std::string_view>& prefixes, Warnings* warnings) {
   const std::set<std::string> no_markers(outputs.begin(), outputs.end());
   const std::set<std::string> axes = BoneAxes(labels);
   std::vector<Label> markers;
@@ -98,8 +96,9 @@ std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
     } else if (axes.contains(labels[i]) || no_markers.contains(labels[i])) {
       ++computed;
       if (FindBodyRegion(label.name)) {
-        Warn(warnings,
-             fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
+        WarnOfKind(
+            warnings, "points that are computed here",
+            fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
       }
     } else {
       markers.push_back(std::move(label));
@@ -126,11 +125,11 @@ struct Group {
 
 std::vector<Group> GroupByPrefix(std::vector<Label> labels) {
   std::vector<Group> groups;
+  std::map<std::string, std::size_t> places;  // of a prefix, in groups
   for (Label& label : labels) {
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& g) { return g.prefix == label.prefix; });
-    if (group == groups.end()) group = groups.insert(groups.end(), Group{label.prefix, {}});
-    group->labels.push_back(std::move(label));
+    const auto [place, is_new] = places.emplace(label.prefix, groups.size());
+    if (is_new) groups.push_back({label.prefix, {}});
+    groups[place->second].labels.push_back(std::move(label));
   }
   return groups;
 }
@@ -142,7 +141,7 @@ std::string NameOfGroup(const Group& group) {
 std::string Names(const std::vector<Group>& groups) {
   std::vector<std::string> names(groups.size());
   std::transform(groups.begin(), groups.end(), names.begin(), NameOfGroup);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return FirstNames(names);
 }
 
 /// All groups as one, where no name would be there twice.
@@ -212,8 +211,8 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::string& subject, const std::string& file,
                             Warnings* warnings) {
   LabelSelection selection;
-  const std::vector<Group> groups =
-      GroupByPrefix(KeepMarkers(labels, outputs, label_prefixes, warnings));
+  const std::vector<Group> groups = GroupByPrefix(
+      KeepMarkers(labels, outputs, {label_prefixes.begin(), label_prefixes.end()}, warnings));
   const Group chosen = ChooseGroup(groups, subject, file);
   selection.subject = chosen.prefix;
   std::vector<Group> others;

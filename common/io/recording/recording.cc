@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "common/io/mmm/mmm_content.h"
@@ -36,8 +37,14 @@ bool SeesAnything(const MarkerSequence& markers) {
 void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& options,
                    Recording* recording, Warnings* warnings) {
   const double rate = options.rate.value_or(content.rate);
-  if (!(rate > 0)) {
+  if (!(rate > 0 && std::isfinite(rate))) {
     throw Error(fmt::format("{}: gives no frame rate; give it", recording->file), Remedy::kRate);
+  }
+  if (!IsFrameRate(rate)) {
+    throw Error(fmt::format("{}: gives a frame rate of {:.6g} Hz, which is outside {:.0f} to "
+                            "{:.0f} Hz; give the right one",
+                            recording->file, rate, kLowestRate, kHighestRate),
+                Remedy::kRate);
   }
   const LabelSelection selection =
       SelectLabels(content.labels, content.outputs, content.label_prefixes, options.subject,
@@ -119,8 +126,9 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
 
 Recording ReadRecording(const std::string& path, const ReadRecordingOptions& options,
                         Warnings* warnings) {
-  if (options.rate && !(*options.rate > 0)) {
-    throw Error(fmt::format("a frame rate of {} Hz; it must be above 0", *options.rate));
+  if (options.rate && !IsFrameRate(*options.rate)) {
+    throw Error(fmt::format("a frame rate of {:.6g} Hz; it must be {:.0f} to {:.0f} Hz",
+                            *options.rate, kLowestRate, kHighestRate));
   }
   const RecordingFormat& format = FormatOfContent(path);
   return MakeRecording(path,

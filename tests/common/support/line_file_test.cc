@@ -3,7 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
+#include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -53,6 +57,31 @@ TEST_F(LineFileTest, WithoutAWholeLineIsEmpty) {
   EXPECT_THAT(Lines(), ElementsAre("whole"));
 }
 
+// A pipe that nobody writes to would never end, a device never either.
+TEST_F(LineFileTest, IsARegularFile) {
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  for (const std::string& path : {path_, std::string("/dev/zero")}) {
+    const std::vector<std::function<void()>> uses = {
+        [&] { const LineFile file(path); },
+        [&] { ForEachLine(path, [](std::string_view) { FAIL(); }); }};
+    for (const auto& use : uses) {
+      try {
+        use();
+        FAIL();
+      } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr(path + ": is not a regular file"));
+      }
+    }
+  }
+}
+
+TEST_F(LineFileTest, LinesMayBeLongerThanABlock) {
+  const std::string line(200000, 'x');
+  LineFile(path_).Append(line);
+  LineFile(path_).Append("y");
+  EXPECT_THAT(Lines(), ElementsAre(line, "y"));
+}
+
 TEST_F(LineFileTest, HasOneWriter) {
   LineFile file(path_);
   file.Append("one");
@@ -65,15 +94,26 @@ TEST_F(LineFileTest, HasOneWriter) {
   EXPECT_THAT(Lines(), ElementsAre("one"));
 }
 
-TEST_F(LineFileTest, AFullDiskIsSaid) {
-  LineFile file("/dev/full");
+TEST_F(LineFileTest, StaysAsItWasWhereALineDoesNotFit) {
+  LineFile file(path_);
+  file.Append("one");
+  rlimit old_limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+  auto* const old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = old_limit;
+  limit.rlim_cur = 6;  // bytes: a part of the line fits
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::string message;
   try {
-    file.Append("one");
-    FAIL();
+    file.Append("another");
   } catch (const WriteError& error) {
-    EXPECT_TRUE(error.concerns_disk());
-    EXPECT_THAT(error.what(), HasSubstr("No space left on device"));
+    message = error.what();
   }
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_THAT(message, HasSubstr("File too large"));
+  EXPECT_THAT(Lines(), ElementsAre("one"));
+  EXPECT_TRUE(WriteError("file", ENOSPC).concerns_disk());
 }
 
 TEST_F(LineFileTest, SaysWhereItCannotBe) {

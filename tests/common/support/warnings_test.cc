@@ -46,6 +46,23 @@ TEST(Warnings, AreAppendedWithWhatTheyAreAbout) {
   EXPECT_THAT(all.texts(), ElementsAre("two", "one", "one", "two"));
 }
 
+TEST(Warnings, OfOneKindAreCountedAfterTheTenth) {
+  Warnings warnings;
+  const WarningContext file(&warnings, "a.c3d");
+  for (int i = 0; i < 11; ++i) WarnOfKind(&warnings, "bad labels", "bad label");
+  warnings.Add("other");
+  for (int i = 0; i < 100000; ++i) WarnOfKind(&warnings, "bad labels", "bad label");
+  const std::vector<std::string> texts = warnings.texts();
+  ASSERT_EQ(texts.size(), 12U);
+  EXPECT_EQ(texts[9], "bad label");
+  EXPECT_EQ(texts[10], "100001 more bad labels");
+  EXPECT_EQ(texts[11], "other");
+  const WarningContext other(&warnings, "b.c3d");
+  WarnOfKind(&warnings, "bad labels", "bad label");
+  EXPECT_EQ(warnings.texts().back(), "bad label");
+  WarnOfKind(nullptr, "bad labels", "bad label");
+}
+
 TEST(Warnings, NobodyNeedsToListen) {
   const WarningContext context(nullptr, "a.c3d");
   Warn(nullptr, "lost");

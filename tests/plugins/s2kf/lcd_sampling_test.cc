@@ -2,6 +2,7 @@
 #include "plugins/s2kf/lcd_sampling.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -100,6 +101,16 @@ TEST_F(LcdSamplingTest, DamagedCacheIsReplaced) {
     EXPECT_EQ(LcdHalfSamples(3, 31), computed);
     EXPECT_EQ(Content(CachedFile()), content);
   }
+}
+
+// Opening a pipe would wait for its other end.
+TEST_F(LcdSamplingTest, LeavesAPipeInTheCacheAlone) {
+  fs::create_directories(CachedFile().parent_path());
+  ASSERT_EQ(mkfifo(CachedFile().c_str(), 0600), 0);
+  const MatrixXd computed = LcdHalfSamples(3, 31);
+  EXPECT_TRUE(fs::is_fifo(CachedFile()));
+  fs::remove(CachedFile());
+  EXPECT_EQ(LcdHalfSamples(3, 31), computed);
 }
 
 TEST_F(LcdSamplingTest, WorksWithoutACache) {

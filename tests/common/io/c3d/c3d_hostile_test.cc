@@ -182,6 +182,18 @@ TEST(HostileC3d, HasNoRate) {
   }
 }
 
+TEST(HostileC3d, HasAnImpossibleRate) {
+  const std::string good = SmallFile();
+  for (const float rate : {1e-30F, 0.5F, 2e5F, 1e30F}) {
+    std::string file = good;
+    PutFloat(&file, DataOf(file, "RATE"), rate);
+    EXPECT_EQ(FramesRead(file), 6);  // the header's
+    PutFloat(&file, 20, rate);
+    EXPECT_THAT(C3dMessageOf(file), HasSubstr(" Hz, which is outside 1 to 100000 Hz; give the"));
+    EXPECT_EQ(ReadRecording(TempPath(), {.rate = 50}).markers.rate(), 50);
+  }
+}
+
 TEST(HostileC3d, MarksMissingPointsInEveryWay) {
   const std::string good = SmallFile();
   const std::size_t data = 512 * (static_cast<unsigned char>(good[16]) - 1);

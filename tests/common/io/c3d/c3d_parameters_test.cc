@@ -35,7 +35,31 @@ TEST(C3dParameters, ContinuesLabels) {
   section.Group(1, "POINT")
       .Texts(1, "LABELS2", 3, "C  ")
       .Texts(1, "LABELS", 3, std::string("A  B\0\0", 6));
-  EXPECT_THAT(section.Parse().TextList("POINT", "LABELS"), ElementsAre("A", "B", "C"));
+  EXPECT_THAT(section.Parse().TextList("POINT", "LABELS", 10), ElementsAre("A", "B", "C"));
+}
+
+TEST(C3dParameters, GivesNoMoreTextsThanAreAskedFor) {
+  Section section;
+  section.Group(1, "POINT").Texts(1, "LABELS", 1, std::string(200, 'x'));
+  for (int i = 2; i < 100; ++i) {
+    section.Texts(1, "LABELS" + std::to_string(i), 1, std::string(200, 'x'));
+  }
+  std::size_t there = 0;
+  EXPECT_EQ(section.Parse().TextList("POINT", "LABELS", 250, &there).size(), 250U);
+  EXPECT_EQ(there, 99U * 200U);
+}
+
+// Millions of the smallest parameters would take a hundred times the file, and as many warnings.
+TEST(C3dParameters, AreBounded) {
+  Section section;
+  section.Group(1, "POINT").Word(1, "USED", {3});
+  for (int i = 0; i < 30000; ++i) section.Word(1, "U", {i % 1000});
+  const C3dParameters parameters = section.Parse();
+  EXPECT_EQ(parameters.all().size(), 10000U);
+  EXPECT_EQ(parameters.Number("POINT", "USED"), 3);
+  ASSERT_EQ(section.warnings.all().size(), 12U);
+  EXPECT_EQ(section.warnings.texts()[0], "more than 10000 parameters; the others are left out");
+  EXPECT_EQ(section.warnings.texts()[11], "9988 more parameters that are there twice");
 }
 
 TEST(C3dParameters, KeepsTheFirstOfEqualNames) {
@@ -59,7 +83,7 @@ TEST(C3dParameters, PassesWrongOffsetsAndSizes) {
   longer.Word(1, "USED", {3});
   const C3dParameters parameters = longer.Parse();
   EXPECT_EQ(parameters.Number("POINT", "USED"), 3);
-  EXPECT_THAT(parameters.TextList("POINT", "LABELS"), Contains("B"));
+  EXPECT_THAT(parameters.TextList("POINT", "LABELS", 10), Contains("B"));
 }
 
 TEST(C3dParameters, RefusesNonsense) {

@@ -233,6 +233,13 @@ TEST(MmmModel, RefusesImpossibleNumbers) {
   EXPECT_THAT(ErrorOf(joint("lo='0' hi='1e999'")),
               HasSubstr("<limits hi=\"1e999\">: expected a finite"));
   EXPECT_THAT(ErrorOf(joint("hi='1'")), HasSubstr("<limits> needs an attribute lo="));
+  // What is missing counts as 0, which crosses the limit that is there.
+  EXPECT_THAT(ErrorOf(joint("hi='-1'")), HasSubstr("m.xml:4: node 'arm': <limits> needs an "
+                                                   "attribute lo="));
+  EXPECT_THAT(ErrorOf(Model("<Joint type='revolute'><axis x='0' y='0' z='0'/>\n<Limits lo='1'/>"
+                            "</Joint>")),
+              AllOf(HasSubstr("m.xml:3: node 'arm': <axis> has no direction\n"),
+                    HasSubstr("m.xml:4: node 'arm': <Limits> needs an attribute hi=")));
   EXPECT_THAT(ErrorOf(joint("lo='0' hi='1' unit='mm'")),
               HasSubstr("<limits unit=\"mm\">: unknown unit; use degree or radian"));
   EXPECT_THAT(ErrorOf(Model("<Transform><Translation x='0' y='0' z='88000'/></Transform>")),

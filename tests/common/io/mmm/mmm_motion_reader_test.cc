@@ -10,6 +10,7 @@
 namespace mmm_converter {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -212,6 +213,14 @@ TEST(MmmMotionReader, MarkerSensorsAreMerged) {
   EXPECT_FALSE(IsSeen(markers.frame(2).col(1)));
 }
 
+TEST(MmmMotionReader, TimestepsArePossible) {
+  for (const char* step : {"1e-300", "0.000001", "10", "1e300"}) {
+    EXPECT_THAT(MotionMessageOf(Markers(Marker("0", "A", "1 2 3") + Marker(step, "A", "1 2 3"))),
+                AllOf(HasSubstr("walk.xml:"), HasSubstr("outside 1 to 100000 Hz")))
+        << step;
+  }
+}
+
 TEST(MmmMotionReader, NamesFileAndLineOfEveryProblem) {
   const std::string message = MotionMessageOf(
       "<MMM>\n<Motion name='a'>\n<ModelProcessorConfig><Height>tall</Height>\n"
@@ -256,8 +265,6 @@ TEST(MmmMotionReader, RejectsWhatIsNoMotion) {
 }
 
 TEST(MmmMotionReader, HugeGapsDoNotTakeMemory) {
-  const std::string two = Markers(Marker("0", "A", "1 2 3") + Marker("1e9", "A", "1 2 3"));
-  EXPECT_EQ(ParseMmmMotionFile(two, "walk.xml").motions[0].markers.num_frames(), 2);
   for (const char* const far : {"1e9", "1e18", "1e300"}) {
     EXPECT_THAT(MotionMessageOf(Markers(Marker("0", "A", "1 2 3") + Marker("0.01", "A", "1 2 3") +
                                         Marker(far, "A", "1 2 3"))),

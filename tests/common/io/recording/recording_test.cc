@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 
 #include "common/io/c3d/c3d_writer.h"
+#include "common/io/recording/marker_labels.h"
 #include "common/io/recording/recording_axes.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
@@ -334,6 +336,35 @@ TEST(Recording, ReadsMarkersOfMmmMotions) {
               AllOf(HasSubstr("no motion nobody"), HasSubstr("true_1480")));
   const std::string wave = SharedData("mmm/motions_mmm2/wave_left01.xml");
   EXPECT_THAT(MessageOf(wave), HasSubstr("no motion carries markers"));
+}
+
+// A subject for each label, declared as such: quadratic, were they searched one after the other.
+TEST(Recording, ManySubjectsTakeLittleTime) {
+  constexpr int kLabels = 60000;
+  std::vector<std::string> labels;
+  std::vector<std::string> prefixes;
+  for (int i = 0; i < kLabels; ++i) {
+    prefixes.push_back("s" + std::to_string(i));
+    labels.push_back(prefixes.back() + "_LKNE");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    SelectLabels(labels, {}, prefixes, "", "a.c3d", nullptr);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_LT(std::string_view(error.what()).size(), 300U) << error.what();
+  }
+  // 0.1 s where it is linear, a minute where it is not.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(Recording, TheRateGivenIsPossible) {
+  const std::string path = SharedData("mmm/motions_mmm2/wave_left01.xml");
+  for (const double rate : {-1.0, 0.0, 0.5, 1e6, 1e300, std::nan("")}) {
+    ReadRecordingOptions options;
+    options.rate = rate;
+    EXPECT_THAT(MessageOf(path, options), HasSubstr("Hz; it must be 1 to 100000 Hz"));
+  }
 }
 
 TEST(Recording, SaysWhatIsWrongWithAFile) {
