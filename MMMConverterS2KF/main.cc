@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/printable.h"
 #include "MMMConverterS2KF/terminal/version.h"
 #include "common/math/instruction_set.h"
 #include "common/support/suggestion.h"
@@ -86,11 +90,26 @@ int Run(const std::vector<std::string>& words) {
                                JoinNames(names)));
 }
 
+std::string Explain(const std::filesystem::filesystem_error& error) {
+  std::error_code failure;
+  const auto folder = std::filesystem::current_path(failure);
+  if (failure) return "the working folder is not there any more; change into another one";
+  return fmt::format("{}: can't be reached: {}",
+                     error.path1().empty() ? folder.string() : error.path1().string(),
+                     error.code().message());
+}
+
+constexpr const char* kNoMemory =
+    "there is not enough memory for this; close other programs, allow this one more (ulimit -v) or "
+    "take a part of the recording (--frames A:B)";
+
 }  // namespace
 }  // namespace mmm_converter
 
 int main(int argc, char** argv) {
   using mmm_converter::LogError;
+  const mmm_converter::PrintableOutput output;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is then an error that is said
   try {
     mmm_converter::StartLog("info");
     const int exit_code = mmm_converter::Run({argv + 1, argv + argc});
@@ -102,6 +121,12 @@ int main(int argc, char** argv) {
     return mmm_converter::kMisused;
   } catch (const mmm_converter::Error& error) {
     LogError(mmm_converter::WithAdvice(error));
+    return mmm_converter::kFailed;
+  } catch (const std::bad_alloc&) {
+    LogError(mmm_converter::kNoMemory);
+    return mmm_converter::kFailed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    LogError(mmm_converter::Explain(error));
     return mmm_converter::kFailed;
   } catch (const std::exception& error) {
     LogError(fmt::format("unexpected: {}", error.what()));

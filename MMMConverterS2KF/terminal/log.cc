@@ -8,6 +8,7 @@
 #include <map>
 
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/printable.h"
 
 namespace mmm_converter {
 
@@ -29,11 +30,11 @@ void StartLog(const std::string& level) {
   spdlog::set_default_logger(logger);
 }
 
-void LogError(const std::string& message) { spdlog::error("{}", message); }
-void LogWarning(const std::string& message) { spdlog::warn("{}", message); }
+void LogError(const std::string& message) { spdlog::error("{}", Printable(message)); }
+void LogWarning(const std::string& message) { spdlog::warn("{}", Printable(message)); }
 void LogWarnings(const Warnings& warnings) {
   for (const Warning& warning : warnings.all()) LogWarning(warning.text);
 }
-void LogInfo(const std::string& message) { spdlog::info("{}", message); }
+void LogInfo(const std::string& message) { spdlog::info("{}", Printable(message)); }
 
 }  // namespace mmm_converter

@@ -51,6 +51,8 @@ class ScratchFile {
   ScratchFile& operator=(const ScratchFile&) = delete;
 
   int descriptor() const { return descriptor_; }
+  const std::string& name() const { return name_; }
+  void SetName(std::string name) { name_ = std::move(name); }
   bool Close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
   void Keep() { name_.clear(); }
 
@@ -113,11 +115,41 @@ bool Take(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
 }
 
+std::string ScratchName(const fs::path& folder, int number) {
+  return folder / fmt::format("{}{}.{}{}", kScratchBegin, ::getpid(), number, kScratchEnd);
+}
+
+constexpr int kMostTries = 1000;
+
+/// A new file in `folder` that has no name yet: of a process that is killed nothing is left. -1
+/// where the file system or the machine has no such files.
+int CreateNameless([[maybe_unused]] const fs::path& folder) {
+#ifdef O_TMPFILE
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor >= 0) ::flock(descriptor, LOCK_EX);
+  return descriptor;
+#else
+  return -1;
+#endif
+}
+
+/// A name in `folder` that nothing else has for a nameless file; empty where that failed.
+std::string GiveName(int descriptor, const fs::path& folder) {
+  const std::string file = fmt::format("/proc/self/fd/{}", descriptor);
+  for (int i = 0;; ++i) {
+    std::string name = ScratchName(folder, i);
+    if (::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      return name;
+    }
+    if (errno != EEXIST || i == kMostTries) return {};
+  }
+}
+
 /// A new file in `folder` under a name that nothing else has; descriptor -1 where that failed.
 Created CreateIn(const fs::path& folder) {
-  constexpr int kMostTries = 1000;
   for (int i = 0;; ++i) {
-    std::string name = folder / fmt::format("{}{}.{}{}", kScratchBegin, ::getpid(), i, kScratchEnd);
+    std::string name = ScratchName(folder, i);
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0 && !Take(descriptor)) {
       ::close(descriptor);
@@ -153,7 +185,8 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
   if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) Fail(path, errno);
 
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  const Created created = CreateIn(folder);
+  const int nameless = CreateNameless(folder);
+  const Created created = nameless >= 0 ? Created{nameless, ""} : CreateIn(folder);
   if (created.descriptor < 0 && errno == ENOENT) {
     throw Error(fmt::format("{}: can't be written: there is no folder {}", path, folder.string()));
   }
@@ -162,8 +195,10 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
   if (exists && ::fchmod(created.descriptor, old.st_mode & 07777) != 0) Fail(path, errno);
   Output output(path, created.descriptor);
   content([&](std::string_view piece) { output.Write(piece); });
-  if (::fdatasync(created.descriptor) != 0 || !scratch.Close() ||
-      ::rename(created.name.c_str(), target.c_str()) != 0) {
+  if (::fdatasync(created.descriptor) != 0) Fail(path, errno);
+  if (scratch.name().empty()) scratch.SetName(GiveName(created.descriptor, folder));
+  if (scratch.name().empty() || !scratch.Close() ||
+      ::rename(scratch.name().c_str(), target.c_str()) != 0) {
     Fail(path, errno);
   }
   scratch.Keep();

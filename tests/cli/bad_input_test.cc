@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "common/io/c3d/c3d_writer.h"
 #include "common/motion/marker_sequence.h"
 #include "tests/cli/program.h"
+#include "tests/support/scoped_environment.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/test_plugins.h"
 
@@ -154,6 +156,69 @@ TEST(BadInput, Plugins) {
                 "interface version");
   ExpectRefused({Handstand(), "--height", "1.8", "--converter", "NoConverter"},
                 "there is no converter \"NoConverter\"");
+}
+
+TEST(BadInput, AFaultyPluginIsNamed) {
+  const std::string plugin = testing::TestPlugin("faulty_converter");
+  for (const char* fault : {"null", "joint", "int", "residuals", "verdict", "result angles"}) {
+    const testing::ScopedEnvironment environment("MMM_CONVERTER_TEST_FAULT", fault);
+    ExpectRefused({Handstand(), "--height", "1.8", "--plugin", plugin},
+                  plugin + ": the plugin is faulty: ");
+  }
+}
+
+TEST(BadInput, ARateThatCannotBe) {
+  for (const char* rate : {"1e-300", "0.5", "1e300"}) {
+    ExpectRefused({Handstand(), "--height", "1.8", "--rate", rate}, "it must be 1 to 100000 Hz");
+  }
+}
+
+TEST(BadInput, TwoOutputsAreOneFileByALinkToNothing) {
+  std::filesystem::create_symlink("o.xml", TestFolder() + "/r.html");
+  const auto run = RunProgram({"convert", Handstand(), "--height", "1.8", "-o",
+                               TestFolder() + "/o.xml", "--report", TestFolder() + "/r.html"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("r.html: is to hold two outputs"));
+  EXPECT_EQ(Names(TestFolder()), std::set<std::string>{"r.html"});
+}
+
+TEST(BadInput, ControlCharactersOfAFileAreNotPassedOn) {
+  std::vector<std::string> labels;
+  for (const char* name : {"LFHD", "RFHD", "LBHD", "RBHD", "LSHO", "RSHO", "C7", "T10", "LASI"}) {
+    labels.push_back(std::string("me\x1B]0;owned\x07:") + name);
+  }
+  const auto run = RunProgram({"info", WriteRecording(labels, 9)});
+  EXPECT_THAT(run.out + run.err, HasSubstr("me\\x1B]0;owned\\x07"));
+  EXPECT_EQ((run.out + run.err).find_first_of("\x1B\x07"), std::string::npos);
+}
+
+TEST(BadInput, AWorkingFolderThatIsGone) {
+  const std::string before = std::filesystem::current_path();
+  std::filesystem::create_directory(TestFolder() + "/gone");
+  std::filesystem::current_path(TestFolder() + "/gone");
+  std::filesystem::remove(TestFolder() + "/gone");
+  const auto run = RunProgram({"convert", Handstand(), "--height", "1.8", "-o", "out.xml"});
+  std::filesystem::current_path(before);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("the working folder is not there any more; change into another"));
+}
+
+TEST(BadInput, TooLittleMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizer reserves terabytes of addresses";
+#endif
+  const std::string file = TestFolder() + "/large.xml";
+  WriteText(file, "<MMM><Motion>");
+  std::filesystem::resize_file(file, std::uintmax_t{3} << 30);
+  rlimit old_limit{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &old_limit), 0);
+  rlimit limit = old_limit;
+  limit.rlim_cur = 600 << 20;
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  const auto run = RunProgram({"info", file});
+  setrlimit(RLIMIT_AS, &old_limit);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, StartsWith("error: there is not enough memory for this; close"));
 }
 
 TEST(BadInput, Frames) {

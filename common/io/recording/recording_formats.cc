@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/io/bytes/file_content.h"
+#include "common/io/bytes/foreign_content.h"
 #include "common/io/c3d/c3d_content.h"
 #include "common/io/mmm/mmm_content.h"
 #include "common/io/mmm/mmm_motion.h"
@@ -20,6 +21,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr std::size_t kStartBytes = 4096;
+constexpr std::size_t kForeignBytes = 1 << 16;  // C3D may begin with half as many zeros
 constexpr std::size_t kMostBytesBeforeTheRoot = 1 << 20;
 
 bool IsText(std::string_view start) {
@@ -102,6 +104,8 @@ const RecordingFormat& FormatOfContent(const std::string& file) {
   const std::string start = ReadFileStart(file, kStartBytes);
   if (const RecordingFormat* format = FindFormat(file, start)) return *format;
   if (IsText(start)) ThrowOtherText(file, start);
+  const std::string foreign = NameForeignContent(ReadFileStart(file, kForeignBytes));
+  if (!foreign.empty()) throw Error(fmt::format("{}: {}", file, foreign));
   return kFormats.front();  // C3D, whose reader says what is wrong with the bytes
 }
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "common/io/bytes/foreign_content.h"
+#include "common/io/xml/xml_scanner.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -45,10 +47,34 @@ XmlElement Convert(const tinyxml2::XMLElement& source, int first_line) {
   return element;
 }
 
+/// The parser compares each attribute with all before it.
+void CheckAttributes(std::string_view content, const std::string& file, int first_line) {
+  constexpr std::ptrdiff_t kMostAttributes = 256;
+  const ByteSource bytes = BytesOf(content);
+  XmlScanner scanner(bytes);
+  while (scanner.Next()) {
+    if (!scanner.IsElement()) continue;
+    const std::string_view tag = scanner.markup();
+    if (std::count(tag.begin(), tag.end(), '=') <= kMostAttributes) continue;
+    std::ptrdiff_t attributes = 0;
+    for (std::size_t at = 0; (at = tag.find_first_of("\"'", at)) != std::string_view::npos; ++at) {
+      ++attributes;
+      at = std::min(tag.find(tag[at], at + 1), tag.size());
+    }
+    if (attributes <= kMostAttributes) continue;
+    throw Error(fmt::format("{}:{}: <{}> has {} attributes, more than the {} that are read", file,
+                            first_line - 1 + scanner.line(), scanner.name(), attributes,
+                            kMostAttributes));
+  }
+}
+
 void Parse(std::string_view content, const std::string& file, int first_line,
            tinyxml2::XMLDocument* document) {
+  CheckAttributes(content, file, first_line);
   document->Parse(content.data(), content.size());
   if (!document->Error()) return;
+  const std::string foreign = NameForeignContent(content.substr(0, 64));
+  if (!foreign.empty()) throw Error(fmt::format("{}: {}", file, foreign));
   throw Error(fmt::format("{}:{}: not well-formed XML: {}", file,
                           first_line - 1 + document->ErrorLineNum(), Explain(*document)));
 }

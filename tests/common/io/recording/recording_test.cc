@@ -378,8 +378,15 @@ TEST(Recording, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(MessageOf(WriteRecording("page.c3d", "<!DOCTYPE html><html></html>")),
               HasSubstr("root <html>, not an MMM motion"));
   EXPECT_THAT(MessageOf(WriteRecording("zeros.c3d", std::string(2000, '\0'))),
-              HasSubstr("not a C3D file"));
+              HasSubstr("begins with 2000 zeros"));
   EXPECT_THAT(MessageOf(WriteRecording("packed.c3d", "\x1f\x8b\x08\x01")),
+              HasSubstr("is packed (gzip); unpack it first"));
+  EXPECT_THAT(MessageOf(WriteRecording("packed.xml", "PK\x03\x04 walk.xml")),
+              HasSubstr("is packed (zip); unpack it first"));
+  const std::string wide("<\0M\0M\0M\0>\0", 10);
+  EXPECT_THAT(MessageOf(WriteRecording("wide.xml", "\xFF\xFE" + wide)), HasSubstr("UTF-16"));
+  EXPECT_THAT(MessageOf(WriteRecording("wide.xml", wide)), HasSubstr("is text in UTF-16"));
+  EXPECT_THAT(MessageOf(WriteRecording("odd.c3d", "\x01\x02\x03\x04")),
               HasSubstr("not a C3D file"));
 }
 

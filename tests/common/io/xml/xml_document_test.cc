@@ -59,5 +59,22 @@ TEST(XmlDocument, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(ReadXmlFile(folder + "/no_such_file.xml"), Error);
 }
 
+// The parser's time is quadratic in the attributes of an element.
+TEST(XmlDocument, RefusesAnElementOfManyAttributesBeforeItIsParsed) {
+  const auto element = [](int count) {
+    std::string text = "<!-- it's -->\n<a";
+    for (int i = 0; i < count; ++i) text += " n" + std::to_string(i) + "='='";
+    return text + "/>";
+  };
+  EXPECT_EQ(ParseXml(element(256), "a.xml").attributes.size(), 256U);
+  try {
+    ParseXml(element(200000), "a.xml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "a.xml:2: <a> has 200000 attributes, more than the 256 that are read");
+  }
+}
+
 }  // namespace
 }  // namespace mmm_converter
