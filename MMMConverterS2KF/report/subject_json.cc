@@ -42,6 +42,9 @@ Json ToJson(const Subject& subject) {
          {"distance_mm", Decimals(kMillimetres * offset.offset.norm())},
          {"standard_deviation_mm", Millimetres(offset.standard_deviations)},
          {"prior_deviation_mm", Decimals(kMillimetres * offset.prior_deviation)},
+         {"skin_deviation_mm", offset.skin_deviation > 0
+                                   ? Decimals(kMillimetres * offset.skin_deviation)
+                                   : Json(nullptr)},
          {"frames", offset.frames},
          {"observability", ObservabilityJson(Deviation(offset), offset.prior_deviation)}});
   }

@@ -129,6 +129,18 @@ Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const Bo
   return subject;
 }
 
+void AddSkinDeviations(const KinematicModel& fitted, const std::vector<int>& joints,
+                       const std::vector<MarkerIx>& markers,
+                       const std::vector<CalibrationFrame>& frames, Subject* subject) {
+  const VectorXd deviations = SkinDeviations(fitted, joints, markers, frames);
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    for (MarkerOffset& offset : subject->offsets) {
+      if (offset.marker != fitted.markers()[markers[m]].name) continue;
+      offset.skin_deviation = deviations[static_cast<Eigen::Index>(m)];
+    }
+  }
+}
+
 void WarnOfSubject(const Subject& subject, Warnings* warnings) {
   std::vector<std::string> open;
   for (const SegmentScale& scale : subject.scales) {
@@ -207,6 +219,7 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
   const KinematicModel fitted = FitToSubject(model, result.subject);
   result.distance_before = first.distance_before.mean();
   result.distance_after = FitPostures(fitted, joints, markers, &frames).mean();
+  AddSkinDeviations(fitted, joints, markers, frames, &result.subject);
   WarnOfSessions(fitted, joints, markers, recordings, frames, warnings);
   result.frames = static_cast<int>(chosen.size());
   result.iterations = fit.iterations;

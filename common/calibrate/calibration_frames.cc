@@ -13,6 +13,7 @@
 namespace mmm_converter {
 
 using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
@@ -37,6 +38,26 @@ int CountSeen(const Matrix3Xd& z) {
   int seen = 0;
   for (Eigen::Index m = 0; m < z.cols(); ++m) seen += IsSeen(z.col(m));
   return seen;
+}
+
+/// take(m, r): marker m of a frame is r from its place, segment axes [m].
+template <typename Take>
+void ForEachResidual(const KinematicModel& model, const std::vector<int>& joints,
+                     const std::vector<MarkerIx>& markers,
+                     const std::vector<CalibrationFrame>& frames, Take take) {
+  Posture full = ZeroPosture(model);
+  for (const CalibrationFrame& frame : frames) {
+    full.position = frame.posture.position;
+    full.orientation = frame.posture.orientation;
+    full.joint_angles(joints) = frame.posture.joint_angles;
+    const auto X_WS = SegmentPoses(model, full);
+    for (std::size_t m = 0; m < markers.size(); ++m) {
+      const auto p_WM = frame.z.col(static_cast<Eigen::Index>(m));
+      if (!IsSeen(p_WM)) continue;
+      const ModelMarker& marker = model.markers()[markers[m]];
+      take(m, Vector3d(X_WS[marker.segment].inverse() * p_WM - marker.p_SM));
+    }
+  }
 }
 
 }  // namespace
@@ -107,26 +128,37 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
 Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
                           const std::vector<MarkerIx>& markers,
                           const std::vector<CalibrationFrame>& frames) {
-  const auto num_markers = static_cast<Eigen::Index>(markers.size());
   std::vector<std::vector<double>> residuals(3 * markers.size());
-  Posture full = ZeroPosture(model);
-  for (const CalibrationFrame& frame : frames) {
-    full.position = frame.posture.position;
-    full.orientation = frame.posture.orientation;
-    full.joint_angles(joints) = frame.posture.joint_angles;
-    const auto X_WS = SegmentPoses(model, full);
-    for (Eigen::Index m = 0; m < num_markers; ++m) {
-      if (!IsSeen(frame.z.col(m))) continue;
-      const ModelMarker& marker = model.markers()[markers[m]];
-      const Eigen::Vector3d r = X_WS[marker.segment].inverse() * frame.z.col(m) - marker.p_SM;
-      for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
-    }
-  }
-  Matrix3Xd medians = Matrix3Xd::Zero(3, num_markers);
+  ForEachResidual(model, joints, markers, frames, [&](std::size_t m, const Vector3d& r) {
+    for (int i = 0; i < 3; ++i) residuals[3 * m + i].push_back(r[i]);
+  });
+  Matrix3Xd medians = Matrix3Xd::Zero(3, static_cast<Eigen::Index>(markers.size()));
   for (Eigen::Index i = 0; i < medians.size(); ++i) {
     if (!residuals[i].empty()) medians.reshaped()[i] = Median(residuals[i]);
   }
   return medians;
+}
+
+VectorXd SkinDeviations(const KinematicModel& model, const std::vector<int>& joints,
+                        const std::vector<MarkerIx>& markers,
+                        const std::vector<CalibrationFrame>& frames) {
+  // Of a squared distance in three coordinates of variance 1 (chi-square).
+  constexpr double kMedianSquare = 2.366;
+  std::vector<std::vector<double>> squares(markers.size());
+  double seen = 0;
+  ForEachResidual(model, joints, markers, frames, [&](std::size_t m, const Vector3d& r) {
+    squares[m].push_back(r.squaredNorm());
+    ++seen;
+  });
+  const double coordinates = 3 * seen / static_cast<double>(frames.size());
+  const double dofs = 6 + static_cast<double>(joints.size());
+  const double left = std::max(1.0, coordinates - dofs) / coordinates;
+  VectorXd deviations = VectorXd::Zero(static_cast<Eigen::Index>(markers.size()));
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    if (squares[m].empty()) continue;
+    deviations[static_cast<Eigen::Index>(m)] = std::sqrt(Median(squares[m]) / kMedianSquare / left);
+  }
+  return deviations;
 }
 
 OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,

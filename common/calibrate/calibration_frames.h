@@ -37,6 +37,13 @@ Eigen::Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<
                                  const std::vector<MarkerIx>& markers,
                                  const std::vector<CalibrationFrame>& frames);
 
+/// How far each coordinate of a marker is from where the model's segment has it, a standard
+/// deviation, from the median of the frames, as wrong markers are among them [m]; 0 where it was
+/// not seen. The postures have taken up what the best ones do in the mean.
+Eigen::VectorXd SkinDeviations(const KinematicModel& model, const std::vector<int>& joints,
+                               const std::vector<MarkerIx>& markers,
+                               const std::vector<CalibrationFrame>& frames);
+
 struct OffsetsInTurns {
   Eigen::Matrix3Xd offsets;         ///< of the markers, segment axes [m]
   Eigen::VectorXd distance_before;  ///< each frame's mean distance without them [m]

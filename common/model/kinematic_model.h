@@ -45,6 +45,8 @@ struct ModelMarker {
   Eigen::Vector3d p_SM = Eigen::Vector3d::Zero();  ///< [m]
   /// Of each coordinate of p_SM from where the person wears it, where that was estimated [m].
   std::optional<double> deviation = {};
+  /// Of each coordinate about that place, from frame to frame [m]: soft tissue and noise.
+  std::optional<double> skin_deviation = {};
 };
 
 /// What a model file contains, before it is made a KinematicModel.

@@ -53,6 +53,7 @@ KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject
     } else {
       fitted.markers[index].p_SM += offset.offset;
       fitted.markers[index].deviation = Deviation(offset);
+      if (offset.skin_deviation > 0) fitted.markers[index].skin_deviation = offset.skin_deviation;
     }
   }
   if (!unknown.empty()) {

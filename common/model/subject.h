@@ -30,7 +30,8 @@ struct MarkerOffset {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d standard_deviations = Eigen::Vector3d::Zero();  ///< [m]
   double prior_deviation = 0;                                     ///< of each coordinate [m]
-  int frames = 0;                                                 ///< that showed the marker
+  double skin_deviation = 0;  ///< of each coordinate about the place, over frames [m]; 0: not known
+  int frames = 0;             ///< that showed the marker
 };
 
 /// A recording that a subject was calibrated on.
@@ -61,7 +62,8 @@ double Deviation(const MarkerOffset& offset);
 
 /// The model of the person: `scaled` (by ScaleWinter) with the translation, centre of mass and
 /// markers of each named segment times its scale, inertia times its square, and each named marker
-/// moved by its offset, of which it gets the deviation. Joints, limits and masses stay as they are.
+/// moved by its offset, of which it gets the deviations. Joints, limits and masses stay as they
+/// are.
 /// @throws Error naming the segments and markers that the model does not have.
 KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject);
 

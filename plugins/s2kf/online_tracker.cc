@@ -17,7 +17,7 @@ OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& 
     : markers_(markers),
       settings_(settings),
       clip_(FitOptions(settings).robust_distance),
-      filter_(markers.kinematics(), settings, markers.noise_scale()),
+      filter_(markers.kinematics(), settings, markers.FilterScale(settings.marker_deviation)),
       update_(markers.kinematics(), settings.gate_probability),
       watch_(settings),
       recovery_(markers, settings) {

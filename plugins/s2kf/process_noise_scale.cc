@@ -58,7 +58,8 @@ class Likelihood {
     if (known != values_.end()) return known->second;
     S2kfSettings settings = settings_;
     settings.process_noise_scale *= std::pow(10.0, log_scale);
-    MarkerFilter filter(markers_.kinematics(), settings, markers_.noise_scale());
+    MarkerFilter filter(markers_.kinematics(), settings,
+                        markers_.FilterScale(settings.marker_deviation));
     UpdateOutcome outcome = filter.MakeOutcome();
     double sum = 0;
     for (const Part& part : parts_) {

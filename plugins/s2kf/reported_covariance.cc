@@ -46,6 +46,10 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
       noise_scale_(markers.noise_scale()),
       settings_(settings.deviations),
       look_variance_(settings.marker_deviation * settings.marker_deviation),
+      filter_variance_(
+          look_variance_ *
+          markers.FilterScale(settings.marker_deviation).cwiseQuotient(noise_scale_).squaredNorm() /
+          kinematics_.num_markers()),
       prior_variance_(PriorVariance(settings)),
       clip_(FitOptions(settings).robust_distance),
       unit_(VectorXd::Ones(kinematics_.num_dofs())),
@@ -203,7 +207,7 @@ double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
 
 double ReportedCovariance::ShareOf(const VectorXd& own) const {
   const auto A = A_.view();
-  const double look = look_variance_ / variance_;
+  const double look = filter_variance_ / variance_;
   double sum = 0;
   for (Eigen::Index i = 0; i < own.size(); ++i) {
     const double of_look = look * A(i, i) * unit_[i] * unit_[i];

@@ -64,6 +64,7 @@ class ReportedCovariance {
   const Eigen::VectorXd& noise_scale_;
   DeviationSettings settings_;
   double look_variance_;    // that the filter's natural pull is meant for [m^2]
+  double filter_variance_;  // of a marker, that the filter goes by, at noise scale 1 [m^2]
   double prior_variance_;   // of markers' places before any residual was seen [m^2]
   double clip_;             // a farther marker is a wrong one [m]
   Eigen::VectorXd unit_;    // of each state: 1, or half the range of a joint

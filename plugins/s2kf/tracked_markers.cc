@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/tracked_markers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mmm_converter::s2kf {
@@ -8,15 +10,34 @@ namespace mmm_converter::s2kf {
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
 
+namespace {
+
+// Of the configured deviation, at least: joints and lengths are not quite the person's, and a
+// marker that alone shows a joint has no residual.
+constexpr double kLeastShare = 0.2;
+
+}  // namespace
+
 TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
     : kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
       labels_(LabelIndices(setup.assignments())),
       noise_scale_(NoiseScales(setup.assignments())),
-      place_deviation_(noise_scale_.size()) {
+      place_deviation_(noise_scale_.size()),
+      skin_deviation_(noise_scale_.size()) {
   for (Eigen::Index m = 0; m < place_deviation_.size(); ++m) {
     const ModelMarker& marker = setup.model->markers()[kinematics_.markers()[m]];
     place_deviation_[m] = marker.deviation.value_or(std::numeric_limits<double>::quiet_NaN());
+    skin_deviation_[m] = marker.skin_deviation.value_or(std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+Eigen::VectorXd TrackedMarkers::FilterScale(double configured) const {
+  Eigen::VectorXd scale = noise_scale_;
+  for (Eigen::Index m = 0; m < scale.size(); ++m) {
+    if (std::isnan(skin_deviation_[m])) continue;
+    scale[m] *= std::clamp(skin_deviation_[m] / configured, kLeastShare, 1.0);
+  }
+  return scale;
 }
 
 int TrackedMarkers::Gather(const Ref<const Matrix3Xd>& frame, Matrix3Xd* measured) const {

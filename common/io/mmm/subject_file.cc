@@ -103,8 +103,9 @@ class SubjectReader {
   }
 
   void ReadOffset(const XmlElement& element) {
-    AllowAttributes(element, {"name", "x_mm", "y_mm", "z_mm", "xDeviation_mm", "yDeviation_mm",
-                              "zDeviation_mm", "priorDeviation_mm", "frames", "observability"});
+    AllowAttributes(
+        element, {"name", "x_mm", "y_mm", "z_mm", "xDeviation_mm", "yDeviation_mm", "zDeviation_mm",
+                  "priorDeviation_mm", "skinDeviation_mm", "frames", "observability"});
     MarkerOffset offset;
     offset.marker = KnownName(element, markers_, &marker_lines_);
     const NumberRange place{-kLargestMarkerOffset, kLargestMarkerOffset, kMillimetre};
@@ -116,6 +117,7 @@ class SubjectReader {
           Number(element, fmt::format("{}Deviation_mm", axis), deviation).value_or(0);
     }
     offset.prior_deviation = Number(element, "priorDeviation_mm", deviation).value_or(0);
+    offset.skin_deviation = Number(element, "skinDeviation_mm", deviation).value_or(0);
     offset.frames = Frames(element);
     subject_.offsets.push_back(std::move(offset));
   }
@@ -242,6 +244,7 @@ std::string FormatOffset(const MarkerOffset& offset) {
          Millimetres("yDeviation_mm", deviations.y()) +
          Millimetres("zDeviation_mm", deviations.z()) +
          Millimetres("priorDeviation_mm", offset.prior_deviation) +
+         (offset.skin_deviation > 0 ? Millimetres("skinDeviation_mm", offset.skin_deviation) : "") +
          fmt::format(" frames=\"{}\"", offset.frames) +
          ObservabilityAttribute(Deviation(offset), offset.prior_deviation) + "/>\n";
 }

@@ -83,10 +83,13 @@ TEST(FitToSubject, MovesMarkersAfterScaling) {
   offset.marker = "MARKER_C";
   offset.offset = {0.01, -0.02, 0.03};
   offset.standard_deviations = {0.002, 0.002, 0.002};
+  offset.skin_deviation = 0.0015;
   subject.offsets = {offset};
   const KinematicModel fitted = FitToSubject(StickModel(), subject);
   EXPECT_NEAR(fitted.markers()[2].deviation.value(), 0.002, kSubjectRounding);
+  EXPECT_EQ(fitted.markers()[2].skin_deviation.value(), 0.0015);
   EXPECT_FALSE(fitted.markers()[1].deviation.has_value());
+  EXPECT_FALSE(fitted.markers()[1].skin_deviation.has_value());
   EXPECT_TRUE(
       fitted.markers()[2].p_SM.isApprox(Eigen::Vector3d(0.01, -0.02, 0.25), kSubjectRounding));
   // At the zero posture the knee stands 0.55 m above the root.

@@ -33,6 +33,7 @@ Subject FullSubject() {
   offset.offset = {0.0123456, -0.02, 0};
   offset.standard_deviations = {0.001, 0.0021, 0.04};
   offset.prior_deviation = 0.04;
+  offset.skin_deviation = 0.0015;
   offset.frames = 117;
   subject.offsets = {offset};
   subject.sources = {{"Cut_1723.c3d", 60}, {"Peel_1723.c3d", 57}};
@@ -65,6 +66,7 @@ TEST(SubjectFile, IsReadAsWritten) {
   EXPECT_LE((offset.offset - written.offsets[0].offset).cwiseAbs().maxCoeff(), 0.51e-7);
   EXPECT_TRUE(offset.standard_deviations.isApprox(written.offsets[0].standard_deviations, 1e-12));
   EXPECT_DOUBLE_EQ(offset.prior_deviation, 0.04);
+  EXPECT_DOUBLE_EQ(offset.skin_deviation, 0.0015);
   EXPECT_EQ(offset.frames, 117);
   ASSERT_THAT(read.sources, SizeIs(2));
   EXPECT_EQ(read.sources[1].recording, "Peel_1723.c3d");

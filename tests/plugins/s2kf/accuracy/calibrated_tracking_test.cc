@@ -130,21 +130,19 @@ TEST(CalibratedTracking, HiddenMarkersOfKitRecordingsArePredicted) {
   EXPECT_LT(online, 0.008);
 }
 
-// 10 Hz. The project wants 4 mm; Pour has 4.7, as the filter holds that fast arm back, and 4.0
-// where recovery replaces it by a framewise fit in 16 of its 39 frames. What smoothing costs is
-// printed.
-TEST(CalibratedTracking, HeldOutHalvesOfKitRecordingsAreWithinFiveMillimetres) {
+// 10 Hz: a filter that takes these markers for noisier than they are holds fast arms back.
+TEST(CalibratedTracking, HeldOutHalvesOfKitRecordingsAreWithinFourMillimetres) {
   MMM_CONVERTER_NEEDS_SHARED_DATA()
   for (const KitRecording& recording : kKitRecordings) {
     const KitTrial trial(recording);
     const KinematicModel person = FitToSubject(trial.model, trial.subject);
-    const auto distance = [&](const char* converter) {
-      return Track(person, trial.assignments, Shipped(converter), trial.second, trial.second).all;
-    };
-    const double online = distance("s2kf_default");
-    std::printf("[ measured ] %s, calibrated: s2kf_default %.2f mm, s2kf_offline %.2f mm\n",
-                recording.name.c_str(), 1000 * online, 1000 * distance("s2kf_offline"));
-    EXPECT_LT(online, 0.005) << recording.name;
+    for (const char* name : {"s2kf_default", "s2kf_offline"}) {
+      const double all =
+          Track(person, trial.assignments, Shipped(name), trial.second, trial.second).all;
+      std::printf("[ measured ] %s, calibrated, %s: %.2f mm\n", recording.name.c_str(), name,
+                  1000 * all);
+      EXPECT_LT(all, 0.004) << recording.name << " " << name;
+    }
   }
 }
 
