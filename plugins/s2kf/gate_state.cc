@@ -29,16 +29,35 @@ constexpr double kHiddenTime = 0.3;
 constexpr double kLeftOutTime = 2;
 // Of a residual about the offset: soft tissue and what the posture leaves [m].
 constexpr double kResidual = 0.008;
+// Of a marker that was calibrated: what its skin was measured to do, but at least this [m]. It is
+// then far off, too, beyond so many times that, as its usual place moves with nothing else.
+constexpr double kLeastResidual = 0.004;
+constexpr double kFarInResiduals = 6;
 
 }  // namespace
 
-void GateState::Reset(int num_markers) {
+void GateState::Start(const Eigen::VectorXd& skin_deviation) {
+  residual.setConstant(skin_deviation.size(), kResidual);
+  far_off.setConstant(skin_deviation.size(), kFarOff);
+  is_calibrated.assign(skin_deviation.size(), false);
+  for (int m = 0; m < residual.size(); ++m) {
+    if (std::isnan(skin_deviation[m])) continue;
+    is_calibrated[m] = true;
+    residual[m] = std::clamp(skin_deviation[m], kLeastResidual, kResidual);
+    far_off[m] = kFarInResiduals * residual[m];
+  }
+  Reset();
+}
+
+void GateState::Reset() {
+  const Eigen::Index num_markers = residual.size();
   offset.setZero(3, num_markers);
   variance.setConstant(num_markers, kUnknownOffset * kUnknownOffset);
   usual.setZero(3, num_markers);
   learned.setZero(num_markers);
   verdicts.setConstant(num_markers, -1);
   agreed.setZero(num_markers);
+  left_out_for.setZero(num_markers);
   is_hidden.assign(num_markers, false);
   frames_since_change = 0;
 }
@@ -62,13 +81,17 @@ void GateState::Advance(double dt) {
   ++frames_since_change;
   // Such that the steady gain is that of kOffsetTime.
   const double gain = 1 - std::exp(-dt / kOffsetTime);
-  const double drift = kResidual * kResidual * gain * gain / (1 - gain);
+  const double drift = gain * gain / (1 - gain);
   usual_gain = 1 - std::exp(-dt / kUsualTime);
   const double unknown = kUnknownOffset * kUnknownOffset;
   for (int m = 0; m < variance.size(); ++m) {
-    const double growth = is_hidden[m]   ? unknown * dt / kHiddenTime
-                          : IsLeftOut(m) ? unknown * dt / kLeftOutTime
-                                         : drift;
+    left_out_for[m] = IsLeftOut(m) ? left_out_for[m] + dt : 0;
+    double growth = drift * residual[m] * residual[m];
+    if (is_hidden[m]) {
+      growth = unknown * dt / kHiddenTime;
+    } else if (IsLeftOut(m) && !IsPlaceKnown(m)) {
+      growth = is_calibrated[m] ? unknown : unknown * dt / kLeftOutTime;
+    }
     variance[m] = std::min(unknown, variance[m] + growth);
   }
 }
@@ -89,10 +112,16 @@ void GateState::Select(const Matrix3Xd& measured, Matrix3Xd* relabelled, Matrix3
   }
 }
 
-double GateState::VarianceOfResidual(int m) const { return variance[m] + kResidual * kResidual; }
+double GateState::VarianceOfResidual(int m) const {
+  return variance[m] + residual[m] * residual[m];
+}
+
+bool GateState::IsPlaceKnown(int m) const {
+  return is_calibrated[m] && left_out_for[m] < kLeftOutTime;
+}
 
 bool GateState::IsFarOff(const Vector3d& from_usual, int m) const {
-  return learned[m] >= kUsualFrames && from_usual.norm() > kFarOff;
+  return learned[m] >= kUsualFrames && from_usual.norm() > far_off[m];
 }
 
 void GateState::Learn(int m, const Vector3d& r) {

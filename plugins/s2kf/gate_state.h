@@ -11,17 +11,24 @@ namespace mmm_converter::s2kf {
 struct GateState {
   Eigen::Matrix3Xd offset;   ///< b, estimated from the residuals r of the tracked postures
   Eigen::VectorXd variance;  ///< of each coordinate of b [m^2]
-  Eigen::Matrix3Xd usual;    ///< slow mean of r
-  Eigen::VectorXi learned;   ///< frames in it
+  Eigen::VectorXd residual;  ///< standard deviation of each coordinate of r - b [m]
+  std::vector<bool> is_calibrated;
+  Eigen::VectorXd far_off;  ///< a marker farther from its usual place than this is wrong [m]
+  Eigen::Matrix3Xd usual;   ///< slow mean of r
+  Eigen::VectorXi learned;  ///< frames in it
   Eigen::VectorXi
       verdicts;            ///< -1: as labelled, its own index: left out, another's: bears its label
   Eigen::VectorXi agreed;  ///< frames in a row in which a marker left out passed
+  Eigen::VectorXd left_out_for;  ///< [s]
   std::vector<bool> is_hidden;
   int frames_since_change = 0;  ///< of the markers in use
   double usual_gain = 0;        ///< of `usual` in this frame
 
+  /// A new track. skin_deviation: of each coordinate of a marker about its place on the person [m],
+  /// NaN where that was not measured.
+  void Start(const Eigen::VectorXd& skin_deviation);
   /// All labels right, offsets unknown.
-  void Reset(int num_markers);
+  void Reset();
   /// The posture was assembled again: the offsets of the markers in use may be others.
   void Loosen();
   /// Takes all markers that are left out back in, wherever they are; their offsets are unknown.
@@ -40,6 +47,9 @@ struct GateState {
 
   /// Variance of each coordinate of r - b of a right marker [m^2].
   double VarianceOfResidual(int m) const;
+  /// The person's marker was calibrated, and it was not left out for so long that it may have been
+  /// attached anew: it comes back to its usual place only.
+  bool IsPlaceKnown(int m) const;
   /// r is far from its usual value, where that is known. from_usual: r - usual, in any frame.
   bool IsFarOff(const Eigen::Vector3d& from_usual, int m) const;
   /// Follows b and `usual` by the residual of a marker that is used.

@@ -161,11 +161,16 @@ bool MarkerGate::Readmit(const Matrix3Xd& measured, GateState* state) const {
   bool is_any = false;
   for (int m = 0; m < measured.cols(); ++m) {
     if (!state->IsLeftOut(m) || !measured.col(m).allFinite()) continue;
+    const auto usual = places_.segment<3>(3 * m) + usual_W_.col(m);
+    const bool is_far_off = state->IsFarOff(measured.col(m) - usual, m);
+    const bool passes = Score(*state, measured, m, m) <= 1;
     int& agreed = state->agreed[m];
-    agreed = Score(*state, measured, m, m) <= 1 ? agreed + 1 : 0;
+    agreed = passes && !(is_far_off && state->IsPlaceKnown(m)) ? agreed + 1 : 0;
     if (agreed < kReadmitFrames) continue;
     state->verdicts[m] = -1;
     is_any = true;
+    // It was attached anew.
+    if (is_far_off && state->is_calibrated[m]) state->learned[m] = 0;
   }
   return is_any;
 }
@@ -208,7 +213,7 @@ bool MarkerGate::Settle(const Matrix3Xd& measured, const UpdateOutcome& outcome,
   is_changed |= Exchange(measured, state);
   if (2 * state->CountLeftOut(measured) <= seen) return is_changed;
   // Not the markers are wrong but the estimate is.
-  state->Reset(static_cast<int>(measured.cols()));
+  state->Reset();
   return true;
 }
 

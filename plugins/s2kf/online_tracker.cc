@@ -37,7 +37,7 @@ void OnlineTracker::Start(const Ref<const Matrix3Xd>& points, TrackState* state,
   }
   const int num_markers = markers_.kinematics().num_markers();
   *state = TrackState();
-  state->gate.Reset(num_markers);
+  state->gate.Start(markers_.skin_deviation());
   if (settings_.start == StartMethod::kPaper) {
     filter_.StartAsPaper(frame->measured, &state->belief);
   } else {

@@ -17,7 +17,7 @@ constexpr int kMarkers = 4;
 class GateStateTest : public ::testing::Test {
  protected:
   GateStateTest() {
-    state_.Reset(kMarkers);
+    state_.Start(Eigen::Vector4d(kNaN, kNaN, kNaN, 0.004));
     for (int m = 0; m < kMarkers; ++m) measured_.col(m).setConstant(m);
   }
 
@@ -69,6 +69,26 @@ TEST_F(GateStateTest, AMarkerTakenBackInHasNoOffset) {
   EXPECT_FALSE(state_.IsAnyWrong());
   EXPECT_EQ(state_.offset.col(0).norm(), 0);
   EXPECT_GT(state_.offset.col(1).norm(), 0);
+}
+
+TEST_F(GateStateTest, ACalibratedMarkerIsFarOffSoonerAndComesBackToItsPlaceOnly) {
+  for (int k = 0; k < 20; ++k) {
+    state_.Advance(0.01);
+    for (int m = 2; m < kMarkers; ++m) state_.Learn(m, Vector3d::Zero());
+  }
+  const Vector3d aside(0.04, 0, 0);
+  EXPECT_FALSE(state_.IsFarOff(aside, 2));
+  EXPECT_TRUE(state_.IsFarOff(aside, 3));
+  for (const int m : {2, 3}) state_.verdicts[m] = m;
+  const double variance = state_.variance[3];
+  for (int k = 0; k < 100; ++k) state_.Advance(0.01);
+  EXPECT_GT(state_.variance[2], 100 * variance);
+  EXPECT_LT(state_.variance[3], 30 * variance);
+  EXPECT_TRUE(state_.IsPlaceKnown(3));
+  // It may have been attached anew.
+  for (int k = 0; k < 101; ++k) state_.Advance(0.01);
+  EXPECT_FALSE(state_.IsPlaceKnown(3));
+  EXPECT_GT(state_.variance[3], 100 * variance);
 }
 
 }  // namespace
