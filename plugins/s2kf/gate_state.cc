@@ -120,8 +120,11 @@ bool GateState::IsPlaceKnown(int m) const {
   return is_calibrated[m] && left_out_for[m] < kLeftOutTime;
 }
 
-bool GateState::IsFarOff(const Vector3d& from_usual, int m) const {
-  return learned[m] >= kUsualFrames && from_usual.norm() > far_off[m];
+bool GateState::IsFarOff(const Vector3d& from_usual, int m, double place_variance) const {
+  const double share = place_variance / (residual[m] * residual[m]);
+  // One that comes back shows where its limb is.
+  const double limit = is_hidden[m] ? kFarOff : far_off[m] * std::sqrt(1 + share);
+  return learned[m] >= kUsualFrames && from_usual.norm() > limit;
 }
 
 void GateState::Learn(int m, const Vector3d& r) {

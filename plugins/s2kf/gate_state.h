@@ -51,7 +51,8 @@ struct GateState {
   /// attached anew: it comes back to its usual place only.
   bool IsPlaceKnown(int m) const;
   /// r is far from its usual value, where that is known. from_usual: r - usual, in any frame.
-  bool IsFarOff(const Eigen::Vector3d& from_usual, int m) const;
+  /// place_variance: of each coordinate of the place that the posture gives the marker [m^2].
+  bool IsFarOff(const Eigen::Vector3d& from_usual, int m, double place_variance = 0) const;
   /// Follows b and `usual` by the residual of a marker that is used.
   void Learn(int m, const Eigen::Vector3d& r);
 };

@@ -162,7 +162,7 @@ bool MarkerGate::Readmit(const Matrix3Xd& measured, GateState* state) const {
   for (int m = 0; m < measured.cols(); ++m) {
     if (!state->IsLeftOut(m) || !measured.col(m).allFinite()) continue;
     const auto usual = places_.segment<3>(3 * m) + usual_W_.col(m);
-    const bool is_far_off = state->IsFarOff(measured.col(m) - usual, m);
+    const bool is_far_off = state->IsFarOff(measured.col(m) - usual, m, covariance_[m].trace() / 3);
     const bool passes = Score(*state, measured, m, m) <= 1;
     int& agreed = state->agreed[m];
     agreed = passes && !(is_far_off && state->IsPlaceKnown(m)) ? agreed + 1 : 0;
