@@ -39,7 +39,7 @@ std::vector<std::string> ShippedConfigs() {
 // A file, or the shipped configuration of that name.
 std::string FindConfig(const std::string& config) {
   if (fs::exists(config)) return config;
-  const std::string shipped = ShippedConfig(config);
+  std::string shipped = ShippedConfig(config);
   if (fs::exists(shipped)) return shipped;
   throw Error(fmt::format("{}: no such file, nor a shipped configuration; these are {}", config,
                           JoinNames(ShippedConfigs(), ", ")));
