@@ -59,6 +59,7 @@ std::string FormatParameters(const C3dParameters& parameters) {
   std::map<std::string, int> counts;
   for (const C3dParameter& parameter : parameters.all()) ++counts[parameter.group];
   std::vector<std::string> groups;
+  groups.reserve(counts.size());
   for (const auto& [group, count] : counts) {
     groups.push_back(fmt::format("{} {}", group.empty() ? "(no group)" : group, count));
   }
