@@ -30,7 +30,7 @@ std::vector<std::string> ShippedConfigs() {
   std::vector<std::string> names;
   std::error_code failure;
   for (const auto& file : fs::directory_iterator(DataDirectory() + "/converters", failure)) {
-    names.push_back(file.path().stem().string());
+    if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
