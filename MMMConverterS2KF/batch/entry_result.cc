@@ -22,9 +22,7 @@ void TakePerson(const ConversionReport& report, EntryFigures* figures) {
   if (report.person.subject) figures->subject = report.person.subject->name;
 }
 
-double ParseNumber(const Json& json) {
-  return json.is_null() ? EntryFigures::kNone : json.get<double>();
-}
+double ParseNumber(const Json& json) { return json.is_null() ? kNaN : json.get<double>(); }
 
 std::string ParseText(const Json& json) {
   return json.is_null() ? std::string() : json.get<std::string>();
@@ -95,7 +93,7 @@ EntryResult Converted(const ConversionReport& report, double seconds) {
   figures.frames_not_converged = measured.frames_not_converged;
   figures.frames_reassembled = measured.frames_reassembled;
   figures.wrong_markers = static_cast<int>(report.result.incidents.size());
-  figures.process_noise_scale = report.result.process_noise_scale.value_or(EntryFigures::kNone);
+  figures.process_noise_scale = report.result.process_noise_scale.value_or(kNaN);
   figures.nis = measured.nis;
   figures.median_ms = measured.median_ms;
   figures.p99_ms = measured.p99_ms;

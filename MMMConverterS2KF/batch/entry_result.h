@@ -1,39 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
 /// Figures of a converted entry. NaN or an empty text: there is none, as of the height of an
 /// object.
 struct EntryFigures {
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
   Verdict verdict;
   int frames = 0;
-  double rate = 0;        ///< [Hz]
-  double height = kNone;  ///< [m]
+  double rate = 0;       ///< [Hz]
+  double height = kNaN;  ///< [m]
   std::string height_source;
-  double mass = kNone;  ///< [kg]
+  double mass = kNaN;  ///< [kg]
   std::string mass_source;
   std::optional<std::string> subject;  ///< its name
   std::string converter, configuration;
   int markers_used = 0, markers_absent = 0, markers_ignored = 0;
-  double mean_mm = kNone, p95_mm = kNone, max_mm = kNone;  ///< distance over all markers and frames
-  std::string worst_marker;                                ///< label with the largest mean distance
-  double worst_marker_mm = kNone;
+  double mean_mm = kNaN, p95_mm = kNaN, max_mm = kNaN;  ///< distance over all markers and frames
+  std::string worst_marker;                             ///< label with the largest mean distance
+  double worst_marker_mm = kNaN;
   int frames_with_missing_markers = 0, frames_not_converged = 0, frames_reassembled = 0;
   int wrong_markers = 0;
-  double process_noise_scale = kNone;
-  double nis = kNone;  ///< over its degrees of freedom
-  double median_ms = kNone, p99_ms = kNone;
+  double process_noise_scale = kNaN;
+  double nis = kNaN;  ///< over its degrees of freedom
+  double median_ms = kNaN, p99_ms = kNaN;
   std::vector<std::string> warnings;
 };
 

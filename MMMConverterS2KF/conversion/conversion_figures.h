@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "common/motion/marker_residuals.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -21,7 +21,7 @@ struct ConversionFigures {
   int frames_reassembled = 0;
   /// NIS over its degrees of freedom, mean over the frames in which the converter states one; NaN:
   /// it never does.
-  double nis = std::numeric_limits<double>::quiet_NaN();
+  double nis = kNaN;
   double median_ms = 0, p99_ms = 0;  ///< time of a frame
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/tracks.h"
 
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>

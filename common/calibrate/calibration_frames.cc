@@ -9,6 +9,7 @@
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/parallel.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -85,8 +86,7 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
       CalibrationFrame frame;
       frame.recording = static_cast<int>(r);
       frame.frame = k;
-      frame.z.setConstant(3, static_cast<Eigen::Index>(markers.size()),
-                          std::numeric_limits<double>::quiet_NaN());
+      frame.z.setConstant(3, static_cast<Eigen::Index>(markers.size()), kNaN);
       for (const MarkerAssignment& assignment : recordings[r].assignments) {
         const auto found = std::lower_bound(markers.begin(), markers.end(), assignment.marker);
         frame.z.col(found - markers.begin()) = sequence.frame(k).col(assignment.label);

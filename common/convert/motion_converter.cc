@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/convert/checked_converter.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/posture.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -63,9 +63,8 @@ class ResultWriter {
     trajectory.first_time = recording.first_time();
     for (const int joint : joints) trajectory.joint_names.push_back(setup.model->joint(joint).name);
     trajectory.postures.resize(frames);
-    trajectory.standard_deviations.setConstant(6 + static_cast<int>(joints.size()), frames,
-                                               std::numeric_limits<double>::quiet_NaN());
-    result_.residuals.setConstant(assignments, frames, std::numeric_limits<double>::quiet_NaN());
+    trajectory.standard_deviations.setConstant(6 + static_cast<int>(joints.size()), frames, kNaN);
+    result_.residuals.setConstant(assignments, frames, kNaN);
     result_.frames.resize(frames);
     verdicts_.setConstant(assignments, frames, kAsLabelled);
   }

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/dynamics/ballistic_phases.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/low_pass.h"
 #include "common/motion/trajectory_derivatives.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -245,7 +245,7 @@ Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
                                    moment.x() - height * force.y());
     centers.col(k) = dynamics.com.col(k).head<2>() + from_com / force.z();
     if (force.z() < kLeastPressure * dynamics.body_weight()) {
-      centers.col(k).setConstant(std::numeric_limits<double>::quiet_NaN());
+      centers.col(k).setConstant(kNaN);
     }
   }
   return centers;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/evaluate/hiding.h"
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "common/motion/occlusion.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -31,7 +31,7 @@ MarkerSequence WithoutHidden(MarkerSequence recording, const std::vector<LabelIx
   for (int k = 0; k < recording.num_frames(); ++k) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (!hidden(static_cast<int>(i), k)) continue;
-      recording.frame(k).col(labels[i]).setConstant(std::numeric_limits<double>::quiet_NaN());
+      recording.frame(k).col(labels[i]).setConstant(kNaN);
     }
   }
   return recording;

@@ -10,6 +10,7 @@
 #include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -64,7 +65,7 @@ class OptimumFit {
   struct Optimum {
     Posture posture;
     double cost = std::numeric_limits<double>::infinity();
-    double distance = std::numeric_limits<double>::quiet_NaN();
+    double distance = kNaN;
   };
 
   void StartFromNearest(int k, const Eigen::Matrix3Xd& z, const Starts& starts) {

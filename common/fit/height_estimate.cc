@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/fit/posture_search.h"

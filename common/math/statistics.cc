@@ -5,13 +5,10 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "common/support/units.h"
 
 namespace mmm_converter {
-namespace {}  // namespace
-
 double Mean(std::span<const double> values) {
   double sum = 0;
   long count = 0;

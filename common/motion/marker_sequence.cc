@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
+
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -13,7 +14,7 @@ MarkerSequence::MarkerSequence(std::vector<std::string> labels, int num_frames, 
       num_frames_(num_frames),
       rate_(rate),
       first_time_(first_time),
-      p_WM_(labels_.size() * 3 * num_frames, std::numeric_limits<double>::quiet_NaN()) {
+      p_WM_(labels_.size() * 3 * num_frames, kNaN) {
   assert(rate > 0);
 }
 

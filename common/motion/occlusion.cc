@@ -3,7 +3,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "common/math/seeded_random.h"

@@ -2,7 +2,6 @@
 #include "plugins/jacobian/jacobian_converter.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "common/model/posture.h"

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/support/units.h"
 
 namespace mmm_converter::s2kf {
 
@@ -38,13 +39,11 @@ constexpr double kFarInResiduals = 6;
 
 void GateState::Start(const Eigen::VectorXd& skin_deviation) {
   residual.setConstant(skin_deviation.size(), kResidual);
-  far_off.setConstant(skin_deviation.size(), kFarOff);
   is_calibrated.assign(skin_deviation.size(), false);
   for (int m = 0; m < residual.size(); ++m) {
     if (std::isnan(skin_deviation[m])) continue;
     is_calibrated[m] = true;
     residual[m] = std::clamp(skin_deviation[m], kLeastResidual, kResidual);
-    far_off[m] = kFarInResiduals * residual[m];
   }
   Reset();
 }
@@ -108,7 +107,7 @@ void GateState::Select(const Matrix3Xd& measured, Matrix3Xd* relabelled, Matrix3
   for (int m = 0; m < z->cols(); ++m) {
     relabelled->col(m) = measured.col(verdicts[m] < 0 ? m : verdicts[m]);
     z->col(m) = relabelled->col(m);
-    if (IsLeftOut(m)) z->col(m).setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (IsLeftOut(m)) z->col(m).setConstant(kNaN);
   }
 }
 
@@ -121,9 +120,11 @@ bool GateState::IsPlaceKnown(int m) const {
 }
 
 bool GateState::IsFarOff(const Vector3d& from_usual, int m, double place_variance) const {
-  const double share = place_variance / (residual[m] * residual[m]);
-  // One that comes back shows where its limb is.
-  const double limit = is_hidden[m] ? kFarOff : far_off[m] * std::sqrt(1 + share);
+  // One that comes back after it was hidden shows where its limb is.
+  const double limit =
+      !is_calibrated[m] || is_hidden[m]
+          ? kFarOff
+          : kFarInResiduals * std::sqrt(residual[m] * residual[m] + place_variance);
   return learned[m] >= kUsualFrames && from_usual.norm() > limit;
 }
 

@@ -13,13 +13,12 @@ struct GateState {
   Eigen::VectorXd variance;  ///< of each coordinate of b [m^2]
   Eigen::VectorXd residual;  ///< standard deviation of each coordinate of r - b [m]
   std::vector<bool> is_calibrated;
-  Eigen::VectorXd far_off;  ///< a marker farther from its usual place than this is wrong [m]
   Eigen::Matrix3Xd usual;   ///< slow mean of r
   Eigen::VectorXi learned;  ///< frames in it
   Eigen::VectorXi
       verdicts;            ///< -1: as labelled, its own index: left out, another's: bears its label
   Eigen::VectorXi agreed;  ///< frames in a row in which a marker left out passed
-  Eigen::VectorXd left_out_for;  ///< [s]
+  Eigen::VectorXd left_out_for;  ///< how long by now [s]
   std::vector<bool> is_hidden;
   int frames_since_change = 0;  ///< of the markers in use
   double usual_gain = 0;        ///< of `usual` in this frame

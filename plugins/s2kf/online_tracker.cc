@@ -11,8 +11,6 @@ namespace mmm_converter::s2kf {
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
 
-namespace {}  // namespace
-
 OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& settings)
     : markers_(markers),
       settings_(settings),

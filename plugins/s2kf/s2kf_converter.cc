@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/s2kf_converter.h"
 
-#include <limits>
 #include <vector>
 
 #include "common/motion/trajectory_derivatives.h"
@@ -13,8 +12,6 @@ namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
-
-namespace {}  // namespace
 
 S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings)
     : MotionConverter(setup),

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/support/units.h"
 
 namespace mmm_converter::s2kf {
 
@@ -28,8 +29,7 @@ double ClippedMeanOf(Index count, double limit, const DistanceOf& distance_of) {
 }  // namespace
 
 TrackedFrame::TrackedFrame(const MarkerKinematics& kinematics)
-    : measured(Matrix3Xd::Constant(3, kinematics.num_markers(),
-                                   std::numeric_limits<double>::quiet_NaN())),
+    : measured(Matrix3Xd::Constant(3, kinematics.num_markers(), kNaN)),
       relabelled(measured),
       z(measured),
       outcome(kinematics.num_dofs(), kinematics.num_markers()),

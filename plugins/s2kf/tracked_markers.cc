@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/support/units.h"
 
 namespace mmm_converter::s2kf {
 
@@ -26,8 +27,8 @@ TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
       skin_deviation_(noise_scale_.size()) {
   for (Eigen::Index m = 0; m < place_deviation_.size(); ++m) {
     const ModelMarker& marker = setup.model->markers()[kinematics_.markers()[m]];
-    place_deviation_[m] = marker.deviation.value_or(std::numeric_limits<double>::quiet_NaN());
-    skin_deviation_[m] = marker.skin_deviation.value_or(std::numeric_limits<double>::quiet_NaN());
+    place_deviation_[m] = marker.deviation.value_or(kNaN);
+    skin_deviation_[m] = marker.skin_deviation.value_or(kNaN);
   }
 }
 
@@ -48,7 +49,7 @@ int TrackedMarkers::Gather(const Ref<const Matrix3Xd>& frame, Matrix3Xd* measure
     if (marker.allFinite()) {
       ++seen;
     } else {
-      marker.setConstant(std::numeric_limits<double>::quiet_NaN());
+      marker.setConstant(kNaN);
     }
   }
   return seen;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/batch/result_files.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -70,7 +71,7 @@ TEST(EntryResult, AnObjectHasNoHeight) {
 
 TEST(EntryResult, NothingSeenHasNoDistance) {
   ConversionReport report = Report();
-  report.result.residuals.setConstant(EntryFigures::kNone);
+  report.result.residuals.setConstant(kNaN);
   report.figures = MeasureConversion(report);
   const Json json = ToJson(Converted(report, 0));
   EXPECT_TRUE(json.at("worst_marker").is_null());

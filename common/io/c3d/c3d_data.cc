@@ -3,12 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
+
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 
 /// Word 4 was made a float by the writer: back to the 16 bits that it was (65535 and -1 are the
 /// same).
@@ -52,7 +51,7 @@ void DecodeFrames(const unsigned char* stored, int frames, const std::vector<int
       Position<kProcessor, kFloats>(point, layout.scale, xyz);
       const bool zero = xyz[0] == 0 && xyz[1] == 0 && xyz[2] == 0;
       const bool valid = ignore_residuals || IsMarkedValid<kProcessor, kFloats>(point);
-      if (!IsC3dPosition(xyz) || zero || !valid) xyz[0] = xyz[1] = xyz[2] = kUnseen;
+      if (!IsC3dPosition(xyz) || zero || !valid) xyz[0] = xyz[1] = xyz[2] = kNaN;
       xyz += 3;
     }
   }

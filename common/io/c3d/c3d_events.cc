@@ -50,7 +50,7 @@ void ReadGroup(const C3dParameters& parameters, std::vector<C3dEvent>* events, W
 /// Words 150 to 234 of the header: the length of labels, the count, times, switches, labels.
 void ReadHeader(const C3dFile& file, std::vector<C3dEvent>* events, Warnings* warnings) {
   const auto header = file.header_bytes();
-  const auto at = [](int word) { return static_cast<std::size_t>(2 * (word - 1)); };
+  const auto at = [](std::size_t word) { return 2 * (word - 1); };
   const C3dProcessor processor = file.layout().processor;
   const std::size_t count = C3dWord(&header[at(151)], processor);
   if (count == 0) return;

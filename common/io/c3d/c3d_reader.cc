@@ -4,15 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "common/io/c3d/c3d_data.h"
 #include "common/io/c3d/c3d_numbers.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
-namespace {}  // namespace
-
 C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, warnings) {
   const WarningContext context(warnings, path);
   info_.layout = file_.layout();
@@ -62,8 +60,7 @@ std::vector<C3dPoint> C3dReader::ReadFrame(int frame) {
     DecodeC3dPosition(stored, layout, points[i].position.data());
     points[i].valid = word.valid && points[i].position.allFinite();
     if (!points[i].valid) continue;
-    points[i].residual =
-        word.known ? word.residual * layout.scale : std::numeric_limits<double>::quiet_NaN();
+    points[i].residual = word.known ? word.residual * layout.scale : kNaN;
     points[i].cameras = word.cameras;
   }
   return points;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/support/units.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -104,8 +106,7 @@ std::vector<double> FrameTimes(const TimeGrid& grid, const std::vector<double>& 
 Eigen::MatrixXd Resample(const TimedRows& rows, const std::vector<double>& times, double hold) {
   using Column = Eigen::Map<const Eigen::VectorXd>;
   Eigen::MatrixXd resampled =
-      Eigen::MatrixXd::Constant(rows.width, static_cast<Eigen::Index>(times.size()),
-                                std::numeric_limits<double>::quiet_NaN());
+      Eigen::MatrixXd::Constant(rows.width, static_cast<Eigen::Index>(times.size()), kNaN);
   if (rows.times.empty()) return resampled;
   std::size_t next = 0;  // the first row at or after the time
   for (std::size_t i = 0; i < times.size(); ++i) {

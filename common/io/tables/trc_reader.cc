@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <set>
 
 #include "common/support/error.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFarAway = 1e6;              // some systems write 9999999 for a missing marker
 constexpr std::size_t kFirstLabelColumn = 2;  // behind frame and time
 
@@ -54,10 +53,10 @@ void Split(std::string_view line, char separator, std::vector<std::string_view>*
 /// NaN for what is not a number. A decimal comma is understood where commas do not separate.
 double Number(std::string_view cell, char separator) {
   if (const auto number = ParseDouble(cell)) return *number;
-  if (separator == ',' || cell.find(',') == std::string_view::npos) return kUnknown;
+  if (separator == ',' || cell.find(',') == std::string_view::npos) return kNaN;
   std::string with_point(cell);
   std::replace(with_point.begin(), with_point.end(), ',', '.');
-  return ParseDouble(with_point).value_or(kUnknown);
+  return ParseDouble(with_point).value_or(kNaN);
 }
 
 char SeparatorOf(std::string_view line) {
@@ -73,9 +72,9 @@ bool StartsWithIgnoringCase(std::string_view text, std::string_view start) {
 
 /// What the keys in line 2 and the values in line 3 say; NaN where they don't.
 struct TrcHeader {
-  double rate = kUnknown;
-  double frames = kUnknown;
-  double markers = kUnknown;
+  double rate = kNaN;
+  double frames = kNaN;
+  double markers = kNaN;
   std::string unit;
 };
 
@@ -86,7 +85,7 @@ TrcHeader ReadHeader(std::string_view keys_line, std::string_view values_line) {
   std::vector<std::string_view> values;
   Split(keys_line, separator, &keys);
   Split(values_line, SeparatorOf(values_line), &values);
-  double camera_rate = kUnknown;
+  double camera_rate = kNaN;
   for (std::size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
     if (EqualIgnoringCase(keys[i], "DataRate")) header.rate = Number(values[i], separator);
     if (EqualIgnoringCase(keys[i], "CameraRate")) camera_rate = Number(values[i], separator);
@@ -152,7 +151,7 @@ struct Rows {
 void AppendRow(const std::vector<std::string_view>& cells, const Columns& columns, char separator,
                Rows* rows) {
   for (const std::size_t first : columns.first) {
-    double p[3] = {kUnknown, kUnknown, kUnknown};
+    double p[3] = {kNaN, kNaN, kNaN};
     for (std::size_t j = 0; j < 3 && first + j < cells.size(); ++j) {
       p[j] = Number(cells[first + j], separator);
       if (!cells[first + j].empty() && std::isnan(p[j]) &&
@@ -162,7 +161,7 @@ void AppendRow(const std::vector<std::string_view>& cells, const Columns& column
     }
     const bool far =
         !(std::abs(p[0]) <= kFarAway && std::abs(p[1]) <= kFarAway && std::abs(p[2]) <= kFarAway);
-    if (far || (p[0] == 0 && p[1] == 0 && p[2] == 0)) p[0] = p[1] = p[2] = kUnknown;
+    if (far || (p[0] == 0 && p[1] == 0 && p[2] == 0)) p[0] = p[1] = p[2] = kNaN;
     rows->coordinates.insert(rows->coordinates.end(), p, p + 3);
   }
 }
@@ -178,7 +177,7 @@ Rows ReadRows(LineReader* lines, const Columns& columns, char separator, const s
     const double frame = Number(cells[0], separator);
     if (!std::isfinite(frame)) continue;  // X1 Y1 Z1, blank, or a note
     if (rows.times.empty() && std::abs(frame) < 1e9) rows.first_frame = std::lround(frame);
-    rows.times.push_back(cells.size() > 1 ? Number(cells[1], separator) : kUnknown);
+    rows.times.push_back(cells.size() > 1 ? Number(cells[1], separator) : kNaN);
     if (rows.coordinates.size() + 3 * columns.labels.size() > max_coordinates) {
       throw Error(fmt::format("{}:{}: rows are too short for {} labels", file, lines->number(),
                               columns.labels.size()));

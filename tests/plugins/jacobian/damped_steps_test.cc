@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <limits>
 #include <random>
 
 #include "common/model/forward_kinematics.h"

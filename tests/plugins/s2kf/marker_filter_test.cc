@@ -6,7 +6,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <limits>
 #include <random>
 
 #include "tests/support/test_models.h"

@@ -7,7 +7,6 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
