@@ -97,6 +97,14 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
   }
 }
 
+MarkerKinematics MarkerKinematics::WithMarkersMoved(const Eigen::Matrix3Xd& offsets) const {
+  MarkerKinematics moved = *this;
+  for (MarkerSite& site : moved.sites_) {
+    Eigen::Map<Vector3d>(site.p_LM) += offsets.col(site.marker);
+  }
+  return moved;
+}
+
 MarkerBatch MarkerKinematics::MakeBatch(int num_samples) const {
   MarkerBatch batch;
   batch.rotation = PaddedMatrix(num_samples, 9);

@@ -41,6 +41,10 @@ class MarkerKinematics {
   MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
                    std::vector<MarkerIx> markers);
 
+  /// The same with each marker moved by its column, in axes of its link (MarkerJacobian::R_WL),
+  /// [m].
+  MarkerKinematics WithMarkersMoved(const Eigen::Matrix3Xd& offsets) const;
+
   int num_joints() const { return static_cast<int>(joints_.size()); }
   int num_dofs() const { return 6 + num_joints(); }
   int num_markers() const { return static_cast<int>(markers_.size()); }

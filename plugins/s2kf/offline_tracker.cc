@@ -41,8 +41,9 @@ double SecondsSince(Clock::time_point start) {
 }  // namespace
 
 OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettings& settings,
-                               OnlineTracker* tracker)
+                               const TrackedMarkers& markers, OnlineTracker* tracker)
     : recording_(recording),
+      markers_(markers),
       tracker_(*tracker),
       root_(settings.root),
       chunk_(settings.smoothing_chunk),
@@ -52,7 +53,8 @@ OfflineTracker::OfflineTracker(const MarkerSequence& recording, const S2kfSettin
       filtered_(std::min(chunk_, recording.num_frames())),
       used_(filtered_.size(), Eigen::Matrix3Xd(3, tracker->markers().kinematics().num_markers())),
       frame_(tracker->markers().kinematics()),
-      covariance_(tracker->markers(), settings) {
+      of_model_(markers.kinematics().MakeJacobian()),
+      covariance_(markers, settings) {
   verdicts_.setConstant(tracker->markers().kinematics().num_markers(), recording.num_frames(),
                         kAsLabelled);
 }
@@ -189,13 +191,19 @@ bool OfflineTracker::IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed,
   return frame_.posture.joint_angles.allFinite();
 }
 
+void OfflineTracker::PlaceByModel(const Posture& q) {
+  markers_.kinematics().ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles,
+                                       &of_model_);
+}
+
 void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result) {
   Gather(k);
-  tracker_.filter().Place(belief, &frame_.posture, &frame_.at);
+  tracker_.filter().ToPosture(belief, &frame_.posture);
   tracker_.filter().Deviations(belief, &own_deviations_);
   result->trajectory.postures[k] = frame_.posture;
   result->trajectory.standard_deviations.col(k) = own_deviations_;
-  result->residuals.col(k) = (frame_.measured - frame_.at.p_WM).colwise().norm().transpose();
+  PlaceByModel(frame_.posture);
+  result->residuals.col(k) = (frame_.measured - of_model_.p_WM).colwise().norm().transpose();
 }
 
 void OfflineTracker::ReportDeviations(ConversionResult* result) {
@@ -223,12 +231,11 @@ void OfflineTracker::ReportDeviations(ConversionResult* result) {
     gate.verdicts = verdicts_.col(k).cast<int>();
     gate.Select(frame_.measured, &frame_.relabelled, &frame_.z);
     const Posture& q = result->trajectory.postures[k];
-    tracker_.markers().kinematics().ComputeMarkers(q.position, q.orientation.toRotationMatrix(),
-                                                   q.joint_angles, &frame_.at);
-    covariance_.Look(frame_.z, frame_.at, dt_);
+    PlaceByModel(q);
+    covariance_.Look(frame_.z, of_model_, dt_);
     if (covariance_.IsDue()) {
       own_deviations_ = deviations.col(k);
-      covariance_.Compute(q.joint_angles, own_deviations_, &frame_.at, &until);
+      covariance_.Compute(q.joint_angles, own_deviations_, &of_model_, &until);
     }
     deviations.col(k) = covariance_.deviations();
     result->frames[k].seconds += SecondsSince(start);

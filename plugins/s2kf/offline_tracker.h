@@ -22,9 +22,10 @@ namespace mmm_converter::s2kf {
 /// the same again. Keep comes after each tracked frame, then Smooth once.
 class OfflineTracker {
  public:
-  /// All must outlive the object; `tracker` is what tracks the recording.
+  /// All must outlive the object; `tracker` is what tracks the recording. markers: what residuals
+  /// are told against; those of the tracker, or where the model has them.
   OfflineTracker(const MarkerSequence& recording, const S2kfSettings& settings,
-                 OnlineTracker* tracker);
+                 const TrackedMarkers& markers, OnlineTracker* tracker);
 
   /// state, frame: after frame k; from the first tracked frame on, in order.
   void Keep(int k, const TrackState& state, const TrackedFrame& frame);
@@ -57,12 +58,15 @@ class OfflineTracker {
   void Gather(int k);
   /// Whether a smoothed posture is about as near to each of the markers z as the filter's.
   bool IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed, const Belief& filtered);
+  /// Takes the markers_ of a posture into of_model_.
+  void PlaceByModel(const Posture& q);
   /// Deviations as the belief has them, of white noise.
   void Write(int k, const Belief& belief, ConversionResult* result);
   /// Replaces these by what is said of the postures (ReportedCovariance).
   void ReportDeviations(ConversionResult* result);
 
   const MarkerSequence& recording_;
+  const TrackedMarkers& markers_;
   OnlineTracker& tracker_;
   RootParameters root_;
   int chunk_;    // frames between checkpoints
@@ -81,6 +85,7 @@ class OfflineTracker {
   // Postures from which the filter goes on in a frame, as a later frame showed them to be better.
   std::map<int, Posture> retakes_;
   TrackedFrame frame_;
+  MarkerJacobian of_model_;  // places of markers_
   Eigen::RowVectorXd distances_of_filter_;
   ReportedCovariance covariance_;
   Eigen::VectorXd own_deviations_;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/s2kf_converter.h"
 
+#include <utility>
 #include <vector>
 
 #include "common/motion/trajectory_derivatives.h"
 #include "common/support/units.h"
+#include "plugins/s2kf/first_look.h"
 #include "plugins/s2kf/offline_tracker.h"
-#include "plugins/s2kf/process_noise_scale.h"
 
 namespace mmm_converter::s2kf {
 
@@ -14,12 +15,18 @@ using Eigen::Matrix3Xd;
 using Eigen::Ref;
 
 S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings)
+    : S2kfConverter(setup, settings, TrackedMarkers(setup)) {}
+
+S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings,
+                             TrackedMarkers worn)
     : MotionConverter(setup),
       settings_(settings),
       markers_(setup),
-      tracker_(markers_, settings),
-      frame_(markers_.kinematics()),
-      covariance_(markers_, settings) {
+      worn_(std::move(worn)),
+      tracker_(worn_, settings),
+      frame_(worn_.kinematics()),
+      covariance_(markers_, settings),
+      of_model_(markers_.kinematics().MakeJacobian()) {
   own_deviations_.setZero(markers_.kinematics().num_dofs());
   estimate_.posture.joint_angles.setZero(setup.model->num_joints());
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
@@ -41,11 +48,14 @@ const FrameEstimate& S2kfConverter::Track(const Ref<const Matrix3Xd>& frame, dou
 }
 
 void S2kfConverter::FillEstimate(double dt) {
+  markers_.kinematics().ComputeMarkers(frame_.posture.position,
+                                       frame_.posture.orientation.toRotationMatrix(),
+                                       frame_.posture.joint_angles, &of_model_);
   if (!is_smoothed_) {
-    covariance_.Look(frame_.z, frame_.at, dt);
+    covariance_.Look(frame_.z, of_model_, dt);
     if (covariance_.IsDue()) {
       tracker_.filter().Deviations(track_.belief, &own_deviations_);
-      covariance_.Compute(frame_.posture.joint_angles, own_deviations_, &frame_.at);
+      covariance_.Compute(frame_.posture.joint_angles, own_deviations_, &of_model_);
     }
   }
   const Eigen::VectorXd& deviations = covariance_.deviations();
@@ -59,7 +69,7 @@ void S2kfConverter::FillEstimate(double dt) {
     estimate_.standard_deviations[6 + joints[j]] = deviations[6 + i];
   }
   for (Eigen::Index m = 0; m < estimate_.residuals.size(); ++m) {
-    estimate_.residuals[m] = (frame_.measured.col(m) - frame_.at.p_WM.col(m)).norm();
+    estimate_.residuals[m] = (frame_.measured.col(m) - of_model_.p_WM.col(m)).norm();
   }
   FillVerdicts();
   estimate_.markers_seen = frame_.outcome.seen;
@@ -83,20 +93,22 @@ void S2kfConverter::FillVerdicts() {
 
 ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
                                         const std::function<bool(int)>& progress) {
-  if (settings_.choose_process_noise_scale) {
+  if (settings_.choose_process_noise_scale || settings_.learn_places) {
+    const FirstLook look = LookOver(recording, markers_, settings_, progress);
     S2kfSettings settings = settings_;
-    const double scale = ChooseProcessNoiseScale(recording, markers_, settings, progress);
-    settings.process_noise_scale *= scale;
+    settings.process_noise_scale *= look.process_noise_scale.value_or(1);
     settings.choose_process_noise_scale = false;
-    S2kfConverter converter(setup(), settings);
+    settings.learn_places = false;
+    S2kfConverter converter(setup(), settings,
+                            look.places ? markers_.Worn(*look.places) : markers_);
     ConversionResult result = converter.Convert(recording, progress);
-    result.process_noise_scale = scale;
+    result.process_noise_scale = look.process_noise_scale;
     return result;
   }
   if (!settings_.smoothing) {
     return MotionConverter::Convert(recording, progress);
   }
-  OfflineTracker offline(recording, settings_, &tracker_);
+  OfflineTracker offline(recording, settings_, markers_, &tracker_);
   // Also where progress cancels.
   struct Reset {
     bool& flag;

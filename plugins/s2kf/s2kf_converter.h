@@ -25,18 +25,22 @@ class S2kfConverter : public MotionConverter {
                            const std::function<bool(int)>& progress) override;
 
  private:
+  S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings, TrackedMarkers worn);
+
   /// dt: since the last frame [s].
   void FillEstimate(double dt);
   void FillVerdicts();
 
   S2kfSettings settings_;
-  TrackedMarkers markers_;
+  TrackedMarkers markers_;  // as the model has them, which residuals are told against
+  TrackedMarkers worn_;     // as they are tracked
   OnlineTracker tracker_;
   TrackState track_;
   TrackedFrame frame_;
   ReportedCovariance covariance_;
   bool is_smoothed_ = false;        // the deviations come later
   Eigen::VectorXd own_deviations_;  // of the filter, which takes all noise for white
+  MarkerJacobian of_model_;         // the estimate's, where the model has the markers
   FrameEstimate estimate_;
 };
 

@@ -114,6 +114,10 @@ SettingTable BindSettings(S2kfSettings* v) {
   table.Add("Smoothing", "active", &v->smoothing,
             "after the filter, go backwards over its track (Rauch-Tung-Striebel): every frame then "
             "knows the whole recording, and nothing lags");
+  table.Add("Smoothing", "learnPlaces", &v->learn_places,
+            "before it is tracked, go over the recording once and learn where each marker is worn "
+            "beside the model's place, as far as the person was not calibrated: a marker that "
+            "hides or returns then moves no limb; distances are still those to the model's places");
   return table;
 }
 

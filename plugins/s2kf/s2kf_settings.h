@@ -57,6 +57,7 @@ struct S2kfSettings {
   bool recovery = true;
 
   bool smoothing = false;
+  bool learn_places = false;
   /// Beliefs are kept for so many frames at a time (with rates 68 kB each), and of the frames
   /// before every so manieth. Not in the configuration: the result does not depend on it.
   int smoothing_chunk = 1000;

@@ -35,8 +35,8 @@ constexpr double kAsWell = 4;
 
 }  // namespace
 
-TrackWatch::TrackWatch(const S2kfSettings& settings)
-    : marker_deviation_(settings.marker_deviation), is_smoothed_(settings.smoothing) {}
+TrackWatch::TrackWatch(double marker_deviation, bool is_smoothed)
+    : marker_deviation_(marker_deviation), is_smoothed_(is_smoothed) {}
 
 void TrackWatch::Start(int num_markers, double distance, State* state) const {
   state->hidden_for.assign(num_markers, 0.0);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/fit/posture_fit.h"
-#include "plugins/s2kf/s2kf_settings.h"
 
 namespace mmm_converter::s2kf {
 
@@ -22,7 +21,8 @@ class TrackWatch {
     int doubt = 0;                   ///< frames for which the track stays in doubt
   };
 
-  explicit TrackWatch(const S2kfSettings& settings);
+  /// marker_deviation: of each coordinate of a marker, as TrackedMarkers::UsualDeviation [m].
+  TrackWatch(double marker_deviation, bool is_smoothed);
 
   /// distance: mean of the first frame's markers from the estimate's [m]. A new track is in doubt.
   void Start(int num_markers, double distance, State* state) const;

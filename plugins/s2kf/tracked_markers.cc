@@ -24,12 +24,20 @@ TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
       labels_(LabelIndices(setup.assignments())),
       noise_scale_(NoiseScales(setup.assignments())),
       place_deviation_(noise_scale_.size()),
-      skin_deviation_(noise_scale_.size()) {
+      skin_deviation_(noise_scale_.size()),
+      worn_deviation_(Eigen::VectorXd::Constant(noise_scale_.size(), kNaN)) {
   for (Eigen::Index m = 0; m < place_deviation_.size(); ++m) {
     const ModelMarker& marker = setup.model->markers()[kinematics_.markers()[m]];
     place_deviation_[m] = marker.deviation.value_or(kNaN);
     skin_deviation_[m] = marker.skin_deviation.value_or(kNaN);
   }
+}
+
+TrackedMarkers TrackedMarkers::Worn(const WornPlaces& places) const {
+  TrackedMarkers worn = *this;
+  worn.kinematics_ = kinematics_.WithMarkersMoved(places.offset);
+  worn.worn_deviation_ = places.deviation;
+  return worn;
 }
 
 Eigen::VectorXd TrackedMarkers::FilterScale(double configured) const {
@@ -39,6 +47,11 @@ Eigen::VectorXd TrackedMarkers::FilterScale(double configured) const {
     scale[m] *= std::clamp(skin_deviation_[m] / configured, kLeastShare, 1.0);
   }
   return scale;
+}
+
+double TrackedMarkers::UsualDeviation(double configured) const {
+  const auto known = worn_deviation_.array().isNaN().select(configured, worn_deviation_);
+  return std::sqrt(known.array().max(configured).square().mean());
 }
 
 int TrackedMarkers::Gather(const Ref<const Matrix3Xd>& frame, Matrix3Xd* measured) const {

@@ -9,11 +9,21 @@
 
 namespace mmm_converter::s2kf {
 
+/// Where a person wears the markers, learnt from a recording.
+struct WornPlaces {
+  Eigen::Matrix3Xd offset;  ///< from the model's places, link axes [m]
+  Eigen::VectorXd
+      deviation;  ///< of each coordinate about them, from frame to frame [m]; NaN: unknown
+};
+
 /// The markers that are tracked, in the order of the assignments: where the model has them, which
 /// label of a frame is theirs, how noisy they are. Immutable.
 class TrackedMarkers {
  public:
   explicit TrackedMarkers(const TrackingSetup& setup);
+
+  /// The same, worn at these places.
+  TrackedMarkers Worn(const WornPlaces& places) const;
 
   const MarkerKinematics& kinematics() const { return kinematics_; }
   /// Factor on a marker's standard deviation.
@@ -29,6 +39,11 @@ class TrackedMarkers {
   /// configured standard deviation [m], which goes for the others.
   Eigen::VectorXd FilterScale(double configured) const;
 
+  /// Of each coordinate of a marker, root mean square over the markers, each at least the
+  /// configured standard deviation [m]: the model's lengths are not the person's, and a marker that
+  /// was learnt beside its place moves there with the posture.
+  double UsualDeviation(double configured) const;
+
   /// measured: the markers in a frame of labels, 3 x markers [m]; all NaN where not seen. Returns
   /// how many are seen.
   int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, Eigen::Matrix3Xd* measured) const;
@@ -39,6 +54,7 @@ class TrackedMarkers {
   Eigen::VectorXd noise_scale_;
   Eigen::VectorXd place_deviation_;
   Eigen::VectorXd skin_deviation_;  // NaN: not measured
+  Eigen::VectorXd worn_deviation_;  // WornPlaces; NaN: not learnt
 };
 
 }  // namespace mmm_converter::s2kf

@@ -35,7 +35,7 @@ class TrackWatchTest : public ::testing::Test {
   }
 
   S2kfSettings settings_;
-  TrackWatch watch_{settings_};
+  TrackWatch watch_{settings_.marker_deviation, settings_.smoothing};
   TrackWatch::State state_;
   Eigen::Matrix3Xd z_ = Eigen::Matrix3Xd::Zero(3, kWatchedMarkers);
 };
@@ -115,22 +115,19 @@ TEST_F(TrackWatchTest, AClearlyBetterPostureLowersTheCostByATenth) {
 }
 
 TEST_F(TrackWatchTest, AndByThreeTimesTheNoiseOfEveryMarkerWhereLittleIsLeft) {
-  settings_.marker_deviation = 0.005;
-  const TrackWatch watch(settings_);
+  const TrackWatch watch(0.005, false);
   // 40 (15 mm)^2 = 9000 mm^2; what a filter lags is less.
   EXPECT_FALSE(watch.IsClearlyBetter(Fit(0.0100, 0.012), Fit(0.0011, 0.004), 40, 40));
   EXPECT_TRUE(watch.IsClearlyBetter(Fit(0.0101, 0.012), Fit(0.0010, 0.004), 40, 40));
 }
 
 TEST_F(TrackWatchTest, WithHiddenMarkersTheDistanceHasToFallByUpToTheirNoise) {
-  settings_.marker_deviation = 0.004;
-  const TrackWatch online(settings_);
+  const TrackWatch online(0.004, false);
   // A quarter hidden: by half of 4 mm.
   EXPECT_TRUE(online.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0279), 30, 40));
   EXPECT_FALSE(online.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0281), 30, 40));
   // A track that is smoothed: by 4 mm always.
-  settings_.smoothing = true;
-  const TrackWatch offline(settings_);
+  const TrackWatch offline(0.004, true);
   EXPECT_TRUE(offline.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0259), 40, 40));
   EXPECT_FALSE(offline.IsClearlyBetter(Fit(1, 0.030), Fit(0.5, 0.0261), 40, 40));
 }
