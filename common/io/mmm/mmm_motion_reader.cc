@@ -22,13 +22,15 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kMetresPerCentimetre = 1e-2;
+constexpr std::size_t kMostMotions = 10000;  // of a file; real ones have up to some dozens
 
-/// Numbers that the motions of a file may take in memory: several times what its text can hold, so
-/// that gaps and rare markers have room, and a few bytes can't ask for gigabytes.
+/// Numbers that the motions of a file may take in memory: several times what its text can hold, as
+/// a number takes six characters and more, so that gaps and rare markers have room, and a few bytes
+/// can't ask for gigabytes.
 class Budget {
  public:
   Budget(std::size_t content_bytes, Diagnostics* diagnostics)
-      : left_(2e6 + 8.0 * static_cast<double>(content_bytes)), diagnostics_(*diagnostics) {}
+      : left_(2e6 + 1.0 * static_cast<double>(content_bytes)), diagnostics_(*diagnostics) {}
 
   /// True, or an error, if each frame takes so many numbers.
   bool Take(const TimeGrid& grid, std::size_t numbers_per_frame, int line) {
@@ -269,8 +271,14 @@ MmmMotionFile ReadMotions(const ByteSource& content, const std::string& file, Wa
   if (const std::string* version = root.FindAttribute("version")) {
     if (version->starts_with('2')) result.version = "2.0";
   }
+  const std::vector<const XmlElement*> motions = root.FindChildren("Motion");
+  if (motions.size() > kMostMotions) {
+    throw Error(fmt::format("{}: has {} motions, more than the {} that are read", file,
+                            motions.size(), kMostMotions));
+  }
   Budget budget(content.size, &diagnostics);
-  for (const XmlElement* element : root.FindChildren("Motion")) {
+  result.motions.reserve(motions.size());
+  for (const XmlElement* element : motions) {
     if (element->FindChild("Sensors") != nullptr) result.version = "2.0";
     result.motions.push_back(ReadMotion(xml, *element, &budget, &diagnostics));
   }

@@ -29,13 +29,25 @@ std::string Explain(const tinyxml2::XMLDocument& document) {
   }
 }
 
+/// How many siblings there are from `first` on.
+template <typename Node, typename Next>
+std::size_t Count(const Node* first, const Next& next) {
+  std::size_t count = 0;
+  for (const Node* node = first; node != nullptr; node = next(node)) ++count;
+  return count;
+}
+
 XmlElement Convert(const tinyxml2::XMLElement& source, int first_line) {
   XmlElement element;
   element.name = source.Name();
   element.line = first_line - 1 + source.GetLineNum();
+  element.attributes.reserve(
+      Count(source.FirstAttribute(), [](const auto* attribute) { return attribute->Next(); }));
   for (const auto* a = source.FirstAttribute(); a != nullptr; a = a->Next()) {
     element.attributes.emplace_back(a->Name(), a->Value());
   }
+  element.children.reserve(Count(source.FirstChildElement(),
+                                 [](const auto* child) { return child->NextSiblingElement(); }));
   for (const auto* node = source.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (const auto* child = node->ToElement()) {
       element.children.push_back(Convert(*child, first_line));
@@ -48,29 +60,61 @@ XmlElement Convert(const tinyxml2::XMLElement& source, int first_line) {
 }
 
 /// The parser compares each attribute with all before it.
-void CheckAttributes(std::string_view content, const std::string& file, int first_line) {
-  constexpr std::ptrdiff_t kMostAttributes = 256;
+constexpr std::ptrdiff_t kMostAttributes = 256;
+
+/// @throws Error where the tag that the scanner is at has more attributes. `equals`: signs in it.
+void CheckAttributes(const XmlScanner& scanner, std::ptrdiff_t equals, const std::string& file,
+                     int first_line) {
+  if (equals <= kMostAttributes) return;
+  const std::string_view tag = scanner.markup();
+  std::ptrdiff_t attributes = 0;
+  for (std::size_t at = 0; (at = tag.find_first_of("\"'", at)) != std::string_view::npos; ++at) {
+    ++attributes;
+    at = std::min(tag.find(tag[at], at + 1), tag.size());
+  }
+  if (attributes <= kMostAttributes) return;
+  throw Error(fmt::format("{}:{}: <{}> has {} attributes, more than the {} that are read", file,
+                          first_line - 1 + scanner.line(), scanner.name(), attributes,
+                          kMostAttributes));
+}
+
+/// What the parser and the tree take for one of each [bytes], measured, and what they may take.
+constexpr double kBytesOfElement = 240;
+constexpr double kBytesOfAttribute = 150;
+constexpr double kBytesOfOther = 112;  // a text, a comment
+constexpr double kMostBytesPerByte = 16;
+constexpr double kFreeBytes = 32 << 20;
+
+/// @throws Error where the tree would take much more memory than the text.
+void CheckBeforeParsing(std::string_view content, const std::string& file, int first_line) {
   const ByteSource bytes = BytesOf(content);
   XmlScanner scanner(bytes);
+  std::ptrdiff_t elements = 0;
+  std::ptrdiff_t attributes = 0;
+  std::ptrdiff_t others = 0;
   while (scanner.Next()) {
+    if (!Trim(scanner.before()).empty()) ++others;
+    if (scanner.kind() == XmlScanner::Markup::kOther) ++others;
     if (!scanner.IsElement()) continue;
     const std::string_view tag = scanner.markup();
-    if (std::count(tag.begin(), tag.end(), '=') <= kMostAttributes) continue;
-    std::ptrdiff_t attributes = 0;
-    for (std::size_t at = 0; (at = tag.find_first_of("\"'", at)) != std::string_view::npos; ++at) {
-      ++attributes;
-      at = std::min(tag.find(tag[at], at + 1), tag.size());
-    }
-    if (attributes <= kMostAttributes) continue;
-    throw Error(fmt::format("{}:{}: <{}> has {} attributes, more than the {} that are read", file,
-                            first_line - 1 + scanner.line(), scanner.name(), attributes,
-                            kMostAttributes));
+    const std::ptrdiff_t equals = std::count(tag.begin(), tag.end(), '=');
+    CheckAttributes(scanner, equals, file, first_line);
+    ++elements;
+    attributes += equals;
   }
+  const double needed = kBytesOfElement * static_cast<double>(elements) +
+                        kBytesOfAttribute * static_cast<double>(attributes) +
+                        kBytesOfOther * static_cast<double>(others);
+  if (needed <= kFreeBytes + kMostBytesPerByte * static_cast<double>(content.size())) return;
+  throw Error(fmt::format(
+      "{}: its {} bytes are {} elements, {} attributes and {} texts or comments, so short that "
+      "they would take {:.0f} MB of memory; no file of a known kind is so",
+      file, content.size(), elements, attributes, others, 1e-6 * needed));
 }
 
 void Parse(std::string_view content, const std::string& file, int first_line,
            tinyxml2::XMLDocument* document) {
-  CheckAttributes(content, file, first_line);
+  CheckBeforeParsing(content, file, first_line);
   document->Parse(content.data(), content.size());
   if (!document->Error()) return;
   const std::string foreign = NameForeignContent(content.substr(0, 64));

@@ -288,6 +288,13 @@ TEST(MmmMotionReader, HugeGapsDoNotTakeMemory) {
   EXPECT_EQ(file.motions[0].trajectory.rate, 100);
 }
 
+TEST(MmmMotionReader, MillionsOfMotionsAreRefused) {
+  std::string motions;
+  for (int i = 0; i < 10001; ++i) motions += "<Motion name='m'></Motion>";
+  EXPECT_THAT(MotionMessageOf("<MMM>" + motions + "</MMM>"),
+              HasSubstr("walk.xml: has 10001 motions, more than the 10000 that are read"));
+}
+
 TEST(MmmMotionReader, TruncatedRealFilesAreErrors) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string content = ReadFileContent(testing::WavingFile());

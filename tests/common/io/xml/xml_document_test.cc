@@ -76,5 +76,19 @@ TEST(XmlDocument, RefusesAnElementOfManyAttributesBeforeItIsParsed) {
   }
 }
 
+// A tree takes as much for a short element as for a long one.
+TEST(XmlDocument, RefusesMillionsOfShortElementsBeforeTheyAreParsed) {
+  const auto many = [](const std::string& text) {
+    std::string xml = "<a>";
+    for (int i = 0; i < 500000; ++i) xml += text;
+    return XmlMessageOf(xml + "</a>");
+  };
+  const char* const kTooShort = "so short that they would take";
+  EXPECT_THAT(many("<b/>"), HasSubstr("500001 elements, 0 attributes and 0 texts"));
+  EXPECT_THAT(many("<b c=''/>"), HasSubstr(kTooShort));
+  EXPECT_THAT(many("<!---->t"), HasSubstr(kTooShort));
+  EXPECT_EQ(many("<element_abcde/>"), "no error");
+}
+
 }  // namespace
 }  // namespace mmm_converter
