@@ -9,6 +9,8 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <utility>
 
 #include "common/support/error.h"
@@ -161,10 +163,18 @@ Created CreateIn(const fs::path& folder) {
 
 /// Removes a file unless the process that writes it is alive, which has it locked.
 void RemoveIfAbandoned(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return;
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(file.c_str());
   ::close(descriptor);
+}
+
+/// Removes what killed processes left in a folder, when this process first writes there.
+void TidyOnce(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> tidied;
+  const std::scoped_lock lock(mutex);
+  if (tidied.insert(folder).second) RemoveAbandonedFiles(folder);
 }
 
 }  // namespace
@@ -185,6 +195,7 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
   if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) Fail(path, errno);
 
   const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  TidyOnce(folder);
   const int nameless = CreateNameless(folder);
   const Created created = nameless >= 0 ? Created{nameless, ""} : CreateIn(folder);
   if (created.descriptor < 0 && errno == ENOENT) {

@@ -13,7 +13,7 @@ namespace mmm_converter {
 /// and an existing file stays as it was where anything fails. A symbolic link stays one: its target
 /// is replaced. An existing file keeps its permissions; a new one gets what the process's umask
 /// allows. Something other than a regular file, such as /dev/stdout or a pipe, is written to
-/// directly.
+/// directly. What killed processes left in the folder is removed when a process first writes there.
 /// @throws Error naming the path and the system's reason; WriteError where the system refused (no
 /// permission, no space).
 void WriteFileAtomically(const std::string& path, std::string_view content);

@@ -181,9 +181,12 @@ TEST_F(AtomicFile, WhatKilledProcessesLeftIsRemovedAndNothingElse) {
   const std::string of_the_living = Path(".mmm_converter.1.1.tmp");
   std::ofstream(Path(".mmm_converter.1.0.tmp")) << "half";
   std::ofstream(of_the_living) << "half";
-  WriteFileAtomically(Path("other"), "whole");
   const int living = ::open(of_the_living.c_str(), O_WRONLY);
   ASSERT_EQ(::flock(living, LOCK_EX), 0);
+  ASSERT_EQ(::mkfifo(Path(".mmm_converter.1.2.tmp").c_str(), 0600), 0);  // nobody waits for it
+  WriteFileAtomically(Path("other"), "whole");
+  EXPECT_FALSE(fs::exists(Path(".mmm_converter.1.0.tmp")));  // the next run removes it
+  std::ofstream(Path(".mmm_converter.1.3.tmp")) << "half";
   WriteFileAtomically(Path("file"), [&](const TextSink& sink) {
     sink("wh");
     RemoveAbandonedFiles(folder_);  // what a process that is alive is writing stays
@@ -192,10 +195,10 @@ TEST_F(AtomicFile, WhatKilledProcessesLeftIsRemovedAndNothingElse) {
   EXPECT_EQ(Content(Path("file")), "whole");
   EXPECT_EQ(Content(Path("other")), "whole");
   EXPECT_TRUE(fs::exists(of_the_living));
-  EXPECT_EQ(EntriesInFolder(), 3);
+  EXPECT_EQ(EntriesInFolder(), 4);
   ::close(living);
   RemoveAbandonedFiles(folder_);
-  EXPECT_EQ(EntriesInFolder(), 2);
+  EXPECT_EQ(EntriesInFolder(), 3);
   RemoveAbandonedFiles(Path("nowhere"));
 }
 
