@@ -15,6 +15,14 @@ std::string_view Trim(std::string_view text);
 /// ASCII letters in lower case, everything else as it is.
 std::string ToLower(std::string_view text);
 
+/// Bytes of the UTF-8 character that a text, not empty, starts with; 0: of none.
+std::size_t Utf8Length(std::string_view text);
+
+bool IsUtf8(std::string_view text);
+
+/// As XML can hold it: bytes that are not UTF-8 taken as Latin-1, control characters as blanks.
+std::string ToUtf8(std::string_view text);
+
 bool EqualIgnoringCase(std::string_view a, std::string_view b);
 
 /// A whole text as a number in C notation, white space around it allowed; "nan" and "inf" are

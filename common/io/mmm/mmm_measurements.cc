@@ -205,7 +205,7 @@ void ReadMarkerSensor(LongXml& xml, const XmlElement& sensor, MarkerRows* marker
       if (!marker.Is("MarkerPosition") || name == nullptr || Trim(*name).empty()) continue;
       position.clear();
       if (!AppendNumbers(marker, 3, kMetresPerMillimetre, &position, diagnostics)) continue;
-      const int label = LabelIndex(std::string(Trim(*name)), markers);
+      const int label = LabelIndex(std::string(Trim(ToUtf8(*name))), markers);
       last_seen_in.resize(markers->labels.size(), -1);
       if (std::exchange(last_seen_in[label], index) == index) {
         diagnostics->AddError(marker.line,

@@ -182,6 +182,37 @@ Group ChooseGroup(const std::vector<Group>& groups, const std::string& subject,
               Remedy::kSubjectPrefix);
 }
 
+std::vector<std::string> AllToUtf8(const std::vector<std::string>& texts) {
+  std::vector<std::string> converted(texts.size());
+  std::transform(texts.begin(), texts.end(), converted.begin(),
+                 [](const std::string& text) { return ToUtf8(text); });
+  return converted;
+}
+
+/// Labels may become the same when they are converted, or when their prefixes are gone.
+std::vector<std::string> UniqueNames(const std::vector<Label>& labels, Warnings* warnings) {
+  std::vector<std::string> names;
+  std::vector<std::string> renamed;
+  std::set<std::string> known;
+  for (const Label& label : labels) known.insert(label.name);
+  std::map<std::string, int> counts;
+  for (const Label& label : labels) {
+    int& count = counts[label.name];
+    std::string name = label.name;
+    if (++count > 1) {
+      while (!known.insert(name = fmt::format("{}#{}", label.name, count)).second) ++count;
+      renamed.push_back(name);
+    }
+    names.push_back(std::move(name));
+  }
+  if (!renamed.empty()) {
+    Warn(warnings, fmt::format("{} labels are the same as others without prefixes and in UTF-8; "
+                               "they are numbered: {}",
+                               renamed.size(), FirstNames(renamed)));
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string NormalizeLabel(std::string_view label) {
@@ -211,8 +242,9 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::string& subject, const std::string& file,
                             Warnings* warnings) {
   LabelSelection selection;
-  const std::vector<Group> groups = GroupByPrefix(
-      KeepMarkers(labels, outputs, {label_prefixes.begin(), label_prefixes.end()}, warnings));
+  const std::vector<std::string> prefixes = AllToUtf8(label_prefixes);
+  const std::vector<Group> groups = GroupByPrefix(KeepMarkers(
+      AllToUtf8(labels), AllToUtf8(outputs), {prefixes.begin(), prefixes.end()}, warnings));
   const Group chosen = ChooseGroup(groups, subject, file);
   selection.subject = chosen.prefix;
   std::vector<Group> others;
@@ -225,10 +257,8 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
   if (chosen.labels.size() < num_markers) {
     Warn(warnings, fmt::format("markers left out: those of {}", Names(others)));
   }
-  for (const Label& label : chosen.labels) {
-    selection.indices.push_back(label.index);
-    selection.labels.push_back(label.name);
-  }
+  for (const Label& label : chosen.labels) selection.indices.push_back(label.index);
+  selection.labels = UniqueNames(chosen.labels, warnings);
   return selection;
 }
 

@@ -23,7 +23,7 @@ std::optional<BodyRegion> FindBodyRegion(std::string_view label);
 /// The labels of one subject, and where they are in the file.
 struct LabelSelection {
   std::vector<int> indices;
-  std::vector<std::string> labels;    ///< without prefix
+  std::vector<std::string> labels;    ///< without prefix, in UTF-8, each once
   std::vector<std::string> subjects;  ///< all prefixes of the file
   std::string subject;                ///< the one chosen; empty: labels without prefix
 };

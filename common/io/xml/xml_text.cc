@@ -7,26 +7,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/support/text.h"
+
 namespace mmm_converter {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
-
-/// Bytes of the UTF-8 sequence that starts the text; 0: it is none.
-std::size_t Utf8Length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xC2 && lead < 0xE0 ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3
-                             : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                           : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
 
 /// The position after the next `what`, or the end of the text.
 std::size_t After(std::string_view content, std::string_view what, std::size_t from) {
@@ -43,9 +29,7 @@ std::string_view NameAt(std::string_view content, std::size_t begin) {
 std::string EscapeXml(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  while (!text.empty()) {
-    const char c = text.front();
-    const std::size_t length = Utf8Length(text);
+  for (const char c : ToUtf8(text)) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {
@@ -56,16 +40,9 @@ std::string EscapeXml(std::string_view text) {
       out += "&quot;";
     } else if (c == '\'') {
       out += "&apos;";
-    } else if (length == 1 && static_cast<unsigned char>(c) < 0x20) {
-      out += ' ';
-    } else if (length == 0) {
-      const auto latin1 = static_cast<unsigned char>(c);
-      out += static_cast<char>(0xC0 | (latin1 >> 6));
-      out += static_cast<char>(0x80 | (latin1 & 0x3F));
     } else {
-      out += text.substr(0, length);
+      out += c;
     }
-    text.remove_prefix(length == 0 ? 1 : length);
   }
   return out;
 }

@@ -41,6 +41,20 @@ TEST(Text, ParsesLists) {
   EXPECT_FALSE(AppendDoubles("1 x 2", &numbers));
 }
 
+TEST(Text, BytesThatAreNotUtf8AreTakenAsLatin1) {
+  EXPECT_EQ(ToUtf8("Kn\xF6"), "Kn\xC3\xB6");
+  EXPECT_EQ(ToUtf8("Kn\xC3\xB6 \xE2\x82\xAC \xF0\x9F\x98\x80"),
+            "Kn\xC3\xB6 \xE2\x82\xAC \xF0\x9F\x98\x80");
+  EXPECT_EQ(ToUtf8(std::string("a\0\x1Bz", 4)), "a  z");
+  EXPECT_TRUE(IsUtf8("Kn\xC3\xB6"));
+  // Cut, longer than needed, half of a UTF-16 pair, beyond Unicode, no character.
+  for (const char* const none : {"\xE2\x82", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80",
+                                 "\xF0\x80\x80\x80", "\xF4\x90\x80\x80", "\xEF\xBF\xBE"}) {
+    EXPECT_FALSE(IsUtf8(none));
+    EXPECT_TRUE(IsUtf8(ToUtf8(none)));
+  }
+}
+
 TEST(JoinNames, ReadsLikeASentence) {
   EXPECT_EQ(JoinNames({}), "");
   EXPECT_EQ(JoinNames({"a"}), "a");

@@ -358,6 +358,21 @@ TEST(Recording, ManySubjectsTakeLittleTime) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
+TEST(Recording, LabelsThatBecomeTheSameAreNumberedAndToldOf) {
+  const std::vector<std::string> labels = {"Kn\xC3\xB6", "Kn\xF6", "a\x01z", "a z",
+                                           "a z#2",      "s:C7",   "s_C7"};
+  Warnings warnings;
+  const LabelSelection persons =
+      SelectLabels({labels.begin() + 5, labels.end()}, {}, {}, "", "a.c3d", &warnings);
+  EXPECT_THAT(persons.labels, ElementsAre("C7", "C7#2"));
+  const LabelSelection others =
+      SelectLabels({labels.begin(), labels.begin() + 5}, {}, {}, "", "a.c3d", &warnings);
+  EXPECT_THAT(others.labels, ElementsAre("Kn\xC3\xB6", "Kn\xC3\xB6#2", "a z", "a z#3", "a z#2"));
+  EXPECT_THAT(warnings.texts(),
+              Contains("2 labels are the same as others without prefixes and in UTF-8; they are "
+                       "numbered: Kn\xC3\xB6#2, a z#3"));
+}
+
 TEST(Recording, TheRateGivenIsPossible) {
   const std::string path = SharedData("mmm/motions_mmm2/wave_left01.xml");
   for (const double rate : {-1.0, 0.0, 0.5, 1e6, 1e300, std::nan("")}) {
