@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLongestName = 240;  // of a file or folder [bytes]; most systems take 255
 constexpr std::size_t kMaxManifestBytes = std::size_t{256} << 20;
 
 class ManifestReader {
@@ -107,16 +108,12 @@ class ManifestReader {
   }
 
   void CheckId(int line, const std::string& id) {
-    const fs::path path(id);
-    const bool is_plain =
-        !id.empty() && path.is_relative() && id == path.lexically_normal().string() &&
-        path.has_filename() && *path.begin() != ".." && *path.begin() != "." &&
-        std::none_of(id.begin(), id.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\\'; });
-    if (!is_plain) {
-      diagnostics_.AddError(line, fmt::format("id=\"{}\" names the outputs and must be a relative "
-                                              "path without . and .., such as 1723/Cut",
-                                              id));
+    if (!IsPlainId(id)) {
+      diagnostics_.AddError(line,
+                            fmt::format("id=\"{}\" names the outputs and must be a relative "
+                                        "path without . and .., in UTF-8, of names of at most "
+                                        "{} bytes, such as 1723/Cut",
+                                        id, kLongestName));
     }
     const auto [found, is_new] = lines_.emplace(id, line);
     if (is_new) return;
@@ -218,6 +215,16 @@ BatchManifest ReadManifest(const std::string& path) {
 BatchManifest ParseManifest(const std::string& xml, const std::string& file) {
   const XmlElement root = ParseXml(xml, file);
   return ManifestReader(root, file).Read();
+}
+
+bool IsPlainId(const std::string& id) {
+  const fs::path path(id);
+  return !id.empty() && path.is_relative() && id == path.lexically_normal().string() &&
+         path.has_filename() && *path.begin() != ".." && *path.begin() != "." && IsUtf8(id) &&
+         std::none_of(path.begin(), path.end(),
+                      [](const fs::path& part) { return part.native().size() > kLongestName; }) &&
+         std::none_of(id.begin(), id.end(),
+                      [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
 }
 
 std::string ManifestTemplate() {

@@ -35,6 +35,10 @@ BatchManifest ReadManifest(const std::string& path);
 /// As ReadManifest, from text. Relative paths start at the folder of `file`, which need not exist.
 BatchManifest ParseManifest(const std::string& xml, const std::string& file);
 
+/// Whether an id may name outputs: a relative path without . and .., in UTF-8, without control
+/// characters and \\.
+bool IsPlainId(const std::string& id);
+
 /// A documented manifest with every attribute.
 std::string ManifestTemplate();
 

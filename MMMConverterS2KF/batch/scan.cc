@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/batch/subjects_table.h"
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "common/io/bytes/file_content.h"
@@ -55,6 +56,33 @@ bool HasMarkers(const std::string& motion) {
   return motion.find("<MarkerPosition") != std::string::npos;
 }
 
+// Whether XML can hold a file's name.
+bool CanBeWritten(std::string_view name) {
+  constexpr std::string_view kAllowed = "\t\n\r";
+  return IsUtf8(name) && std::none_of(name.begin(), name.end(), [&](char c) {
+           return c >= 0 && c < ' ' && kAllowed.find(c) == std::string_view::npos;
+         });
+}
+
+// A file's name as an attribute's value. Control characters are numbers: neither XML nor a terminal
+// changes them then.
+std::string FormatName(std::string_view name) {
+  std::string text;
+  while (!name.empty()) {
+    const std::size_t length = Utf8Length(name);
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(name[i]); };
+    if (length == 1 && (byte(0) < 0x20 || byte(0) == 0x7F)) {
+      text += fmt::format("&#{};", byte(0));
+    } else if (length == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) {
+      text += fmt::format("&#{};", byte(1));
+    } else {
+      text += EscapeXml(name.substr(0, length));
+    }
+    name.remove_prefix(length);
+  }
+  return text;
+}
+
 class Scanner {
  public:
   Scanner(const fs::path& folder, const std::string& subjects_file) : folder_(folder) {
@@ -65,6 +93,12 @@ class Scanner {
   }
 
   Scan Run() {
+    if (!CanBeWritten(folder_.string())) {
+      throw Error(
+          fmt::format("{}: has a name that is not UTF-8 or has control characters, which a "
+                      "manifest can't hold; rename it",
+                      folder_.string()));
+    }
     Visit(folder_);
     for (const auto& [name, row] : rows_) {
       if (row.is_used) continue;
@@ -80,7 +114,7 @@ class Scanner {
         "<!-- {} recordings; all that may be said of them: MMMConverterS2KF print-config batch "
         "-->\n"
         "<Batch name=\"{}\" folder=\"{}\" config=\"s2kf_default\">\n{}</Batch>\n",
-        scan_.recordings, EscapeXml(folder_.filename().string()), EscapeXml(folder_.string()),
+        scan_.recordings, EscapeXml(folder_.filename().string()), FormatName(folder_.string()),
         groups_);
     return std::move(scan_);
   }
@@ -109,6 +143,7 @@ class Scanner {
     for (const fs::directory_entry& entry : entries) {
       const RecordingFormat* format = FindFormatOfName(entry.path().string());
       if (!entry.is_regular_file(failure) || format == nullptr || format->holds_motions) continue;
+      if (!HasNameForManifest(entry.path())) continue;
       recordings.push_back({entry.path().filename().string(), {}, {}});
       measured.insert(entry.path().stem().string());
     }
@@ -121,6 +156,16 @@ class Scanner {
     for (const fs::directory_entry& entry : entries) {
       if (entry.is_directory(failure) && !entry.is_symlink(failure)) Visit(entry.path());
     }
+  }
+
+  bool HasNameForManifest(const fs::path& file) {
+    if (CanBeWritten(file.lexically_relative(folder_).string())) return true;
+    scan_.warnings.AddOfKind(
+        "files that can't stand in a manifest",
+        fmt::format("{}: is left out: its name is not UTF-8 or has control characters, which a "
+                    "manifest can't hold; rename it",
+                    file.string()));
+    return false;
   }
 
   // An MMM motion: a recording, or of the person of the recordings of the same name.
@@ -136,7 +181,7 @@ class Scanner {
         for (FoundRecording& recording : *recordings) {
           if (fs::path(recording.file).stem() == stem) recording.attributes = person;
         }
-      } else if (HasMarkers(content) && !stem.ends_with("_mmm")) {
+      } else if (HasMarkers(content) && !stem.ends_with("_mmm") && HasNameForManifest(file)) {
         recordings->push_back({file.filename().string(), {}, {}});
       }
     } catch (const Error& error) {
@@ -178,7 +223,7 @@ class Scanner {
       const std::string file = (relative / recording.file).lexically_normal().generic_string();
       const Texts own = Without(recording.attributes, attributes);
       const Texts own_metadata = Without(recording.metadata, metadata);
-      groups_ += fmt::format("    <Recording file=\"{}\"{}{}", EscapeXml(file),
+      groups_ += fmt::format("    <Recording file=\"{}\"{}{}", FormatName(file),
                              Id(file, recordings), Format(own));
       groups_ += own_metadata.empty()
                      ? "/>\n"
@@ -187,14 +232,26 @@ class Scanner {
     groups_ += "  </Group>\n";
   }
 
-  // Recordings that differ in their ending only need one.
-  static std::string Id(const std::string& file, const std::vector<FoundRecording>& recordings) {
-    const fs::path stem = fs::path(file).stem();
+  // For recordings that differ in their ending only, and for names that can't be those of outputs.
+  std::string Id(const std::string& file, const std::vector<FoundRecording>& recordings) {
+    const fs::path path(file);
     const auto has_stem = [&](const FoundRecording& other) {
-      return fs::path(other.file).stem() == stem;
+      return fs::path(other.file).stem() == path.stem();
     };
-    if (std::count_if(recordings.begin(), recordings.end(), has_stem) < 2) return "";
-    return " id=\"" + EscapeXml(file) + "\"";
+    const std::string usual = (path.parent_path() / path.stem()).generic_string();
+    const auto plainly = [](std::string id) {
+      std::replace_if(
+          id.begin(), id.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\\'; }, '_');
+      return id;
+    };
+    std::string plain = plainly(usual);
+    const bool is_one_of_several =
+        std::count_if(recordings.begin(), recordings.end(), has_stem) > 1;
+    if (is_one_of_several) plain = plainly(file);
+    if (!IsPlainId(plain)) plain = "recording";
+    std::string id = plain;
+    for (int i = 2; !ids_.insert(id).second; ++i) id = fmt::format("{}_{}", plain, i);
+    return id == usual ? "" : " id=\"" + FormatName(id) + "\"";
   }
 
   // What all recordings have alike.
@@ -241,6 +298,7 @@ class Scanner {
   std::map<std::string, SubjectsRow> rows_;
   Scan scan_;
   std::string groups_;
+  std::set<std::string> ids_;
 };
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(Manifest, SaysAllThatIsWrongWithItsLine) {
 
 TEST(Manifest, AnIdStaysInsideTheFolder) {
   for (const std::string id :
-       {"", "/etc/passwd", "../up", "a/../../b", "a//b", "./a", "a/", ".", "a\\b"}) {
+       {"", "/etc/passwd", "../up", "a/../../b", "a//b", "./a", "a/", ".", "a\\b", "\xE9"}) {
     EXPECT_THAT(ErrorOf("<Batch><Recording file='a.c3d' id='" + id + "'/></Batch>"),
                 HasSubstr("must be a relative path"))
         << id;

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "common/support/error.h"
@@ -105,6 +106,46 @@ TEST_F(ScanTest, SameNamesGetIds) {
   ASSERT_EQ(manifest.entries.size(), 2U);
   EXPECT_EQ(manifest.entries[0].id, "walk.c3d");
   EXPECT_EQ(manifest.entries[1].id, "walk.trc");
+}
+
+// Every name that a file system allows is in the manifest, or told.
+TEST_F(ScanTest, StrangeNames) {
+  const std::vector<std::string> names = {"-rf.c3d",
+                                          "'quoted' \"twice\".c3d",
+                                          "a\nb.c3d",
+                                          "a_b.c3d",
+                                          " blanks .c3d",
+                                          "tab\tand\rcr.c3d",
+                                          "c1\xC2\x85\x7F.c3d",
+                                          "back\\slash.c3d",
+                                          "..c3d",
+                                          "&lt;.c3d",
+                                          std::string(251, 'n') + ".c3d",
+                                          "\xC3\xA9.c3d",
+                                          "%41.c3d"};
+  for (const std::string& name : names) Write("kit/line\nend/" + name, "x");
+  Write("kit/latin\xE9.c3d", "x");
+  Write("kit/escape\x1B.c3d", "x");
+  const Scan scan = Run();
+  std::set<std::string> files;
+  std::set<std::string> ids;
+  for (const BatchEntry& entry : Manifest(scan).entries) {
+    EXPECT_TRUE(fs::exists(entry.request.input.file)) << entry.request.input.file;
+    files.insert(entry.request.input.file);
+    ids.insert(entry.id);
+  }
+  EXPECT_EQ(files.size(), names.size());
+  EXPECT_THAT(ids, ::testing::IsSupersetOf({"line_end/a_b", "line_end/a_b_2", "line_end/-rf",
+                                            "line_end/back_slash", "recording", "recording_2"}));
+  ASSERT_EQ(scan.warnings.all().size(), 2U);
+  for (const std::string& text : scan.warnings.texts()) {
+    EXPECT_THAT(text, HasSubstr("is left out: its name is not UTF-8 or has control characters"));
+  }
+}
+
+TEST_F(ScanTest, AFolderThatNoManifestCanName) {
+  Write("kit\xE9/walk.c3d", "x");
+  EXPECT_THROW(ScanFolder(root_ + "/kit\xE9", ""), Error);
 }
 
 TEST_F(ScanTest, BadMotionsAreWarnings) {
