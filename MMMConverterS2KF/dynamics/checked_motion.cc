@@ -61,6 +61,22 @@ std::string ChooseModel(const InputRequest& request, const MmmMotion& motion, Wa
   return shipped;
 }
 
+// An error says where the model's name is from.
+LoadedModel ReadModelOf(const InputRequest& request, const MmmMotion& motion,
+                        const std::string& model_file, Warnings* warnings) {
+  if (!request.model_file.empty() || motion.model_path.empty()) {
+    return ReadModelFile(model_file, warnings);
+  }
+  try {
+    return ReadModelFile(model_file, warnings);
+  } catch (const Error& error) {
+    throw Error(
+        fmt::format("{}: names the model {}, which can't be read (--model gives another): {}",
+                    request.file, motion.model_path, error.what()),
+        error.remedy());
+  }
+}
+
 bool IsKnown(const Posture& posture) {
   return posture.position.allFinite() && posture.orientation.coeffs().allFinite() &&
          posture.joint_angles.allFinite();
@@ -121,7 +137,7 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
                     "by; give the model with --model, or a person's height with --height",
                     request.file, motion.model_path));
   }
-  LoadedModel loaded = ReadModelFile(model_file, &warnings);
+  LoadedModel loaded = ReadModelOf(request, motion, model_file, &warnings);
   ConverterConfig config;
   if (!loaded.is_reference) config.model_processor = "None";
   if (loaded.is_reference && !IsHeightKnown(request.person, motion)) {

@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
+
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr char kLeadOfC1 =
-    '\xC2';  // U+0080 to U+009F, where a terminal knows some, are C2 80 to 9F
+// U+0080 to U+009F, where a terminal knows some, are C2 80 to 9F.
+constexpr char kLeadOfC1 = '\xC2';
 
 class PrintableBuffer final : public std::streambuf {
  public:
@@ -23,16 +26,15 @@ class PrintableBuffer final : public std::streambuf {
   }
 
   std::streamsize xsputn(const char* text, std::streamsize size) override {
-    const std::string_view added(text, static_cast<std::size_t>(size));
-    text_ += added;
-    return added.find('\n') == std::string_view::npos || Pass() ? size : 0;
+    text_.append(text, static_cast<std::size_t>(size));
+    return Pass(text_.rfind('\n') + 1) ? size : 0;
   }
 
-  int sync() override { return Pass() ? target_->pubsync() : -1; }
+  int sync() override { return Pass(text_.size()) ? target_->pubsync() : -1; }
 
  private:
-  bool Pass() {
-    const std::size_t count = text_.size() - (text_.ends_with(kLeadOfC1) ? 1 : 0);
+  bool Pass(std::size_t count) {
+    if (count == 0) return true;
     const std::string out = Printable(std::string_view(text_).substr(0, count));
     text_.erase(0, count);
     const auto size = static_cast<std::streamsize>(out.size());
@@ -48,17 +50,19 @@ class PrintableBuffer final : public std::streambuf {
 std::string Printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    if ((byte < 0x20 && text[i] != '\n' && text[i] != '\t') || byte == 0x7F) {
-      out += fmt::format("\\x{:02X}", byte);
-    } else if (text[i] == kLeadOfC1 && next >= 0x80 && next < 0xA0) {
-      out += fmt::format("\\x{:02X}", next);
-      ++i;
+  while (!text.empty()) {
+    const std::size_t length = Utf8Length(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    const auto last = static_cast<unsigned char>(text[std::max<std::size_t>(length, 1) - 1]);
+    const bool is_c0 = first < 0x20 && first != '\n' && first != '\t';
+    const bool is_c1 = length <= 2 && (length == 0 || text.front() == kLeadOfC1) && last >= 0x80 &&
+                       last < 0xA0;  // a terminal may take a single byte as one
+    if (is_c0 || first == 0x7F || is_c1) {
+      out += fmt::format("\\x{:02X}", last);
     } else {
-      out += text[i];
+      out += text.substr(0, std::max<std::size_t>(length, 1));
     }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out;
 }

@@ -183,13 +183,34 @@ TEST(BadInput, TwoOutputsAreOneFileByALinkToNothing) {
 }
 
 TEST(BadInput, ControlCharactersOfAFileAreNotPassedOn) {
-  std::vector<std::string> labels;
-  for (const char* name : {"LFHD", "RFHD", "LBHD", "RBHD", "LSHO", "RSHO", "C7", "T10", "LASI"}) {
-    labels.push_back(std::string("me\x1B]0;owned\x07:") + name);
+  // As UTF-8, as a terminal of 8 bits has them, and in a file's name.
+  const std::string name =
+      "me\x1B]0;owned\x07\xC2\x9B"
+      "2J\x9B"
+      "2J\xE9";
+  const std::string file = TestFolder() + "/" + name + ".c3d";
+  std::filesystem::rename(WriteRecording({name + ":A", name + ":B", name + ":C"}, 3), file);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", file}, {"info", "--json", file}, {"convert", file}}) {
+    const auto run = RunProgram(words);
+    EXPECT_EQ((run.out + run.err).find_first_of("\x1B\x07\x9B"), std::string::npos)
+        << run.out << run.err;
   }
-  const auto run = RunProgram({"info", WriteRecording(labels, 9)});
-  EXPECT_THAT(run.out + run.err, HasSubstr("me\\x1B]0;owned\\x07"));
-  EXPECT_EQ((run.out + run.err).find_first_of("\x1B\x07"), std::string::npos);
+  EXPECT_THAT(RunProgram({"info", file}).out, HasSubstr("me\\x1B]0;owned\\x07\\x9B2J\\x9B2J\xE9"));
+}
+
+TEST(BadInput, AModelThatAMotionNamesIsSaidToBeNamedByIt) {
+  const std::string motion = TestFolder() + "/walk.xml";
+  WriteText(motion,
+            "<MMM><Motion name='x'><Model><File>../../../../../../../../etc/passwd</File></Model>"
+            "<ModelProcessorConfig type='Winter'><Height>1.8</Height></ModelProcessorConfig>"
+            "<JointOrder><Joint name='a'/></JointOrder><MotionFrames><MotionFrame><Timestep>0"
+            "</Timestep><RootPosition>0 0 0</RootPosition><RootRotation>0 0 0</RootRotation>"
+            "<JointPosition>0</JointPosition></MotionFrame></MotionFrames></Motion></MMM>");
+  const auto run = RunProgram({"check-dynamics", motion});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("walk.xml: names the model ../../../../../../../../etc/passwd, "
+                                 "which can't be read (--model gives another): "));
 }
 
 TEST(BadInput, AWorkingFolderThatIsGone) {
