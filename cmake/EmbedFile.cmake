@@ -1,18 +1,22 @@
 # mmm_converter_embed_file(<target> <function> <file>...): the bytes of text files, one after the
-# other, as std::string_view <function>(), with its namespace, compiled into the target.
+# other, as std::string_view <function>(), with its namespace, compiled into the target;
+# <function>Sha256() has the 32 bytes of their SHA-256.
 #
 # As a script (-DINPUT= -DOUTPUT= -DFUNCTION=) it writes the source that does so.
 if(CMAKE_SCRIPT_MODE_FILE)
   set(names "")
-  set(bytes "")
   foreach(file IN LISTS INPUT)
-    file(READ ${file} content HEX)
-    string(APPEND bytes ${content})
     get_filename_component(name ${file} NAME)
     string(APPEND names " ${name}")
   endforeach()
+  set(joined ${OUTPUT}.joined)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E cat ${INPUT} OUTPUT_FILE ${joined} COMMAND_ERROR_IS_FATAL ANY)
+  file(READ ${joined} bytes HEX)
+  file(SHA256 ${joined} hash)
+  file(REMOVE ${joined})
   string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes}")
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," hash "${hash}")
   string(REGEX REPLACE "^(.*)::([^:]+)$" "\\1;\\2" parts "${FUNCTION}")
   list(GET parts 0 namespace)
   list(GET parts 1 function)
@@ -24,6 +28,11 @@ std::string_view ${function}() {
   static constexpr unsigned char kBytes[] = {
 ${bytes}0};
   return {reinterpret_cast<const char*>(kBytes), sizeof(kBytes) - 1};
+}
+std::string_view ${function}Sha256();
+std::string_view ${function}Sha256() {
+  static constexpr unsigned char kHash[] = {${hash}};
+  return {reinterpret_cast<const char*>(kHash), sizeof(kHash)};
 }
 }
 ")

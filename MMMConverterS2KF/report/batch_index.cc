@@ -120,7 +120,7 @@ std::string FormatBatchIndex(const std::string& title, const std::vector<Json>& 
                      .content = IndexContent(),
                      .data = data,
                      .libraries = {},
-                     .script = IndexScript()});
+                     .script = {IndexScript(), IndexScriptSha256()}});
 }
 
 }  // namespace mmm_converter

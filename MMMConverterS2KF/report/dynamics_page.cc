@@ -70,8 +70,8 @@ std::string FormatDynamicsPage(const std::string& title, const DynamicsReport& r
                      .styles = DynamicsStyles(),
                      .content = DynamicsContent(),
                      .data = data,
-                     .libraries = {PlotLibrary()},
-                     .script = DynamicsScript()});
+                     .libraries = {{PlotLibrary(), PlotLibrarySha256()}},
+                     .script = {DynamicsScript(), DynamicsScriptSha256()}});
 }
 
 }  // namespace mmm_converter

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/html.h"
 
+#include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/page_sources.h"
 
 namespace mmm_converter {
+namespace {
+
+std::string PolicyOf(const Script& script) {
+  return " 'sha256-" + EncodeBase64(script.sha256) + "'";
+}
+
+}  // namespace
 
 std::string EscapeHtml(std::string_view text) {
   std::string escaped;
@@ -59,16 +67,20 @@ std::string FillPage(std::string_view page,
 
 std::string FormatPage(const Page& page) {
   const std::string title = EscapeHtml(page.title);
+  std::string hashes = PolicyOf(page.script);
   std::string libraries;
   if (!page.libraries.empty()) libraries.append("<!--\n").append(LibraryLicences()).append("-->\n");
-  for (const std::string_view library : page.libraries)
-    libraries.append("<script>\n").append(library).append("\n</script>\n");
+  for (const Script& library : page.libraries) {
+    hashes += PolicyOf(library);
+    libraries.append("<script>").append(library.text).append("</script>\n");
+  }
   return FillPage(PageFrame(), {{"title", title},
+                                {"hashes", hashes},
                                 {"styles", page.styles},
                                 {"content", page.content},
                                 {"data", page.data},
                                 {"libraries", libraries},
-                                {"script", page.script}});
+                                {"script", page.script.text}});
 }
 
 }  // namespace mmm_converter

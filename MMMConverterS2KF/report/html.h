@@ -19,17 +19,24 @@ std::string DataBlock(std::string_view name, std::string_view json);
 std::string FillPage(std::string_view page,
                      const std::map<std::string_view, std::string_view>& texts);
 
-/// What one page has of its own.
-struct Page {
-  std::string_view title;                   ///< not escaped
-  std::string_view styles;                  ///< CSS
-  std::string_view content;                 ///< HTML below the heading
-  std::string_view data;                    ///< DataBlocks
-  std::vector<std::string_view> libraries;  ///< scripts of others, whose licences the page then has
-  std::string_view script;
+/// A script that a page may run.
+struct Script {
+  std::string_view text;
+  std::string_view sha256;  ///< of the text, 32 bytes
 };
 
-/// The whole text of a page; it loads nothing from elsewhere.
+/// What one page has of its own.
+struct Page {
+  std::string_view title;         ///< not escaped
+  std::string_view styles;        ///< CSS
+  std::string_view content;       ///< HTML below the heading
+  std::string_view data;          ///< DataBlocks
+  std::vector<Script> libraries;  ///< scripts of others, whose licences the page then has
+  Script script;
+};
+
+/// The whole text of a page; it loads nothing from elsewhere, and its policy lets no other script
+/// run than these.
 std::string FormatPage(const Page& page);
 
 }  // namespace mmm_converter

@@ -26,12 +26,13 @@ std::string FormatData(const std::vector<ReportSection>& sections) {
 
 std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections) {
   const std::string data = FormatData(sections);
-  return FormatPage({.title = title,
-                     .styles = PageStyles(),
-                     .content = PageContent(),
-                     .data = data,
-                     .libraries = {SceneLibrary(), PlotLibrary()},
-                     .script = PageScript()});
+  return FormatPage(
+      {.title = title,
+       .styles = PageStyles(),
+       .content = PageContent(),
+       .data = data,
+       .libraries = {{SceneLibrary(), SceneLibrarySha256()}, {PlotLibrary(), PlotLibrarySha256()}},
+       .script = {PageScript(), PageScriptSha256()}});
 }
 
 }  // namespace mmm_converter

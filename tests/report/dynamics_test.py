@@ -47,6 +47,9 @@ class ReportPage(PageCase):
                          "#torque-plot .readout", "#notes"):
             self.assertIn("<script>window.hacked=1</script>", self.text(selector), selector)
 
+    def test_injected_scripts_do_not_run(self):
+        self.check_injected_scripts_do_not_run("dynamics.html")
+
 
 if __name__ == "__main__":
     run_tests()

@@ -180,6 +180,9 @@ class ReportPage(PageCase):
               self.run_script("return performance.getEntriesByName('ready')[0].startTime"),
               "bytes an entry:", (self.folder / "large.html").stat().st_size / 100_000)
 
+    def test_injected_scripts_do_not_run(self):
+        self.check_injected_scripts_do_not_run("one.html")
+
 
 if __name__ == "__main__":
     run_tests()

@@ -84,6 +84,27 @@ class PageCase(unittest.TestCase):
         self.assertIsNone(self.run_script("return window.hacked === undefined ? null : window.hacked"))
         self.assertEqual(self.run_script("return document.images.length"), 0)
 
+    def check_injected_scripts_do_not_run(self, name):
+        """A page into which somebody wrote scripts: it works, and they are blocked."""
+        text = (self.folder / name).read_text()
+        self.assertEqual(text.count("<header"), 1)
+        injected = ("<script>window.hacked = 1</script><script src='data:text/javascript,window.hacked=2'></script>"
+                    "<img id='injected' src='data:,' onerror='window.hacked = 3' onclick='window.hacked = 4'><header")
+        page = pathlib.Path(self.browser.folder.name) / "injected.html"
+        page.write_text(text.replace("<header", injected))
+        self.browser.open(page)
+        self.run_script("""
+            document.querySelector("#injected").click();
+            const script = document.createElement("script");
+            script.textContent = "window.hacked = 5";
+            document.body.append(script);""")
+        self.browser.settle()
+        self.assertIsNone(self.run_script("return window.hacked === undefined ? null : window.hacked"))
+        blocked = self.browser.errors()
+        self.assertGreaterEqual(len(blocked), 5)
+        for message in blocked:
+            self.assertIn("Content Security Policy", message)
+
     def check_nothing_was_loaded(self):
         self.assertEqual(self.run_script("return performance.getEntriesByType('resource').length"), 0)
 

@@ -298,6 +298,9 @@ class ReportPage(PageCase):
         self.open("compare.html")
         self.check_nothing_was_loaded()
 
+    def test_injected_scripts_do_not_run(self):
+        self.check_injected_scripts_do_not_run("finished.html")
+
 
 class ReportPageWithoutWebgl(PageCase):
 

@@ -67,7 +67,7 @@ TEST(Report, BytesThatAreNoUtf8AreReplaced) {
 
 TEST(Report, NothingIsLoadedFromElsewhere) {
   const std::string page = HostilePage();
-  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'; script-src 'sha256-"));
   EXPECT_THAT(page, Not(HasSubstr("<link")));
   EXPECT_THAT(page, Not(HasSubstr("@import")));
   EXPECT_THAT(page, Not(HasSubstr("<script src")));
