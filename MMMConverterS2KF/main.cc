@@ -99,37 +99,43 @@ std::string Explain(const std::filesystem::filesystem_error& error) {
                      error.code().message());
 }
 
+// Runs a command and says what was wrong.
+int RunAndExplain(const std::vector<std::string>& words) {
+  const PrintableOutput output;
+  try {
+    StartLog("info");
+    const int exit_code = Run(words);
+    std::cout.flush();
+    if (!std::cout) throw Error("can't write to the standard output");
+    return exit_code;
+  } catch (const UsageError& error) {
+    LogError(error.what());
+    return kMisused;
+  } catch (const Error& error) {
+    LogError(WithAdvice(error));
+  } catch (const std::filesystem::filesystem_error& error) {
+    LogError(Explain(error));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    LogError(fmt::format("unexpected: {}", error.what()));
+  }
+  return kFailed;
+}
+
 constexpr const char* kNoMemory =
-    "there is not enough memory for this; close other programs, allow this one more (ulimit -v) or "
-    "take a part of the recording (--frames A:B)";
+    "error: there is not enough memory for this; close other programs, allow this one more "
+    "(ulimit -v) or take a part of the recording (--frames A:B)\n";
 
 }  // namespace
 }  // namespace mmm_converter
 
 int main(int argc, char** argv) {
-  using mmm_converter::LogError;
-  const mmm_converter::PrintableOutput output;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is then an error that is said
   try {
-    mmm_converter::StartLog("info");
-    const int exit_code = mmm_converter::Run({argv + 1, argv + argc});
-    std::cout.flush();
-    if (!std::cout) throw mmm_converter::Error("can't write to the standard output");
-    return exit_code;
-  } catch (const mmm_converter::UsageError& error) {
-    LogError(error.what());
-    return mmm_converter::kMisused;
-  } catch (const mmm_converter::Error& error) {
-    LogError(mmm_converter::WithAdvice(error));
-    return mmm_converter::kFailed;
-  } catch (const std::bad_alloc&) {
-    LogError(mmm_converter::kNoMemory);
-    return mmm_converter::kFailed;
-  } catch (const std::filesystem::filesystem_error& error) {
-    LogError(mmm_converter::Explain(error));
-    return mmm_converter::kFailed;
-  } catch (const std::exception& error) {
-    LogError(fmt::format("unexpected: {}", error.what()));
+    return mmm_converter::RunAndExplain({argv + 1, argv + argc});
+  } catch (const std::bad_alloc&) {  // maybe of saying something else
+    std::fputs(mmm_converter::kNoMemory, stderr);
     return mmm_converter::kFailed;
   }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <new>
 #include <thread>
 #include <unordered_map>
@@ -50,8 +51,13 @@ class BatchRunner {
     progress_->Start(static_cast<int>(entries_.size()));
     std::vector<std::thread> threads;
     threads.reserve(options_.jobs);
-    for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { Work(); });
+    try {
+      for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { Work(); });
+    } catch (const std::exception&) {  // those that there are do the work
+      if (threads.empty()) throw;
+    }
     for (std::thread& thread : threads) thread.join();
+    if (failure_) std::rethrow_exception(failure_);
     outcome_.signal = InterruptionWatch::Signal();
     outcome_.seconds = progress_->Seconds();
     outcome_.not_done = static_cast<int>(entries_.size()) - outcome_.converted - outcome_.failed -
@@ -63,10 +69,16 @@ class BatchRunner {
   bool IsEnding() const { return is_ending_ || InterruptionWatch::Signal() != 0; }
 
   void Work() {
-    while (!IsEnding()) {
-      const std::size_t i = next_++;
-      if (i >= entries_.size()) return;
-      Process(entries_[i]);
+    try {
+      while (!IsEnding()) {
+        const std::size_t i = next_++;
+        if (i >= entries_.size()) return;
+        Process(entries_[i]);
+      }
+    } catch (...) {  // even what failed can't be noted
+      const std::scoped_lock lock(mutex_);
+      failure_ = std::current_exception();
+      is_ending_ = true;
     }
   }
 
@@ -195,6 +207,7 @@ class BatchRunner {
   std::mutex mutex_;  // of what follows
   Journal journal_;
   BatchOutcome outcome_;
+  std::exception_ptr failure_;
 };
 
 }  // namespace

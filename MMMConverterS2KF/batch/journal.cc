@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -18,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kBegin = "journal";
 constexpr const char* kEnd = ".jsonl";
+constexpr std::int64_t kYear10000 = 253402300800000;  // [ms since 1970]
 
 std::string JournalFile(const std::string& folder, int shard, int shards) {
   const std::string part = shards == 1 ? "" : fmt::format(".{}of{}", shard, shards);
@@ -64,15 +67,41 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
   }
 }
 
+void ForEachJournal(const std::string& folder,
+                    const std::function<void(const std::string&)>& visit) {
+  std::error_code failure;
+  if (!fs::exists(folder, failure)) return;
+  for (fs::directory_iterator file(folder, failure), end; !failure && file != end;
+       file.increment(failure)) {
+    const std::string name = file->path().filename().string();
+    if (name.starts_with(kBegin) && name.ends_with(kEnd)) visit(file->path().string());
+  }
+  if (failure) throw Error(fmt::format("{}: can't be read: {}", folder, failure.message()));
+}
+
+// Each journal's last record is its latest.
+std::int64_t LatestTime(const std::string& folder) {
+  std::int64_t latest = 0;
+  ForEachJournal(folder, [&](const std::string& file) {
+    std::string last;
+    ForEachLine(file, [&](std::string_view line) { last = line; });
+    const auto record = ParseRecord(last);
+    if (record && record->time < kYear10000) latest = std::max(latest, record->time);
+  });
+  return latest;
+}
+
 }  // namespace
 
 Journal::Journal(const std::string& folder, int shard, int shards)
-    : file_(JournalFile(folder, shard, shards)) {}
+    : file_(JournalFile(folder, shard, shards)), latest_(LatestTime(folder)) {}
 
 void Journal::Append(const JournalRecord& record) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
+  latest_ = std::max<std::int64_t>(
+      latest_ + 1, std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
   Json line = {{"id", record.id},
-               {"time_ms", std::chrono::duration_cast<std::chrono::milliseconds>(now).count()},
+               {"time_ms", latest_},
                {"converted", record.result.converted()},
                {"fingerprint", record.fingerprint},
                {"recording", ToJson(record.recording)},
@@ -90,14 +119,7 @@ std::unordered_map<std::string, JournalRecord> ReadJournals(const std::string& f
     JournalRecord& known = latest[record->id];
     if (record->time >= known.time) known = std::move(*record);
   };
-  std::error_code failure;
-  if (!fs::exists(folder, failure)) return latest;
-  for (fs::directory_iterator file(folder, failure), end; !failure && file != end;
-       file.increment(failure)) {
-    const std::string name = file->path().filename().string();
-    if (name.starts_with(kBegin) && name.ends_with(kEnd)) ForEachLine(file->path().string(), take);
-  }
-  if (failure) throw Error(fmt::format("{}: can't be read: {}", folder, failure.message()));
+  ForEachJournal(folder, [&](const std::string& file) { ForEachLine(file, take); });
   return latest;
 }
 

@@ -31,11 +31,13 @@ class Journal {
   /// @throws Error where it can't be written or another process has it.
   Journal(const std::string& folder, int shard, int shards);
 
-  /// The record's time is now. Not for several threads at a time. @throws WriteError
+  /// The record's time is now, or just after the latest of the folder's journals when that was
+  /// read, where the clock was set back. Not for several threads at a time. @throws WriteError
   void Append(const JournalRecord& record);
 
  private:
   LineFile file_;
+  std::int64_t latest_;  // time of the last record [ms since 1970]
 };
 
 /// Of all journals of an output folder the latest record of each entry, by id. Lines that are not

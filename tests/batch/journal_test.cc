@@ -6,6 +6,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "common/support/error.h"
 #include "tests/support/test_folder.h"
@@ -65,6 +67,21 @@ TEST_F(JournalTest, ShardsHaveTheirOwnAndTheLatestRecordHolds) {
   const auto records = ReadJournals(folder_);
   EXPECT_EQ(records.size(), 3U);
   EXPECT_FALSE(records.at("a").result.converted());
+}
+
+TEST_F(JournalTest, AClockThatIsSetBackMakesNoRecordOlder) {
+  constexpr std::int64_t kYear3000 = 32503680000000;
+  Journal(folder_, 1, 1).Append(Record("a"));
+  std::stringstream line;
+  line << std::ifstream(folder_ + "/journal.jsonl").rdbuf();
+  auto json = nlohmann::json::parse(line.str());
+  json["time_ms"] = kYear3000;
+  std::ofstream(folder_ + "/journal.jsonl") << json << "\n";
+  JournalRecord failed = Record("a");
+  failed.result = Failed("why", 0);
+  Journal(folder_, 1, 2).Append(failed);
+  EXPECT_GT(ReadJournals(folder_).at("a").time, kYear3000);
+  EXPECT_FALSE(ReadJournals(folder_).at("a").result.converted());
 }
 
 TEST_F(JournalTest, LeavesOutWhatItDoesNotUnderstand) {
