@@ -17,6 +17,8 @@
 namespace mmm_converter {
 namespace {
 
+constexpr std::size_t kMostNodes = 32768;  // the reference model has some 150
+
 constexpr double kLengthTolerance = 1e-5;  // [m]; model files have 6 digits
 constexpr const char* kFloatingRoot = "root_joint";
 
@@ -59,7 +61,12 @@ class MmmModelBuilder {
 
 void MmmModelBuilder::ReadNodes() {
   std::map<std::string, int> marker_lines;
-  for (const XmlElement* element : robot_.FindChildren("RobotNode")) {
+  const std::vector<const XmlElement*> elements = robot_.FindChildren("RobotNode");
+  if (elements.size() > kMostNodes) {
+    throw Error(fmt::format("{}: has {} nodes, more than the {} that are read", diagnostics_.file(),
+                            elements.size(), kMostNodes));
+  }
+  for (const XmlElement* element : elements) {
     ModelNode node = ReadModelNode(*element, diagnostics_);
     const std::string& name = node.segment.name;
     const auto [first, is_new] = index_.emplace(name, static_cast<int>(nodes_.size()));

@@ -169,7 +169,7 @@ void AppendRow(const std::vector<std::string_view>& cells, const Columns& column
 /// A file with all its cells has at most one number a byte: short rows must not blow up memory.
 Rows ReadRows(LineReader* lines, const Columns& columns, char separator, const std::string& file,
               std::size_t file_bytes) {
-  const std::size_t max_coordinates = 1000000 + 4 * file_bytes;
+  const std::size_t max_coordinates = 1000000 + 2 * file_bytes;
   Rows rows;
   std::vector<std::string_view> cells;
   for (std::string_view line; lines->Next(&line);) {

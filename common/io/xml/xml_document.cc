@@ -80,7 +80,7 @@ void CheckAttributes(const XmlScanner& scanner, std::ptrdiff_t equals, const std
 
 /// What the parser and the tree take for one of each [bytes], measured, and what they may take.
 constexpr double kBytesOfElement = 240;
-constexpr double kBytesOfAttribute = 150;
+constexpr double kBytesOfAttribute = 180;
 constexpr double kBytesOfOther = 112;  // a text, a comment
 constexpr double kMostBytesPerByte = 16;
 constexpr double kFreeBytes = 32 << 20;
