@@ -23,7 +23,7 @@ class Run:
 
 class Program:
     def __init__(self, build, folder):
-        self.build = pathlib.Path(build)
+        self.build = pathlib.Path(build).resolve()
         self.source = self.build.parent
         self.folder = pathlib.Path(folder)
         self.report = self.folder / "report"

@@ -76,6 +76,23 @@ TEST(XmlDocument, RefusesAnElementOfManyAttributesBeforeItIsParsed) {
   }
 }
 
+TEST(XmlDocument, ReadsNoOtherFileAndExpandsNothing) {
+  const XmlElement root =
+      ParseXml("<!DOCTYPE a SYSTEM \"file:///etc/passwd\"><a b='&x;'>&x;</a>", "a.xml");
+  EXPECT_EQ(*root.FindAttribute("b"), "&x;");
+  EXPECT_EQ(root.text, "&x;");
+  for (const char* const declaration :
+       {"[<!ENTITY y SYSTEM 'file:///etc/passwd'>]>", "[<!ENTITY x 'ha'><!ENTITY y '&x;&x;'>]>",
+        "[<!ENTITY y '&y;'>"}) {
+    try {
+      const std::string xml = std::string("<!DOCTYPE a ") + declaration + "<a>&y;</a>";
+      EXPECT_EQ(ParseXml(xml, "a.xml").text, "&y;");
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("not well-formed XML"));
+    }
+  }
+}
+
 // A tree takes as much for a short element as for a long one.
 TEST(XmlDocument, RefusesMillionsOfShortElementsBeforeTheyAreParsed) {
   const auto many = [](const std::string& text) {
