@@ -20,6 +20,7 @@
 #include <cstring>
 #include <ctime>
 
+// NOLINTBEGIN(bugprone-reserved-identifier): names of the C library
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -27,6 +28,7 @@ void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* memory);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace {
 

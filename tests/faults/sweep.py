@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Faults on purpose: each call of the real program fails or kills it; then every output is the old or the new one.
 
-sweep.py --build DIR            each call, under strace too (an hour)
+sweep.py --build DIR            each call, under strace too (an hour), and many allocations
 sweep.py --build DIR --coarse   some of them, as ctest does
 """
 
@@ -31,6 +31,7 @@ class Conversion:
     """Replaces a motion and a table."""
 
     name = "convert"
+    has_threads = False
 
     def __init__(self, program):
         self.program = program
@@ -70,14 +71,15 @@ class Conversion:
 
 
 class Batch:
-    """Four recordings into a new folder; then the same with --resume."""
+    """Two recordings into a new folder; then the same with --resume."""
 
     name = "batch"
+    has_threads = True
 
     def __init__(self, program):
         self.program = program
         self.folder = program.folder / "out"
-        recordings = "".join(f"<Recording file='examples/handstand.c3d' id='{i}' frames=':{40 + i}'/>" for i in range(4))
+        recordings = "".join(f"<Recording file='examples/handstand.c3d' id='{i}' frames=':{40 + i}'/>" for i in range(2))
         (program.folder / "manifest.xml").write_text(
             f"<Batch height_m='1.8' folder='{program.source}' config='' plugin='{program.plugin()}'>{recordings}</Batch>")
         self.words = ["batch", "manifest.xml", "-o", "out", "--jobs", "1", "--reports", "none", "--resume"]
@@ -100,18 +102,18 @@ class Batch:
             return f"--resume did not put it right: {again.error}"
         left = [file.name for file in self.folder.rglob("*") if SCRATCH.fullmatch(file.name)]
         states = [json.loads(line)["state"] for line in (self.folder / "results.jsonl").read_text().splitlines()]
-        return f"--resume left {left}" if left else None if states == 4 * ["converted"] else f"results: {states}"
+        return f"--resume left {left}" if left else None if states == 2 * ["converted"] else f"results: {states}"
 
 
 class Sweep:
-    def __init__(self, coarse):
-        self.coarse = coarse
+    def __init__(self):
         self.outcomes = collections.Counter()
         self.problems = []
 
-    def numbers(self, count, points):
-        """From 1 to count: all, or so many of them, closer at the beginning."""
-        if not self.coarse or count <= points:
+    @staticmethod
+    def numbers(count, points):
+        """From 1 to count: so many of them, closer at the beginning; all where points is None."""
+        if points is None or count <= points:
             return range(1, count + 1)
         return sorted({max(1, round(count * (i / points) ** 2)) for i in range(1, points + 1)})
 
@@ -127,6 +129,7 @@ class Sweep:
         self.outcomes[case.name, kind, outcome] += 1
         if problem:
             self.problems.append(f"{case.name} {fault}: {problem}")
+            print(self.problems[-1], flush=True)
 
     def disturb(self, case, kind, points, more=""):
         of = {"kill": "change", "alloc+": "alloc", "change+": "change"}.get(kind, kind)
@@ -140,10 +143,14 @@ class Sweep:
         case.prepare()
         log = case.program.folder / "strace"
         case.program.run(case.words, before=["strace", "-f", "-o", str(log)])
-        # NNN call(...: of the thread that does most of the work, as strace counts each thread's calls.
-        calls = collections.Counter(re.findall(r"^\d+ +(\w+)\(", log.read_text(errors="replace"), re.M))
+        lines = log.read_text(errors="replace").splitlines()
+        begin = next(i for i, line in enumerate(lines) if "SIGXFSZ" in line)  # main: before, libraries are loaded
+        before, after = (collections.Counter(re.findall(r"^\d+ +(\w+)\(", "\n".join(part), re.M))
+                         for part in (lines[:begin], lines[begin:]))
         for call, error in FAILING_CALLS.items():
-            for number in range(1, calls[call] + 1):
+            # strace counts each thread's calls: those of a batch's thread start at 1.
+            starts = {before[call] + 1} | ({1} if case.has_threads else set())
+            for number in sorted({start + i for start in starts for i in range(after[call])}):
                 for kind, inject in (("strace kill", "signal=KILL"), (f"strace {error}", f"error={error}")):
                     case.prepare()
                     fault = f"inject={call}:{inject}:when={number}"
@@ -157,12 +164,13 @@ class Sweep:
                 self.take(case, "clock", fault, case.program.run(case.words, fault))
 
     def report(self):
-        for (case, kind, outcome), count in sorted(self.outcomes.items()):
-            print(f"[ measured ] {case:8} {kind:14} {outcome:8} {count:6}")
         print(f"[ measured ] {sum(self.outcomes.values())} faults, {len(self.problems)} problems")
-        for problem in self.problems:
-            print(problem)
         return 1 if self.problems else 0
+
+    def say(self, case):
+        for (name, kind, outcome), count in sorted(self.outcomes.items()):
+            if name == case.name:
+                print(f"[ measured ] {name:8} {kind:14} {outcome:8} {count:6}", flush=True)
 
 
 def main():
@@ -170,28 +178,27 @@ def main():
     parser.add_argument("--build", required=True)
     parser.add_argument("--coarse", action="store_true")
     parser.add_argument("--allocations", type=int, default=1000, help="of the full sweep, in each case")
+    parser.add_argument("--case", default="", help="convert or batch; else both")
     options = parser.parse_args()
-    sweep = Sweep(options.coarse)
+    sweep = Sweep()
     with tempfile.TemporaryDirectory(prefix="mmm_converter_test_") as folder:
         program = Program(options.build, folder)
-        for case, points in ((Conversion(program), 5), (Batch(program), 3)):
-            if not options.coarse:
-                points = 10**9
-            sweep.disturb(case, "change", points, f":{ENOSPC}")
-            sweep.disturb(case, "change+", points)
-            sweep.disturb(case, "read", points)
-            sweep.disturb(case, "kill", points)
+        for make, points in ((Conversion, 5), (Batch, 3)):
+            if options.case not in make.name:
+                continue
+            case = make(program)
+            some = points if options.coarse else None
+            sweep.disturb(case, "change", some, f":{ENOSPC}")
+            for kind in ("change+", "read", "kill"):
+                sweep.disturb(case, kind, some)
             sweep.clocks(case)
-            sweep.coarse = True
             for kind in ("alloc", "alloc+"):
                 sweep.disturb(case, kind, 2 * points if options.coarse else options.allocations)
-            sweep.coarse = options.coarse
-            if options.coarse:
-                continue
-            if shutil.which("strace"):
+            if not options.coarse and shutil.which("strace"):
                 sweep.trace(case)
-            else:
+            elif not options.coarse:
                 print("strace is not there: the faults of system calls are left out")
+            sweep.say(case)
     return sweep.report()
 
 

@@ -206,9 +206,9 @@ std::vector<std::string> UniqueNames(const std::vector<Label>& labels, Warnings*
     names.push_back(std::move(name));
   }
   if (!renamed.empty()) {
-    Warn(warnings, fmt::format("{} labels are the same as others without prefixes and in UTF-8; "
-                               "they are numbered: {}",
-                               renamed.size(), FirstNames(renamed)));
+    Warn(warnings, fmt::format("labels that are the same as others, without prefixes and in UTF-8, "
+                               "are numbered: {}",
+                               FirstNames(renamed)));
   }
   return names;
 }

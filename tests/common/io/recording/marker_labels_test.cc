@@ -45,7 +45,7 @@ TEST(MarkerLabels, AreNumberedWhereTheyBecomeTheSame) {
       SelectLabels({labels.begin(), labels.begin() + 5}, {}, {}, "", "a.c3d", &warnings);
   EXPECT_THAT(others.labels, ElementsAre("Kn\xC3\xB6", "Kn\xC3\xB6#2", "a z", "a z#3", "a z#2"));
   EXPECT_THAT(warnings.texts(),
-              Contains("2 labels are the same as others without prefixes and in UTF-8; they are "
+              Contains("labels that are the same as others, without prefixes and in UTF-8, are "
                        "numbered: Kn\xC3\xB6#2, a z#3"));
 }
 
