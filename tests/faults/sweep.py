@@ -121,11 +121,13 @@ class Sweep:
         """Judges a run."""
         killed = run.code == -signal.SIGKILL and "kill" in kind
         problem = case.problem(run, killed or kind == "change+")
-        if problem is None and run.code < 0 and not killed:
+        # The JSON library allocates where it frees, and where it can't it ends the program.
+        aborted = run.code == -signal.SIGABRT and kind == "alloc+"
+        if problem is None and run.code < 0 and not killed and not aborted:
             problem = f"ended by signal {-run.code}"
         if problem is None and run.code > 0 and not re.search(rb"^error: |error while loading|: error|cannot ", run.error, re.M):
             problem = f"did not say why it failed: {run.error}"
-        outcome = "done" if run.code == 0 else "killed" if run.code < 0 else "refused"
+        outcome = "done" if run.code == 0 else "aborted" if aborted else "killed" if run.code < 0 else "refused"
         self.outcomes[case.name, kind, outcome] += 1
         if problem:
             self.problems.append(f"{case.name} {fault}: {problem}")
