@@ -36,7 +36,7 @@ class Conversion:
     def __init__(self, program):
         self.program = program
         self.folder = program.folder / "convert"
-        self.words = ["convert", str(program.source / "examples/handstand.c3d"), "--height", "1.8", "--frames", ":40",
+        self.words = ["convert", str(program.source / "examples/handstand.c3d"), "--height", "1.8", "--frames", ":10",
                       "--plugin", program.plugin(), "-o", "convert/motion.xml", "--export-csv", "convert/motion.csv"]
         self.prepare()
         self.calls = program.run(self.words).counts
@@ -79,7 +79,7 @@ class Batch:
     def __init__(self, program):
         self.program = program
         self.folder = program.folder / "out"
-        recordings = "".join(f"<Recording file='examples/handstand.c3d' id='{i}' frames=':{40 + i}'/>" for i in range(2))
+        recordings = "".join(f"<Recording file='examples/handstand.c3d' id='{i}' frames=':{10 + i}'/>" for i in range(2))
         (program.folder / "manifest.xml").write_text(
             f"<Batch height_m='1.8' folder='{program.source}' config='' plugin='{program.plugin()}'>{recordings}</Batch>")
         self.words = ["batch", "manifest.xml", "-o", "out", "--jobs", "1", "--reports", "none", "--resume"]

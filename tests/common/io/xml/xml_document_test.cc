@@ -54,7 +54,7 @@ TEST(XmlDocument, SaysFileAndLineOfWhatIsWrong) {
 }
 
 TEST(XmlDocument, SaysWhatIsWrongWithAFile) {
-  const std::string folder = testing::TestFolder();
+  const std::string& folder = testing::TestFolder();
   EXPECT_THROW(ReadXmlFile(folder), Error);
   EXPECT_THROW(ReadXmlFile(folder + "/no_such_file.xml"), Error);
 }
