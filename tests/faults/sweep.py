@@ -125,7 +125,9 @@ class Sweep:
         aborted = run.code == -signal.SIGABRT and kind == "alloc+"
         if problem is None and run.code < 0 and not killed and not aborted:
             problem = f"ended by signal {-run.code}"
-        if problem is None and run.code > 0 and not re.search(rb"^error: |error while loading|: error|cannot ", run.error, re.M):
+        # What fails may be the write of the message itself.
+        says_why = re.search(rb"^error: |error while loading|: error|cannot ", run.error, re.M) or "inject=write" in fault
+        if problem is None and run.code > 0 and not says_why:
             problem = f"did not say why it failed: {run.error}"
         outcome = "done" if run.code == 0 else "aborted" if aborted else "killed" if run.code < 0 else "refused"
         self.outcomes[case.name, kind, outcome] += 1
