@@ -2,6 +2,7 @@
 #include "MMMConverterS2KF/batch/entry_result.h"
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/conversion/conversion_figures.h"
@@ -22,6 +23,10 @@ void TakePerson(const ConversionReport& report, EntryFigures* figures) {
   if (report.person.subject) figures->subject = report.person.subject->name;
 }
 
+int ParseCount(const Json& json) {
+  return static_cast<int>(ParseInteger(json, 0, std::numeric_limits<int>::max()));
+}
+
 double ParseNumber(const Json& json) { return json.is_null() ? kNaN : json.get<double>(); }
 
 std::string ParseText(const Json& json) {
@@ -38,7 +43,7 @@ Verdict ParseVerdict(const Json& json) {
 EntryFigures ParseFigures(const Json& json) {
   EntryFigures figures;
   figures.verdict = ParseVerdict(json.at("verdict"));
-  figures.frames = json.at("frames").get<int>();
+  figures.frames = ParseCount(json.at("frames"));
   figures.rate = ParseNumber(json.at("rate_hz"));
   figures.height = ParseNumber(json.at("height_m"));
   figures.height_source = ParseText(json.at("height_source"));
@@ -47,18 +52,18 @@ EntryFigures ParseFigures(const Json& json) {
   if (!json.at("subject").is_null()) figures.subject = json.at("subject").get<std::string>();
   figures.converter = json.at("converter").get<std::string>();
   figures.configuration = json.at("configuration").get<std::string>();
-  figures.markers_used = json.at("markers_used").get<int>();
-  figures.markers_absent = json.at("markers_absent").get<int>();
-  figures.markers_ignored = json.at("markers_ignored").get<int>();
+  figures.markers_used = ParseCount(json.at("markers_used"));
+  figures.markers_absent = ParseCount(json.at("markers_absent"));
+  figures.markers_ignored = ParseCount(json.at("markers_ignored"));
   figures.mean_mm = ParseNumber(json.at("distance_mm").at("mean"));
   figures.p95_mm = ParseNumber(json.at("distance_mm").at("p95"));
   figures.max_mm = ParseNumber(json.at("distance_mm").at("max"));
   figures.worst_marker = ParseText(json.at("worst_marker"));
   figures.worst_marker_mm = ParseNumber(json.at("worst_marker_mm"));
-  figures.frames_with_missing_markers = json.at("frames_with_missing_markers").get<int>();
-  figures.frames_not_converged = json.at("frames_not_converged").get<int>();
-  figures.frames_reassembled = json.at("frames_reassembled").get<int>();
-  figures.wrong_markers = json.at("wrong_markers").get<int>();
+  figures.frames_with_missing_markers = ParseCount(json.at("frames_with_missing_markers"));
+  figures.frames_not_converged = ParseCount(json.at("frames_not_converged"));
+  figures.frames_reassembled = ParseCount(json.at("frames_reassembled"));
+  figures.wrong_markers = ParseCount(json.at("wrong_markers"));
   figures.process_noise_scale = ParseNumber(json.at("process_noise_scale"));
   figures.nis = ParseNumber(json.at("nis_over_degrees_of_freedom"));
   figures.median_ms = ParseNumber(json.at("ms_per_frame").at("median"));

@@ -50,7 +50,7 @@ EntryResult Failed(const std::string& reason, double seconds);
 /// As journals and results have it; batch/README.md says what is in it.
 Json ToJson(const EntryResult& result);
 
-/// The same from a journal. @throws nlohmann::json::exception where it is something else.
+/// The same from a journal. @throws nlohmann::json::exception or Error where it is something else.
 EntryResult ParseEntryResult(const Json& json);
 
 }  // namespace mmm_converter

@@ -37,9 +37,11 @@ Json ToJson(const std::map<std::string, FileState>& states) {
   return json;
 }
 
+std::int64_t ParseTime(const Json& json) { return ParseInteger(json, INT64_MIN, INT64_MAX); }
+
 FileState ParseState(const Json& json) {
-  return {json.at("bytes").get<std::uint64_t>(), json.at("modified_ns").get<std::int64_t>(),
-          json.at("hash").get<std::string>()};
+  return {static_cast<std::uint64_t>(ParseInteger(json.at("bytes"), 0, INT64_MAX)),
+          ParseTime(json.at("modified_ns")), json.at("hash").get<std::string>()};
 }
 
 std::map<std::string, FileState> ParseStates(const Json& json) {
@@ -53,7 +55,7 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
     const Json json = ParseJson(line);
     JournalRecord record;
     record.id = json.at("id").get<std::string>();
-    record.time = json.at("time_ms").get<std::int64_t>();
+    record.time = ParseTime(json.at("time_ms"));
     record.fingerprint = json.at("fingerprint").get<std::string>();
     record.recording = ParseState(json.at("recording"));
     if (json.contains("models")) record.models = ParseStates(json.at("models"));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "common/support/error.h"
@@ -49,6 +50,18 @@ Json ParseJson(std::string_view text) {
   } catch (const nlohmann::json::out_of_range&) {
     throw Error("is not JSON: a number is too large");
   }
+}
+
+std::int64_t ParseInteger(const Json& json, std::int64_t lowest, std::int64_t largest) {
+  // What has a point or does not fit into 64 bits is a double, which may be no std::int64_t.
+  const bool fits =
+      json.is_number_unsigned() ? json.get<std::uint64_t>() <= INT64_MAX : json.is_number_integer();
+  const std::int64_t value = fits ? json.get<std::int64_t>() : 0;
+  if (!fits || value < lowest || value > largest) {
+    throw Error(
+        fmt::format("{} is no whole number from {} to {}", FormatJsonLine(json), lowest, largest));
+  }
+  return value;
 }
 
 std::string FormatJson(const Json& json) {

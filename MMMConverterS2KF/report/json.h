@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ Json TextOrNull(const std::string& text);
 /// @throws Error, without the file's name, where it is not JSON or is nested deeper than anything
 /// that is written here.
 Json ParseJson(std::string_view text);
+
+/// A whole number of such a file. @throws Error where it is anything else or outside of the bounds.
+std::int64_t ParseInteger(const Json& json, std::int64_t lowest, std::int64_t largest);
 
 /// The text of a file, indented. Bytes that are no UTF-8, as names of files may have, are replaced.
 std::string FormatJson(const Json& json);

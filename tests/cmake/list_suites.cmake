@@ -1,4 +1,4 @@
-# cmake -DPROGRAM=<GoogleTest program> -DOUTPUT=<file> -P list_suites.cmake
+# cmake -DPROGRAM=<GoogleTest program> -DOUTPUT=<file> [-DLABELS=<label>] -P list_suites.cmake
 #
 # Writes a ctest entry for each test suite of a program. A process for each case would start a program some 900 times, and
 # make again what the cases of a suite share.
@@ -18,7 +18,7 @@ foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n([^ ]+)\\..*$" "\\1" suite "${suite}")
   string(APPEND entries "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
     # Skipped are suites of which nothing was run, and nothing failed.
-    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES COST ${cost} SKIP_REGULAR_EXPRESSION "
+    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES COST ${cost} LABELS \"${LABELS}\" SKIP_REGULAR_EXPRESSION "
     "[=[\\[  PASSED  \\] 0 tests\\.\n\\[  SKIPPED \\] [0-9]+ tests?, listed below:\n(\\[  SKIPPED \\] [^\n]*\n)*$]=])\n")
 endforeach()
 file(WRITE ${OUTPUT} "${entries}")

@@ -168,16 +168,16 @@ void CheckSameTree(const XmlElement& element, const XmlRange& range, int depth,
 
 TextPieces WithConvertedMotions(const ByteSource& content, const std::string& file,
                                 const std::vector<MmmMotionOutput>& outputs) {
-  constexpr int kDepth = 3;  // MMM / Motion / Sensors / Sensor
-  LongXml xml(content, file, {"Measurement"}, kDepth + 1);
+  constexpr int kSensorDepth = 3;  // MMM / Motion / Sensors / Sensor
+  LongXml xml(content, file, {"Measurement"}, kSensorDepth + 1);
   xml.CheckTheRest();
   const XmlElement& root = xml.root();
   if (!root.Is("MMM")) {
     throw Error(fmt::format("{}:{}: the root is <{}>; an MMM motion has <MMM>", file, root.line,
                             root.name));
   }
-  const XmlRange range = FindXmlRanges(content, kDepth);
-  CheckSameTree(root, range, kDepth, file);
+  const XmlRange range = FindXmlRanges(content, kSensorDepth);
+  CheckSameTree(root, range, kSensorDepth, file);
   // The edits point to them.
   const auto kept = std::make_shared<const std::vector<MmmMotionOutput>>(outputs);
   std::vector<Edit> edits;

@@ -111,21 +111,20 @@ std::size_t XmlScanner::EndOfTag(std::size_t from) {
 }
 
 XmlRange FindXmlRanges(const ByteSource& content, int depth) {
-  using Markup = XmlScanner::Markup;
   std::vector<XmlRange> open(1);  // a document around the root, then the elements that are open
   std::size_t too_deep = 0;       // open elements below the wanted depth
   XmlScanner scanner(content);
   while (scanner.Next()) {
-    if (scanner.kind() == Markup::kEndTag && too_deep > 0) {
+    if (scanner.kind() == XmlScanner::Markup::kEndTag && too_deep > 0) {
       --too_deep;
-    } else if (scanner.kind() == Markup::kEndTag && open.size() > 1) {
+    } else if (scanner.kind() == XmlScanner::Markup::kEndTag && open.size() > 1) {
       XmlRange closed = std::move(open.back());
       closed.inner_end = scanner.begin();
       closed.end = scanner.end();
       open.pop_back();
       open.back().children.push_back(std::move(closed));
     } else if (scanner.IsElement()) {
-      const bool is_closed = scanner.kind() == Markup::kEmptyTag;
+      const bool is_closed = scanner.kind() == XmlScanner::Markup::kEmptyTag;
       if (open.size() > static_cast<std::size_t>(depth) + 1) {
         too_deep += is_closed ? 0 : 1;
         continue;

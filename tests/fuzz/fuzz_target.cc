@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fuzz/fuzz_target.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "common/support/error.h"
+#include "tests/support/test_folder.h"
+
+namespace mmm_converter::testing {
+
+const std::map<std::string, FuzzTarget>& FuzzTargets() {
+  static const std::map<std::string, FuzzTarget> targets = {
+      {"c3d", ReadC3dBytes},
+      {"conversion", ConvertRecordingBytes},
+      {"converter_config", ReadConverterConfigBytes},
+      {"journal", ReadJournalBytes},
+      {"lcd_samples", ReadLcdSamplesBytes},
+      {"manifest", ReadManifestBytes},
+      {"marker_set", ReadMarkerSetBytes},
+      {"mmm_model", ReadMmmModelBytes},
+      {"mmm_motion", ReadMmmMotionBytes},
+      {"person", ReadPersonBytes},
+      {"recording", ReadRecordingBytes},
+      {"subjects_table", ReadSubjectsTableBytes},
+      {"trc", ReadTrcBytes},
+      {"urdf", ReadUrdfBytes},
+  };
+  return targets;
+}
+
+std::string Refusal(FuzzTarget target, std::string_view bytes) {
+  try {
+    target(bytes);
+    return "";
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    Require(message.find(kInputName) != std::string::npos,
+            "an error that names the file, not \"" + message + "\"");
+    return message;
+  }
+}
+
+std::string FileOf(std::string_view bytes) {
+  static const TemporaryFolder folder;
+  const std::string path = folder.path() + "/" + kInputName;
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+void Require(bool holds, const std::string& expected) {
+  if (!holds) throw std::logic_error("expected: " + expected);
+}
+
+}  // namespace mmm_converter::testing
