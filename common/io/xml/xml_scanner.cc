@@ -114,7 +114,8 @@ XmlRange FindXmlRanges(const ByteSource& content, int depth) {
   std::vector<XmlRange> open(1);  // a document around the root, then the elements that are open
   std::size_t too_deep = 0;       // open elements below the wanted depth
   XmlScanner scanner(content);
-  while (scanner.Next()) {
+  // What is behind the root, ParseXml has judged.
+  while (open.front().children.empty() && scanner.Next()) {
     if (scanner.kind() == XmlScanner::Markup::kEndTag && too_deep > 0) {
       --too_deep;
     } else if (scanner.kind() == XmlScanner::Markup::kEndTag && open.size() > 1) {
@@ -134,7 +135,7 @@ XmlRange FindXmlRanges(const ByteSource& content, int depth) {
       (is_closed ? open.back().children : open).push_back(std::move(range));
     }
   }
-  if (open.size() != 1 || open.front().children.size() != 1) {
+  if (open.front().children.empty()) {
     throw Error("not well-formed XML: an element is never closed");
   }
   return std::move(open.front().children.front());

@@ -27,6 +27,7 @@ TEST(XmlScanner, FindsElementsInTheText) {
   EXPECT_EQ(root.children[1].children[0].inner_end - root.children[1].children[0].inner_begin, 1u);
   EXPECT_EQ(text(root.children[2]), "<f><![CDATA[</f>]]><g><h/></g></f>");
   EXPECT_TRUE(root.children[2].children[0].children.empty());  // deeper than asked for
+  EXPECT_EQ(Ranges("<a><b/></a></a><c", 2).end, 11u);
   EXPECT_THROW(Ranges("<a><b></a>", 2), Error);
   EXPECT_THROW(Ranges("", 2), Error);
   EXPECT_THROW(Ranges("<a b='", 2), Error);
