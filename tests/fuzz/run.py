@@ -117,8 +117,8 @@ def fuzz(target, seconds):
     (folder / "corpus").mkdir(exist_ok=True)
     command = [PROGRAM, f"--target={target}", f"-max_len={TARGETS[target][0]}",
                *make_dictionary(target, folder / "dictionary"), f"-artifact_prefix={findings}/",
-               "-rss_limit_mb=2048", "-timeout=25", "-print_final_stats=1", folder / "corpus",
-               folder / "seeds"]
+               "-rss_limit_mb=2048", "-timeout=25", "-report_slow_units=25",
+               "-print_final_stats=1", folder / "corpus", folder / "seeds"]
     used = 0
     with open(folder / "log", "wb") as log:
         while used < seconds and len(list(findings.iterdir())) < MOST_FINDINGS:
