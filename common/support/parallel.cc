@@ -25,9 +25,9 @@ void ParallelFor(int count, int jobs, const std::function<void(int)>& body) {
   oneapi::tbb::task_arena arena(jobs);
   // Bodies see what was written before the loop, and the caller what they wrote. TBB sees to that;
   // for the thread sanitizer, which does not see into TBB, it is said once more.
+  std::atomic<int> ended = 0;
   std::atomic<bool> begun = false;
   begun.store(true, std::memory_order_release);
-  std::atomic<int> ended = 0;
   arena.execute([&] {
     const oneapi::tbb::blocked_range<int> all(0, count, 1);
     oneapi::tbb::parallel_for(
