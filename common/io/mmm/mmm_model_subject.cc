@@ -73,7 +73,7 @@ class ModelEditor {
 
   std::string Edited(const std::string& comment) {
     const XmlElement robot = ParseXml(content_, file_);
-    const XmlRange range = FindXmlRanges(BytesOf(content_), kDepth);
+    const XmlRange range = FindXmlRanges(BytesOf(content_), file_, kDepth);
     edits_.push_back({range.begin, range.begin, comment});
     ForEachChild(robot, range, [this](const XmlElement& node, const XmlRange& place) {
       if (node.Is("RobotNode")) EditNode(node, place);

@@ -176,7 +176,7 @@ TextPieces WithConvertedMotions(const ByteSource& content, const std::string& fi
     throw Error(fmt::format("{}:{}: the root is <{}>; an MMM motion has <MMM>", file, root.line,
                             root.name));
   }
-  const XmlRange range = FindXmlRanges(content, kSensorDepth);
+  const XmlRange range = FindXmlRanges(content, file, kSensorDepth);
   CheckSameTree(root, range, kSensorDepth, file);
   // The edits point to them.
   const auto kept = std::make_shared<const std::vector<MmmMotionOutput>>(outputs);

@@ -110,7 +110,7 @@ std::size_t XmlScanner::EndOfTag(std::size_t from) {
   }
 }
 
-XmlRange FindXmlRanges(const ByteSource& content, int depth) {
+XmlRange FindXmlRanges(const ByteSource& content, const std::string& file, int depth) {
   std::vector<XmlRange> open(1);  // a document around the root, then the elements that are open
   std::size_t too_deep = 0;       // open elements below the wanted depth
   XmlScanner scanner(content);
@@ -136,7 +136,7 @@ XmlRange FindXmlRanges(const ByteSource& content, int depth) {
     }
   }
   if (open.front().children.empty()) {
-    throw Error("not well-formed XML: an element is never closed");
+    throw Error(file + ": not well-formed XML: an element is never closed");
   }
   return std::move(open.front().children.front());
 }

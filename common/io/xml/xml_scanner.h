@@ -63,7 +63,8 @@ struct XmlRange {
 };
 
 /// The root element with its descendants down to `depth` levels below it. `content` must be what
-/// ParseXml accepts.
-XmlRange FindXmlRanges(const ByteSource& content, int depth);
+/// ParseXml accepts; `file` is only named in messages.
+/// @throws Error where the elements can't be told apart, as with blanks behind a <.
+XmlRange FindXmlRanges(const ByteSource& content, const std::string& file, int depth);
 
 }  // namespace mmm_converter

@@ -8,7 +8,9 @@
 namespace mmm_converter {
 namespace {
 
-XmlRange Ranges(std::string_view xml, int depth) { return FindXmlRanges(BytesOf(xml), depth); }
+XmlRange Ranges(std::string_view xml, int depth) {
+  return FindXmlRanges(BytesOf(xml), "a.xml", depth);
+}
 
 TEST(XmlScanner, FindsElementsInTheText) {
   const std::string xml =
