@@ -34,7 +34,7 @@ std::string Refusal(FuzzTarget target, std::string_view bytes) {
     target(bytes);
     return "";
   } catch (const Error& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     Require(message.find(kInputName) != std::string::npos,
             "an error that names the file, not \"" + message + "\"");
     return message;
@@ -43,7 +43,7 @@ std::string Refusal(FuzzTarget target, std::string_view bytes) {
 
 std::string FileOf(std::string_view bytes) {
   static const TemporaryFolder folder;
-  const std::string path = folder.path() + "/" + kInputName;
+  std::string path = folder.path() + "/" + kInputName;
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
