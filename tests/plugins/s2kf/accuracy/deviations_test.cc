@@ -98,8 +98,8 @@ TEST_P(DeviationsTest, Calibrated) {
     }
   }
   ExpectHonest(coverage, "calibrated");
-  // .80 offline, which is the target itself. Not reached: arms estimated at a limit, where the filter
-  // is lost.
+  // .80 offline, which is the target itself. Not reached: arms estimated at a limit, where the
+  // filter is lost.
   ExpectHonest(hidden, "calibrated, an arm hidden for 2 s", 0.83, false);
 }
 
