@@ -15,7 +15,7 @@ cmake_minimum_required(VERSION 3.25)
 set(layers
     common/support common/math common/model common/motion common/fit
     common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/urdf common/io common/io/recording
-    common/convert common/calibrate common/evaluate
+    common/convert common/calibrate common/label common/evaluate
     plugins
     MMMConverterS2KF/terminal MMMConverterS2KF/input MMMConverterS2KF/conversion
     "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report MMMConverterS2KF/batch

@@ -11,7 +11,7 @@ if(TARGET MMMConverterS2KF)
   install(TARGETS MMMConverterS2KF RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 install(DIRECTORY common DESTINATION ${header_dir} FILES_MATCHING PATTERN "*.h"
-        PATTERN dynamics EXCLUDE PATTERN calibrate EXCLUDE)  # not exported
+        PATTERN dynamics EXCLUDE PATTERN calibrate EXCLUDE PATTERN label EXCLUDE)  # not exported
 install(DIRECTORY xml_config/ DESTINATION ${MMM_CONVERTER_DATA_DIR}
         PATTERN CMakeLists.txt EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
