@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "common/label/body_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/math/rotation.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+using Eigen::Ref;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kUnmatched = 9;          // cost of a marker without point: three deviations
+constexpr double kSettled = 0.015;        // [m] what a posture may still be off when it is judged
+constexpr double kNaturalWeight = 0.3;    // [1/rad^2]
+constexpr double kDamping = 0.01;         // relative
+constexpr double kLeastCurvature = 1e-3;  // [1/m^2], [1/rad^2]
+constexpr double kLongestStep = 0.6;      // [rad]
+constexpr int kYaws = 24;
+
+// Of the annealing: spread [m], steps to it, postures that go on.
+struct Stage {
+  double from, to;
+  int steps;
+  std::size_t kept;
+};
+constexpr std::size_t kFirstKept = 72;
+constexpr std::array<Stage, 3> kStages = {
+    {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 4}}};
+
+constexpr int kThrows = 40;
+constexpr int kMoreThrows = 120;
+constexpr double kGoodShare = 0.1;  // of the cost that no match at all would have
+
+/// Distance from the nearest of some points, cut off, on a grid.
+class DistanceGrid {
+ public:
+  static constexpr double kCell = 0.04;     // [m]
+  static constexpr double kFarthest = 0.2;  // [m]
+
+  explicit DistanceGrid(const Ref<const Matrix3Xd>& points)
+      : origin_(points.rowwise().minCoeff().array() - kFarthest) {
+    // Beyond this many cells a direction holds no person.
+    constexpr int kMostCells = 128;
+    const Vector3d span = points.rowwise().maxCoeff().array() + kFarthest - origin_.array();
+    for (int i = 0; i < 3; ++i) {
+      size_[i] = std::min(static_cast<int>(span[i] / kCell) + 1, kMostCells);
+    }
+    cells_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], kFarthest);
+    constexpr int kReach = static_cast<int>(kFarthest / kCell);
+    for (Eigen::Index p = 0; p < points.cols(); ++p) {
+      const Vector3d at = (points.col(p) - origin_) / kCell;
+      const Eigen::Vector3i middle = at.array().floor().cast<int>();
+      for (int x = std::max(middle[0] - kReach, 0); x < std::min(middle[0] + kReach + 1, size_[0]);
+           ++x) {
+        for (int y = std::max(middle[1] - kReach, 0);
+             y < std::min(middle[1] + kReach + 1, size_[1]); ++y) {
+          for (int z = std::max(middle[2] - kReach, 0);
+               z < std::min(middle[2] + kReach + 1, size_[2]); ++z) {
+            float& cell = cells_[Index(x, y, z)];
+            const double distance = kCell * (Vector3d(x + 0.5, y + 0.5, z + 0.5) - at).norm();
+            cell = std::min(cell, static_cast<float>(distance));
+          }
+        }
+      }
+    }
+  }
+
+  double At(const Vector3d& p) const {
+    const Eigen::Array3i cell = ((p - origin_) / kCell).array().floor().cast<int>();
+    if ((cell < 0).any() || (cell >= Eigen::Array3i(size_[0], size_[1], size_[2])).any()) {
+      return kFarthest;
+    }
+    return cells_[Index(cell[0], cell[1], cell[2])];
+  }
+
+ private:
+  std::size_t Index(int x, int y, int z) const {
+    return (static_cast<std::size_t>(x) * size_[1] + y) * size_[2] + z;
+  }
+
+  Vector3d origin_;
+  std::array<int, 3> size_ = {};
+  std::vector<float> cells_;
+};
+
+/// Upright, bent forward, on each side, and upside down.
+const std::vector<Matrix3d>& Tilts() {
+  static const std::vector<Matrix3d> kTilts = [] {
+    constexpr double kRight = EIGEN_PI / 2;
+    std::vector<Matrix3d> tilts = {Matrix3d::Identity()};
+    for (const double angle : {kRight, -kRight, 2 * kRight, -0.5 * kRight}) {
+      tilts.emplace_back(AngleAxisd(angle, Vector3d::UnitX()));
+    }
+    for (const double angle : {kRight, -kRight}) {
+      tilts.emplace_back(AngleAxisd(angle, Vector3d::UnitY()));
+    }
+    return tilts;
+  }();
+  return kTilts;
+}
+
+}  // namespace
+
+BodySearch::BodySearch(const LabelBody& body)
+    : body_(body), equations_(body.kinematics), random_(1) {}
+
+std::vector<BodySearch::Candidate> BodySearch::Candidates(const Ref<const Matrix3Xd>& points) {
+  const DistanceGrid grid(points);
+  const Vector3d middle = points.rowwise().mean();
+  std::vector<Candidate> candidates;
+  Matrix3Xd turned(3, body_.num_markers());
+  std::array<double, kYaws> costs = {};
+  for (const Posture& start : body_.templates) {
+    const Matrix3Xd& markers = equations_.Place(start);
+    const Vector3d centre = markers.rowwise().mean();
+    for (const Matrix3d& tilt : Tilts()) {
+      const auto turn = [&](int yaw) -> Matrix3d {
+        return AngleAxisd(yaw * 2 * EIGEN_PI / kYaws, Vector3d::UnitZ()) * tilt;
+      };
+      for (int yaw = 0; yaw < kYaws; ++yaw) {
+        turned.noalias() = turn(yaw) * markers;
+        const Vector3d shift = middle - turn(yaw) * centre;
+        costs[yaw] = 0;
+        for (Eigen::Index m = 0; m < turned.cols(); ++m) {
+          costs[yaw] += grid.At(turned.col(m) + shift);
+        }
+      }
+      for (int yaw = 0; yaw < kYaws; ++yaw) {
+        if (costs[yaw] > costs[(yaw + 1) % kYaws] ||
+            costs[yaw] > costs[(yaw + kYaws - 1) % kYaws]) {
+          continue;
+        }
+        Candidate candidate;
+        candidate.posture.orientation = Eigen::Quaterniond(turn(yaw));
+        candidate.posture.position = middle - turn(yaw) * centre;
+        candidate.posture.joint_angles = start.joint_angles;
+        candidate.cost = costs[yaw];
+        candidates.push_back(std::move(candidate));
+      }
+    }
+  }
+  return candidates;
+}
+
+void BodySearch::Step(const MatrixXd& targets, const VectorXd& noise, Posture* posture) {
+  constexpr double kNoLimit = 1e9;
+  constexpr int kSolves = 3;
+  const int joints = body_.kinematics.num_joints();
+  equations_.Linearize(targets, noise, kNoLimit);
+  equations_.H().diagonal().tail(joints).array() += kNaturalWeight;
+  equations_.g().tail(joints) += kNaturalWeight * (body_.natural_angles - posture->joint_angles);
+  equations_.HoldPressingJoints(posture->joint_angles);
+  equations_.Solve(kDamping, kLeastCurvature);
+  for (int i = 1; i < kSolves && equations_.HoldOversteppingJoints(posture->joint_angles); ++i) {
+    equations_.Solve(kDamping, kLeastCurvature);
+  }
+  const VectorXd& step = equations_.step();
+  const double longest = step.tail(joints + 3).lpNorm<Eigen::Infinity>();
+  const double share = longest > kLongestStep ? kLongestStep / longest : 1;
+  posture->position += share * step.head<3>();
+  posture->orientation = (posture->orientation * Exp(share * step.segment<3>(3))).normalized();
+  posture->joint_angles = (posture->joint_angles + share * step.tail(joints))
+                              .cwiseMax(body_.kinematics.lower())
+                              .cwiseMin(body_.kinematics.upper());
+}
+
+void BodySearch::Draw(const Ref<const Matrix3Xd>& points, double from, double to, int steps,
+                      Posture* posture) {
+  for (int i = 0; i < steps; ++i) {
+    const double spread = from * std::pow(to / from, i / std::max(steps - 1.0, 1.0));
+    variances_ = body_.place.array().square() + spread * spread;
+    soft_.Compute(equations_.Place(*posture), variances_, points);
+    noise_ = (variances_.array() / soft_.weights().array().max(1e-9)).sqrt();
+    Step(soft_.targets(), noise_, posture);
+  }
+}
+
+double BodySearch::SoftCost(const Ref<const Matrix3Xd>& points, const Posture& posture,
+                            double spread) {
+  const Matrix3Xd& places = equations_.Place(posture);
+  double cost = kNaturalWeight * (posture.joint_angles - body_.natural_angles).squaredNorm();
+  VectorXd nearest = VectorXd::Constant(points.cols(), kUnmatched);  // marker of each point
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    const double variance = body_.place[m] * body_.place[m] + spread * spread;
+    const Eigen::RowVectorXd d2 =
+        (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
+    cost += std::min(d2.minCoeff(), kUnmatched);
+    nearest = nearest.cwiseMin(d2.transpose());
+  }
+  return cost + nearest.sum();
+}
+
+BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& posture) {
+  const Matrix3Xd& places = equations_.Place(posture);
+  cost_.resize(body_.num_markers(), points.cols());
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    const double variance = body_.place[m] * body_.place[m] + kSettled * kSettled;
+    cost_.row(m) = (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
+  }
+  BodyMatch match;
+  match.point_of_marker = assignment_.Solve(cost_, kUnmatched);
+  match.posture = posture;
+  match.cost = assignment_.cost() +
+               kNaturalWeight * (posture.joint_angles - body_.natural_angles).squaredNorm();
+  match.matched =
+      static_cast<int>(std::count_if(match.point_of_marker.begin(), match.point_of_marker.end(),
+                                     [](int point) { return point >= 0; }));
+  return match;
+}
+
+BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& posture) {
+  constexpr int kMostTurns = 6;
+  constexpr double kLeastGain = 0.1;
+  BodyMatch best = Match(points, posture);
+  for (int i = 0; i < kMostTurns; ++i) {
+    targets_.setConstant(3, body_.num_markers(), kNaN);
+    for (int m = 0; m < body_.num_markers(); ++m) {
+      if (best.point_of_marker[m] >= 0) targets_.col(m) = points.col(best.point_of_marker[m]);
+    }
+    Posture next = best.posture;
+    noise_ = (body_.place.array().square() + kSettled * kSettled).sqrt();
+    equations_.Place(next);
+    Step(targets_, noise_, &next);
+    BodyMatch match = Match(points, next);
+    const double gain = best.cost - match.cost;
+    if (gain > 0) best = std::move(match);
+    if (gain < kLeastGain) break;
+  }
+  return best;
+}
+
+bool BodySearch::ThrowLimb(const Ref<const Matrix3Xd>& /*points*/, const BodyMatch& match,
+                           Posture* posture) {
+  // A marker is drawn by what it costs more than a good one.
+  VectorXd costs(body_.num_markers());
+  for (int m = 0; m < costs.size(); ++m) {
+    const int point = match.point_of_marker[m];
+    costs[m] = point < 0 ? kUnmatched : std::max(cost_(m, point) - 3, 0.0);
+  }
+  double draw = random_.Uniform() * costs.sum();
+  int marker = 0;
+  while (marker + 1 < costs.size() && (draw -= costs[marker]) > 0) ++marker;
+  const std::vector<int>& joints = body_.joints_of_marker[marker];
+  if (joints.empty()) return false;
+  // The outer half of the chain, or all of it.
+  const std::size_t first = random_.Uniform() < 0.5 ? 0 : joints.size() / 2;
+  for (std::size_t i = first; i < joints.size(); ++i) {
+    const int j = joints[i];
+    const bool is_endless = body_.kinematics.IsEndless(j);
+    const double lower = is_endless ? -EIGEN_PI : body_.kinematics.lower()[j];
+    const double upper = is_endless ? EIGEN_PI : body_.kinematics.upper()[j];
+    posture->joint_angles[j] = lower + random_.Uniform() * (upper - lower);
+  }
+  return true;
+}
+
+bool BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, BodyMatch* match) {
+  bool improved = false;
+  *match = Match(points, match->posture);
+  for (int i = 0; i < attempts; ++i) {
+    Posture posture = match->posture;
+    Match(points, posture);
+    if (!ThrowLimb(points, *match, &posture)) continue;
+    Draw(points, 0.12, 0.03, 8, &posture);
+    BodyMatch trial = Settle(points, posture);
+    if (trial.cost < match->cost - 1) {
+      *match = std::move(trial);
+      improved = true;
+    }
+  }
+  return improved;
+}
+
+Posture BodySearch::Throw(const Ref<const Matrix3Xd>& points, const Posture& posture, int marker,
+                          const Ref<const VectorXd>& deviations) {
+  Posture thrown = posture;
+  const std::vector<int>& joints = body_.joints_of_marker[marker];
+  const std::size_t first = random_.Uniform() < 0.5 ? 0 : joints.size() / 2;
+  for (std::size_t i = first; i < joints.size(); ++i) {
+    const int j = joints[i];
+    thrown.joint_angles[j] = std::clamp(thrown.joint_angles[j] + deviations[j] * random_.Normal(),
+                                        body_.kinematics.lower()[j], body_.kinematics.upper()[j]);
+  }
+  Draw(points, 0.12, 0.03, 8, &thrown);
+  return thrown;
+}
+
+BodyMatch BodySearch::FindNear(const Ref<const Matrix3Xd>& points, const Posture& posture,
+                               double spread) {
+  constexpr double kLeastSpread = 0.03;
+  Posture drawn = posture;
+  Draw(points, spread, kLeastSpread, 10, &drawn);
+  return Settle(points, drawn);
+}
+
+BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
+  random_ = SeededRandom(1);
+  std::vector<Candidate> candidates = Candidates(points);
+  const auto keep = [&candidates](std::size_t count) {
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    candidates.resize(std::min(count, candidates.size()));
+  };
+  keep(kFirstKept);
+  for (const Stage& stage : kStages) {
+    for (Candidate& candidate : candidates) {
+      Draw(points, stage.from, stage.to, stage.steps, &candidate.posture);
+      candidate.cost = SoftCost(points, candidate.posture, stage.to);
+    }
+    keep(stage.kept);
+  }
+  BodyMatch best;
+  for (const Candidate& candidate : candidates) {
+    BodyMatch match = Settle(points, candidate.posture);
+    if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
+  }
+  ImproveLimbs(points, kThrows, &best);
+  const double good = kGoodShare * kUnmatched * body_.num_markers();
+  for (int i = 0; i < kMoreThrows && best.cost > good; i += kThrows) {
+    ImproveLimbs(points, kThrows, &best);
+  }
+  return best;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/convert/tracking_setup.h"
+#include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
+
+namespace mmm_converter {
+
+/// What labelling knows of a person: where the body can have the markers, and how far from there
+/// they are worn and slide. Immutable.
+struct LabelBody {
+  /// One marker for each assignment of the setup.
+  explicit LabelBody(const TrackingSetup& setup);
+
+  int num_markers() const { return kinematics.num_markers(); }
+
+  MarkerKinematics kinematics;
+  Eigen::VectorXd place;  ///< deviation of a marker from the model's place, each coordinate [m]
+  Eigen::VectorXd skin;   ///< deviation about its own place, each coordinate [m]
+  Eigen::VectorXd natural_angles;  ///< NaturalAngles
+  /// The limb of a marker: markers that the same joints move, but for those that move less than a
+  /// third of all. Limbs restart together.
+  std::vector<std::vector<int>> joints_of_marker;
+  /// Postures to start from, with the root at the origin and upright: arms and legs in several
+  /// ways.
+  std::vector<Posture> templates;
+};
+
+}  // namespace mmm_converter

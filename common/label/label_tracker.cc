@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "common/label/label_tracker.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/math/dense.h"
+#include "common/math/rotation.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+using Eigen::Ref;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+// Of root position [m], root rotation and joints [rad]: velocities are correlated in time
+// (Ornstein-Uhlenbeck).
+struct Movement {
+  double speed;  // standard deviation [1/s]
+  double start;  // deviation when a body is taken up
+};
+constexpr std::array<Movement, 3> kMovements = {{{1, 0.02}, {2, 0.05}, {3, 0.1}}};
+constexpr double kVelocityMemory = 0.25;  // [s]
+constexpr double kOffsetMemory = 0.5;     // [s] in which a hidden marker's place is forgotten
+constexpr double kOffsetDrift = 0.004;    // [m / sqrt(s)] of a seen one
+constexpr double kLeastInformation = 4;   // [1/rad^2]; less tells nothing of a dof
+
+constexpr double kUnassigned = 21.1;  // chi-square of three, exceeded once in 10,000
+constexpr double kFarthestPlace = 16;
+constexpr double kVague = 0.012;  // [m]: beyond, soft assignment comes first
+constexpr double kLost = 0.05;    // [m]: beyond, a limb is not taken up by one point
+constexpr int kTurns = 3;
+
+int GroupOf(Eigen::Index dof) { return dof < 3 ? 0 : dof < 6 ? 1 : 2; }
+
+double Squared(double x) { return x * x; }
+
+}  // namespace
+
+LabelTracker::LabelTracker(const LabelBody& body)
+    : body_(body),
+      search_(body),
+      at_(body.kinematics.MakeJacobian()),
+      equations_(body.kinematics),
+      padded_P_(body.kinematics.num_dofs(), body.kinematics.num_dofs()),
+      moved_(body.kinematics.num_dofs(), 3 * body.num_markers()) {
+  point_of_marker_.assign(body.num_markers(), -1);
+  offset_W_.setZero(3, body.num_markers());
+  deviations_.setZero(body.num_markers());
+}
+
+void LabelTracker::Start(const BodyMatch& match) {
+  const int dofs = body_.kinematics.num_dofs();
+  belief_.posture = match.posture;
+  belief_.velocity.setZero(dofs);
+  belief_.P_qq.setZero(dofs, dofs);
+  belief_.P_qv.setZero(dofs, dofs);
+  belief_.P_vv.setZero(dofs, dofs);
+  for (int i = 0; i < dofs; ++i) {
+    belief_.P_qq(i, i) = Squared(kMovements[GroupOf(i)].start);
+    belief_.P_vv(i, i) = Squared(kMovements[GroupOf(i)].speed);
+  }
+  belief_.offset.setZero(3, body_.num_markers());
+  belief_.offset_variance = body_.place.array().square();
+}
+
+void LabelTracker::Predict(double dt) {
+  const double b = std::exp(-dt / kVelocityMemory);
+  const double a = kVelocityMemory * (1 - b);
+  predicted_ = Retract(belief_.posture, a * belief_.velocity);
+  predicted_.joint_angles =
+      predicted_.joint_angles.cwiseMax(body_.kinematics.lower()).cwiseMin(body_.kinematics.upper());
+  belief_.velocity *= b;
+  MatrixXd& P_qq = belief_.P_qq;
+  MatrixXd& P_qv = belief_.P_qv;
+  MatrixXd& P_vv = belief_.P_vv;
+  P_qq += a * (P_qv + P_qv.transpose()) + a * a * P_vv;
+  P_qv = b * (P_qv + a * P_vv);
+  P_vv *= b * b;
+  const double tau2 = Squared(kVelocityMemory);
+  for (int i = 0; i < P_qq.rows(); ++i) {
+    const double variance = Squared(kMovements[GroupOf(i)].speed);
+    P_qq(i, i) += variance * 2 * tau2 * (dt / kVelocityMemory - 1.5 + 2 * b - 0.5 * b * b);
+    P_qv(i, i) += variance * kVelocityMemory * Squared(1 - b);
+    P_vv(i, i) += variance * (1 - b * b);
+  }
+  // A joint is within its limits, whatever was not seen.
+  for (int j = 0; j < body_.kinematics.num_joints(); ++j) {
+    const int i = 6 + j;
+    const double range = body_.kinematics.IsEndless(j)
+                             ? 2 * EIGEN_PI
+                             : body_.kinematics.upper()[j] - body_.kinematics.lower()[j];
+    const double most = range * range / 12;
+    if (P_qq(i, i) <= most) continue;
+    const double share = std::sqrt(most / P_qq(i, i));
+    P_qq.row(i) *= share;
+    P_qq.col(i) *= share;
+    P_qv.row(i) *= share;
+  }
+}
+
+void LabelTracker::Expect(const Posture& posture, const MatrixXd& P) {
+  body_.kinematics.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
+                                  posture.joint_angles, &at_);
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    offset_W_.col(m) = at_.R_WL[body_.kinematics.link_of_marker(m)] * belief_.offset.col(m);
+  }
+  expected_ = at_.p_WM + offset_W_;
+  body_.kinematics.ComputeJacobian(&at_);
+  padded_P_.view() = P;
+  Multiply(1, padded_P_, at_.J_transposed, &moved_);
+  const auto J = at_.J_transposed.view();
+  const auto PJ = moved_.view();
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    const double trace = J.middleCols<3>(3 * m).cwiseProduct(PJ.middleCols<3>(3 * m)).sum();
+    deviations_[m] = std::sqrt(std::max(trace, 0.0) / 3);
+  }
+}
+
+void LabelTracker::Update(const Ref<const Matrix3Xd>& targets, const VectorXd& noise,
+                          Posture* posture) {
+  constexpr double kNoLimit = 1e9;
+  constexpr int kSolves = 3;
+  const int joints = body_.kinematics.num_joints();
+  equations_.Place(*posture);
+  equations_.Linearize(targets, noise, kNoLimit);
+  equations_.H() += prior_;
+  equations_.g() += prior_ * Local(*posture, predicted_);
+  equations_.HoldPressingJoints(posture->joint_angles);
+  equations_.Solve(0, 0);
+  for (int i = 1; i < kSolves && equations_.HoldOversteppingJoints(posture->joint_angles); ++i) {
+    equations_.Solve(0, 0);
+  }
+  const VectorXd& step = equations_.step();
+  posture->position += step.head<3>();
+  posture->orientation = (posture->orientation * Exp(step.segment<3>(3))).normalized();
+  posture->joint_angles = (posture->joint_angles + step.tail(joints))
+                              .cwiseMax(body_.kinematics.lower())
+                              .cwiseMin(body_.kinematics.upper());
+}
+
+void LabelTracker::DrawSoftly(const Ref<const Matrix3Xd>& points, Posture* posture) {
+  constexpr int kSteps = 6;
+  constexpr double kWidest = 0.2;
+  constexpr double kNarrowest = 0.02;
+  VectorXd sorted = deviations_;
+  std::sort(sorted.begin(), sorted.end());
+  const double vague = sorted[sorted.size() * 9 / 10];
+  if (vague < kVague) return;
+  const double from = std::min(vague, kWidest);
+  for (int i = 0; i < kSteps; ++i) {
+    const double spread = from * std::pow(std::min(kNarrowest / from, 1.0), i / (kSteps - 1.0));
+    noise_ = belief_.offset_variance.array() + body_.skin.array().square();
+    // A marker is as far off as its own limb is, not the vaguest one.
+    const VectorXd variances = noise_.array() + deviations_.array().square().min(spread * spread);
+    soft_.Compute(equations_.Place(*posture) + offset_W_, variances, points);
+    targets_ = soft_.targets() - offset_W_;
+    noise_ = (variances.array() / soft_.weights().array().max(1e-9)).sqrt();
+    Update(targets_, noise_, posture);
+  }
+}
+
+void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
+  costs_.resize(body_.num_markers(), points.cols());
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    const double skin2 = Squared(body_.skin[m]);
+    const double s2 = Squared(deviations_[m]);
+    const double v = s2 + belief_.offset_variance[m] + skin2;
+    const double place = Squared(body_.place[m]) + s2 + skin2;
+    const double size = 3 * std::log(v / (2 * skin2));
+    const Vector3d model = expected_.col(m) - offset_W_.col(m);
+    for (Eigen::Index p = 0; p < points.cols(); ++p) {
+      const double d2 = (points.col(p) - expected_.col(m)).squaredNorm();
+      if (d2 > kUnassigned * 2 * v) {
+        costs_(m, p) = std::numeric_limits<double>::infinity();
+        continue;
+      }
+      const double from_place = (points.col(p) - model).squaredNorm() / place;
+      costs_(m, p) = d2 / v + size + from_place;
+    }
+  }
+  point_of_marker_ = assignment_.Solve(costs_, kUnassigned);
+}
+
+void LabelTracker::DropLonely() {
+  // Markers on a link that was lost agree with each other, or with those further out on the limb.
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    if (point_of_marker_[m] < 0 || first_deviations_[m] < kLost) continue;
+    const std::vector<int>& joints = body_.joints_of_marker[m];
+    int company = 0;
+    for (int other = 0; other < body_.num_markers(); ++other) {
+      if (other == m || point_of_marker_[other] < 0) continue;
+      const std::vector<int>& others = body_.joints_of_marker[other];
+      const bool along =
+          joints.empty() || others.empty()
+              ? joints.empty() && others.empty()
+              : std::find(others.begin(), others.end(), joints.back()) != others.end() ||
+                    std::find(joints.begin(), joints.end(), others.back()) != joints.end();
+      if (along && first_deviations_[other] >= kLost) ++company;
+    }
+    if (company == 0) point_of_marker_[m] = -1;
+  }
+}
+
+double LabelTracker::Settle(const Ref<const Matrix3Xd>& points, Posture* posture) {
+  P_ = belief_.P_qq;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    Expect(*posture, P_);
+    Assign(points);
+    if (turn + 1 == kTurns) DropLonely();
+    targets_.setConstant(3, body_.num_markers(), kNaN);
+    for (int m = 0; m < body_.num_markers(); ++m) {
+      const int point = point_of_marker_[m];
+      if (point >= 0) targets_.col(m) = points.col(point) - offset_W_.col(m);
+    }
+    noise_ = (belief_.offset_variance.array() + body_.skin.array().square()).sqrt();
+    Update(targets_, noise_, posture);
+    MatrixXd H = equations_.H();
+    P_ = H.selfadjointView<Eigen::Lower>().llt().solve(MatrixXd::Identity(H.rows(), H.cols()));
+  }
+  const VectorXd moved = Local(predicted_, *posture);
+  double cost = moved.dot(prior_ * moved);
+  const Matrix3Xd& placed = equations_.Place(*posture);
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    const int point = point_of_marker_[m];
+    if (point < 0) {
+      cost += kUnassigned;
+      continue;
+    }
+    const double variance = belief_.offset_variance[m] + Squared(body_.skin[m]);
+    cost += (points.col(point) - offset_W_.col(m) - placed.col(m)).squaredNorm() / variance;
+  }
+  return cost;
+}
+
+void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
+  constexpr int kAttempts = 6;
+  constexpr double kGain = 10;
+  constexpr int kRunning = 2;
+  const double cost = search_.Match(points, *posture).cost;
+  BodyMatch other = search_.FindNear(points, *posture, 0.06);
+  if (other.cost > cost) other.posture = *posture;
+  search_.ImproveLimbs(points, kAttempts, &other);
+  if (other.cost > cost - kGain) {
+    doubts_ = 0;
+    return;
+  }
+  if (++doubts_ < kRunning) return;
+  doubts_ = 0;
+  Start(other);
+  predicted_ = other.posture;
+  prior_ = belief_.P_qq.inverse();
+  *posture = other.posture;
+  Settle(points, posture);
+}
+
+const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, double dt) {
+  constexpr double kDoubtEvery = 0.1;  // [s]
+  Predict(dt);
+  Posture posture = predicted_;
+  prior_ = belief_.P_qq.llt().solve(MatrixXd::Identity(belief_.P_qq.rows(), belief_.P_qq.cols()));
+  Expect(predicted_, belief_.P_qq);
+  first_deviations_ = deviations_;
+  DrawSoftly(points, &posture);
+  Settle(points, &posture);
+  since_doubt_ += dt;
+  if (since_doubt_ >= kDoubtEvery) {
+    since_doubt_ = 0;
+    Doubt(points, &posture);
+  }
+  Correct(posture);
+  Expect(posture, P_);
+  Learn(points, dt);
+  return point_of_marker_;
+}
+
+// The velocities learn of the frame through what they have in common with the posture.
+void LabelTracker::Correct(const Posture& posture) {
+  const MatrixXd gain = belief_.P_qv.transpose() * prior_;
+  belief_.velocity += gain * Local(predicted_, posture);
+  belief_.P_vv -= gain * (belief_.P_qq - P_) * gain.transpose();
+  belief_.P_qv = P_ * gain.transpose();
+  belief_.P_qq = P_;
+  belief_.posture = posture;
+}
+
+void LabelTracker::Learn(const Ref<const Matrix3Xd>& points, double dt) {
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    double& variance = belief_.offset_variance[m];
+    const double place = Squared(body_.place[m]);
+    const int point = point_of_marker_[m];
+    if (point < 0) {
+      variance = std::min(place, variance + place * std::min(1.0, dt / kOffsetMemory));
+      continue;
+    }
+    const Eigen::Matrix3d& R_WL = at_.R_WL[body_.kinematics.link_of_marker(m)];
+    const Vector3d r = R_WL.transpose() * (points.col(point) - at_.p_WM.col(m));
+    const double noise = Squared(body_.skin[m]) + Squared(deviations_[m]);
+    variance = std::min(place, variance + Squared(kOffsetDrift) * dt);
+    const double gain = variance / (variance + noise);
+    belief_.offset.col(m) += gain * (r - belief_.offset.col(m));
+    variance *= 1 - gain;
+  }
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "common/fit/normal_equations.h"
+#include "common/label/body_search.h"
+#include "common/label/label_body.h"
+#include "common/label/linear_assignment.h"
+#include "common/label/soft_assignment.h"
+#include "common/math/padded_matrix.h"
+
+namespace mmm_converter {
+
+/// What is believed of a person between two frames: postures and velocities are normal, in tangent
+/// coordinates (Retract).
+struct LabelBelief {
+  Posture posture;                   ///< tracked joints
+  Eigen::VectorXd velocity;          ///< of the dofs [m/s], [rad/s]
+  Eigen::MatrixXd P_qq, P_qv, P_vv;  ///< covariance of dofs and velocities
+  Eigen::Matrix3Xd offset;  ///< of the markers from the model's places, axes of their links [m]
+  Eigen::VectorXd offset_variance;  ///< of each coordinate [m^2]
+};
+
+/// Names the points of one frame after the other by a body that moves on: a Kalman filter of the
+/// posture whose update chooses the cheapest assignment of points, and follows where each marker is
+/// worn.  Points of others are ghosts to it.
+/// points: 3 x points [m], finite.
+class LabelTracker {
+ public:
+  /// body must outlive the tracker.
+  explicit LabelTracker(const LabelBody& body);
+
+  /// Takes up a body that was found, at places that are not known better than the model has them.
+  void Start(const BodyMatch& match);
+  bool is_started() const { return belief_.P_qq.size() > 0; }
+
+  /// The point of each marker dt [s] after the last frame, -1: none. Valid until the next call.
+  const std::vector<int>& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
+
+  /// Where the last frame's posture has the markers, 3 x markers [m].
+  const Eigen::Matrix3Xd& expected() const { return expected_; }
+  /// Standard deviation of a coordinate of these [m].
+  const Eigen::VectorXd& deviations() const { return deviations_; }
+
+  const LabelBelief& belief() const { return belief_; }
+  void Restore(const LabelBelief& belief) { belief_ = belief; }
+
+ private:
+  void Predict(double dt);
+  /// Expected places, and their deviations by P, at a posture.
+  void Expect(const Posture& posture, const Eigen::MatrixXd& P);
+  void DrawSoftly(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
+  void Assign(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+  /// A limb that could be anywhere is not taken up by a single point.
+  void DropLonely();
+  /// One step to the assigned points from `posture`, the prediction counting as it is sure.
+  void Update(const Eigen::Ref<const Eigen::Matrix3Xd>& targets, const Eigen::VectorXd& noise,
+              Posture* posture);
+  void Correct(const Posture& posture);
+  void Learn(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
+
+  /// The cheapest assignment that is found from `start` on; leaves it and P_ behind. What it costs:
+  /// the points, and how far the posture is from the prediction.
+  double Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
+  /// Whether another posture nearby explains the points much better by the markers' places alone.
+  void Doubt(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
+
+  const LabelBody& body_;
+  LabelBelief belief_;
+  BodySearch search_;
+  double since_doubt_ = 0;  // [s]
+  int doubts_ = 0;          // running
+  MarkerJacobian at_;
+  NormalEquations equations_;
+  SoftAssignment soft_;
+  LinearAssignment assignment_;
+  // Of this frame:
+  Posture predicted_;
+  Eigen::MatrixXd prior_;      // inverse of the predicted P
+  Eigen::MatrixXd P_;          // of the update
+  Eigen::Matrix3Xd offset_W_;  // in W
+  Eigen::Matrix3Xd expected_;
+  Eigen::VectorXd deviations_;
+  Eigen::VectorXd first_deviations_;  // before any point was used
+  Eigen::MatrixXd costs_;
+  std::vector<int> point_of_marker_;
+  Eigen::Matrix3Xd targets_;
+  Eigen::VectorXd noise_;
+  PaddedMatrix padded_P_, moved_;
+};
+
+}  // namespace mmm_converter
