@@ -19,6 +19,7 @@ namespace {
 constexpr int kFewestNames = 10;
 constexpr int kFirstFrames = 8;  // that the body is looked for in
 constexpr double kLeastShare = 0.25;
+constexpr double kHint = 6;  // cost that a track's name is worth
 
 /// How often the passes took a track for a marker.
 using Votes = std::vector<std::map<int, double>>;  // by track: marker, frames
@@ -46,10 +47,16 @@ class RecordingLabeller {
     LabelTracker tracker(body_);
     tracker.Start(match);
     Votes votes(tracks_.tracks.size());
-    Pass(first, static_cast<int>(tracks_.frames.size()), 1, &tracker, nullptr);
-    Pass(static_cast<int>(tracks_.frames.size()) - 1, -1, -1, &tracker, &votes);
-    Pass(0, static_cast<int>(tracks_.frames.size()), 1, &tracker, &votes);
-    return Resolve(votes);
+    const int frames = static_cast<int>(tracks_.frames.size());
+    Pass(first, frames, 1, nullptr, &tracker, nullptr);
+    for (int round = 0; round < 2; ++round) {
+      const Names hints = std::move(names);
+      votes.assign(tracks_.tracks.size(), {});
+      Pass(frames - 1, -1, -1, &hints, &tracker, &votes);
+      Pass(0, frames, 1, &hints, &tracker, &votes);
+      names = Resolve(votes);
+    }
+    return names;
   }
 
  private:
@@ -79,10 +86,19 @@ class RecordingLabeller {
     return best;
   }
 
-  void Pass(int begin, int end, int step, LabelTracker* tracker, Votes* votes) {
+  void Pass(int begin, int end, int step, const Names* before, LabelTracker* tracker,
+            Votes* votes) {
+    LabelTracker::Hints hints;
     for (int k = begin; k != end; k += step) {
       const FramePoints& points = tracks_.frames[k];
-      const std::vector<int>& point_of_marker = tracker->Track(points.p_WP, dt_);
+      hints.markers.assign(points.tracks.size(), -1);
+      hints.worth.assign(points.tracks.size(), 0);
+      for (std::size_t p = 0; before != nullptr && p < points.tracks.size(); ++p) {
+        if (before->markers.empty()) break;
+        hints.markers[p] = before->markers[points.tracks[p]];
+        hints.worth[p] = kHint * before->shares[points.tracks[p]];
+      }
+      const std::vector<int>& point_of_marker = tracker->Track(points.p_WP, dt_, &hints);
       if (votes == nullptr) continue;
       for (int m = 0; m < body_.num_markers(); ++m) {
         if (point_of_marker[m] >= 0) (*votes)[points.tracks[point_of_marker[m]]][m] += 0.5;

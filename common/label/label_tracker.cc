@@ -187,6 +187,13 @@ void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
       costs_(m, p) = d2 / v + size + from_place;
     }
   }
+  if (hints_ != nullptr) {
+    for (std::size_t p = 0; p < hints_->markers.size(); ++p) {
+      if (hints_->markers[p] >= 0) {
+        costs_(hints_->markers[p], static_cast<Eigen::Index>(p)) -= hints_->worth[p];
+      }
+    }
+  }
   point_of_marker_ = assignment_.Solve(costs_, kUnassigned);
 }
 
@@ -262,8 +269,10 @@ void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   Settle(points, posture);
 }
 
-const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, double dt) {
+const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, double dt,
+                                            const Hints* hints) {
   constexpr double kDoubtEvery = 0.1;  // [s]
+  hints_ = hints;
   Predict(dt);
   Posture posture = predicted_;
   prior_ = belief_.P_qq.llt().solve(MatrixXd::Identity(belief_.P_qq.rows(), belief_.P_qq.cols()));

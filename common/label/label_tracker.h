@@ -37,8 +37,15 @@ class LabelTracker {
   void Start(const BodyMatch& match);
   bool is_started() const { return belief_.P_qq.size() > 0; }
 
+  /// What is thought of the points before: a marker for each, -1: nothing, and what it is worth.
+  struct Hints {
+    std::vector<int> markers;
+    std::vector<double> worth;
+  };
+
   /// The point of each marker dt [s] after the last frame, -1: none. Valid until the next call.
-  const std::vector<int>& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
+  const std::vector<int>& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt,
+                                const Hints* hints = nullptr);
 
   /// Where the last frame's posture has the markers, 3 x markers [m].
   const Eigen::Matrix3Xd& expected() const { return expected_; }
@@ -78,6 +85,7 @@ class LabelTracker {
   SoftAssignment soft_;
   LinearAssignment assignment_;
   // Of this frame:
+  const Hints* hints_ = nullptr;
   Posture predicted_;
   Eigen::MatrixXd prior_;      // inverse of the predicted P
   Eigen::MatrixXd P_;          // of the update

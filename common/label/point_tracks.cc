@@ -9,7 +9,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kAcceleration = 80;  // [m/s^2] of a quick hand or foot
-constexpr double kNearby = 0.006;      // [m]
+constexpr double kNearby = 0.006;     // [m]
 constexpr double kFarthest = 0.12;    // [m]
 constexpr double kClearly = 2;        // times nearer than the next, beyond the slack
 
