@@ -19,6 +19,8 @@ namespace {
 constexpr int kFewestNames = 10;
 constexpr int kFirstFrames = 8;  // that the body is looked for in
 constexpr double kLeastShare = 0.25;
+constexpr int kTimes = 2;
+constexpr int kPart = 256;   // frames whose predictions are kept
 constexpr double kHint = 6;  // cost that a track's name is worth
 
 /// How often the passes took a track for a marker.
@@ -47,13 +49,12 @@ class RecordingLabeller {
     LabelTracker tracker(body_);
     tracker.Start(match);
     Votes votes(tracks_.tracks.size());
-    const int frames = static_cast<int>(tracks_.frames.size());
-    Pass(first, frames, 1, nullptr, &tracker, nullptr);
-    for (int round = 0; round < 2; ++round) {
-      const Names hints = std::move(names);
+    for (int k = first; k >= 0; --k) Track(k, nullptr, &tracker);
+    tracker.Reverse();
+    for (int round = 0; round < kTimes; ++round) {
       votes.assign(tracks_.tracks.size(), {});
-      Pass(frames - 1, -1, -1, &hints, &tracker, &votes);
-      Pass(0, frames, 1, &hints, &tracker, &votes);
+      const Names hints = std::move(names);
+      ForwardAndBackward(hints, &tracker, &votes);
       names = Resolve(votes);
     }
     return names;
@@ -86,26 +87,66 @@ class RecordingLabeller {
     return best;
   }
 
-  void Pass(int begin, int end, int step, const Names* before, LabelTracker* tracker,
-            Votes* votes) {
-    LabelTracker::Hints hints;
-    for (int k = begin; k != end; k += step) {
-      const FramePoints& points = tracks_.frames[k];
-      hints.markers.assign(points.tracks.size(), -1);
-      hints.worth.assign(points.tracks.size(), 0);
-      for (std::size_t p = 0; before != nullptr && p < points.tracks.size(); ++p) {
-        if (before->markers.empty()) break;
-        hints.markers[p] = before->markers[points.tracks[p]];
-        hints.worth[p] = kHint * before->shares[points.tracks[p]];
+  const std::vector<int>& Track(int k, const Names* before, LabelTracker* tracker) {
+    return tracker->Track(tracks_.frames[k].p_WP, dt_, Hint(k, before));
+  }
+
+  const LabelTracker::Hints* Hint(int k, const Names* before) {
+    const FramePoints& points = tracks_.frames[k];
+    if (before == nullptr || before->markers.empty()) return nullptr;
+    hints_.markers.resize(points.tracks.size());
+    hints_.worth.resize(points.tracks.size());
+    for (std::size_t p = 0; p < points.tracks.size(); ++p) {
+      hints_.markers[p] = before->markers[points.tracks[p]];
+      hints_.worth[p] = kHint * before->shares[points.tracks[p]];
+    }
+    return &hints_;
+  }
+
+  void Vote(int k, const std::vector<int>& point_of_marker, double weight, Votes* votes) const {
+    for (int m = 0; m < body_.num_markers(); ++m) {
+      const int point = point_of_marker[m];
+      if (point >= 0) (*votes)[tracks_.frames[k].tracks[point]][m] += weight;
+    }
+  }
+
+  /// Forward over the recording, and back again; on the way back each frame is judged by what came
+  /// before and after it. Predictions of the way forward are kept for a part at a time.
+  void ForwardAndBackward(const Names& before, LabelTracker* tracker, Votes* votes) {
+    const int frames = static_cast<int>(tracks_.frames.size());
+    std::vector<LabelBelief> starts;  // of the parts
+    for (int k = 0; k < frames; ++k) {
+      if (k % kPart == 0) starts.push_back(tracker->belief());
+      Vote(k, Track(k, &before, tracker), 0.25, votes);
+      Show(k);
+    }
+    tracker->Reverse();
+    LabelBelief backward = tracker->belief();
+    std::vector<LabelTracker::Prediction> predictions;
+    for (int part = static_cast<int>(starts.size()) - 1; part >= 0; --part) {
+      const int begin = part * kPart;
+      const int end = std::min(begin + kPart, frames);
+      predictions.clear();
+      tracker->Restore(starts[part]);
+      for (int k = begin; k < end; ++k) {
+        Track(k, &before, tracker);
+        predictions.push_back(tracker->prediction());
       }
-      const std::vector<int>& point_of_marker = tracker->Track(points.p_WP, dt_, &hints);
-      if (votes == nullptr) continue;
-      for (int m = 0; m < body_.num_markers(); ++m) {
-        if (point_of_marker[m] >= 0) (*votes)[points.tracks[point_of_marker[m]]][m] += 0.5;
+      tracker->Restore(backward);
+      for (int k = end - 1; k >= begin; --k) {
+        Vote(k, Track(k, &before, tracker), 0.25, votes);
+        const std::vector<int>& between =
+            tracker->Between(tracks_.frames[k].p_WP, predictions[k - begin], Hint(k, &before));
+        Vote(k, between, 0.5, votes);
       }
-      ++done_;
-      const int all = 2 * static_cast<int>(tracks_.frames.size());
-      if (progress_ && !progress_(done_, all)) throw Error("labelling was cancelled");
+      backward = tracker->belief();
+    }
+    tracker->Reverse();
+  }
+
+  void Show(int k) {
+    if (progress_ && !progress_(k, static_cast<int>(tracks_.frames.size()))) {
+      throw Error("labelling was cancelled");
     }
   }
 
@@ -149,7 +190,7 @@ class RecordingLabeller {
   PointTracks tracks_;
   double dt_;
   const std::function<bool(int, int)>& progress_;
-  int done_ = 0;
+  LabelTracker::Hints hints_;
 };
 
 }  // namespace

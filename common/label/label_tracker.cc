@@ -29,12 +29,12 @@ struct Movement {
 };
 constexpr std::array<Movement, 3> kMovements = {{{1, 0.02}, {2, 0.05}, {3, 0.1}}};
 constexpr double kVelocityMemory = 0.25;  // [s]
-constexpr double kOffsetMemory = 0.5;     // [s] in which a hidden marker's place is forgotten
+constexpr double kOffsetMemory = 1.0;     // [s] in which a hidden marker's place is forgotten
 constexpr double kOffsetDrift = 0.004;    // [m / sqrt(s)] of a seen one
 constexpr double kLeastInformation = 4;   // [1/rad^2]; less tells nothing of a dof
 
 constexpr double kUnassigned = 21.1;  // chi-square of three, exceeded once in 10,000
-constexpr double kFarthestPlace = 16;
+constexpr double kFarthestPlace = 12;
 constexpr double kVague = 0.012;  // [m]: beyond, soft assignment comes first
 constexpr double kLost = 0.05;    // [m]: beyond, a limb is not taken up by one point
 constexpr int kTurns = 3;
@@ -184,7 +184,7 @@ void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
         continue;
       }
       const double from_place = (points.col(p) - model).squaredNorm() / place;
-      costs_(m, p) = d2 / v + size + from_place;
+      costs_(m, p) = d2 / v + size + std::min(kFarthestPlace, from_place);
     }
   }
   if (hints_ != nullptr) {
@@ -195,6 +195,18 @@ void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
     }
   }
   point_of_marker_ = assignment_.Solve(costs_, kUnassigned);
+}
+
+bool LabelTracker::IsOnlyChoice(int marker) const {
+  constexpr double kClearly = 9;
+  const double cost = costs_(marker, point_of_marker_[marker]);
+  for (Eigen::Index p = 0; p < costs_.cols(); ++p) {
+    if (costs_(marker, p) > cost + kClearly || p == point_of_marker_[marker]) continue;
+    if (std::find(point_of_marker_.begin(), point_of_marker_.end(), p) == point_of_marker_.end()) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void LabelTracker::DropLonely() {
@@ -213,12 +225,13 @@ void LabelTracker::DropLonely() {
                     std::find(joints.begin(), joints.end(), others.back()) != joints.end();
       if (along && first_deviations_[other] >= kLost) ++company;
     }
-    if (company == 0) point_of_marker_[m] = -1;
+    if (company == 0 && !IsOnlyChoice(m)) point_of_marker_[m] = -1;
   }
 }
 
-double LabelTracker::Settle(const Ref<const Matrix3Xd>& points, Posture* posture) {
-  P_ = belief_.P_qq;
+double LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P,
+                            Posture* posture) {
+  P_ = P;
   for (int turn = 0; turn < kTurns; ++turn) {
     Expect(*posture, P_);
     Assign(points);
@@ -266,7 +279,7 @@ void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   predicted_ = other.posture;
   prior_ = belief_.P_qq.inverse();
   *posture = other.posture;
-  Settle(points, posture);
+  Settle(points, belief_.P_qq, posture);
 }
 
 const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, double dt,
@@ -279,7 +292,7 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
   Expect(predicted_, belief_.P_qq);
   first_deviations_ = deviations_;
   DrawSoftly(points, &posture);
-  Settle(points, &posture);
+  Settle(points, belief_.P_qq, &posture);
   since_doubt_ += dt;
   if (since_doubt_ >= kDoubtEvery) {
     since_doubt_ = 0;
@@ -288,6 +301,41 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
   Correct(posture);
   Expect(posture, P_);
   Learn(points, dt);
+  return point_of_marker_;
+}
+
+void LabelTracker::Reverse() {
+  belief_.velocity *= -1;
+  belief_.P_qv *= -1;
+}
+
+LabelTracker::Prediction LabelTracker::prediction() const {
+  return {predicted_, prior_, belief_.offset, belief_.offset_variance};
+}
+
+const std::vector<int>& LabelTracker::Between(const Ref<const Matrix3Xd>& points,
+                                              const Prediction& other, const Hints* hints) {
+  const LabelBelief belief = belief_;
+  const Posture predicted = predicted_;
+  hints_ = hints;
+  const MatrixXd information = prior_ + other.information;
+  const MatrixXd P =
+      information.llt().solve(MatrixXd::Identity(information.rows(), information.cols()));
+  predicted_ = Retract(predicted, P * (other.information * Local(predicted, other.posture)));
+  prior_ = information;
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    const double mine = 1 / belief_.offset_variance[m];
+    const double others = 1 / other.offset_variance[m];
+    belief_.offset.col(m) =
+        (mine * belief.offset.col(m) + others * other.offset.col(m)) / (mine + others);
+    belief_.offset_variance[m] = 1 / (mine + others);
+  }
+  Posture posture = predicted_;
+  Expect(posture, P);
+  first_deviations_ = deviations_;
+  DrawSoftly(points, &posture);
+  Settle(points, P, &posture);
+  belief_ = belief;
   return point_of_marker_;
 }
 

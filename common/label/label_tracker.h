@@ -52,7 +52,24 @@ class LabelTracker {
   /// Standard deviation of a coordinate of these [m].
   const Eigen::VectorXd& deviations() const { return deviations_; }
 
+  /// What was known before the points of a frame were used.
+  struct Prediction {
+    Posture posture;
+    Eigen::MatrixXd information;  ///< inverse covariance of the dofs
+    Eigen::Matrix3Xd offset;
+    Eigen::VectorXd offset_variance;
+  };
+  /// Of the last frame.
+  Prediction prediction() const;
+
+  /// The point of each marker in the last frame by its prediction together with that of a tracker
+  /// that came from the other end of the recording. The belief stays as it is.
+  const std::vector<int>& Between(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                  const Prediction& other, const Hints* hints);
+
   const LabelBelief& belief() const { return belief_; }
+  /// Time runs the other way from now on.
+  void Reverse();
   void Restore(const LabelBelief& belief) { belief_ = belief; }
 
  private:
@@ -63,6 +80,8 @@ class LabelTracker {
   void Assign(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
   /// A limb that could be anywhere is not taken up by a single point.
   void DropLonely();
+  /// No free point could be the marker about as well.
+  bool IsOnlyChoice(int marker) const;
   /// One step to the assigned points from `posture`, the prediction counting as it is sure.
   void Update(const Eigen::Ref<const Eigen::Matrix3Xd>& targets, const Eigen::VectorXd& noise,
               Posture* posture);
@@ -71,7 +90,8 @@ class LabelTracker {
 
   /// The cheapest assignment that is found from `start` on; leaves it and P_ behind. What it costs:
   /// the points, and how far the posture is from the prediction.
-  double Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
+  double Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Eigen::MatrixXd& P,
+                Posture* posture);
   /// Whether another posture nearby explains the points much better by the markers' places alone.
   void Doubt(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
 
