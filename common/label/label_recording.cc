@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numeric>
 
+#include "common/calibrate/calibration.h"
 #include "common/label/label_body.h"
 #include "common/label/label_tracker.h"
 #include "common/label/point_tracks.h"
@@ -20,17 +22,27 @@ constexpr int kFewestNames = 10;
 constexpr int kFirstFrames = 8;  // that the body is looked for in
 constexpr double kLeastShare = 0.25;
 constexpr int kTimes = 2;
+constexpr double kSure = 0.7;
 constexpr int kPart = 256;   // frames whose predictions are kept
 constexpr double kHint = 6;  // cost that a track's name is worth
 
 /// How often the passes took a track for a marker.
 using Votes = std::vector<std::map<int, double>>;  // by track: marker, frames
 
+bool IsUncalibrated(const TrackingSetup& setup) {
+  return std::none_of(setup.assignments().begin(), setup.assignments().end(),
+                      [&setup](const MarkerAssignment& assignment) {
+                        return setup.model->markers()[assignment.marker].deviation.has_value();
+                      });
+}
+
 class RecordingLabeller {
  public:
   RecordingLabeller(const TrackingSetup& setup, const MarkerSequence& recording,
                     const std::function<bool(int, int)>& progress)
-      : body_(setup),
+      : setup_(setup),
+        body_(std::make_unique<LabelBody>(setup)),
+        recording_(recording),
         tracks_(FollowPoints(recording)),
         dt_(1 / recording.rate()),
         progress_(progress) {}
@@ -44,18 +56,20 @@ class RecordingLabeller {
   };
   Names Run() {
     Names names;
-    BodySearch search(body_);
+    BodySearch search(*body_);
     const auto [first, match] = FindFirst(&search);
-    LabelTracker tracker(body_);
-    tracker.Start(match);
-    Votes votes(tracks_.tracks.size());
-    for (int k = first; k >= 0; --k) Track(k, nullptr, &tracker);
-    tracker.Reverse();
-    for (int round = 0; round < kTimes; ++round) {
-      votes.assign(tracks_.tracks.size(), {});
-      const Names hints = std::move(names);
-      ForwardAndBackward(hints, &tracker, &votes);
-      names = Resolve(votes);
+    auto tracker = std::make_unique<LabelTracker>(*body_);
+    tracker->Start(match);
+    for (int k = first; k >= 0; --k) Track(k, nullptr, tracker.get());
+    tracker->Reverse();
+    for (int time = 0; time < kTimes; ++time) {
+      names = ForwardAndBackward(names, tracker.get());
+      if (time > 0 || !Calibrate(names)) continue;
+      BodyMatch posture;
+      posture.posture = tracker->belief().posture;
+      tracker = std::make_unique<LabelTracker>(*body_);
+      tracker->Start(posture);
+      names = ForwardAndBackward(names, tracker.get());
     }
     return names;
   }
@@ -78,11 +92,11 @@ class RecordingLabeller {
       BodyMatch match = search->Find(tracks_.frames[k].p_WP);
       if (best.first < 0 || match.cost < best.second.cost) best = {k, std::move(match)};
     }
-    if (best.first < 0 || 2 * best.second.matched < body_.num_markers()) {
+    if (best.first < 0 || 2 * best.second.matched < body_->num_markers()) {
       throw Error(fmt::format(
           "no frame shows a person: of {} markers at most {} fit any posture of this body; is it "
           "the right person, height and set of markers?",
-          body_.num_markers(), best.first < 0 ? 0 : best.second.matched));
+          body_->num_markers(), best.first < 0 ? 0 : best.second.matched));
     }
     return best;
   }
@@ -104,7 +118,7 @@ class RecordingLabeller {
   }
 
   void Vote(int k, const std::vector<int>& point_of_marker, double weight, Votes* votes) const {
-    for (int m = 0; m < body_.num_markers(); ++m) {
+    for (int m = 0; m < body_->num_markers(); ++m) {
       const int point = point_of_marker[m];
       if (point >= 0) (*votes)[tracks_.frames[k].tracks[point]][m] += weight;
     }
@@ -112,12 +126,13 @@ class RecordingLabeller {
 
   /// Forward over the recording, and back again; on the way back each frame is judged by what came
   /// before and after it. Predictions of the way forward are kept for a part at a time.
-  void ForwardAndBackward(const Names& before, LabelTracker* tracker, Votes* votes) {
+  Names ForwardAndBackward(const Names& before, LabelTracker* tracker) {
+    Votes votes(tracks_.tracks.size());
     const int frames = static_cast<int>(tracks_.frames.size());
     std::vector<LabelBelief> starts;  // of the parts
     for (int k = 0; k < frames; ++k) {
       if (k % kPart == 0) starts.push_back(tracker->belief());
-      Vote(k, Track(k, &before, tracker), 0.25, votes);
+      Vote(k, Track(k, &before, tracker), 0.25, &votes);
       Show(k);
     }
     tracker->Reverse();
@@ -134,14 +149,46 @@ class RecordingLabeller {
       }
       tracker->Restore(backward);
       for (int k = end - 1; k >= begin; --k) {
-        Vote(k, Track(k, &before, tracker), 0.25, votes);
+        Vote(k, Track(k, &before, tracker), 0.25, &votes);
         const std::vector<int>& between =
             tracker->Between(tracks_.frames[k].p_WP, predictions[k - begin], Hint(k, &before));
-        Vote(k, between, 0.5, votes);
+        Vote(k, between, 0.5, &votes);
       }
       backward = tracker->belief();
     }
     tracker->Reverse();
+    return Resolve(votes);
+  }
+
+  /// Whoever was only scaled by height is calibrated on what has surely got its name.
+  bool Calibrate(const Names& names) {
+    if (!IsUncalibrated(setup_)) return false;
+    std::vector<std::string> labels;
+    std::vector<MarkerAssignment> assignments = setup_.assignments();
+    for (std::size_t m = 0; m < assignments.size(); ++m) {
+      labels.push_back(std::to_string(m));
+      assignments[m].label = LabelIx(static_cast<int>(m));
+    }
+    MarkerSequence named(labels, recording_.num_frames(), recording_.rate(),
+                         recording_.first_time());
+    for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {
+      const PointTrack& track = tracks_.tracks[t];
+      if (names.markers[t] < 0 || names.shares[t] < kSure) continue;
+      for (int k = track.begin; k < track.end; ++k) {
+        named.frame(k).col(names.markers[t]) =
+            tracks_.frames[k].p_WP.col(track.points[k - track.begin]);
+      }
+    }
+    try {
+      const CalibrationResult result =
+          CalibrateSubject(*setup_.model, setup_.joints, {{"", &named, assignments}}, {});
+      setup_.model =
+          std::make_shared<const KinematicModel>(FitToSubject(*setup_.model, result.subject));
+      body_ = std::make_unique<LabelBody>(setup_);
+    } catch (const Error&) {
+      return false;  // too short or too still: as before
+    }
+    return true;
   }
 
   void Show(int k) {
@@ -169,7 +216,7 @@ class RecordingLabeller {
     Names names;
     names.markers.assign(votes.size(), -1);
     names.shares.assign(votes.size(), 0);
-    std::vector<std::vector<char>> is_given(body_.num_markers(),
+    std::vector<std::vector<char>> is_given(body_->num_markers(),
                                             std::vector<char>(tracks_.frames.size(), 0));
     for (const Claim& claim : claims) {
       if (names.markers[claim.track] >= 0) continue;
@@ -186,7 +233,9 @@ class RecordingLabeller {
     return names;
   }
 
-  LabelBody body_;
+  TrackingSetup setup_;
+  std::unique_ptr<LabelBody> body_;
+  const MarkerSequence& recording_;
   PointTracks tracks_;
   double dt_;
   const std::function<bool(int, int)>& progress_;

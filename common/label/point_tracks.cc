@@ -11,7 +11,7 @@ namespace {
 constexpr double kAcceleration = 80;  // [m/s^2] of a quick hand or foot
 constexpr double kNearby = 0.006;     // [m]
 constexpr double kFarthest = 0.12;    // [m]
-constexpr double kClearly = 2;        // times nearer than the next, beyond the slack
+constexpr double kClearly = 3;        // times nearer than the next, beyond the slack
 
 FramePoints PointsOf(const MarkerSequence& recording, int k) {
   FramePoints points;
