@@ -22,11 +22,13 @@ const char* AdviceFor(Remedy remedy) {
     case Remedy::kMotion:
       return " (--motion NAME)";
     case Remedy::kMarkerSet:
-      return " (--marker-set FILE)";
+      return " (--marker-set FILE); points without names get them by the command label";
     case Remedy::kModel:
       return " (--model FILE)";
     case Remedy::kIgnoreResiduals:
       return " (--ignore-residuals)";
+    case Remedy::kLabels:
+      return "; the command label finds the names of points that have none";
   }
   return "";
 }

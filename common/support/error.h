@@ -19,6 +19,7 @@ enum class Remedy {
   kMarkerSet,        ///< which labels stand for which markers
   kModel,            ///< another model
   kIgnoreResiduals,  ///< points that a C3D file marks as invalid
+  kLabels,           ///< names for points that have none
 };
 
 /// Bad input. The message is complete for a user: where it is (file and line or byte), what was

@@ -81,18 +81,23 @@ std::set<std::string> BoneAxes(const std::vector<std::string>& labels) {
 }
 
 /// What is left when everything that is no marker is gone.
-std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
-                               const std::vector<std::string>& outputs,
-                               const std::set<std::string_view>& prefixes, Warnings* warnings) {
+struct MarkersAndPoints {
+  std::vector<Label> markers;
+  std::vector<Label> unlabelled;
+};
+
+MarkersAndPoints KeepMarkers(const std::vector<std::string>& labels,
+                             const std::vector<std::string>& outputs,
+                             const std::set<std::string_view>& prefixes, Warnings* warnings) {
   const std::set<std::string> no_markers(outputs.begin(), outputs.end());
   const std::set<std::string> axes = BoneAxes(labels);
-  std::vector<Label> markers;
-  int unlabelled = 0;
+  MarkersAndPoints kept;
   int computed = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     Label label = TakeApart(static_cast<int>(i), labels[i], prefixes);
     if (label.name.empty() || label.name.starts_with('*')) {
-      ++unlabelled;
+      if (label.name.empty()) label.name = fmt::format("*{}", i + 1);
+      kept.unlabelled.push_back(std::move(label));
     } else if (axes.contains(labels[i]) || no_markers.contains(labels[i])) {
       ++computed;
       if (FindBodyRegion(label.name)) {
@@ -101,15 +106,14 @@ std::vector<Label> KeepMarkers(const std::vector<std::string>& labels,
             fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
       }
     } else {
-      markers.push_back(std::move(label));
+      kept.markers.push_back(std::move(label));
     }
   }
-  if (unlabelled > 0) Warn(warnings, fmt::format("{} unlabelled points left out", unlabelled));
   if (computed > 0) {
     Warn(warnings,
          fmt::format("{} computed points (angles, forces, bone axes, ...) left out", computed));
   }
-  return markers;
+  return kept;
 }
 
 /// One subject, or the labels without prefix.
@@ -239,13 +243,14 @@ std::optional<BodyRegion> FindBodyRegion(std::string_view label) {
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,
                             const std::vector<std::string>& label_prefixes,
-                            const std::string& subject, const std::string& file,
-                            Warnings* warnings) {
+                            const std::string& subject, const std::string& file, Warnings* warnings,
+                            bool with_unlabelled) {
   LabelSelection selection;
   const std::vector<std::string> prefixes = AllToUtf8(label_prefixes);
-  const std::vector<Group> groups = GroupByPrefix(KeepMarkers(
-      AllToUtf8(labels), AllToUtf8(outputs), {prefixes.begin(), prefixes.end()}, warnings));
-  const Group chosen = ChooseGroup(groups, subject, file);
+  MarkersAndPoints kept = KeepMarkers(AllToUtf8(labels), AllToUtf8(outputs),
+                                      {prefixes.begin(), prefixes.end()}, warnings);
+  const std::vector<Group> groups = GroupByPrefix(std::move(kept.markers));
+  Group chosen = ChooseGroup(groups, subject, file);
   selection.subject = chosen.prefix;
   std::vector<Group> others;
   std::size_t num_markers = 0;
@@ -256,6 +261,14 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
   }
   if (chosen.labels.size() < num_markers) {
     Warn(warnings, fmt::format("markers left out: those of {}", Names(others)));
+  }
+  if (with_unlabelled) {
+    std::vector<Label>& all = chosen.labels;
+    all.insert(all.end(), kept.unlabelled.begin(), kept.unlabelled.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Label& a, const Label& b) { return a.index < b.index; });
+  } else if (!kept.unlabelled.empty()) {
+    Warn(warnings, fmt::format("{} unlabelled points left out", kept.unlabelled.size()));
   }
   for (const Label& label : chosen.labels) selection.indices.push_back(label.index);
   selection.labels = UniqueNames(chosen.labels, warnings);

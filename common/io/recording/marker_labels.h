@@ -31,12 +31,13 @@ struct LabelSelection {
 /// Leaves out unlabelled points (*12), what outputs lists, and the bone axes of Plug-in Gait (xxxO,
 /// xxxA, xxxL and xxxP together), then chooses among the subjects, by `Subject:LABEL` or
 /// `Subject_LABEL`: the one asked for; else the only one that wears markers of a common set.
-/// label_prefixes: what the file declares, may be empty. file: for messages.
+/// label_prefixes: what the file declares, may be empty. file: for messages. with_unlabelled:
+/// points without a label stay, whoever wears them, in their places.
 /// @throws Error that lists the subjects where the choice is not clear or there is no such one.
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,
                             const std::vector<std::string>& label_prefixes,
-                            const std::string& subject, const std::string& file,
-                            Warnings* warnings);
+                            const std::string& subject, const std::string& file, Warnings* warnings,
+                            bool with_unlabelled = false);
 
 }  // namespace mmm_converter

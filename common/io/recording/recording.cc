@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "common/io/mmm/mmm_content.h"
@@ -48,12 +49,13 @@ void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& 
   }
   const LabelSelection selection =
       SelectLabels(content.labels, content.outputs, content.label_prefixes, options.subject,
-                   recording->file, warnings);
+                   recording->file, warnings, options.with_unlabelled);
   recording->subjects = selection.subjects;
   recording->subject = selection.subject;
   if (selection.labels.empty()) {
-    throw Error(fmt::format("{}: there are no labelled markers", recording->file));
+    throw Error(fmt::format("{}: there are no labelled markers", recording->file), Remedy::kLabels);
   }
+  recording->points = selection.indices;
   recording->markers = content.read(selection.indices, selection.labels, rate);
   if (!SeesAnything(recording->markers)) {
     ThrowSeesNothing(recording->file, content.marks_points_valid);
@@ -86,6 +88,8 @@ void BringToMetresAndZUp(const std::string& said_unit, const std::vector<UpAxis>
 void TakeSettled(const RecordingContent& content, const ReadRecordingOptions& options,
                  Recording* recording, Warnings* warnings) {
   recording->markers = content.read({}, content.labels, content.rate);
+  recording->points.resize(content.labels.size());
+  std::iota(recording->points.begin(), recording->points.end(), 0);
   recording->unit = content.unit;
   if (options.unit) {
     const std::string format = content.format.substr(0, content.format.find(' '));

@@ -17,6 +17,7 @@ struct ReadRecordingOptions {
   std::optional<UpAxis> up_axis = {};    ///< overrides the file's and the decision from the markers
   std::optional<double> rate = {};       ///< [Hz] overrides the file's
   bool ignore_residuals = false;         ///< C3D: also use points that are marked invalid
+  bool with_unlabelled = false;          ///< also points without a label, as `*` and a number
   std::string subject = {};              ///< label prefix to keep where a file has several subjects
   std::string motion = {};               ///< MMM: motion to read; empty: that with most markers
 };
@@ -26,6 +27,7 @@ struct Recording {
   std::string file;
   std::string format;             ///< "C3D", "TRC", "MMM 1.0", "MMM 2.0"
   MarkerSequence markers;         ///< p_WM [m], W: z up; labels trimmed and without subject prefix
+  std::vector<int> points;        ///< of each marker, among those that the file lists
   std::string unit;               ///< what coordinates were read as
   bool unit_was_guessed = false;  ///< the file's unit was absent or implausible
   UpAxis up_axis = UpAxis::kZ;    ///< in the file's own axes
