@@ -21,6 +21,7 @@ int RunConvert(const std::vector<std::string>& words);
 int RunEvaluate(const std::vector<std::string>& words);
 int RunExportUrdf(const std::vector<std::string>& words);
 int RunInfo(const std::vector<std::string>& words);
+int RunLabel(const std::vector<std::string>& words);
 int RunPrintConfig(const std::vector<std::string>& words);
 int RunReport(const std::vector<std::string>& words);
 

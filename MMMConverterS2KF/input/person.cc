@@ -145,6 +145,18 @@ Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
   return Find(request, *setup.model, recording, config, estimate, warnings);
 }
 
+Person FindPersonOfPoints(const PersonRequest& request, const KinematicModel& reference,
+                          const Recording& recording, const ConverterConfig& config,
+                          Warnings* warnings) {
+  if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
+  const auto fail = [](Person* /*person*/) {
+    throw Error(
+        "who wears the markers? Points without names don't tell the height: give --subject-file, "
+        "another recording of the person whose labels are right (--like), or --height");
+  };
+  return Find(request, reference, recording, config, fail, warnings);
+}
+
 Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
                        const ConverterConfig& config, Warnings* warnings) {
   constexpr const char* kUnknown =

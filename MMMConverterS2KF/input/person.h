@@ -56,6 +56,12 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
                   const Recording& recording, const ConverterConfig& config, Warnings* warnings);
 
+/// As FindPerson, of a recording whose points have no names yet: the height can't be estimated.
+/// @throws Error as FindPerson, and where the height is not known.
+Person FindPersonOfPoints(const PersonRequest& request, const KinematicModel& reference,
+                          const Recording& recording, const ConverterConfig& config,
+                          Warnings* warnings);
+
 /// As FindPerson without a recording: nothing is estimated or assumed.
 /// @throws Error; also where height or mass are not known, or the model is not scaled.
 Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,

@@ -61,7 +61,8 @@ C3dFile::C3dFile(const std::string& path, Warnings* warnings) : path_(path) {
   if (header.size() < 2 || header[0] == 0 || header[1] != 0x50) {
     throw Error(fmt::format("{}: not a C3D file: byte 2 must be 0x50", path));
   }
-  const std::uint64_t section_start = (header[0] - 1) * kBlock;
+  header_bytes_[0] = header[0];
+  const std::uint64_t section_start = this->section_start();
   if (size < kBlock || section_start + 4 > size) {
     throw Error(fmt::format("{}: truncated: {} bytes end before the parameters, at byte {}", path,
                             file_size, base_ + std::max(section_start, kBlock)));
@@ -83,6 +84,7 @@ C3dFile::C3dFile(const std::string& path, Warnings* warnings) : path_(path) {
 
 std::vector<unsigned char> C3dFile::ReadBytes(std::uint64_t begin, std::uint64_t count) {
   std::vector<unsigned char> bytes(count);
+  stream_.clear();
   stream_.seekg(static_cast<std::streamoff>(base_ + begin));
   stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
   if (!stream_) throw Error(fmt::format("{}: can't be read at byte {}", path_, base_ + begin));

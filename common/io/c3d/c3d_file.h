@@ -25,14 +25,17 @@ class C3dFile {
   const C3dParameters& parameters() const { return parameters_; }
   const C3dLayout& layout() const { return layout_; }
   std::uint64_t data_bytes() const { return data_bytes_; }  ///< from layout().data_start on
+  std::uint64_t leading_zeros() const { return base_; }     ///< bytes before the header
+  std::uint64_t section_start() const { return (header_bytes_[0] - 1) * kBlock; }
+
+  /// Bytes that must be there, counted from the header on. @throws Error as ReadFrames.
+  std::vector<unsigned char> ReadBytes(std::uint64_t begin, std::uint64_t count);
 
   /// The stored bytes of whole frames, which must be there.
   /// @throws Error where the file has become shorter meanwhile.
   void ReadFrames(int first, int count, std::vector<unsigned char>* bytes);
 
  private:
-  std::vector<unsigned char> ReadBytes(std::uint64_t begin, std::uint64_t count);
-
   std::string path_;
   std::ifstream stream_;
   std::uint64_t base_ = 0;  // zero bytes before the file proper

@@ -58,4 +58,19 @@ inline float C3dFloat(const unsigned char* p, C3dProcessor processor) {
   }
 }
 
+inline void StoreC3dWord(int word, C3dProcessor processor, unsigned char* p) {
+  const bool is_big = processor == C3dProcessor::kMips;
+  p[is_big ? 1 : 0] = static_cast<unsigned char>(word & 0xFF);
+  p[is_big ? 0 : 1] = static_cast<unsigned char>(word >> 8 & 0xFF);
+}
+
+/// A finite number that is no larger than DEC's can be.
+inline void StoreC3dFloat(float number, C3dProcessor processor, unsigned char* p) {
+  auto bits = std::bit_cast<std::uint32_t>(number);
+  if (processor == C3dProcessor::kDec && number != 0) bits += 2U << 23;
+  const bool has_high_first = processor != C3dProcessor::kIntel;
+  StoreC3dWord(static_cast<int>(bits >> (has_high_first ? 16 : 0) & 0xFFFF), processor, p);
+  StoreC3dWord(static_cast<int>(bits >> (has_high_first ? 0 : 16) & 0xFFFF), processor, p + 2);
+}
+
 }  // namespace mmm_converter

@@ -33,6 +33,7 @@ std::string UpperName(Bytes bytes) {
 
 /// The fixed part of a group or parameter record.
 struct Record {
+  std::size_t begin = 0;
   int id = 0;  // negative: group
   std::string name;
   std::size_t offset_at = 0;  // of the word that gives the way to the next record
@@ -44,6 +45,7 @@ std::optional<Record> ReadRecord(Bytes section, std::size_t at, C3dProcessor pro
   if (at + 2 > section.size()) return std::nullopt;
   const std::size_t length = std::abs(SignedByte(section[at]));
   Record record;
+  record.begin = at;
   record.id = SignedByte(section[at + 1]);
   record.offset_at = at + 2 + length;
   if (length == 0 || length > 127 || record.id == 0) return std::nullopt;
@@ -188,6 +190,8 @@ C3dParameters::C3dParameters(Bytes section, C3dProcessor processor, Warnings* wa
       const std::size_t begin = parameter->data.data() - section.data();
       const std::size_t room = end_ > begin ? end_ - begin : 0;
       parameter->data = parameter->data.first(std::min(parameter->data.size(), room));
+      parameter->begin = static_cast<std::uint32_t>(record->begin);
+      parameter->end = static_cast<std::uint32_t>(end_);
       group_ids.push_back(record->id);
       parameters_.push_back(std::move(*parameter));
     } else {

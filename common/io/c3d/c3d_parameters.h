@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@ struct C3dParameter {
   std::string group;  ///< upper case, trimmed; empty: the file does not define the group
   std::string name;   ///< upper case, trimmed
   int type = 0;       ///< -1 text, 1 byte, 2 word, 4 float
+  std::uint32_t begin = 0, end = 0;  ///< bytes of its record in the section
   std::vector<int> dimensions;
   std::span<const unsigned char> data;  ///< at most what dimensions ask for
   C3dProcessor processor = C3dProcessor::kIntel;

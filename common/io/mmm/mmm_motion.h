@@ -65,22 +65,22 @@ struct MmmMotionOutput {
   double mass = 0;                    ///< [kg]
   std::optional<double> hand_length;  ///< [m]
   std::string comment;                ///< stands in the model's element; empty: none
-  /// Required. 1.0 has fields for velocities and accelerations of joints, 0 where the trajectory
-  /// has none, as in real files; 2.0 has none.
+  /// 1.0 has fields for velocities and accelerations of joints, 0 where the trajectory has none, as
+  /// in real files; 2.0 has none. Null, in 2.0 only: nothing but markers is written or replaced.
   const PoseTrajectory* trajectory = nullptr;
   const MarkerSequence* markers =
       nullptr;  ///< 2.0: MoCapMarker; unseen markers are left out of their frame
 };
 
-/// The text of a whole file with one motion. Trajectory and markers must outlive it.
+/// The text of a whole file with one motion; 1.0 must have a trajectory. Trajectory and markers must outlive it.
 /// @throws Error where a posture is not finite.
 TextPieces FormatMmmMotion2(const MmmMotionOutput& output);
 TextPieces FormatMmmMotion1(const MmmMotionOutput& output);
 
 /// The MMM 2.0 file `content` with the motions called motion_name of each output converted: Model
 /// and ModelProcessorConfig, the ModelPose sensors and those Kinematic sensors that have one of the
-/// converted joints are replaced; the MoCapMarker sensors too if `markers` is given. Every other
-/// byte stays: other motions, other sensors, annotations, comments. `file` is only named in
+/// converted joints are replaced, where there is a trajectory; the MoCapMarker sensors if `markers`
+/// is given. Every other byte stays: other motions, other sensors, annotations, comments. `file` is only named in
 /// messages. Trajectories and markers must outlive the text.
 /// @throws Error where `content` is not an MMM 2.0 file or has not exactly one motion of such a
 /// name, or a posture is not finite.

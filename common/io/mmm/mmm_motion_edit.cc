@@ -92,8 +92,9 @@ bool IsReplaced(const XmlElement& sensor, const MmmMotionOutput& output,
                 const std::unordered_set<std::string>& joints) {
   const std::string* type = sensor.FindAttribute("type");
   if (!sensor.Is("Sensor") || type == nullptr) return false;
-  if (EqualIgnoringCase(*type, "ModelPose")) return true;
   if (EqualIgnoringCase(*type, "MoCapMarker")) return output.markers != nullptr;
+  if (output.trajectory == nullptr) return false;
+  if (EqualIgnoringCase(*type, "ModelPose")) return true;
   return EqualIgnoringCase(*type, "Kinematic") && HasConvertedJoint(sensor, joints);
 }
 
@@ -103,8 +104,10 @@ void EditSensors(const XmlElement& element, const XmlRange& range, const ByteSou
     edits->push_back({range.begin, range.end, "<Sensors>\n\t\t\t", &output, "\n\t\t</Sensors>"});
     return;
   }
-  const std::unordered_set<std::string> joints(output.trajectory->joint_names.begin(),
-                                               output.trajectory->joint_names.end());
+  std::unordered_set<std::string> joints;
+  if (output.trajectory != nullptr) {
+    joints.insert(output.trajectory->joint_names.begin(), output.trajectory->joint_names.end());
+  }
   const std::size_t first = edits->size();
   std::uint64_t before = range.inner_begin;
   for (std::size_t i = 0; i < element.children.size(); ++i) {
@@ -131,19 +134,20 @@ std::vector<Edit> EditsOf(const XmlElement& motion, const XmlRange& range,
                     "converted in place",
                     file, motion.line, output.motion_name));
   }
+  const bool has_motion = output.trajectory != nullptr;
   std::vector<Edit> edits;
   std::uint64_t before = range.inner_begin;
   for (std::size_t i = 0; i < motion.children.size(); ++i) {
     const XmlElement& child = motion.children[i];
     const XmlRange& place = range.children[i];
-    if (&child == model) {
+    if (has_motion && &child == model) {
       edits.push_back({place.begin, place.end, FormatModelElement(output)});
     } else if (&child == sensors) {
-      if (model == nullptr) {
+      if (has_motion && model == nullptr) {
         edits.push_back({place.begin, place.begin, FormatModelElement(output) + "\n\t\t"});
       }
       EditSensors(child, place, content, output, &edits);
-    } else if (child.Is("ModelProcessorConfig")) {  // as in 1.0; 2.0 has it in the model
+    } else if (has_motion && child.Is("ModelProcessorConfig")) {  // as in 1.0; 2.0 has it in the model
       edits.push_back(Removal(content, before, place));
     }
     before = place.end;

@@ -168,7 +168,7 @@ void AppendMarkers(const MarkerSequence& markers, PieceWriter* pieces) {
     starts.emplace_back("\t\t\t\t\t\t<MarkerPosition name=\"" + EscapeXml(label) + "\">", i);
   }
   Text text(pieces->text());
-  text << "\n\t\t\t<Sensor type=\"MoCapMarker\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
+  text << "<Sensor type=\"MoCapMarker\" version=\"1.0\">\n\t\t\t\t<Configuration/>\n"
           "\t\t\t\t<Data>\n";
   for (int k = 0; k < markers.num_frames(); ++k) {
     text << "\t\t\t\t\t<Measurement timestep=\"";
@@ -249,13 +249,16 @@ std::string FormatModelElement(const MmmMotionOutput& output) {
 }
 
 void CheckWritable(const MmmMotionOutput& output) {
-  assert(output.trajectory != nullptr);
-  CheckFinite(*output.trajectory);
+  assert(output.trajectory != nullptr || output.markers != nullptr);
+  if (output.trajectory != nullptr) CheckFinite(*output.trajectory);
 }
 
 void AppendSensorElements(const MmmMotionOutput& output, PieceWriter* pieces) {
-  AppendModelPose(*output.trajectory, pieces);
-  AppendKinematic(*output.trajectory, pieces);
+  if (output.trajectory != nullptr) {
+    AppendModelPose(*output.trajectory, pieces);
+    AppendKinematic(*output.trajectory, pieces);
+    if (output.markers != nullptr) *pieces->text() += "\n\t\t\t";
+  }
   if (output.markers != nullptr) AppendMarkers(*output.markers, pieces);
 }
 
@@ -269,7 +272,8 @@ TextPieces FormatMmmMotion2(const MmmMotionOutput& output) {
       text += " name=\"" + EscapeXml(output.recording_name) + "\"";
     }
     text += ">\n\t<Motion name=\"" + EscapeXml(output.motion_name) + "\" type=\"mmm\">\n\t\t";
-    text += FormatModelElement(output) + "\n\t\t<Sensors>\n\t\t\t";
+    if (output.trajectory != nullptr) text += FormatModelElement(output) + "\n\t\t";
+    text += "<Sensors>\n\t\t\t";
     AppendSensorElements(output, &pieces);
     text += "\n\t\t</Sensors>\n\t</Motion>\n</MMM>\n";
     pieces.Flush();

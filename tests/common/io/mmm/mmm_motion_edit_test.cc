@@ -65,6 +65,22 @@ std::string EditMessageOf(const std::string& content, const std::string& name) {
   return "no error";
 }
 
+TEST(MmmMotionEdit, MarkersAloneReplaceNothingElse) {
+  MarkerSequence markers({"LFHD"}, 1, 100, 0);
+  markers.frame(0).col(0) = Eigen::Vector3d(1, 2, 3);
+  MmmMotionOutput output;
+  output.motion_name = "human";
+  output.markers = &markers;
+  const std::string content = kFile;
+  const std::string edited = Join(WithConvertedMotions(BytesOf(content), "walk.xml", {output}));
+  const std::size_t begin = content.find("<Sensor type='MoCapMarker'>");
+  const std::size_t end = content.find("</Sensor>", begin);
+  EXPECT_TRUE(edited.starts_with(content.substr(0, begin)));
+  EXPECT_TRUE(edited.ends_with(content.substr(end)));
+  EXPECT_THAT(edited, HasSubstr("name=\"LFHD\">1000 2000 3000<"));
+  EXPECT_THAT(edited, Not(HasSubstr("name='C7'")));
+}
+
 TEST(MmmMotionEdit, ElementsOfAnyNameMayStandWhereMmmHasNone) {
   std::string content = kFile;
   const std::string own = "<Notes><Measurement>1</Measurement><Measurement>2</Measurement></Notes>";

@@ -186,6 +186,20 @@ TEST(MmmMotionWriterText, LayoutOf20) {
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
+TEST(MmmMotionWriterText, MarkersAlone) {
+  MarkerSequence markers({"C7", "*1"}, 2, 100, 0);
+  markers.frame(1).col(0) = Eigen::Vector3d(1, 2, -0.5);
+  MmmMotionOutput output;
+  output.motion_name = "walk";
+  output.markers = &markers;
+  const std::string text = Join(FormatMmmMotion2(output));
+  EXPECT_THAT(text, HasSubstr("<Motion name=\"walk\" type=\"mmm\">\n\t\t<Sensors>\n"
+                              "\t\t\t<Sensor type=\"MoCapMarker\" version=\"1.0\">\n"));
+  const MmmMotionFile file = ParseMmmMotionFile(text, "walk.xml");
+  EXPECT_EQ(file.motions.at(0).markers.labels(), std::vector<std::string>{"C7"});
+  EXPECT_EQ(file.motions.at(0).markers.frame(1).col(0), Eigen::Vector3d(1, 2, -0.5));
+}
+
 TEST(MmmMotionWriterText, LayoutOf10) {
   PoseTrajectory trajectory;
   trajectory.rate = 100;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/conversion/labelled_output.h"
+#include "MMMConverterS2KF/conversion/recording_labels.h"
+#include "MMMConverterS2KF/report/label_summary.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kOwnOptions = {
+    {"Files",
+     {{"output,o", "FILE",
+       "the labelled recording: C3D, TRC or MMM (.xml); may be RECORDING. Default: nothing is "
+       "written, the summary says what would be",
+       ""},
+      {"summary", "FILE", "write a summary as JSON", ""}}},
+    {"Names",
+     {{"repair", "",
+       "the recording has labels: keep them except where the body says that they are wrong", ""},
+      {"like", "RECORDING",
+       "another recording of the person with these markers, whose labels are right", ""},
+      {"config,c", "FILE",
+       "configuration that names markers and joints, or a shipped one; default: s2kf_default",
+       ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF label RECORDING [options]
+Gives the points of a recording the names of the markers that they are, by the body that wears them:
+of points without labels, of trajectories that break and go on under another number and, with
+--repair, of labels that are wrong. A point that is none of the markers, or not surely one, stays
+without a name; no measured point is lost. A C3D file keeps its parameters, analog samples and
+events byte for byte.
+
+The names are, of a repair, the recording's own; else those of the markers that a --subject-file
+knows or that the recording --like has; else, with --height alone, all of the --marker-set, which by
+default is KIT's. A calibrated person is labelled most surely.
+
+{}
+Examples
+  MMMConverterS2KF label walk.c3d --subject-file anna.xml -o walk_labelled.c3d
+  MMMConverterS2KF label walk.c3d --like standing.c3d --height 1.68 -o walk_labelled.c3d
+  MMMConverterS2KF label walk.c3d --height 1.68 --marker-set kit53 -o walk.trc
+  MMMConverterS2KF label walk.c3d --repair --height 1.68
+  MMMConverterS2KF label walk.c3d --repair --subject-file anna.xml -o walk_repaired.c3d
+)";
+
+// A part of the frames can't be written with all that a file has of the others.
+std::vector<OptionGroup> Options() {
+  std::vector<OptionGroup> options = {kOwnOptions[0], kOwnOptions[1]};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  options.push_back(kOwnOptions[2]);
+  for (OptionGroup& group : options) {
+    std::erase_if(group.options, [](const OptionSpec& o) { return o.name == "frames"; });
+  }
+  return options;
+}
+
+LabelRequest MakeRequest(const Arguments& arguments) {
+  if (!arguments.positional()) {
+    throw UsageError(
+        "label: which recording? For instance: MMMConverterS2KF label walk.c3d --height 1.75 -o "
+        "labelled.c3d");
+  }
+  LabelRequest request;
+  request.input = MakeInputRequest(arguments, *arguments.positional());
+  request.converter.config = arguments.Get("config").value_or("");
+  request.hints.like = arguments.Get("like").value_or("");
+  request.hints.repair = arguments.Has("repair");
+  request.output = arguments.Get("output").value_or("");
+  request.more_outputs = {arguments.Get("summary").value_or("")};
+  return request;
+}
+
+}  // namespace
+
+int RunLabel(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("label", Options(), words);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const LabelRequest request = MakeRequest(arguments);
+  ProgressBar bar("frames");
+  const LabelReport report = RunLabelling(request, [&](int done, int all) {
+    bar.Show(done, all);
+    return true;
+  });
+  bar.Clear();
+  if (!report.output.empty()) WriteLabelled(report);
+  LogWarnings(report.warnings);
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  std::cout << FormatLabelSummary(report, request.hints.repair);
+  return 0;
+}
+
+}  // namespace mmm_converter

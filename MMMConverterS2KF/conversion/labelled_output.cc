@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/conversion/labelled_output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/c3d/c3d_file.h"
+#include "common/io/c3d/c3d_relabelling.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording_formats.h"
+#include "common/io/tables/trc_writer.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+// What the file's labels have before a name of the recording's subject: "Anna:".
+std::string PrefixOf(const Recording& recording, const std::vector<std::string>& file_labels) {
+  for (int i = 0; i < recording.markers.num_labels(); ++i) {
+    const std::string& name = recording.markers.labels()[i];
+    const std::string& label = file_labels[recording.points[i]];
+    if (!name.starts_with('*') && label.ends_with(name)) {
+      return label.substr(0, label.size() - name.size());
+    }
+  }
+  return "";
+}
+
+C3dRelabelledPoint ToC3d(const RelabelledPoint& point, const Recording& recording,
+                         const std::vector<std::string>& file_labels, const std::string& prefix) {
+  C3dRelabelledPoint out;
+  out.like = recording.points[point.place];
+  const bool is_as_before = point.label == recording.markers.labels()[point.place];
+  out.label = is_as_before ? file_labels[out.like] : (point.is_named ? prefix : "") + point.label;
+  for (const PointStretch& one : point.stretches) {
+    out.stretches.push_back({one.begin, one.end, recording.points[one.from]});
+  }
+  return out;
+}
+
+/// All points of the file: those that are not the recording's stay as they are.
+std::vector<C3dRelabelledPoint> PointsOfFile(const LabelReport& report) {
+  const Recording& recording = report.input.recording;
+  const C3dFile file(recording.file);
+  const std::vector<std::string> labels = C3dPointNames(file, nullptr);
+  const std::string prefix = PrefixOf(recording, labels);
+  std::vector<bool> is_of_recording(labels.size(), false);
+  for (const int point : recording.points) is_of_recording[point] = true;
+  std::vector<C3dRelabelledPoint> points;
+  std::set<std::string> others;
+  auto next = report.found.points.begin();
+  for (std::size_t p = 0; p < labels.size(); ++p) {
+    const int point = static_cast<int>(p);
+    if (!is_of_recording[p]) {
+      others.insert(labels[p]);
+      points.push_back({labels[p], point, {{0, recording.markers.num_frames(), point}}});
+    }
+    for (; next != report.found.points.end() && recording.points[next->place] == point; ++next) {
+      points.push_back(ToC3d(*next, recording, labels, prefix));
+    }
+  }
+  for (const RelabelledPoint& point : report.found.points) {
+    if (!point.is_named || !others.contains(prefix + point.label)) continue;
+    throw Error(
+        fmt::format("{}: has another point {}, which is computed or another subject's; "
+                    "leave that name out of the marker set",
+                    recording.file, prefix + point.label));
+  }
+  return points;
+}
+
+void WriteAsC3d(const LabelReport& report, const MarkerSequence& markers) {
+  const Recording& recording = report.input.recording;
+  if (recording.format == "C3D") {
+    WriteRelabelledC3d(recording.file, PointsOfFile(report), report.output);
+  } else {
+    WriteC3d(report.output, markers, {.first_frame = recording.first_frame});
+  }
+}
+
+void WriteAsTrc(const LabelReport& report, const MarkerSequence& markers) {
+  TrcOutput trc;
+  trc.file_name = std::filesystem::path(report.output).filename().string();
+  trc.first_frame = report.input.recording.first_frame;
+  trc.measured = &markers;
+  WriteFileAtomically(report.output, FormatTrc(trc));
+}
+
+void WriteAsMmm(const LabelReport& report, const MarkerSequence& markers) {
+  const Recording& recording = report.input.recording;
+  MmmMotionOutput motion;
+  motion.recording_name = std::filesystem::path(recording.file).stem().string();
+  motion.motion_name = recording.motion().empty() ? SubjectName(report.input) : recording.motion();
+  motion.markers = &markers;
+  WriteFileAtomically(report.output, recording.format == "MMM 2.0"
+                                         ? WithConvertedMotions(BytesOfFile(recording.file),
+                                                                recording.file, {motion})
+                                         : FormatMmmMotion2(motion));
+}
+
+// Of the table of formats.
+std::string FormatOf(const std::string& file) {
+  const RecordingFormat* format = FindFormatOfName(file);
+  return format == nullptr ? "" : format->name;
+}
+
+}  // namespace
+
+void CheckLabelledOutput(const std::string& file) {
+  if (!FormatOf(file).empty()) return;
+  throw Error(fmt::format(
+      "{}: the name must end as that of a recording: .c3d, .trc or .xml (an MMM motion)", file));
+}
+
+void CheckKeepsRecording(const std::string& file, const Recording& recording) {
+  std::error_code failure;
+  if (!std::filesystem::equivalent(file, recording.file, failure)) return;
+  const std::string format = FormatOf(file);
+  if (format == recording.format || (format == "MMM motion" && recording.format == "MMM 2.0")) {
+    return;
+  }
+  throw Error(
+      fmt::format("{}: is the recording itself, which would be lost; give another file", file));
+}
+
+void WriteLabelled(const LabelReport& report) {
+  const Recording& recording = report.input.recording;
+  const MarkerSequence markers = Relabelled(report.found.points, recording.markers);
+  const std::string format = FormatOf(report.output);
+  if (format == "C3D") {
+    WriteAsC3d(report, markers);
+  } else if (format == "TRC") {
+    WriteAsTrc(report, markers);
+  } else {
+    WriteAsMmm(report, markers);
+  }
+}
+
+}  // namespace mmm_converter

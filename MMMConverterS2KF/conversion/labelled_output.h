@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "MMMConverterS2KF/conversion/recording_labels.h"
+
+namespace mmm_converter {
+
+/// @throws Error where the name of the output is none of a C3D, TRC or MMM file.
+void CheckLabelledOutput(const std::string& file);
+
+/// @throws Error where the output is the recording itself and would not keep all that is in it.
+void CheckKeepsRecording(const std::string& file, const Recording& recording);
+
+/// Writes the recording under the names that were found. A C3D file as C3D keeps everything but
+/// its points (WriteRelabelledC3d), an MMM 2.0 file as MMM everything but the motion's markers;
+/// else there are the markers and unnamed points alone.
+/// @throws Error; the file is then as it was before, or whole.
+void WriteLabelled(const LabelReport& report);
+
+}  // namespace mmm_converter

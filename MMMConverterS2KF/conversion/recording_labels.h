@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/input/input.h"
+#include "MMMConverterS2KF/input/person.h"
+#include "common/convert/tracking_setup.h"
+#include "common/label/labelling.h"
+#include "common/label/relabelled.h"
+#include "common/support/warnings.h"
+
+namespace mmm_converter {
+
+/// What is known of the names, beside the input's model and person.
+struct LabelHints {
+  std::string like;     ///< a labelled recording of the person; empty: none
+  bool repair = false;  ///< the recording's own labels are right unless the body says otherwise
+};
+
+/// Whose markers the points of a recording are.
+struct FoundLabels {
+  Person person;
+  TrackingSetup setup;  ///< of the labelling's names; its model is the person's
+  Labelling labelling;
+  std::vector<RelabelledPoint> points;
+  std::vector<LabelChange> changes;
+};
+
+/// Names the points of an input that was read with its unlabelled points, and whose model is
+/// matched (MatchModel). The names: of a repair those of the recording's labels that the marker set
+/// knows; else those of `like`; and those of the markers that the subject has offsets for, by the
+/// marker set's labels. Where there is none of these, all of the marker set, which is KIT's where
+/// nothing says otherwise. The person is the subject, or else calibrated on `like`, or of the
+/// height that is known. request: how the input was asked for; `like` has its person and model.
+/// progress(done, all): frames; may be empty.
+/// @throws Error
+FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
+                       const ConverterConfig& config, const std::function<bool(int, int)>& progress,
+                       Warnings* warnings);
+
+/// What was asked for.
+struct LabelRequest {
+  InputRequest input;
+  ConverterRequest converter;  ///< its configuration names markers and joints
+  LabelHints hints;
+  std::string output;                     ///< empty: nothing is written
+  std::vector<std::string> more_outputs;  ///< that the caller writes
+};
+
+/// Everything that a summary tells.
+struct LabelReport {
+  Input input;
+  FoundLabels found;
+  std::string output;
+  Warnings warnings;
+};
+
+/// Reads, checks the outputs, and names the points; writes nothing.
+/// @throws Error
+LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int)>& progress);
+
+}  // namespace mmm_converter

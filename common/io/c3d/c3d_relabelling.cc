@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/c3d/c3d_relabelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include "common/io/c3d/c3d_file.h"
+#include "common/io/c3d/c3d_section_edit.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+#include "common/support/text_pieces.h"
+
+namespace mmm_converter {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+using Points = std::vector<C3dRelabelledPoint>;
+
+constexpr std::size_t kLongestLabel = 127;  // so that 255 labels fit behind a 16 bit offset
+
+constexpr std::uint64_t Blocks(std::uint64_t bytes) { return (bytes + kBlock - 1) / kBlock; }
+
+/// The new file but for its frames.
+struct Frame {
+  std::uint64_t bytes = 0;       // of a frame of the output
+  Bytes before;                  // up to the first frame
+  std::uint64_t padding = 0;     // zeros behind the last frame
+  std::uint64_t rest_begin = 0;  // of the input, what follows
+  std::uint64_t rest_bytes = 0;
+};
+
+void CheckPoints(const std::string& input, const Points& points) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(fmt::format("{}: can't be written with other points: {}", input, why));
+  };
+  if (points.empty()) refuse("there is none");
+  if (points.size() > kFullWord) {
+    refuse(fmt::format("{} points; at most {} fit", points.size(), kFullWord));
+  }
+  for (const C3dRelabelledPoint& point : points) {
+    if (point.label.size() > kLongestLabel) {
+      refuse(fmt::format("label {} has more than {} bytes", point.label, kLongestLabel));
+    }
+  }
+}
+
+bool HasNamesInDescriptions(const C3dParameters& parameters) {
+  return ToLower(parameters.Text("MANUFACTURER", "COMPANY")).starts_with("motion analysis");
+}
+
+/// The stored labels or descriptions of the new points; where nothing is stored and a label is
+/// asked for, as C3dPointNames has it.
+std::vector<std::string> NewTexts(const C3dFile& file, const Points& points,
+                                  const std::vector<std::string>& names, const char* list,
+                                  bool are_names) {
+  const std::vector<std::string> stored = C3dSectionEdit::StoredTexts(file.parameters(), list);
+  std::vector<std::string> texts;
+  bool is_in_place = points.size() == static_cast<std::size_t>(file.layout().points);
+  for (const C3dRelabelledPoint& point : points) {
+    const auto like = static_cast<std::size_t>(point.like);
+    const bool is_renamed = point.label != names[like];
+    is_in_place &= like == texts.size() && !(are_names && is_renamed);
+    std::string text = like < stored.size() ? stored[like] : "";
+    if (are_names && (is_renamed || Trim(text).empty())) text = point.label;
+    texts.push_back(std::move(text));
+  }
+  if (is_in_place) return stored;
+  // Of lists that are longer than the points; of those that are shorter, nothing is added.
+  if (points.size() == static_cast<std::size_t>(file.layout().points)) {
+    for (std::size_t i = points.size(); i < stored.size(); ++i) texts.push_back(stored[i]);
+  }
+  while (!are_names && texts.size() > stored.size() && texts.back().empty()) texts.pop_back();
+  return texts;
+}
+
+// What says in which block something begins that now begins `shift` blocks later.
+void MovePointers(const C3dFile& file, std::uint64_t data_shift, std::int64_t rest_shift,
+                  unsigned char* header, C3dSectionEdit* section) {
+  const C3dLayout& layout = file.layout();
+  const auto old_block = static_cast<std::int64_t>(layout.data_start / kBlock + 1);
+  const auto new_block = old_block + static_cast<std::int64_t>(data_shift);
+  const auto moved = [&](std::int64_t block) {
+    if (block == old_block) return new_block;
+    return block > old_block ? block + rest_shift : block;
+  };
+  if (data_shift > 0) {
+    StoreC3dWord(static_cast<int>(new_block), layout.processor, header + 2 * (9 - 1));
+  }
+  for (const C3dParameter& parameter : file.parameters().all()) {
+    const auto block = parameter.name == "DATA_START" ? parameter.Number(0) : std::nullopt;
+    if (!block || !(*block >= 1 && *block <= kFullWord)) continue;
+    const bool is_of_points = parameter.group == "POINT" && data_shift > 0;
+    const std::int64_t now = is_of_points ? new_block : moved(static_cast<std::int64_t>(*block));
+    if (now != static_cast<std::int64_t>(*block)) {
+      section->SetNumber(parameter, static_cast<int>(now));
+    }
+  }
+  // The section of labels and ranges, which stands between parameters and data or behind these.
+  constexpr int kIsThere = 12345;
+  unsigned char* const ranges = header + 2 * (149 - 1);
+  const std::int64_t block = C3dWord(ranges, layout.processor);
+  if (C3dWord(ranges - 2, layout.processor) != kIsThere) return;
+  const bool is_before_data =
+      block < old_block && block * kBlock > file.section_start() + file.parameters().end();
+  StoreC3dWord(static_cast<int>(is_before_data ? block + static_cast<std::int64_t>(data_shift)
+                                               : moved(block)),
+               layout.processor, ranges);
+}
+
+// Sizes and places behind the first frame.
+void LayOutRest(const C3dFile& file, std::size_t num_points, Frame* frame) {
+  const C3dLayout& layout = file.layout();
+  const std::uint64_t old_bytes = layout.frame_bytes * layout.frames;
+  const std::uint64_t new_bytes = frame->bytes * layout.frames;
+  if (num_points == static_cast<std::size_t>(layout.points)) {
+    frame->rest_begin = layout.data_start + old_bytes;
+    frame->rest_bytes = file.data_bytes() - old_bytes;
+    return;
+  }
+  const std::uint64_t padded = Blocks(old_bytes) * kBlock;
+  // A part of a frame, or a file that ends with its last frame, is followed by nothing.
+  if (layout.declared_frames > layout.frames || file.data_bytes() < padded) return;
+  frame->padding = Blocks(new_bytes) * kBlock - new_bytes;
+  frame->rest_begin = layout.data_start + padded;
+  frame->rest_bytes = file.data_bytes() - padded;
+}
+
+Bytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
+  const C3dLayout& layout = file->layout();
+  const C3dParameters& parameters = file->parameters();
+  const std::uint64_t section_start = file->section_start();
+  if (layout.data_start < section_start + parameters.end()) {
+    throw Error(fmt::format("{}: has its parameters behind the data, where they can't be changed",
+                            file->path()));
+  }
+  Bytes before = file->ReadBytes(0, section_start);
+  unsigned char* const header = before.data();
+  C3dSectionEdit section(file->ReadBytes(section_start, layout.data_start - section_start),
+                         parameters, file->path());
+  const std::vector<std::string> names = C3dPointNames(*file, nullptr);
+  section.SetPointTexts("LABELS", NewTexts(*file, points, names, "LABELS", true));
+  if (parameters.Find("POINT", "DESCRIPTIONS") != nullptr) {
+    section.SetPointTexts("DESCRIPTIONS", NewTexts(*file, points, names, "DESCRIPTIONS",
+                                                   HasNamesInDescriptions(parameters)));
+  }
+  if (points.size() != static_cast<std::size_t>(layout.points)) {
+    const int count = static_cast<int>(points.size());
+    StoreC3dWord(count, layout.processor, header + 2 * (2 - 1));
+    const C3dParameter* const used = parameters.Find("POINT", "USED");
+    if (used != nullptr) section.SetNumber(*used, count);
+  }
+  const auto data_blocks = [&](std::uint64_t frame_bytes) {
+    return static_cast<std::int64_t>(Blocks(frame_bytes * layout.frames));
+  };
+  const std::uint64_t data_shift = section.MoreBlocks();
+  MovePointers(*file, data_shift,
+               static_cast<std::int64_t>(data_shift) + data_blocks(frame->bytes) -
+                   data_blocks(layout.frame_bytes),
+               header, &section);
+  const Bytes changed = section.Finish();
+  before.insert(before.end(), changed.begin(), changed.end());
+  return before;
+}
+
+/// Makes frames of the output from those of the input, which must come in their order.
+class FrameMaker {
+ public:
+  FrameMaker(const C3dLayout& layout, const Points& points)
+      : layout_(layout), points_(points), next_(points.size(), 0) {
+    if (layout.floats) {
+      StoreC3dFloat(-1, layout.processor, &unseen_[12]);
+    } else {
+      StoreC3dWord(-1, layout.processor, &unseen_[6]);
+    }
+  }
+
+  void Append(int frame, const unsigned char* stored, std::string* out) {
+    const std::size_t point_bytes = layout_.floats ? 16 : 8;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const std::vector<C3dStretch>& stretches = points_[i].stretches;
+      std::size_t& next = next_[i];
+      while (next < stretches.size() && stretches[next].end <= frame) ++next;
+      const bool is_there = next < stretches.size() && stretches[next].begin <= frame;
+      const unsigned char* const from =
+          is_there ? stored + point_bytes * static_cast<std::size_t>(stretches[next].point)
+                   : unseen_;
+      out->append(reinterpret_cast<const char*>(from), point_bytes);
+    }
+    const std::uint64_t of_points = point_bytes * static_cast<std::uint64_t>(layout_.points);
+    out->append(reinterpret_cast<const char*>(stored + of_points), layout_.frame_bytes - of_points);
+  }
+
+ private:
+  const C3dLayout& layout_;
+  const Points& points_;
+  std::vector<std::size_t> next_;  // stretch of each point
+  unsigned char unseen_[16] = {};
+};
+
+void CopyRest(C3dFile* file, const Frame& frame, PieceWriter* pieces) {
+  for (std::uint64_t done = 0; done < frame.rest_bytes;) {
+    const std::uint64_t count = std::min(kBufferBytes, frame.rest_bytes - done);
+    const Bytes bytes = file->ReadBytes(frame.rest_begin + done, count);
+    pieces->text()->append(bytes.begin(), bytes.end());
+    pieces->EndPart();
+    done += count;
+  }
+}
+
+void WriteFrames(C3dFile* file, const Points& points, PieceWriter* pieces) {
+  const C3dLayout& layout = file->layout();
+  FrameMaker maker(layout, points);
+  const int chunk = static_cast<int>(std::clamp<std::uint64_t>(
+      kBufferBytes / layout.frame_bytes, 1, static_cast<std::uint64_t>(layout.frames)));
+  Bytes stored;
+  for (int k = 0; k < layout.frames; k += chunk) {
+    const int count = std::min(chunk, layout.frames - k);
+    file->ReadFrames(k, count, &stored);
+    for (int i = 0; i < count; ++i) {
+      maker.Append(k + i, &stored[layout.frame_bytes * static_cast<std::uint64_t>(i)],
+                   pieces->text());
+      pieces->EndPart();
+    }
+  }
+}
+
+}  // namespace
+
+void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelledPoint>& points,
+                        const std::string& output) {
+  CheckPoints(input, points);
+  C3dFile file(input);
+  const C3dLayout& layout = file.layout();
+  if (layout.points == 0 || layout.frames == 0) {
+    throw Error(fmt::format("{}: holds no points in any whole frame", input));
+  }
+  Frame frame;
+  const std::int64_t more = static_cast<std::int64_t>(points.size()) - layout.points;
+  frame.bytes = layout.frame_bytes + static_cast<std::uint64_t>(more * (layout.floats ? 16 : 8));
+  LayOutRest(file, points.size(), &frame);
+  frame.before = BytesBeforeFrames(&file, points, &frame);
+  WriteFileAtomically(output, [&](const TextSink& sink) {
+    PieceWriter pieces(sink);
+    pieces.text()->append(file.leading_zeros(), '\0');
+    pieces.text()->append(frame.before.begin(), frame.before.end());
+    WriteFrames(&file, points, &pieces);
+    pieces.text()->append(frame.padding, '\0');
+    CopyRest(&file, frame, &pieces);
+    pieces.Flush();
+  });
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mmm_converter {
+
+/// Frames [begin, end), counted from 0, that are stored for a point of the input.
+struct C3dStretch {
+  int begin = 0, end = 0;
+  int point = 0;  ///< of the input
+};
+
+/// A point of a C3D file that is made of another's points.
+struct C3dRelabelledPoint {
+  std::string label;
+  int like = 0;  ///< the input's point whose description it keeps, and its label where it is called
+                 ///< as C3dPointNames calls that
+  std::vector<C3dStretch> stretches;  ///< in order, without overlaps; elsewhere it is not seen
+};
+
+/// Writes the C3D file `input` with other points. A stretch has the stored words of its point, with
+/// residual and cameras; where a point has none it is marked invalid. All else stays byte for byte:
+/// analog samples, events, parameters and their order, the blocks behind the data. Only these
+/// change where they have to: POINT:LABELS and DESCRIPTIONS (and ...2, ...3), the number of points
+/// in header and POINT:USED, and, where the parameters need more blocks, all that says in which
+/// block something begins. The output may be the input; it appears whole or not at all.
+/// @throws Error as C3dFile, and where the format can't hold the points (none or more than 65535,
+///         labels of more than 127 bytes, more than 255 blocks of parameters), parameters stand
+///         behind the data, or the output can't be written.
+void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelledPoint>& points,
+                        const std::string& output);
+
+}  // namespace mmm_converter

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/io/c3d/c3d_parameters.h"
+
+namespace mmm_converter {
+
+/// The parameter section of a C3D file while some of its parameters change. All other records stay
+/// byte for byte and in their order; what cannot be told apart from padding stays as well.
+class C3dSectionEdit {
+ public:
+  /// section: from its first byte to the data, as parameters were parsed from.
+  C3dSectionEdit(std::vector<unsigned char> section, const C3dParameters& parameters,
+                 std::string file);
+
+  /// A number in place of another, in the parameter's own type; nothing where there is no such
+  /// parameter. @throws Error where the type can't hold it.
+  void SetNumber(const C3dParameter& parameter, int number);
+
+  /// POINT:NAME, NAME2, ... as one list of texts; each may have the padding of the list that it is
+  /// from. A list that stays as it is changes nothing. At most 255 bytes each.
+  void SetPointTexts(const std::string& name, const std::vector<std::string>& texts);
+
+  /// The texts as they are stored, with their padding.
+  static std::vector<std::string> StoredTexts(const C3dParameters& parameters,
+                                              const std::string& name);
+
+  /// How many blocks longer the section becomes by the lists of texts.
+  /// @throws Error where it would need more than 255.
+  std::size_t MoreBlocks() const;
+
+  /// The changed section, whose own header counts its blocks. @throws Error as MoreBlocks.
+  std::vector<unsigned char> Finish() const;
+
+ private:
+  struct Edit {
+    std::size_t begin, end;
+    std::string bytes;
+  };
+  const C3dParameter& AnyOfPoints() const;
+  std::size_t ZerosBehindRecords() const;
+
+  std::vector<unsigned char> section_;
+  const C3dParameters& parameters_;
+  std::string file_;
+  std::vector<Edit> edits_;
+};
+
+}  // namespace mmm_converter
