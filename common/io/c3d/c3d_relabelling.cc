@@ -89,9 +89,6 @@ void MovePointers(const C3dFile& file, std::uint64_t data_shift, std::int64_t re
     if (block == old_block) return new_block;
     return block > old_block ? block + rest_shift : block;
   };
-  if (data_shift > 0) {
-    StoreC3dWord(static_cast<int>(new_block), layout.processor, header + 2 * (9 - 1));
-  }
   for (const C3dParameter& parameter : file.parameters().all()) {
     const auto block = parameter.name == "DATA_START" ? parameter.Number(0) : std::nullopt;
     if (!block || !(*block >= 1 && *block <= kFullWord)) continue;
@@ -141,8 +138,9 @@ Bytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
   }
   Bytes before = file->ReadBytes(0, section_start);
   unsigned char* const header = before.data();
-  C3dSectionEdit section(file->ReadBytes(section_start, layout.data_start - section_start),
-                         parameters, file->path());
+  Bytes old_section = file->ReadBytes(section_start, layout.data_start - section_start);
+  const int stated_blocks = old_section[2];
+  C3dSectionEdit section(std::move(old_section), parameters, file->path());
   const std::vector<std::string> names = C3dPointNames(*file, nullptr);
   section.SetPointTexts("LABELS", NewTexts(*file, points, names, "LABELS", true));
   if (parameters.Find("POINT", "DESCRIPTIONS") != nullptr) {
@@ -158,7 +156,15 @@ Bytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
   const auto data_blocks = [&](std::uint64_t frame_bytes) {
     return static_cast<std::int64_t>(Blocks(frame_bytes * layout.frames));
   };
+  // A header that contradicts the data can't be left so where what it was judged by changes.
+  const bool header_is_wrong = C3dDataStartOfHeader(file->header(), section_start, stated_blocks,
+                                                    layout.data_start + file->data_bytes()) == 0;
+  if (header_is_wrong && section.HasNewTexts()) section.StateSize();
   const std::uint64_t data_shift = section.MoreBlocks();
+  if (data_shift > 0 || (header_is_wrong && section.HasNewTexts())) {
+    StoreC3dWord(static_cast<int>(layout.data_start / kBlock + 1 + data_shift), layout.processor,
+                 header + 2 * (9 - 1));
+  }
   MovePointers(*file, data_shift,
                static_cast<std::int64_t>(data_shift) + data_blocks(frame->bytes) -
                    data_blocks(layout.frame_bytes),

@@ -199,6 +199,10 @@ std::size_t C3dSectionEdit::ZerosBehindRecords() const {
   return at - begin;
 }
 
+void C3dSectionEdit::StateSize() {
+  section_[2] = static_cast<unsigned char>(std::min(kMostBlocks, section_.size() / kBlock));
+}
+
 std::size_t C3dSectionEdit::MoreBlocks() const {
   constexpr std::size_t kEnd = 2;  // zeros that end the records
   std::size_t before = 0;

@@ -29,6 +29,12 @@ class C3dSectionEdit {
   static std::vector<std::string> StoredTexts(const C3dParameters& parameters,
                                               const std::string& name);
 
+  /// Whether a list of texts changes.
+  bool HasNewTexts() const { return !edits_.empty(); }
+
+  /// Makes the section say of itself that it has all blocks up to the data.
+  void StateSize();
+
   /// How many blocks longer the section becomes by the lists of texts.
   /// @throws Error where it would need more than 255.
   std::size_t MoreBlocks() const;

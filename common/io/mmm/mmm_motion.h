@@ -72,7 +72,8 @@ struct MmmMotionOutput {
       nullptr;  ///< 2.0: MoCapMarker; unseen markers are left out of their frame
 };
 
-/// The text of a whole file with one motion; 1.0 must have a trajectory. Trajectory and markers must outlive it.
+/// The text of a whole file with one motion; 1.0 must have a trajectory. Trajectory and markers
+/// must outlive it.
 /// @throws Error where a posture is not finite.
 TextPieces FormatMmmMotion2(const MmmMotionOutput& output);
 TextPieces FormatMmmMotion1(const MmmMotionOutput& output);
@@ -80,8 +81,8 @@ TextPieces FormatMmmMotion1(const MmmMotionOutput& output);
 /// The MMM 2.0 file `content` with the motions called motion_name of each output converted: Model
 /// and ModelProcessorConfig, the ModelPose sensors and those Kinematic sensors that have one of the
 /// converted joints are replaced, where there is a trajectory; the MoCapMarker sensors if `markers`
-/// is given. Every other byte stays: other motions, other sensors, annotations, comments. `file` is only named in
-/// messages. Trajectories and markers must outlive the text.
+/// is given. Every other byte stays: other motions, other sensors, annotations, comments. `file` is
+/// only named in messages. Trajectories and markers must outlive the text.
 /// @throws Error where `content` is not an MMM 2.0 file or has not exactly one motion of such a
 /// name, or a posture is not finite.
 TextPieces WithConvertedMotions(const ByteSource& content, const std::string& file,

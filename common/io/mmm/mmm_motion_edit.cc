@@ -147,7 +147,8 @@ std::vector<Edit> EditsOf(const XmlElement& motion, const XmlRange& range,
         edits.push_back({place.begin, place.begin, FormatModelElement(output) + "\n\t\t"});
       }
       EditSensors(child, place, content, output, &edits);
-    } else if (has_motion && child.Is("ModelProcessorConfig")) {  // as in 1.0; 2.0 has it in the model
+    } else if (has_motion &&
+               child.Is("ModelProcessorConfig")) {  // as in 1.0; 2.0 has it in the model
       edits.push_back(Removal(content, before, place));
     }
     before = place.end;

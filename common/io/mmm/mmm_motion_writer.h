@@ -17,8 +17,8 @@ std::string FormatModelElement(const MmmMotionOutput& output);
 /// @throws Error where a posture is not finite.
 void CheckWritable(const MmmMotionOutput& output);
 
-/// The <Sensor> elements ModelPose, Kinematic and MoCapMarker, as far as the output has these; the first is
-/// not indented, the last is not ended by a new line.
+/// The <Sensor> elements ModelPose, Kinematic and MoCapMarker, as far as the output has these; the
+/// first is not indented, the last is not ended by a new line.
 void AppendSensorElements(const MmmMotionOutput& output, PieceWriter* pieces);
 
 }  // namespace mmm_converter

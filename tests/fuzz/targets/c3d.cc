@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <numeric>
 
+#include "common/io/bytes/file_content.h"
 #include "common/io/c3d/c3d_analog.h"
 #include "common/io/c3d/c3d_content.h"
 #include "common/io/c3d/c3d_events.h"
 #include "common/io/c3d/c3d_file.h"
 #include "common/io/c3d/c3d_points.h"
+#include "common/io/c3d/c3d_relabelling.h"
 #include "common/io/c3d/c3d_writer.h"
+#include "common/support/error.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace mmm_converter::testing {
@@ -38,6 +42,33 @@ void Describe(const std::string& path) {
   }
 }
 
+/// Written as it is, it is the same; of a file without contradictions the points can change.
+void Relabel(const std::string& path) {
+  Warnings warnings;
+  const C3dFile file(path, &warnings);
+  const C3dLayout& layout = file.layout();
+  const std::vector<std::string> names = C3dPointNames(file, &warnings);
+  std::vector<C3dRelabelledPoint> points;
+  for (int i = 0; i < layout.points; ++i) {
+    points.push_back({names[i], i, {{0, layout.frames, i}}});
+  }
+  const std::string written = path + ".relabelled";
+  try {
+    WriteRelabelledC3d(path, points, written);
+    Require(ReadFileContent(written) == ReadFileContent(path), "the same bytes");
+    points.push_back({"a_new_point", 0, {{0, layout.frames, 0}}});
+    points.front().label = "another_name";
+    std::reverse(points.begin(), points.end());
+    WriteRelabelledC3d(path, points, written);
+  } catch (const Error&) {
+    return;  // such as a label that is too long to be written
+  }
+  const C3dFile again(written);
+  if (!warnings.empty()) return;
+  Require(again.layout().frames == layout.frames, "the frames of the file that was relabelled");
+  Require(C3dPointNames(again, nullptr).front() == "a_new_point", "the new label");
+}
+
 }  // namespace
 
 void ReadC3dBytes(std::string_view bytes) {
@@ -50,6 +81,7 @@ void ReadC3dBytes(std::string_view bytes) {
   const MarkerSequence again = ReadAllPoints(written, false);
   Require(again.labels() == read.labels(), "the labels that were written");
   Require(again.num_frames() == read.num_frames(), "the frames that were written");
+  Relabel(path);
 }
 
 }  // namespace mmm_converter::testing
