@@ -35,6 +35,11 @@ const std::vector<OptionGroup> kOtherOptions = {
        "converterConfigFile"},
       {"converter", "NAME", "default: what the configuration says, else S2KFConverter", ""},
       {"plugin", "FILE", "take the converter from this plugin file", ""}}},
+    {"Labels",
+     {{"label", "",
+       "find the names of points that have none first, as label does: by --subject-file, or by "
+       "--height and --marker-set",
+       ""}}},
     {"Calibration",
      {{"self-calibrate", "",
        "estimate segment lengths and marker places from this recording first, as calibrate does",
@@ -70,6 +75,7 @@ Examples
   MMMConverterS2KF convert walk.c3d --height 1.75 --mass 70 -o walk.xml --summary walk.json
   MMMConverterS2KF convert walk.c3d --height 1.75 --self-calibrate --subject-out anna.xml
   MMMConverterS2KF convert run.c3d --subject-file anna.xml
+  MMMConverterS2KF convert unlabelled.c3d --label --subject-file anna.xml
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
   MMMConverterS2KF convert cup.c3d --object --object-models objects
@@ -114,6 +120,10 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.model_output = arguments.Get("model-out").value_or("");
   request.is_object = arguments.Has("object");
+  request.label = arguments.Has("label");
+  if (request.label && request.is_object) {
+    throw UsageError("convert: --label names the markers of a person, not those of an --object");
+  }
   request.object_models = arguments.Get("object-models").value_or("");
   if (request.self_calibrate && !request.input.person.subject_file.empty()) {
     throw UsageError(
@@ -136,7 +146,7 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
 
 // What has a place for one motion only.
 void CheckFitsAllMotions(const Arguments& arguments) {
-  std::vector<std::string> options = {"object", "model-path", "subject-out", "model-out"};
+  std::vector<std::string> options = {"object", "label", "model-path", "subject-out", "model-out"};
   for (const Exporter& exporter : Exporters()) options.push_back(OptionOf(exporter));
   for (const std::string& option : options) {
     if (!arguments.Has(option)) continue;

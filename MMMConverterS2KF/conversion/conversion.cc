@@ -66,6 +66,17 @@ ObjectRequest ObjectRequestOf(const ConversionRequest& request, const Conversion
   return object;
 }
 
+// The input's points under the names that are found for them; the others are left out.
+void LabelInput(const InputRequest& request, const ConverterConfig& config, ConversionPlan* plan) {
+  MarkerSequence& markers = plan->input.recording.markers;
+  plan->labels = FindLabels(request, {}, plan->input, config, {}, &plan->warnings);
+  std::vector<RelabelledPoint> named;
+  for (const RelabelledPoint& point : plan->labels->points) {
+    if (!point.label.starts_with('*')) named.push_back(point);
+  }
+  markers = Relabelled(named, markers);
+}
+
 void WritePerson(const ConversionReport& report) {
   if (!report.subject_output.empty()) {
     WriteFileAtomically(report.subject_output,
@@ -82,13 +93,16 @@ void WritePerson(const ConversionReport& report) {
 ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
   ConversionPlan plan;
   Warnings* warnings = &plan.warnings;
-  plan.input = ReadInput(request.input, read_before, warnings);
+  InputRequest input = request.input;
+  input.reading.with_unlabelled = request.label;
+  plan.input = ReadInput(input, read_before, warnings);
   const Recording& recording = plan.input.recording;
   const WarningContext context(warnings, recording.file, recording.motion());
   plan.converter = TakeConverter(request.converter, read_before, warnings);
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
   if (request.self_calibrate) config.subject_file.clear();
+  if (request.label) LabelInput(request.input, config, &plan);
   const bool is_one_of_several = read_before.motion.value != nullptr;
   ChooseMotionOutput(request, is_one_of_several, &plan);
   plan.object =

@@ -10,6 +10,7 @@
 #include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/conversion/object.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/conversion/recording_labels.h"
 #include "MMMConverterS2KF/conversion/verdict.h"
 #include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/input.h"
@@ -32,6 +33,7 @@ struct ConversionRequest {
   std::string model_output;               ///< also write the subject's model
   ExportFiles exports;                    ///< for other programs
   std::vector<std::string> more_outputs;  ///< that the caller writes
+  bool label = false;                     ///< find the names of points that have none first
   bool is_object = false;                 ///< of a rigid object, whatever the file says
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
@@ -40,6 +42,7 @@ struct ConversionRequest {
 /// All that is decided before the first frame is tracked.
 struct ConversionPlan {
   Input input;
+  std::optional<FoundLabels> labels;  ///< where the input has got its labels by the body
   ConverterChoice converter;
   Person person;
   std::optional<ObjectModel> object;  ///< what is tracked, where it is no person

@@ -61,7 +61,7 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
     for (const ConversionReport* report : reports) {
       MmmMotionOutput output = DescribeMotion(request, *report);
       output.motion_name = report->input.recording.motion();
-      if (AreMarkersAsInFile(report->input.recording)) output.markers = nullptr;
+      if (AreMarkersAsInFile(report->input.recording) && !report->labels) output.markers = nullptr;
       outputs.push_back(std::move(output));
     }
     return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);

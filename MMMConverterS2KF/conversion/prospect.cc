@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -23,7 +24,7 @@ Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recordi
     prospect.doubts = plan.input.recording.doubts;
     prospect.gaps = LongGaps(plan.setup, prospect.limbs, plan.input.recording.markers);
   } catch (const Error& error) {
-    prospect.failure = error.what();
+    prospect.failure = WithAdvice(error);
   }
   return prospect;
 }

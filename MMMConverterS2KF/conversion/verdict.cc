@@ -156,7 +156,8 @@ class Judge {
     const double share = wrong / std::max(1.0, static_cast<double>(figures_.distance.seen));
     judgement_.AddBeyond(
         kWrongLabels, share,
-        fmt::format("{:.0f} % of the marker positions are not where their labels belong: {}",
+        fmt::format("{:.0f} % of the marker positions are not where their labels belong: {}; "
+                    "label --repair finds such labels",
                     kPercent * share, LabelsOf(assignments)));
   }
 

@@ -4,6 +4,7 @@
 #include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/support/units.h"
 
@@ -120,6 +121,8 @@ Json ToJson(const ConversionReport& report) {
       {"person", DescribePerson(report)},
       {"object", ObjectJson(report)},
       {"subject", SubjectJson(report)},
+      {"labels", report.labels ? LabelsJson(*report.labels, markers, report.input.first_frame)
+                               : Json(nullptr)},
       {"converter", report.converter.config.type},
       {"plugin", report.converter.plugin->path()},
       {"configuration", report.converter.config.file},

@@ -8,6 +8,7 @@
 
 #include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
+#include "MMMConverterS2KF/report/label_summary.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -53,6 +54,7 @@ std::string DescribeWrongMarkers(const ConversionReport& report) {
     text += fmt::format("           and {} shorter ones (all in --summary)\n",
                         incidents.size() - kMostLines);
   }
+  if (!incidents.empty()) text += "           label --repair mends what is wrong in a recording\n";
   return text;
 }
 
@@ -112,6 +114,7 @@ std::string FormatSummary(const ConversionReport& report) {
   text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
                       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
+  if (report.labels) text += fmt::format("labels     {}\n", DescribeLabels(*report.labels));
   text += report.object ? fmt::format("object     rigid, {}\n", DescribeObjectModel(*report.object))
                         : fmt::format("person     {}\n", DescribePersonShortly(report));
   text += DescribeSubject(report);

@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/report/describe.h"
 #include "MMMConverterS2KF/report/info_markers.h"
 #include "MMMConverterS2KF/report/info_prospect.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/tables/trc_reader.h"
 #include "common/support/error.h"
@@ -47,7 +48,7 @@ Markers ReadMarkers(const std::string& path, const ReadRecordingOptions& options
     return {recording, FindProspect(conversion, recording), ""};
   } catch (const Error& error) {
     if (!options.subject.empty() || options.unit || options.up_axis) throw;
-    std::string failure = error.what();
+    std::string failure = WithAdvice(error);
     if (failure.starts_with(path + ": ")) failure.erase(0, path.size() + 2);
     return {nullptr, std::nullopt, failure};
   }

@@ -43,14 +43,10 @@ std::vector<std::string> NamesNotFound(const Labelling& labelling) {
   return names;
 }
 
-std::string NameOfPoint(const LabelReport& report, const LabelChange& change) {
-  return report.input.recording.markers.labels()[change.point];
-}
-
 std::string DescribeChange(const LabelReport& report, const LabelChange& change) {
   const MarkerSequence& markers = report.input.recording.markers;
   return fmt::format(
-      "{} {}, frames {} to {} ({:.2f} to {:.2f} s)\n", NameOfPoint(report, change),
+      "{} {}, frames {} to {} ({:.2f} to {:.2f} s)\n", change.from,
       change.to.empty() ? "is none of the markers"
                         : fmt::format("is {} ({:.3g})", change.to, change.probability),
       change.begin, change.end - 1, markers.time(change.begin), markers.time(change.end - 1));
@@ -109,28 +105,11 @@ std::string FormatLabelSummary(const LabelReport& report, bool is_repair) {
                                        : fmt::format("written    {}\n", report.output));
 }
 
-Json ChangesJson(const FoundLabels& found, const MarkerSequence& markers) {
-  Json changes = Json::array();
-  for (const LabelChange& change : found.changes) {
-    changes.push_back({{"point", markers.labels()[change.point]},
-                       {"from", TextOrNull(change.from)},
-                       {"to", TextOrNull(change.to)},
-                       {"first_frame", change.begin},
-                       {"last_frame", change.end - 1},
-                       {"first_time_s", Number(markers.time(change.begin))},
-                       {"last_time_s", Number(markers.time(change.end - 1))},
-                       {"probability", Number(change.probability, kProbabilityDecimals)}});
-  }
-  return changes;
-}
-
-Json ToJson(const LabelReport& report) {
-  const Recording& recording = report.input.recording;
-  const Labelling& labelling = report.found.labelling;
-  const std::vector<NameFigures> figures = FiguresOfNames(labelling);
+Json LabelsJson(const FoundLabels& found, const MarkerSequence& markers, int first_frame) {
+  const std::vector<NameFigures> figures = FiguresOfNames(found.labelling);
   Json names = Json::array();
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    names.push_back({{"name", labelling.names[i]},
+    names.push_back({{"name", found.labelling.names[i]},
                      {"frames", figures[i].frames},
                      {"points", figures[i].points.size()},
                      {"least_probability", figures[i].frames == 0 ? Json(nullptr)
@@ -138,28 +117,44 @@ Json ToJson(const LabelReport& report) {
                                                                            kProbabilityDecimals)}});
   }
   Json unnamed = Json::array();
-  for (const RelabelledPoint& point : report.found.points) {
+  for (const RelabelledPoint& point : found.points) {
     if (point.label.starts_with('*')) unnamed.push_back(point.label);
   }
-  const Person& person = report.found.person;
-  return {{"program", SubjectProgram()},
-          {"input",
-           {{"file", recording.file},
-            {"format", recording.format},
-            {"subject", recording.subject},
-            {"motion", recording.motion()},
-            {"points", recording.markers.num_labels()}}},
-          {"output", TextOrNull(report.output)},
-          {"frames", recording.markers.num_frames()},
-          {"rate_hz", recording.markers.rate()},
-          {"height_m", person.height.value > 0 ? Number(person.height.value) : Json(nullptr)},
-          {"height_source", person.height.source},
-          {"subject", person.subject ? Json(person.subject->name) : Json(nullptr)},
-          {"marker_set", TextOrNull(report.found.setup.marker_set)},
+  Json changes = Json::array();
+  for (const LabelChange& change : found.changes) {
+    changes.push_back({{"from", change.from},
+                       {"to", TextOrNull(change.to)},
+                       {"first_frame", first_frame + change.begin},
+                       {"last_frame", first_frame + change.end - 1},
+                       {"first_s", Number(markers.time(change.begin))},
+                       {"last_s", Number(markers.time(change.end - 1))},
+                       {"probability", Number(change.probability, kProbabilityDecimals)}});
+  }
+  return {{"marker_set", TextOrNull(found.setup.marker_set)},
           {"names", names},
           {"unnamed", unnamed},
-          {"changes", ChangesJson(report.found, recording.markers)},
-          {"warnings", report.warnings.texts()}};
+          {"changes", changes}};
+}
+
+Json ToJson(const LabelReport& report) {
+  const Recording& recording = report.input.recording;
+  const Person& person = report.found.person;
+  Json json = {{"program", SubjectProgram()},
+               {"input",
+                {{"file", recording.file},
+                 {"format", recording.format},
+                 {"subject", recording.subject},
+                 {"motion", recording.motion()},
+                 {"points", recording.markers.num_labels()}}},
+               {"output", TextOrNull(report.output)},
+               {"frames", recording.markers.num_frames()},
+               {"rate_hz", recording.markers.rate()},
+               {"height_m", person.height.value > 0 ? Number(person.height.value) : Json(nullptr)},
+               {"height_source", person.height.source},
+               {"subject", person.subject ? Json(person.subject->name) : Json(nullptr)}};
+  json.update(LabelsJson(report.found, recording.markers, report.input.first_frame));
+  json["warnings"] = report.warnings.texts();
+  return json;
 }
 
 }  // namespace mmm_converter

@@ -17,7 +17,8 @@ Json ToJson(const LabelReport& report);
 /// One line of what was changed: how many names were given, and to how many points.
 std::string DescribeLabels(const FoundLabels& found);
 
-/// The changes, as in the JSON of a LabelReport. first_frame: of the frames that were labelled.
-Json ChangesJson(const FoundLabels& found, const MarkerSequence& markers);
+/// Names, unnamed and changes, as in the JSON of a LabelReport. markers: what was labelled, of
+/// which frame 0 is the file's first_frame.
+Json LabelsJson(const FoundLabels& found, const MarkerSequence& markers, int first_frame);
 
 }  // namespace mmm_converter

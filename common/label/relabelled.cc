@@ -192,7 +192,6 @@ std::vector<LabelChange> ChangesOf(const Labelling& labelling,
       goes_on = false;
       continue;
     }
-    const std::string& label = labels[piece.point];
     const std::string to = piece.name < 0 ? "" : labelling.names[piece.name];
     LabelChange* const last = goes_on ? &changes.back() : nullptr;
     if (last != nullptr && last->point == piece.point && last->to == to) {
@@ -201,7 +200,7 @@ std::vector<LabelChange> ChangesOf(const Labelling& labelling,
       continue;
     }
     changes.push_back(
-        {piece.point, piece.begin, piece.end, IsLabel(label) ? label : "", to, piece.probability});
+        {piece.point, piece.begin, piece.end, labels[piece.point], to, piece.probability});
     goes_on = true;
   }
   std::stable_sort(changes.begin(), changes.end(),

@@ -42,7 +42,7 @@ MarkerSequence Relabelled(const std::vector<RelabelledPoint>& points,
 struct LabelChange {
   LabelIx point;  ///< column of the recording
   int begin = 0, end = 0;
-  std::string from;        ///< its label; empty: it had none (`*` and a number)
+  std::string from;        ///< its label; `*` and a number where it had none
   std::string to;          ///< empty: it has none now
   double probability = 0;  ///< the least of its pieces
 };

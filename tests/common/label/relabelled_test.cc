@@ -52,7 +52,7 @@ TEST(Relabelled, BrokenTrajectoriesAreJoinedAndWhatHasNoNameStays) {
   const std::vector<std::string> labels = {"*1", "*2", "*5"};
   EXPECT_THAT(Texts(RelabelledPoints(labelling, labels, 10)),
               ElementsAre("A@0 0-5:0 5-8:1 8-10:0", "*2@1 0-5:1 8-10:1", "*5@2 0-10:2"));
-  EXPECT_THAT(Texts(ChangesOf(labelling, labels)), ElementsAre("0 0-4 >A", "1 5-8 >A"));
+  EXPECT_THAT(Texts(ChangesOf(labelling, labels)), ElementsAre("0 0-4 *1>A", "1 5-8 *2>A"));
 }
 
 TEST(Relabelled, ExchangedLabelsAreExchangedBack) {
@@ -86,7 +86,7 @@ TEST(Relabelled, APointWithoutALabelGoesWhereAllOfItHasAName) {
 TEST(Relabelled, PiecesOfOneNameAreOneChange) {
   const Labelling labelling{
       {"A", "B"}, {Piece(0, 7, 9, 1), Piece(0, 0, 2, 0), Piece(0, 3, 4, 0), Piece(0, 5, 6, 1)}};
-  EXPECT_THAT(Texts(ChangesOf(labelling, {"*1"})), ElementsAre("0 0-4 >A", "0 5-9 >B"));
+  EXPECT_THAT(Texts(ChangesOf(labelling, {"*1"})), ElementsAre("0 0-4 *1>A", "0 5-9 *1>B"));
 }
 
 TEST(Relabelled, EveryMeasuredPositionIsThereOnce) {
