@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// `label` and `convert --label` on a real recording whose labels were taken away or exchanged.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/io/c3d/c3d_file.h"
+#include "common/io/c3d/c3d_relabelling.h"
+#include "common/io/recording/recording.h"
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/strict_c3d.h"
+
+namespace mmm_converter::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string Labelled() { return SharedData("recordings/kit_bimanual_c3d/Pour_1480.c3d"); }
+
+std::string InFolder(const std::string& name) { return TestFolder() + "/" + name; }
+
+// The points in the opposite order and without labels; the sixth breaks and goes on as another.
+std::string Unlabelled() {
+  const C3dFile file(Labelled());
+  const int frames = file.layout().frames;
+  std::vector<C3dRelabelledPoint> points;
+  for (int i = file.layout().points - 1; i >= 0; --i) {
+    points.push_back({"", i, {{0, frames, i}}});
+  }
+  points.push_back({"", 0, {{40, frames, points[5].stretches[0].point}}});
+  points[5].stretches[0].end = 38;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].label = "*" + std::to_string(i + 1);
+  std::string path = InFolder("unlabelled.c3d");
+  WriteRelabelledC3d(Labelled(), points, path);
+  return path;
+}
+
+struct Score {
+  int right = 0, wrong = 0;
+  double share() const { return static_cast<double>(right) / (right + wrong); }
+};
+
+// Of the positions under names, how many are those that the labelled recording has there. Within a
+// tenth of a millimetre, of which the output formats hold more.
+Score Compare(const MarkerSequence& found) {
+  const MarkerSequence truth = ReadRecording(Labelled(), {}).markers;
+  Score score;
+  for (int i = 0; i < found.num_labels(); ++i) {
+    const int label = truth.FindLabel(found.labels()[i]);
+    if (label < 0) continue;
+    for (int k = 0; k < found.num_frames(); ++k) {
+      const Eigen::Vector3d p = found.frame(k).col(i);
+      if (!IsSeen(p)) continue;
+      const bool is_right = (p - truth.frame(k).col(label)).norm() < 1e-4;
+      (is_right ? score.right : score.wrong) += 1;
+    }
+  }
+  return score;
+}
+
+void ExpectLabelled(const std::string& file) {
+  const MarkerSequence found = ReadRecording(file, {}).markers;
+  const Score score = Compare(found);
+  EXPECT_GE(score.share(), 0.998) << file;  // of what has a name; a wrong name is worse than none
+  EXPECT_GE(score.right, 0.97 * 53 * found.num_frames()) << file;
+}
+
+TEST(Label, NamesByAnotherRecordingOfThePerson) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string output = InFolder("out.xml");
+  const ProgramRun run = RunProgram({"label", Unlabelled(), "--like", Labelled(), "-o", output});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("of 53 names found"), HasSubstr("written    " + output)));
+  ExpectLabelled(output);
+}
+
+TEST(Label, NamesByTheHeightAlone) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string output = InFolder("out.trc");
+  const std::string summary = InFolder("summary.json");
+  const ProgramRun run = RunProgram(
+      {"label", Unlabelled(), "--height", "1.76", "-o", output, "--summary", summary});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GE(Compare(ReadRecording(output, {}).markers).share(), 0.98);
+  const auto json = nlohmann::json::parse(ReadText(summary));
+  EXPECT_EQ(json.at("output"), output);
+  EXPECT_EQ(json.at("marker_set"), "KIT");
+  EXPECT_EQ(json.at("names").size(), 53);
+  EXPECT_GE(json.at("changes").size(), 50);
+  EXPECT_EQ(json.at("changes").at(0).at("first_frame"), 0);
+}
+
+// The knees exchanged in 20 frames.
+TEST(Label, RepairTellsAndMendsWhatIsWrong) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const C3dFile file(Labelled());
+  const int frames = file.layout().frames;
+  const std::vector<std::string> names = C3dPointNames(file, nullptr);
+  std::vector<C3dRelabelledPoint> points;
+  for (int i = 0; i < file.layout().points; ++i) points.push_back({names[i], i, {{0, frames, i}}});
+  const int left =
+      static_cast<int>(std::find(names.begin(), names.end(), "1480:LKNE") - names.begin());
+  const int right =
+      static_cast<int>(std::find(names.begin(), names.end(), "1480:RKNE") - names.begin());
+  points[left].stretches = {{0, 30, left}, {30, 50, right}, {50, frames, left}};
+  points[right].stretches = {{0, 30, right}, {30, 50, left}, {50, frames, right}};
+  const std::string input = InFolder("exchanged.c3d");
+  WriteRelabelledC3d(Labelled(), points, input);
+  const std::string bytes = ReadText(input);
+  const StrictC3d before = ReadStrictC3d(bytes);
+
+  ProgramRun run = RunProgram({"label", input, "--repair"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("LKNE is RKNE"), HasSubstr("RKNE is LKNE"),
+                             HasSubstr(", frames 30 to 49 (3.00 to 4.90 s)")));
+  EXPECT_EQ(ReadText(input), bytes);
+  run = RunProgram({"label", input, "--repair", "-o", input});  // in its own place
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ExpectLabelled(input);
+  const StrictC3d after = ReadStrictC3d(ReadText(input));
+  EXPECT_GE(after.Find("1480:LKNE"), 0);
+  for (const auto& [name, content] : before.records) {
+    if (name.starts_with("POINT:")) continue;
+    EXPECT_TRUE(after.records.at(name) == content) << name;
+  }
+  for (int k = 0; k < before.frames; ++k) {
+    const std::set<std::string> words(after.words[k].begin(), after.words[k].end());
+    for (const std::string& word : before.words[k]) EXPECT_TRUE(words.contains(word)) << k;
+  }
+}
+
+TEST(Label, ConvertLabelsInOneStep) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string output = InFolder("motion.xml");
+  const std::string summary = InFolder("motion.json");
+  const ProgramRun run = RunProgram(
+      {"convert", Unlabelled(), "--label", "--height", "1.76", "-o", output, "--summary", summary});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("labels     "), HasSubstr("verdict    ")));
+  EXPECT_GE(Compare(ReadRecording(output, {}).markers).share(), 0.98);
+  EXPECT_EQ(nlohmann::json::parse(ReadText(summary)).at("labels").at("names").size(), 53);
+}
+
+TEST(Label, WhatIsMissingIsSaid) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string input = Unlabelled();
+  const std::string bytes = ReadText(input);
+  const auto expect = [&](std::vector<std::string> arguments, int exit_code,
+                          const std::string& said) {
+    const ProgramRun run = RunProgram(arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(said));
+    EXPECT_EQ(ReadText(input), bytes);
+  };
+  expect({"label"}, 2, "which recording?");
+  expect({"label", input}, 1, "Points without names don't tell the height");
+  expect({"label", input, "--height", "1.76", "-o", InFolder("out.zip")}, 1,
+         "must end as that of a recording");
+  expect({"label", input, "--like", InFolder("none.c3d")}, 1, "none.c3d");
+  expect({"label", input, "--like", input, "--height", "1.76"}, 1, "no labelled markers");
+  expect({"label", input, "--repair", "--height", "1.76"}, 1, "no marker set");
+  expect({"label", input, "--height", "1.76", "-o", Labelled(), "--like", Labelled()}, 1,
+         "is read, and would be lost");
+  expect({"convert", input, "--height", "1.76"}, 1, "the command label finds the names");
+  expect({"convert", input, "--label", "--object"}, 2, "--label names the markers of a person");
+  const std::string trc = InFolder("same.trc");
+  std::filesystem::copy_file(input, trc);
+  expect({"label", trc, "--height", "1.76", "-o", trc}, 1, "is the recording itself");
+}
+
+}  // namespace
+}  // namespace mmm_converter::testing
