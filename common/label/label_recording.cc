@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "common/calibrate/calibration.h"
 #include "common/label/label_body.h"
@@ -39,13 +41,25 @@ bool IsUncalibrated(const TrackingSetup& setup) {
 class RecordingLabeller {
  public:
   RecordingLabeller(const TrackingSetup& setup, const MarkerSequence& recording,
+                    const std::vector<LabelIx>& stored,
                     const std::function<bool(int, int)>& progress)
       : setup_(setup),
         body_(std::make_unique<LabelBody>(setup)),
         recording_(recording),
         tracks_(FollowPoints(recording)),
         dt_(1 / recording.rate()),
-        progress_(progress) {}
+        stored_(recording.num_labels(), -1),
+        progress_(progress) {
+    for (std::size_t m = 0; m < setup.assignments().size(); ++m) {
+      const int name = setup.assignments()[m].label;
+      if (name < static_cast<int>(stored.size()) && stored[name] >= 0) {
+        stored_[stored[name]] = static_cast<int>(m);
+      }
+    }
+  }
+
+  /// The marker that the recording's own label of a column names, -1: none.
+  int stored(int column) const { return stored_[column]; }
 
   const PointTracks& tracks() const { return tracks_; }
 
@@ -107,13 +121,22 @@ class RecordingLabeller {
 
   const LabelTracker::Hints* Hint(int k, const Names* before) {
     const FramePoints& points = tracks_.frames[k];
-    if (before == nullptr || before->markers.empty()) return nullptr;
+    if (before == nullptr || before->markers.empty()) return StoredHint(points);
     hints_.markers.resize(points.tracks.size());
     hints_.worth.resize(points.tracks.size());
     for (std::size_t p = 0; p < points.tracks.size(); ++p) {
       hints_.markers[p] = before->markers[points.tracks[p]];
       hints_.worth[p] = kHint * before->shares[points.tracks[p]];
     }
+    return &hints_;
+  }
+
+  const LabelTracker::Hints* StoredHint(const FramePoints& points) {
+    hints_.markers.resize(points.columns.size());
+    for (std::size_t p = 0; p < points.columns.size(); ++p) {
+      hints_.markers[p] = stored_[points.columns[p]];
+    }
+    hints_.worth.assign(points.columns.size(), kHint);
     return &hints_;
   }
 
@@ -238,8 +261,49 @@ class RecordingLabeller {
   const MarkerSequence& recording_;
   PointTracks tracks_;
   double dt_;
+  std::vector<int> stored_;  // marker by column
   const std::function<bool(int, int)>& progress_;
   LabelTracker::Hints hints_;
+};
+
+/// What was found where it is sure enough, else what is stored where that has no other place.
+class NameOfPoints {
+ public:
+  NameOfPoints(const RecordingLabeller& labeller, const RecordingLabeller::Names& found,
+               const LabelOptions& options)
+      : labeller_(labeller), found_(found), options_(options) {
+    const PointTracks& tracks = labeller.tracks();
+    for (std::size_t t = 0; t < tracks.tracks.size(); ++t) {
+      for (int k = tracks.tracks[t].begin; k < tracks.tracks[t].end; ++k) {
+        if (IsSure(static_cast<int>(t), k)) given_.insert({found.markers[t], k});
+      }
+    }
+  }
+
+  /// The marker of a track in a frame; -1: none.
+  int operator()(int track, int k) const {
+    if (IsSure(track, k)) return found_.markers[track];
+    const int stored = StoredMarker(track, k);
+    return stored >= 0 && !given_.contains({stored, k}) ? stored : -1;
+  }
+
+ private:
+  int StoredMarker(int t, int k) const {
+    const PointTrack& track = labeller_.tracks().tracks[t];
+    return labeller_.stored(labeller_.tracks().frames[k].columns[track.points[k - track.begin]]);
+  }
+  bool IsSure(int t, int k) const {
+    if (found_.markers[t] < 0) return false;
+    const int stored = StoredMarker(t, k);
+    const bool is_change = stored >= 0 && stored != found_.markers[t];
+    return found_.shares[t] >=
+           (is_change ? options_.least_change_probability : options_.least_probability);
+  }
+
+  const RecordingLabeller& labeller_;
+  const RecordingLabeller::Names& found_;
+  const LabelOptions& options_;
+  std::set<std::pair<int, int>> given_;  // marker, frame
 };
 
 }  // namespace
@@ -253,27 +317,26 @@ Labelling LabelRecording(const TrackingSetup& setup, const std::vector<std::stri
                     "needed",
                     setup.assignments().size(), kFewestNames));
   }
-  RecordingLabeller labeller(setup, recording, progress);
+  RecordingLabeller labeller(setup, recording, options.stored, progress);
   const auto found = labeller.Run();
+  const PointTracks& tracks = labeller.tracks();
+  const NameOfPoints name_of(labeller, found, options);
   Labelling labelling;
   labelling.names = names;
-  const PointTracks& tracks = labeller.tracks();
   for (std::size_t t = 0; t < tracks.tracks.size(); ++t) {
     const PointTrack& track = tracks.tracks[t];
-    const bool is_named = found.markers[t] >= 0 && found.shares[t] >= options.least_probability;
     NamedPiece piece;
-    piece.name = is_named ? static_cast<int>(setup.assignments()[found.markers[t]].label) : -1;
-    piece.probability = is_named ? found.shares[t] : 1 - found.shares[t];
     for (int k = track.begin; k < track.end; ++k) {
       const LabelIx point(tracks.frames[k].columns[track.points[k - track.begin]]);
-      if (piece.end == k && piece.point == point && k > track.begin) {
+      const int marker = name_of(static_cast<int>(t), k);
+      const int name = marker < 0 ? -1 : static_cast<int>(setup.assignments()[marker].label);
+      if (k > track.begin && piece.point == point && piece.name == name) {
         piece.end = k + 1;
         continue;
       }
       if (k > track.begin) labelling.pieces.push_back(piece);
-      piece.point = point;
-      piece.begin = k;
-      piece.end = k + 1;
+      const bool is_found = marker >= 0 && marker == found.markers[t];
+      piece = {point, k, k + 1, name, is_found ? found.shares[t] : 1 - found.shares[t]};
     }
     labelling.pieces.push_back(piece);
   }

@@ -12,11 +12,13 @@
 namespace mmm_converter {
 
 struct LabelOptions {
-  /// A recording's own label (LabelIx) per name, where it is to be believed unless the body says
+  /// A recording's own label per name, where it is to be believed unless the body surely says
   /// otherwise (repair); empty, or -1: none.
   std::vector<LabelIx> stored = {};
   /// Names less probable are not given.
-  double least_probability = 0.9;
+  double least_probability = 0.4;
+  /// Nor do they take the place of another one that is stored.
+  double least_change_probability = 0.8;
 };
 
 /// Names the points of a recording by the body that wears them. setup: of the names, as if they
