@@ -11,8 +11,9 @@ namespace mmm_converter::testing {
 
 /// A labelled recording made hard to label, and the truth.
 struct UnnamedPoints {
-  MarkerSequence points;                ///< columns "*1", "*2", ..., shuffled in every frame
-  std::vector<std::vector<int>> truth;  ///< by frame and column: label of the recording, -1: a ghost
+  MarkerSequence points;  ///< columns "*1", "*2", ..., shuffled in every frame
+  std::vector<std::vector<int>>
+      truth;  ///< by frame and column: label of the recording, -1: a ghost
 };
 
 struct UnnamedErrors {

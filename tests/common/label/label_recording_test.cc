@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Persons of other lengths than the model's, markers beside its places, soft tissue; their labels
+// taken away, points shuffled in every frame. Truth is known to the point.
+
+#include "common/label/label_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "common/label/body_search.h"
+#include "common/math/seeded_random.h"
+#include "common/motion/occlusion.h"
+#include "common/support/error.h"
+#include "tests/support/synthetic_person.h"
+#include "tests/support/unnamed_points.h"
+
+namespace mmm_converter::testing {
+namespace {
+
+constexpr double kHeight = 1.78;
+
+struct RecordedPerson {
+  MarkerSequence recording;
+  TrackingSetup calibrated;    // the true body and places
+  TrackingSetup uncalibrated;  // the model of the person's height
+  std::vector<int> names;      // 0, 1, ...
+};
+
+RecordedPerson Record(std::uint64_t seed, double seconds) {
+  const KinematicModel model = ScaledReferenceModel(kHeight);
+  Subject subject = DrawPerson(model, seed);
+  for (MarkerOffset& offset : subject.offsets) {
+    offset.standard_deviations.setConstant(0.005);
+    offset.skin_deviation = 0.004;
+  }
+  const KinematicModel person = FitToSubject(model, subject);
+  RecordedPerson made;
+  made.recording = RecordPerson(person, RangeOfMotion(model, seconds, 0.6, seed), seed);
+  const auto assignments = AssignAll(model, made.recording);
+  made.calibrated = SetupOf(person, TrackedJoints(model), assignments);
+  made.uncalibrated = SetupOf(model, TrackedJoints(model), assignments);
+  made.names.resize(made.recording.num_labels());
+  std::iota(made.names.begin(), made.names.end(), 0);
+  return made;
+}
+
+TEST(LabelRecordingTest, ACalibratedPersonsPointsGetTheirNames) {
+  const RecordedPerson made = Record(901, 3);
+  const UnnamedPoints points = MakeUnnamed(made.recording, {}, 1);
+  const Labelling labelling =
+      LabelRecording(made.calibrated, made.recording.labels(), points.points, {}, {});
+  const LabelScore score = ScoreLabels(points, labelling, made.names);
+  EXPECT_GE(score.right, 0.999);
+  EXPECT_LE(score.wrong, 0.0001);
+}
+
+TEST(LabelRecordingTest, HiddenMarkersAndGhosts) {
+  const RecordedPerson made = Record(902, 3);
+  UnnamedErrors errors;
+  errors.hidden = 0.3;
+  errors.ghosts = 5;
+  const UnnamedPoints points = MakeUnnamed(made.recording, errors, 2);
+  const Labelling labelling =
+      LabelRecording(made.calibrated, made.recording.labels(), points.points, {}, {});
+  const LabelScore score = ScoreLabels(points, labelling, made.names);
+  EXPECT_GE(score.right, 0.99);
+  EXPECT_LE(score.wrong, 0.003);
+}
+
+// Markers that were put on 28 mm (rms per axis) from the model's places can be nearer to their
+// neighbour's: such pairs may change names, whole limbs and sides may not.
+TEST(LabelRecordingTest, HeightAloneTellsAllButNeighbours) {
+  const RecordedPerson made = Record(903, 3);
+  const UnnamedPoints points = MakeUnnamed(made.recording, {}, 3);
+  const Labelling labelling =
+      LabelRecording(made.uncalibrated, made.recording.labels(), points.points, {}, {});
+  const LabelScore score = ScoreLabels(points, labelling, made.names);
+  EXPECT_GE(score.right, 0.95);
+  EXPECT_LE(score.right + score.wrong, 1);
+  for (const NamedPiece& piece : labelling.pieces) {
+    const int truth = points.truth[piece.begin][piece.point];
+    if (piece.name < 0 || truth < 0 || truth == piece.name) continue;
+    const auto place = [&](int label) -> Eigen::Vector3d {
+      return made.recording.frame(piece.begin).col(label);
+    };
+    EXPECT_LT((place(truth) - place(piece.name)).norm(), 0.12)
+        << made.recording.labels()[truth] << " as " << made.recording.labels()[piece.name];
+  }
+}
+
+TEST(LabelRecordingTest, ExchangedLabelsAreMendedAndNothingElseChanges) {
+  const RecordedPerson made = Record(904, 3);
+  const MarkerSequence swapped = SwapMarkers(made.recording, "LANK", "RANK", 100, 200);
+  LabelOptions options;
+  options.stored = AllIndices<LabelIx>(swapped.labels().size());
+  const Labelling labelling =
+      LabelRecording(made.calibrated, swapped.labels(), swapped, options, {});
+  const int left = swapped.FindLabel("LANK");
+  const int right = swapped.FindLabel("RANK");
+  for (const NamedPiece& piece : labelling.pieces) {
+    for (int k = piece.begin; k < piece.end; ++k) {
+      const bool is_swapped = k >= 100 && k < 200 && (piece.point == left || piece.point == right);
+      const int expected = is_swapped ? left + right - piece.point : static_cast<int>(piece.point);
+      EXPECT_EQ(piece.name, expected) << "frame " << k;
+    }
+  }
+}
+
+TEST(LabelRecordingTest, PiecesCoverWhatIsSeenAndDoNotOverlap) {
+  const RecordedPerson made = Record(905, 1);
+  UnnamedErrors errors;
+  errors.hidden = 0.2;
+  errors.ghosts = 3;
+  const UnnamedPoints points = MakeUnnamed(made.recording, errors, 5);
+  const Labelling labelling =
+      LabelRecording(made.calibrated, made.recording.labels(), points.points, {}, {});
+  Eigen::MatrixXi covered =
+      Eigen::MatrixXi::Zero(points.points.num_labels(), points.points.num_frames());
+  Eigen::MatrixXi named =
+      Eigen::MatrixXi::Zero(made.recording.num_labels(), points.points.num_frames());
+  for (const NamedPiece& piece : labelling.pieces) {
+    EXPECT_GE(piece.probability, 0);
+    EXPECT_LE(piece.probability, 1);
+    for (int k = piece.begin; k < piece.end; ++k) {
+      covered(static_cast<int>(piece.point), k) += 1;
+      if (piece.name >= 0) named(piece.name, k) += 1;
+    }
+  }
+  for (int k = 0; k < points.points.num_frames(); ++k) {
+    for (int c = 0; c < points.points.num_labels(); ++c) {
+      EXPECT_EQ(covered(c, k), IsSeen(points.points.frame(k).col(c)) ? 1 : 0);
+    }
+  }
+  EXPECT_LE(named.maxCoeff(), 1);
+}
+
+TEST(LabelRecordingTest, NobodyIsNotFound) {
+  const RecordedPerson made = Record(906, 0.2);
+  MarkerSequence noise(made.recording.labels(), 20, 100, 0);
+  SeededRandom random(6);
+  for (int k = 0; k < 20; ++k) {
+    for (int c = 0; c < noise.num_labels(); ++c) {
+      for (int i = 0; i < 3; ++i) noise.frame(k)(i, c) = 20 * random.Uniform();
+    }
+  }
+  EXPECT_THROW(LabelRecording(made.calibrated, made.recording.labels(), noise, {}, {}), Error);
+}
+
+TEST(BodySearchTest, OneFrameIsEnoughInAnyPosture) {
+  const RecordedPerson made = Record(907, 6);
+  const LabelBody body(made.calibrated);
+  BodySearch search(body);
+  int right = 0, all = 0;
+  for (int k = 0; k < made.recording.num_frames(); k += 60) {
+    // Lying on the side, and turned.
+    const Eigen::Matrix3d turn(Eigen::AngleAxisd(k / 60 * EIGEN_PI / 2, Eigen::Vector3d::UnitX()) *
+                               Eigen::AngleAxisd(k, Eigen::Vector3d::UnitZ()));
+    const Eigen::Matrix3Xd points = turn * made.recording.frame(k);
+    const BodyMatch match = search.Find(points);
+    for (int m = 0; m < body.num_markers(); ++m) {
+      right += match.point_of_marker[m] == made.calibrated.assignments()[m].label;
+      ++all;
+    }
+  }
+  EXPECT_GE(right, 0.99 * all);
+}
+
+}  // namespace
+}  // namespace mmm_converter::testing
