@@ -33,14 +33,15 @@ struct FoundRecording {
 
 // What is said of a person in an MMM motion; several people are nobody's.
 Texts PersonOf(const std::string& motion, const std::string& file) {
-  constexpr std::string_view kBegin = "<ModelProcessorConfig";
-  constexpr std::string_view kEnd = "</ModelProcessorConfig>";
+  constexpr std::string_view kOpening = "<ModelProcessorConfig";
+  constexpr std::string_view kClosing = "</ModelProcessorConfig>";
   std::set<Texts> people;
-  for (std::size_t at = motion.find(kBegin); at != std::string::npos;
-       at = motion.find(kBegin, at)) {
-    const std::size_t end = motion.find(kEnd, at);
+  for (std::size_t at = motion.find(kOpening); at != std::string::npos;
+       at = motion.find(kOpening, at)) {
+    const std::size_t end = motion.find(kClosing, at);
     if (end == std::string::npos) break;
-    const BodySize config = ParseProcessorConfig(motion.substr(at, end + kEnd.size() - at), file);
+    const BodySize config =
+        ParseProcessorConfig(motion.substr(at, end + kClosing.size() - at), file);
     Texts person;
     if (config.height) person["height_m"] = fmt::format("{:g}", *config.height);
     if (config.mass) person["mass_kg"] = fmt::format("{:g}", *config.mass);

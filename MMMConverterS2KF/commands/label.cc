@@ -7,6 +7,7 @@
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/conversion/labelled_output.h"
 #include "MMMConverterS2KF/conversion/recording_labels.h"
+#include "MMMConverterS2KF/report/label_page.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
@@ -22,6 +23,7 @@ const std::vector<OptionGroup> kOwnOptions = {
        "the labelled recording: C3D, TRC or MMM (.xml); may be RECORDING. Default: nothing is "
        "written, the summary says what would be",
        ""},
+      {"report", "FILE", "write a page (HTML): what was changed, and tracks before and after", ""},
       {"summary", "FILE", "write a summary as JSON", ""}}},
     {"Names",
      {{"repair", "",
@@ -46,12 +48,11 @@ The names are, of a repair, the recording's own; else those of the markers that 
 knows or that the recording --like has; else, with --height alone, all of the --marker-set, which by
 default is KIT's. A calibrated person is labelled most surely.
 
-{}
-Examples
+{}Examples
   MMMConverterS2KF label walk.c3d --subject-file anna.xml -o walk_labelled.c3d
   MMMConverterS2KF label walk.c3d --like standing.c3d --height 1.68 -o walk_labelled.c3d
   MMMConverterS2KF label walk.c3d --height 1.68 --marker-set kit53 -o walk.trc
-  MMMConverterS2KF label walk.c3d --repair --height 1.68
+  MMMConverterS2KF label walk.c3d --repair --height 1.68 --report walk_labels.html
   MMMConverterS2KF label walk.c3d --repair --subject-file anna.xml -o walk_repaired.c3d
 )";
 
@@ -78,7 +79,8 @@ LabelRequest MakeRequest(const Arguments& arguments) {
   request.hints.like = arguments.Get("like").value_or("");
   request.hints.repair = arguments.Has("repair");
   request.output = arguments.Get("output").value_or("");
-  request.more_outputs = {arguments.Get("summary").value_or("")};
+  request.more_outputs = {arguments.Get("summary").value_or(""),
+                          arguments.Get("report").value_or("")};
   return request;
 }
 
@@ -102,6 +104,9 @@ int RunLabel(const std::vector<std::string>& words) {
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatLabelPage(report));
   }
   std::cout << FormatLabelSummary(report, request.hints.repair);
   return 0;

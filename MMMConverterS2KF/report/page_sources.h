@@ -32,4 +32,9 @@ std::string_view DynamicsStyles();
 std::string_view DynamicsScript();
 std::string_view DynamicsScriptSha256();
 
+// Of a recording's labels; styles as of a motion's dynamics.
+std::string_view LabelContent();
+std::string_view LabelScript();
+std::string_view LabelScriptSha256();
+
 }  // namespace mmm_converter

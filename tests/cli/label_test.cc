@@ -84,8 +84,8 @@ TEST(Label, NamesByTheHeightAlone) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string output = InFolder("out.trc");
   const std::string summary = InFolder("summary.json");
-  const ProgramRun run = RunProgram(
-      {"label", Unlabelled(), "--height", "1.76", "-o", output, "--summary", summary});
+  const ProgramRun run =
+      RunProgram({"label", Unlabelled(), "--height", "1.76", "-o", output, "--summary", summary});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_GE(Compare(ReadRecording(output, {}).markers).share(), 0.98);
   const auto json = nlohmann::json::parse(ReadText(summary));

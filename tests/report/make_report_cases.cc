@@ -2,12 +2,16 @@
 // make_report_cases FOLDER: the reports that no command makes on purpose, for the browser.
 #include <exception>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "MMMConverterS2KF/report/label_page.h"
+#include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "common/support/atomic_file.h"
 #include "tests/report/comparison_cases.h"
 #include "tests/report/dynamics_cases.h"
+#include "tests/report/label_cases.h"
 
 namespace {
 
@@ -20,6 +24,11 @@ void MakeReports(const std::string& folder) {
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
   WriteFileAtomically(folder + "/hostile_dynamics.html",
                       mmm_converter::testing::HostileDynamicsPage());
+  const LabelReport labels = mmm_converter::testing::LabelCase("RKNE");
+  WriteFileAtomically(folder + "/label.html", FormatLabelPage(labels));
+  WriteFileAtomically(folder + "/label.json", FormatJson(ToJson(labels)));
+  WriteFileAtomically(folder + "/hostile_label.html",
+                      FormatLabelPage(mmm_converter::testing::LabelCase(text)));
   const Comparison thinned = mmm_converter::testing::ThinnedComparison();
   WriteFileAtomically(folder + "/thinned.html", FormatReport("130 s", {{"130 s", "", &thinned}}));
   const Comparison whole = mmm_converter::testing::LongComparison();

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The page of a recording's labels: what was changed, and the track of a marker before and after.
+
+const kMostRows = 500;
+
+class Tracks {
+  constructor(json) {
+    this.frames = json.frames;
+    this.every = json.every;
+    this.firstFrame = json.first_frame;
+    this.rate = json.rate;
+    this.firstTime = json.first_time;
+    this.names = json.names.map((one) => {
+      const track = {name: one.name, hasBefore: one.before !== null};
+      lazily(track, "before", one.before);
+      lazily(track, "after", one.after);
+      return track;
+    });
+  }
+
+  time(frame) {
+    return this.firstTime + frame * this.every / this.rate;
+  }
+
+  frameAt(time) {
+    return Math.min(Math.max(Math.round((time - this.firstTime) * this.rate / this.every), 0), this.frames - 1);
+  }
+
+  // Of a frame of the file.
+  drawn(frame) {
+    return Math.floor((frame - this.firstFrame) / this.every);
+  }
+}
+
+class LabelView {
+  constructor(figures, tracks) {
+    this.figures = figures;
+    this.trial = tracks;
+    this.frame = 0;
+    this.charts = [];
+    this.name = figures.changes.map((change) => change.to).find((to) => to !== null) || null;
+    if (this.track() === undefined && tracks.names.length > 0) this.name = tracks.names[0].name;
+    this.refresh();
+  }
+
+  track() {
+    return this.trial.names.find((one) => one.name === this.name);
+  }
+
+  show(name, frame) {
+    this.name = name;
+    byId("name").value = name;
+    this.refresh();
+    this.seek(frame);
+  }
+
+  // Another marker, or colours have changed.
+  refresh() {
+    for (const chart of this.charts) chart.destroy();
+    this.charts = [];
+    const track = this.track();
+    if (track === undefined) return;
+    const shades = this.figures.changes.filter((change) => change.to === track.name)
+      .map((change) => [this.trial.drawn(change.first_frame), this.trial.drawn(change.last_frame)]);
+    this.charts = ["x", "y", "z"].map((axis, i) => {
+      const values = (which) => (k) => track[which][i * this.trial.frames + k];
+      const lines = [{name: "now", colour: converterColour(0), dash: null, values: values("after")}];
+      if (track.hasBefore) {
+        lines.push({name: "before", colour: converterColour(1), dash: [4, 4], values: values("before")});
+      }
+      return new Chart(byId(`${axis}-plot`), this, {lines, shades, unit: "m", digits: 3,
+        range: withMargin(extremes(lines, this.trial.frames)), label: `${axis} over time, metres`});
+    });
+  }
+
+  seek(frame) {
+    this.frame = Math.min(Math.max(Math.round(frame), 0), this.trial.frames - 1);
+    for (const chart of this.charts) chart.setFrame(this.frame);
+  }
+
+  zoom(source, range) {
+    if (this.zooming) return;
+    this.zooming = true;
+    for (const chart of this.charts) {
+      if (chart !== source) chart.zoom(range);
+    }
+    this.zooming = false;
+  }
+}
+
+function makeChanges(changes, view) {
+  const heads = ["Label", "is", "frames", "seconds", "probability"];
+  const rows = changes.slice(0, kMostRows).map((change) => {
+    const shown = [change.to, change.from].find((name) => view.trial.names.some((one) => one.name === name));
+    const button = element("button", {type: "button", disabled: shown === undefined}, change.from);
+    button.addEventListener("click", () => view.show(shown, view.trial.drawn(change.first_frame)));
+    return element("tr", {},
+      element("th", {scope: "row"}, button),
+      element("td", {}, change.to === null ? "none of the markers" : change.to),
+      element("td", {}, `${change.first_frame} to ${change.last_frame}`),
+      element("td", {}, `${formatNumber(change.first_s, 2)} to ${formatNumber(change.last_s, 2)}`),
+      element("td", {}, formatNumber(change.probability, 3)));
+  });
+  const table = element("table", {class: "figures changes"},
+    element("caption", {class: "unseen"}, "What was changed"),
+    element("thead", {}, element("tr", {}, ...heads.map((head) => element("th", {scope: "col"}, head)))),
+    element("tbody", {}, ...rows));
+  const more = changes.length - rows.length;
+  return [element("div", {class: "wide", tabindex: "0", role: "region", "aria-label": "What was changed"}, table),
+    more > 0 ? element("p", {class: "caption"}, `And ${more} more, which the summary (JSON) has.`) : null];
+}
+
+function start() {
+  const block = (name) => JSON.parse(document.querySelector(`script.${name}`).textContent);
+  const figures = block("figures");
+  byId("program").textContent = figures.program;
+  byId("sentence").textContent = figures.sentence + ".";
+  byId("about").textContent = `${figures.input.file}: ${plural(figures.frames, "frame")} at ` +
+    `${formatNumber(figures.rate_hz, 0)} Hz, ${plural(figures.input.points, "point")}. ` +
+    (figures.output === null ? "Nothing was written." : `Written to ${figures.output}.`);
+  const view = new LabelView(figures, new Tracks(block("tracks")));
+  replaceContent(byId("name"), ...view.trial.names.map((one) => option(one.name, one.name)));
+  byId("name").value = view.name;
+  byId("name").addEventListener("change", (event) => view.show(event.target.value, view.frame));
+  byId("no-change").hidden = figures.changes.length > 0;
+  if (figures.changes.length > 0) replaceContent(byId("changes"), ...makeChanges(figures.changes, view));
+  byId("notes-part").hidden = figures.warnings.length === 0;
+  replaceContent(byId("notes"), ...figures.warnings.map((warning) => element("li", {}, warning)));
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => view.refresh());
+  }
+  // For tests, and for who looks at the data in the browser's console.
+  window.mmmReport = {
+    figures,
+    get name() { return view.name; },
+    get frame() { return view.frame; },
+    seek: (frame) => view.seek(frame),
+  };
+  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
+}
+
+start();
