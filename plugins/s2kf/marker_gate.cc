@@ -22,6 +22,10 @@ constexpr double kWorstShare = 0.1;
 // one, which may be hidden: seen before many such draw the estimate away.
 constexpr double kFarSwap = 0.1;
 constexpr double kSwapShare = 0.1;
+// Where so many pairs of the same two limbs are swapped, others of these need not be farther than
+// this [m]: feet stand beside each other.
+constexpr int kLimbPairs = 3;
+constexpr double kNearSwap = 0.01;
 // The estimate moves to what other markers make of it in so many frames.
 constexpr int kSettlingFrames = 5;
 // A marker that was left out before has to pass in so many frames in a row.
@@ -116,12 +120,36 @@ void MarkerGate::Reconsider(const Matrix3Xd& measured, const MarkerJacobian& pri
 bool MarkerGate::ExchangeByPrior(const Matrix3Xd& measured, const MarkerJacobian& prior,
                                  GateState* state) {
   ExpectByPrior(prior, state->offset);
+  const bool is_any = ExchangeBeyond(kFarSwap, 0, measured, state);
+  return ExchangeBeyond(kNearSwap, kLimbPairs, measured, state) || is_any;
+}
+
+int MarkerGate::CountOfSameLimbs(int a, int b, const Eigen::VectorXi& verdicts) const {
+  const auto is_on_limb = [this](int other, int marker, int beyond) {
+    for (int j = 0; j < kinematics_.num_joints(); ++j) {
+      if (kinematics_.Moves(j, other) && kinematics_.Moves(j, marker) &&
+          !kinematics_.Moves(j, beyond)) {
+        return true;
+      }
+    }
+    return false;
+  };
+  int count = 0;
+  for (int c = 0; c < verdicts.size(); ++c) {
+    const int d = verdicts[c];
+    count += d >= 0 && d != c && is_on_limb(c, a, b) && is_on_limb(d, b, a);
+  }
+  return count;
+}
+
+bool MarkerGate::ExchangeBeyond(double least, int limb_pairs, const Matrix3Xd& measured,
+                                GateState* state) {
   Eigen::VectorXi& verdicts = state->verdicts;
   for (int label = 0; label < measured.cols(); ++label) {
     nearest_[label] = -1;
     if (verdicts[label] >= 0 || !measured.col(label).allFinite()) continue;
     const auto squared = (expected_.colwise() - measured.col(label)).colwise().squaredNorm();
-    if (squared[label] < kFarSwap * kFarSwap) continue;
+    if (squared[label] < least * least) continue;
     Eigen::Index nearest = 0;
     if (squared.minCoeff(&nearest) > kSwapShare * squared[label]) continue;
     nearest_[label] = static_cast<int>(nearest);
@@ -131,6 +159,7 @@ bool MarkerGate::ExchangeByPrior(const Matrix3Xd& measured, const MarkerJacobian
     const int b = nearest_[a];
     if (b < 0 || verdicts[a] >= 0 || verdicts[b] >= 0) continue;
     if (measured.col(b).allFinite() && nearest_[b] != a) continue;
+    if (CountOfSameLimbs(a, b, verdicts) < limb_pairs) continue;
     verdicts[a] = b;
     verdicts[b] = a;
     is_any = true;

@@ -65,6 +65,11 @@ class MarkerGate {
   /// Squared Mahalanobis distance of a point from the place of marker m, over what is allowed.
   double Score(const GateState& state, const Eigen::Matrix3Xd& points, int point, int m) const;
   void ExpectByPrior(const MarkerJacobian& prior, const Eigen::Matrix3Xd& offsets);
+  /// How many pairs are exchanged between the limbs of markers a and b.
+  int CountOfSameLimbs(int a, int b, const Eigen::VectorXi& verdicts) const;
+  /// Exchanges those beyond `least` [m], where so many pairs of the same limbs are exchanged.
+  bool ExchangeBeyond(double least, int limb_pairs, const Eigen::Matrix3Xd& measured,
+                      GateState* state);
   bool Readmit(const Eigen::Matrix3Xd& measured, GateState* state) const;
   bool Exchange(const Eigen::Matrix3Xd& measured, GateState* state) const;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "common/convert/converter_config.h"
 #include "common/model/forward_kinematics.h"
@@ -12,6 +13,7 @@
 #include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
+#include "tests/plugins/s2kf/session.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/shared_data.h"
 
@@ -38,14 +40,25 @@ MarkerSequence SwapLimb(MarkerSequence markers, const std::vector<std::string>& 
   return markers;
 }
 
-/// A cartwheel of a person whom the model does not know, or whom it knows exactly.
 struct SwapScene {
+  /// A cartwheel of a person whom the model does not know, or whom it knows exactly.
   explicit SwapScene(bool is_exact, std::uint64_t seed) {
     const KinematicModel person =
         is_exact ? model : FitToSubject(model, testing::DrawPerson(model, seed));
     const MarkerErrors errors = {0, is_exact ? 0 : 0.004, 0.3, 0.0005};
     markers = SynthesizeMarkers(person, MakeCartwheel(model), errors, seed).Slice(0, 300);
     if (!is_exact) markers = OccludeShare(std::move(markers), 0.1, 20, seed);
+  }
+
+  /// Somebody whom the model does not know, who stands and waves.
+  static SwapScene Standing(std::uint64_t seed) {
+    SwapScene scene(false, seed);
+    const Session session(seed);
+    for (const NamedMotion& named : SessionMotions(scene.model, 3 * kSecond, seed)) {
+      if (named.name != "waving") continue;
+      scene.markers = HideBlocks(session.Record(named.motion), seed);
+    }
+    return scene;
   }
 
   ConversionResult Convert(const S2kfSettings& settings, const MarkerSequence& seen) const {
@@ -89,6 +102,17 @@ TEST_P(SwappedLimbTest, CostsNothingThoughATenthIsHidden) {
         EXPECT_LE(incident.last_frame, begin + kSecond + 3);
       }
     }
+  }
+}
+
+TEST_P(SwappedLimbTest, FeetMayStandBesideEachOther) {
+  const S2kfSettings settings = Preset(GetParam());
+  for (const auto& [seed, begin] : {std::pair(1, 140), std::pair(4, 40), std::pair(15, 40)}) {
+    const SwapScene scene = SwapScene::Standing(seed);
+    const ConversionResult swapped =
+        scene.Convert(settings, SwapLimb(scene.markers, kLeg, begin, begin + kSecond));
+    EXPECT_LE(scene.Largest(swapped, scene.Convert(settings, scene.markers), 0), kLeastError)
+        << "person " << seed;
   }
 }
 
