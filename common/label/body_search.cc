@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/math/rotation.h"
+#include "common/math/statistics.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -38,6 +39,7 @@ constexpr std::size_t kFirstKept = 72;
 constexpr std::array<Stage, 3> kStages = {
     {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 4}}};
 
+constexpr Stage kThrown = {0.12, 0.03, 8, 1};
 constexpr int kThrows = 40;
 constexpr int kMoreThrows = 120;
 constexpr double kGoodShare = 0.1;  // of the cost that no match at all would have
@@ -47,26 +49,21 @@ class DistanceGrid {
  public:
   static constexpr double kCell = 0.04;     // [m]
   static constexpr double kFarthest = 0.2;  // [m]
+  static constexpr int kCells = 96;         // in each direction, for a person and their reach
 
-  explicit DistanceGrid(const Ref<const Matrix3Xd>& points)
-      : origin_(points.rowwise().minCoeff().array() - kFarthest) {
-    // Beyond this many cells a direction holds no person.
-    constexpr int kMostCells = 128;
-    const Vector3d span = points.rowwise().maxCoeff().array() + kFarthest - origin_.array();
-    for (int i = 0; i < 3; ++i) {
-      size_[i] = std::min(static_cast<int>(span[i] / kCell) + 1, kMostCells);
-    }
-    cells_.assign(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2], kFarthest);
+  DistanceGrid(const Ref<const Matrix3Xd>& points, const Vector3d& middle)
+      : origin_(middle.array() - 0.5 * kCells * kCell) {
+    cells_.assign(static_cast<std::size_t>(kCells) * kCells * kCells, kFarthest);
     constexpr int kReach = static_cast<int>(kFarthest / kCell);
     for (Eigen::Index p = 0; p < points.cols(); ++p) {
-      const Vector3d at = (points.col(p) - origin_) / kCell;
+      const Vector3d at = InCells(points.col(p));
       const Eigen::Vector3i middle = at.array().floor().cast<int>();
-      for (int x = std::max(middle[0] - kReach, 0); x < std::min(middle[0] + kReach + 1, size_[0]);
+      for (int x = std::max(middle[0] - kReach, 0); x < std::min(middle[0] + kReach + 1, kCells);
            ++x) {
-        for (int y = std::max(middle[1] - kReach, 0);
-             y < std::min(middle[1] + kReach + 1, size_[1]); ++y) {
+        for (int y = std::max(middle[1] - kReach, 0); y < std::min(middle[1] + kReach + 1, kCells);
+             ++y) {
           for (int z = std::max(middle[2] - kReach, 0);
-               z < std::min(middle[2] + kReach + 1, size_[2]); ++z) {
+               z < std::min(middle[2] + kReach + 1, kCells); ++z) {
             float& cell = cells_[Index(x, y, z)];
             const double distance = kCell * (Vector3d(x + 0.5, y + 0.5, z + 0.5) - at).norm();
             cell = std::min(cell, static_cast<float>(distance));
@@ -77,22 +74,45 @@ class DistanceGrid {
   }
 
   double At(const Vector3d& p) const {
-    const Eigen::Array3i cell = ((p - origin_) / kCell).array().floor().cast<int>();
-    if ((cell < 0).any() || (cell >= Eigen::Array3i(size_[0], size_[1], size_[2])).any()) {
+    const Eigen::Array3i cell = InCells(p).array().floor().cast<int>();
+    if ((cell < 0).any() || (cell >= kCells).any()) {
       return kFarthest;
     }
     return cells_[Index(cell[0], cell[1], cell[2])];
   }
 
  private:
+  /// No farther off than an int can say.
+  Vector3d InCells(const Vector3d& p) const {
+    constexpr double kMost = 1e6;
+    return ((p - origin_) / kCell).cwiseMax(-kMost).cwiseMin(kMost);
+  }
   std::size_t Index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(x) * size_[1] + y) * size_[2] + z;
+    return (static_cast<std::size_t>(x) * kCells + y) * kCells + z;
   }
 
   Vector3d origin_;
-  std::array<int, 3> size_ = {};
   std::vector<float> cells_;
 };
+
+/// The mean of the points within reach of their middle (median): some are far from everybody.
+Vector3d MiddleOf(const Ref<const Matrix3Xd>& points) {
+  constexpr double kReach = 1.5;  // [m]
+  Vector3d median;
+  std::vector<double> sorted(static_cast<std::size_t>(points.cols()));
+  for (int i = 0; i < 3; ++i) {
+    std::copy(points.row(i).begin(), points.row(i).end(), sorted.begin());
+    median[i] = Median(sorted);
+  }
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    if ((points.col(p) - median).norm() > kReach) continue;
+    sum += points.col(p);
+    ++count;
+  }
+  return count > 0 ? Vector3d(sum / count) : median;
+}
 
 /// Upright, bent forward, on each side, and upside down.
 const std::vector<Matrix3d>& Tilts() {
@@ -116,8 +136,8 @@ BodySearch::BodySearch(const LabelBody& body)
     : body_(body), equations_(body.kinematics), random_(1) {}
 
 std::vector<BodySearch::Candidate> BodySearch::Candidates(const Ref<const Matrix3Xd>& points) {
-  const DistanceGrid grid(points);
-  const Vector3d middle = points.rowwise().mean();
+  const Vector3d middle = MiddleOf(points);
+  const DistanceGrid grid(points, middle);
   std::vector<Candidate> candidates;
   Matrix3Xd turned(3, body_.num_markers());
   std::array<double, kYaws> costs = {};
@@ -240,8 +260,7 @@ BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& 
   return best;
 }
 
-bool BodySearch::ThrowLimb(const Ref<const Matrix3Xd>& /*points*/, const BodyMatch& match,
-                           Posture* posture) {
+bool BodySearch::ThrowLimb(const BodyMatch& match, Posture* posture) {
   // A marker is drawn by what it costs more than a good one.
   VectorXd costs(body_.num_markers());
   for (int m = 0; m < costs.size(); ++m) {
@@ -265,42 +284,23 @@ bool BodySearch::ThrowLimb(const Ref<const Matrix3Xd>& /*points*/, const BodyMat
   return true;
 }
 
-bool BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, BodyMatch* match) {
-  bool improved = false;
-  *match = Match(points, match->posture);
+void BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, BodyMatch* match) {
+  constexpr double kLeastGain = 1;
   for (int i = 0; i < attempts; ++i) {
+    *match = Match(points, match->posture);
     Posture posture = match->posture;
-    Match(points, posture);
-    if (!ThrowLimb(points, *match, &posture)) continue;
-    Draw(points, 0.12, 0.03, 8, &posture);
+    if (!ThrowLimb(*match, &posture)) continue;
+    Draw(points, kThrown.from, kThrown.to, kThrown.steps, &posture);
     BodyMatch trial = Settle(points, posture);
-    if (trial.cost < match->cost - 1) {
-      *match = std::move(trial);
-      improved = true;
-    }
+    if (trial.cost < match->cost - kLeastGain) *match = std::move(trial);
   }
-  return improved;
-}
-
-Posture BodySearch::Throw(const Ref<const Matrix3Xd>& points, const Posture& posture, int marker,
-                          const Ref<const VectorXd>& deviations) {
-  Posture thrown = posture;
-  const std::vector<int>& joints = body_.joints_of_marker[marker];
-  const std::size_t first = random_.Uniform() < 0.5 ? 0 : joints.size() / 2;
-  for (std::size_t i = first; i < joints.size(); ++i) {
-    const int j = joints[i];
-    thrown.joint_angles[j] = std::clamp(thrown.joint_angles[j] + deviations[j] * random_.Normal(),
-                                        body_.kinematics.lower()[j], body_.kinematics.upper()[j]);
-  }
-  Draw(points, 0.12, 0.03, 8, &thrown);
-  return thrown;
 }
 
 BodyMatch BodySearch::FindNear(const Ref<const Matrix3Xd>& points, const Posture& posture,
                                double spread) {
-  constexpr double kLeastSpread = 0.03;
+  constexpr int kSteps = 10;
   Posture drawn = posture;
-  Draw(points, spread, kLeastSpread, 10, &drawn);
+  Draw(points, spread, kThrown.to, kSteps, &drawn);
   return Settle(points, drawn);
 }
 

@@ -37,14 +37,9 @@ class BodySearch {
   BodyMatch FindNear(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
                      double spread);
 
-  /// Throws the joints of a badly matching marker anew, so often; true where that made it cheaper.
-  bool ImproveLimbs(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts,
+  /// Throws the joints of a badly matching marker anew, so often, and keeps what is cheaper.
+  void ImproveLimbs(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts,
                     BodyMatch* match);
-
-  /// The posture with the joints that move a marker thrown about it and drawn to the points.
-  /// deviations: of the joints [rad].
-  Posture Throw(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
-                int marker, const Eigen::Ref<const Eigen::VectorXd>& deviations);
 
   /// The cheapest match at this posture.
   BodyMatch Match(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
@@ -64,8 +59,8 @@ class BodySearch {
                   double spread);
   /// Assignment and fit in turns.
   BodyMatch Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
-  bool ThrowLimb(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const BodyMatch& match,
-                 Posture* posture);
+  /// False: the marker that was drawn moves with the root.
+  bool ThrowLimb(const BodyMatch& match, Posture* posture);
 
   const LabelBody& body_;
   NormalEquations equations_;

@@ -21,7 +21,8 @@ namespace mmm_converter {
 namespace {
 
 constexpr int kFewestNames = 10;
-constexpr int kFirstFrames = 8;  // that the body is looked for in
+constexpr int kMostPoints = 1000;  // of a frame: time grows with their square
+constexpr int kFirstFrames = 8;    // that the body is looked for in
 constexpr double kLeastShare = 0.25;
 constexpr int kTimes = 2;
 constexpr double kSure = 0.7;
@@ -316,6 +317,13 @@ Labelling LabelRecording(const TrackingSetup& setup, const std::vector<std::stri
         fmt::format("a body with {} markers can't be found among points; at least {} are "
                     "needed",
                     setup.assignments().size(), kFewestNames));
+  }
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    const auto seen = recording.frame(k).row(0).array().isFinite().count();
+    if (seen > kMostPoints) {
+      throw Error(
+          fmt::format("frame {} has {} points; at most {} can be labelled", k, seen, kMostPoints));
+    }
   }
   RecordingLabeller labeller(setup, recording, options.stored, progress);
   const auto found = labeller.Run();

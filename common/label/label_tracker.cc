@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/label/label_tracker.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,12 +30,11 @@ constexpr std::array<Movement, 3> kMovements = {{{1, 0.02}, {2, 0.05}, {3, 0.1}}
 constexpr double kVelocityMemory = 0.25;  // [s]
 constexpr double kOffsetMemory = 1.0;     // [s] in which a hidden marker's place is forgotten
 constexpr double kOffsetDrift = 0.004;    // [m / sqrt(s)] of a seen one
-constexpr double kLeastInformation = 4;   // [1/rad^2]; less tells nothing of a dof
 
-constexpr double kUnassigned = 21.1;  // chi-square of three, exceeded once in 10,000
-constexpr double kFarthestPlace = 12;
-constexpr double kVague = 0.012;  // [m]: beyond, soft assignment comes first
-constexpr double kLost = 0.05;    // [m]: beyond, a limb is not taken up by one point
+constexpr double kUnassigned = 21.1;   // chi-square of three, exceeded once in 10,000
+constexpr double kFarthestPlace = 12;  // most that the distance from the model's place costs
+constexpr double kVague = 0.012;       // [m]: beyond, soft assignment comes first
+constexpr double kLost = 0.05;         // [m]: beyond, a limb is not taken up by one point
 constexpr int kTurns = 3;
 
 int GroupOf(Eigen::Index dof) { return dof < 3 ? 0 : dof < 6 ? 1 : 2; }
@@ -51,7 +49,10 @@ LabelTracker::LabelTracker(const LabelBody& body)
       at_(body.kinematics.MakeJacobian()),
       equations_(body.kinematics),
       padded_P_(body.kinematics.num_dofs(), body.kinematics.num_dofs()),
-      moved_(body.kinematics.num_dofs(), 3 * body.num_markers()) {
+      moved_(body.kinematics.num_dofs(), 3 * body.num_markers()),
+      factor_(body.kinematics.num_dofs(), body.kinematics.num_dofs()),
+      root_(body.kinematics.num_dofs(), body.kinematics.num_dofs()),
+      product_(body.kinematics.num_dofs(), body.kinematics.num_dofs()) {
   point_of_marker_.assign(body.num_markers(), -1);
   offset_W_.setZero(3, body.num_markers());
   deviations_.setZero(body.num_markers());
@@ -70,6 +71,16 @@ void LabelTracker::Start(const BodyMatch& match) {
   }
   belief_.offset.setZero(3, body_.num_markers());
   belief_.offset_variance = body_.place.array().square();
+}
+
+void LabelTracker::Invert(const Ref<const MatrixXd>& A, MatrixXd* inverse) {
+  factor_.view() = A;
+  Factorize(&factor_);
+  root_.SetIdentity();
+  DivideByTransposed(factor_, &root_);
+  product_.SetZero();
+  AddSquare(1, root_, &product_);
+  *inverse = product_.view().selfadjointView<Eigen::Lower>();
 }
 
 void LabelTracker::Predict(double dt) {
@@ -229,8 +240,7 @@ void LabelTracker::DropLonely() {
   }
 }
 
-double LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P,
-                            Posture* posture) {
+void LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P, Posture* posture) {
   P_ = P;
   for (int turn = 0; turn < kTurns; ++turn) {
     Expect(*posture, P_);
@@ -243,22 +253,8 @@ double LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& 
     }
     noise_ = (belief_.offset_variance.array() + body_.skin.array().square()).sqrt();
     Update(targets_, noise_, posture);
-    MatrixXd H = equations_.H();
-    P_ = H.selfadjointView<Eigen::Lower>().llt().solve(MatrixXd::Identity(H.rows(), H.cols()));
+    Invert(equations_.H(), &P_);
   }
-  const VectorXd moved = Local(predicted_, *posture);
-  double cost = moved.dot(prior_ * moved);
-  const Matrix3Xd& placed = equations_.Place(*posture);
-  for (int m = 0; m < body_.num_markers(); ++m) {
-    const int point = point_of_marker_[m];
-    if (point < 0) {
-      cost += kUnassigned;
-      continue;
-    }
-    const double variance = belief_.offset_variance[m] + Squared(body_.skin[m]);
-    cost += (points.col(point) - offset_W_.col(m) - placed.col(m)).squaredNorm() / variance;
-  }
-  return cost;
 }
 
 void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
@@ -277,7 +273,7 @@ void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   doubts_ = 0;
   Start(other);
   predicted_ = other.posture;
-  prior_ = belief_.P_qq.inverse();
+  Invert(belief_.P_qq, &prior_);
   *posture = other.posture;
   Settle(points, belief_.P_qq, posture);
 }
@@ -288,7 +284,7 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
   hints_ = hints;
   Predict(dt);
   Posture posture = predicted_;
-  prior_ = belief_.P_qq.llt().solve(MatrixXd::Identity(belief_.P_qq.rows(), belief_.P_qq.cols()));
+  Invert(belief_.P_qq, &prior_);
   Expect(predicted_, belief_.P_qq);
   first_deviations_ = deviations_;
   DrawSoftly(points, &posture);
@@ -319,8 +315,8 @@ const std::vector<int>& LabelTracker::Between(const Ref<const Matrix3Xd>& points
   const Posture predicted = predicted_;
   hints_ = hints;
   const MatrixXd information = prior_ + other.information;
-  const MatrixXd P =
-      information.llt().solve(MatrixXd::Identity(information.rows(), information.cols()));
+  MatrixXd P;
+  Invert(information, &P);
   predicted_ = Retract(predicted, P * (other.information * Local(predicted, other.posture)));
   prior_ = information;
   for (int m = 0; m < body_.num_markers(); ++m) {

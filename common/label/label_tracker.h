@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "common/fit/normal_equations.h"
@@ -26,8 +25,7 @@ struct LabelBelief {
 
 /// Names the points of one frame after the other by a body that moves on: a Kalman filter of the
 /// posture whose update chooses the cheapest assignment of points, and follows where each marker is
-/// worn.  Points of others are ghosts to it.
-/// points: 3 x points [m], finite.
+/// worn. Points of others are ghosts to it. points: 3 x points [m], finite.
 class LabelTracker {
  public:
   /// body must outlive the tracker.
@@ -73,6 +71,8 @@ class LabelTracker {
   void Restore(const LabelBelief& belief) { belief_ = belief; }
 
  private:
+  /// Of a symmetric, positive definite matrix, by its lower triangle.
+  void Invert(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::MatrixXd* inverse);
   void Predict(double dt);
   /// Expected places, and their deviations by P, at a posture.
   void Expect(const Posture& posture, const Eigen::MatrixXd& P);
@@ -88,10 +88,9 @@ class LabelTracker {
   void Correct(const Posture& posture);
   void Learn(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
 
-  /// The cheapest assignment that is found from `start` on; leaves it and P_ behind. What it costs:
-  /// the points, and how far the posture is from the prediction.
-  double Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Eigen::MatrixXd& P,
-                Posture* posture);
+  /// Assignment and update in turns; leaves both behind. P: of the prediction.
+  void Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Eigen::MatrixXd& P,
+              Posture* posture);
   /// Whether another posture nearby explains the points much better by the markers' places alone.
   void Doubt(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
 
@@ -118,6 +117,7 @@ class LabelTracker {
   Eigen::Matrix3Xd targets_;
   Eigen::VectorXd noise_;
   PaddedMatrix padded_P_, moved_;
+  PaddedMatrix factor_, root_, product_;  // of Invert
 };
 
 }  // namespace mmm_converter

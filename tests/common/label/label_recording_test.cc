@@ -147,6 +147,24 @@ TEST(LabelRecordingTest, NobodyIsNotFound) {
   EXPECT_THROW(LabelRecording(made.calibrated, made.recording.labels(), noise, {}, {}), Error);
 }
 
+TEST(LabelRecordingTest, TooManyPointsAreAnError) {
+  const RecordedPerson made = Record(908, 0.1);
+  MarkerSequence many(std::vector<std::string>(1001, "*"), 1, 100, 0);
+  many.frame(0).setZero();
+  EXPECT_THROW(LabelRecording(made.calibrated, made.recording.labels(), many, {}, {}), Error);
+}
+
+TEST(BodySearchTest, APointFarFromEverybodyDoesNotDisturb) {
+  const RecordedPerson made = Record(909, 0.1);
+  const LabelBody body(made.calibrated);
+  Eigen::Matrix3Xd points(3, made.recording.num_labels() + 1);
+  points << made.recording.frame(0), Eigen::Vector3d(1e6, 0, 0);
+  const BodyMatch match = BodySearch(body).Find(points);
+  for (int m = 0; m < body.num_markers(); ++m) {
+    EXPECT_EQ(match.point_of_marker[m], made.calibrated.assignments()[m].label);
+  }
+}
+
 TEST(BodySearchTest, OneFrameIsEnoughInAnyPosture) {
   const RecordedPerson made = Record(907, 6);
   const LabelBody body(made.calibrated);
