@@ -50,6 +50,19 @@ void CheckPoints(const std::string& input, const Points& points) {
   }
 }
 
+void CheckLayout(const C3dFile& file) {
+  const C3dLayout& layout = file.layout();
+  const std::uint64_t section = file.section_start();
+  if (section < kBlock || layout.data_start < section + file.parameters().end()) {
+    throw Error(fmt::format(
+        "{}: its points can't be changed: the parameters are not between header and data",
+        file.path()));
+  }
+  if (layout.points == 0 || layout.frames == 0) {
+    throw Error(fmt::format("{}: holds no points in any whole frame", file.path()));
+  }
+}
+
 bool HasNamesInDescriptions(const C3dParameters& parameters) {
   return ToLower(parameters.Text("MANUFACTURER", "COMPANY")).starts_with("motion analysis");
 }
@@ -132,10 +145,6 @@ Bytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
   const C3dLayout& layout = file->layout();
   const C3dParameters& parameters = file->parameters();
   const std::uint64_t section_start = file->section_start();
-  if (layout.data_start < section_start + parameters.end()) {
-    throw Error(fmt::format("{}: has its parameters behind the data, where they can't be changed",
-                            file->path()));
-  }
   Bytes before = file->ReadBytes(0, section_start);
   unsigned char* const header = before.data();
   Bytes old_section = file->ReadBytes(section_start, layout.data_start - section_start);
@@ -242,10 +251,8 @@ void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelle
                         const std::string& output) {
   CheckPoints(input, points);
   C3dFile file(input);
+  CheckLayout(file);
   const C3dLayout& layout = file.layout();
-  if (layout.points == 0 || layout.frames == 0) {
-    throw Error(fmt::format("{}: holds no points in any whole frame", input));
-  }
   Frame frame;
   const std::int64_t more = static_cast<std::int64_t>(points.size()) - layout.points;
   frame.bytes = layout.frame_bytes + static_cast<std::uint64_t>(more * (layout.floats ? 16 : 8));

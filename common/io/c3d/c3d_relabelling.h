@@ -27,8 +27,8 @@ struct C3dRelabelledPoint {
 /// in header and POINT:USED, and, where the parameters need more blocks, all that says in which
 /// block something begins. The output may be the input; it appears whole or not at all.
 /// @throws Error as C3dFile, and where the format can't hold the points (none or more than 65535,
-///         labels of more than 127 bytes, more than 255 blocks of parameters), parameters stand
-///         behind the data, or the output can't be written.
+///         labels of more than 127 bytes, more than 255 blocks of parameters), parameters do
+///         not stand between header and data, or the output can't be written.
 void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelledPoint>& points,
                         const std::string& output);
 

@@ -265,6 +265,12 @@ std::string RelabelError(const std::string& file, const Points& points) {
 
 TEST(C3dRelabelling, WhatTheFormatCantHold) {
   const std::string file = SmallFile(SmallSection());
+  std::string own_header = ReadFileContent(file);
+  own_header[0] = 1;  // as if the parameters were the header
+  own_header[3] = 84;
+  WriteFileAtomically(testing::TestFolder() + "/block1.c3d", own_header);
+  EXPECT_THAT(RelabelError(testing::TestFolder() + "/block1.c3d", {{"a", 0, {}}}),
+              HasSubstr("not between header and data"));
   EXPECT_THAT(RelabelError(file, {}), HasSubstr("small.c3d: can't be written with other points"));
   EXPECT_THAT(RelabelError(file, {{std::string(128, 'a'), 0, {}}}),
               HasSubstr("has more than 127 bytes"));
