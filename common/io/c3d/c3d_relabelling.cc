@@ -72,7 +72,7 @@ bool HasNamesInDescriptions(const C3dParameters& parameters) {
 std::vector<std::string> NewTexts(const C3dFile& file, const Points& points,
                                   const std::vector<std::string>& names, const char* list,
                                   bool are_names) {
-  const std::vector<std::string> stored = C3dSectionEdit::StoredTexts(file.parameters(), list);
+  std::vector<std::string> stored = C3dSectionEdit::StoredTexts(file.parameters(), list);
   std::vector<std::string> texts;
   bool is_in_place = points.size() == static_cast<std::size_t>(file.layout().points);
   for (const C3dRelabelledPoint& point : points) {
