@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "common/model/kit_joints.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -17,15 +19,6 @@ std::vector<bool> CarriesOneOf(const KinematicModel& model, const std::vector<in
 }
 
 }  // namespace
-
-std::string MirroredName(const std::string& name) {
-  static const std::pair<std::string, std::string> kSides[] = {{"Left", "Right"}, {"L", "R"}};
-  for (const auto& [left, right] : kSides) {
-    if (name.starts_with(left)) return right + name.substr(left.size());
-    if (name.starts_with(right)) return left + name.substr(right.size());
-  }
-  return "";
-}
 
 SegmentLengths FindSegmentLengths(const KinematicModel& model, const std::vector<int>& joints,
                                   const std::vector<MarkerIx>& markers) {

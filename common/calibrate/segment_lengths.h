@@ -21,7 +21,4 @@ struct SegmentLengths {
 SegmentLengths FindSegmentLengths(const KinematicModel& model, const std::vector<int>& joints,
                                   const std::vector<MarkerIx>& markers);
 
-/// The name with its side exchanged; empty where it has none.
-std::string MirroredName(const std::string& name);
-
 }  // namespace mmm_converter

@@ -22,14 +22,6 @@ struct Pair {
   std::string limb;  // "arm", "leg" or neither
 };
 
-std::string OtherSide(std::string name) {
-  constexpr std::string_view kPrefix = "MARKER_";
-  const std::size_t at = name.starts_with(kPrefix) ? kPrefix.size() : 0;
-  if (at >= name.size() || name[at] != 'L') return "";
-  name[at] = 'R';
-  return name;
-}
-
 // The arm or leg that moves the marker; empty: none.
 std::string LimbOfMarker(const KinematicModel& model, const MarkerKinematics& kinematics,
                          int marker) {
@@ -43,11 +35,15 @@ std::string LimbOfMarker(const KinematicModel& model, const MarkerKinematics& ki
 }
 
 std::vector<Pair> FindPairs(const KinematicModel& model, const MarkerKinematics& kinematics) {
-  const auto name = [&](int m) { return model.markers()[kinematics.markers()[m]].name; };
+  const auto name = [&](int m) {
+    constexpr std::string_view kPrefix = "MARKER_";
+    const std::string& full = model.markers()[kinematics.markers()[m]].name;
+    return full.starts_with(kPrefix) ? full.substr(kPrefix.size()) : full;
+  };
   std::vector<Pair> pairs;
   for (int left = 0; left < kinematics.num_markers(); ++left) {
-    const std::string other = OtherSide(name(left));
-    if (other.empty()) continue;
+    const std::string other = MirroredName(name(left));
+    if (other.empty() || !name(left).starts_with('L')) continue;
     for (int right = 0; right < kinematics.num_markers(); ++right) {
       if (name(right) != other) continue;
       pairs.push_back({left, right, LimbOfMarker(model, kinematics, left)});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace mmm_converter {
 
@@ -35,6 +36,16 @@ std::string LimbOfJoint(std::string_view joint) {
   joint.remove_prefix(1);
   if (std::any_of(std::begin(kArm), std::end(kArm), starts_with)) return side + "arm";
   if (std::any_of(std::begin(kLeg), std::end(kLeg), starts_with)) return side + "leg";
+  return "";
+}
+
+std::string MirroredName(const std::string& name) {
+  constexpr std::pair<std::string_view, std::string_view> kSides[] = {{"Left", "Right"},
+                                                                      {"L", "R"}};
+  for (const auto& [left, right] : kSides) {
+    if (name.starts_with(left)) return std::string(right) + name.substr(left.size());
+    if (name.starts_with(right)) return std::string(left) + name.substr(right.size());
+  }
   return "";
 }
 

@@ -15,4 +15,8 @@ const std::vector<std::string>& KitJointNames();
 /// model moves; empty: it is no joint of that model.
 std::string LimbOfJoint(std::string_view joint);
 
+/// The name of a segment, joint or marker with its side exchanged: "L..." and "R...", or "Left..."
+/// and "Right..."; empty where it has none.
+std::string MirroredName(const std::string& name);
+
 }  // namespace mmm_converter

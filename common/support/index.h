@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 namespace mmm_converter {
 
 /// An index into the list that Tag names. Where an int is asked for it is one, but neither an int
@@ -18,14 +15,5 @@ class ListIndex {
  private:
   int value_ = -1;
 };
-
-/// 0, 1, ..., size - 1.
-template <typename Ix>
-std::vector<Ix> AllIndices(std::size_t size) {
-  std::vector<Ix> indices;
-  indices.reserve(size);
-  for (std::size_t i = 0; i < size; ++i) indices.push_back(Ix(static_cast<int>(i)));
-  return indices;
-}
 
 }  // namespace mmm_converter

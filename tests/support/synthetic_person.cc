@@ -14,8 +14,10 @@
 #include "common/math/rotation.h"
 #include "common/math/seeded_random.h"
 #include "common/model/forward_kinematics.h"
+#include "common/model/kit_joints.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
+#include "tests/support/all_indices.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::testing {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/math/rotation.h"
+#include "tests/support/all_indices.h"
 
 namespace mmm_converter::testing {
 

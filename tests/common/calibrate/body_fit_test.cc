@@ -8,6 +8,7 @@
 
 #include "common/calibrate/frame_equations.h"
 #include "common/support/units.h"
+#include "tests/support/all_indices.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/test_models.h"
 
@@ -15,7 +16,7 @@ namespace mmm_converter {
 namespace {
 
 std::vector<MarkerIx> AllMarkers(const KinematicModel& model) {
-  return AllIndices<MarkerIx>(model.markers().size());
+  return testing::AllIndices<MarkerIx>(model.markers().size());
 }
 
 TEST(FrameEquations, GradientIsThatOfTheCost) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/calibrate/body_kinematics.h"
+#include "tests/support/all_indices.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace {
 class BodyKinematicsTest : public ::testing::Test {
  protected:
   static std::vector<MarkerIx> AllMarkers(const KinematicModel& model) {
-    return AllIndices<MarkerIx>(model.markers().size());
+    return testing::AllIndices<MarkerIx>(model.markers().size());
   }
 
   BodyKinematicsTest()

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/model/kit_joints.h"
+#include "tests/support/all_indices.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter {
@@ -22,7 +24,7 @@ std::vector<std::string> Names(const KinematicModel& model, const SegmentLengths
 }
 
 SegmentLengths ReferenceLengths(const KinematicModel& model) {
-  const auto markers = AllIndices<MarkerIx>(model.markers().size());
+  const auto markers = testing::AllIndices<MarkerIx>(model.markers().size());
   return FindSegmentLengths(model, testing::TrackedJoints(model), markers);
 }
 

@@ -13,6 +13,7 @@
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
+#include "tests/support/all_indices.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter {
@@ -27,8 +28,8 @@ class OptimalFitTest : public ::testing::Test {
 
   Eigen::VectorXd Find(const MarkerSequence& markers) const {
     return OptimalDistances(model_, ResolveJoints(ConverterConfig(), model_),
-                            AllIndices<MarkerIx>(markers.num_labels()),
-                            AllIndices<LabelIx>(markers.num_labels()), markers);
+                            testing::AllIndices<MarkerIx>(markers.num_labels()),
+                            testing::AllIndices<LabelIx>(markers.num_labels()), markers);
   }
 
   const KinematicModel model_ =

@@ -9,6 +9,7 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/support/error.h"
+#include "tests/support/all_indices.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter {
@@ -24,8 +25,8 @@ class HeightEstimateTest : public ::testing::Test {
     const KinematicModel person = ScaleWinter(model_, {height, 70, {}});
     const MarkerSequence recording = SynthesizeMarkers(person, MakeCartwheel(person), errors, 1);
     // Labels of a synthetic recording are in the order of the model's markers.
-    return EstimateHeight(model_, joints_, AllIndices<MarkerIx>(num_markers_),
-                          AllIndices<LabelIx>(num_markers_), recording);
+    return EstimateHeight(model_, joints_, testing::AllIndices<MarkerIx>(num_markers_),
+                          testing::AllIndices<LabelIx>(num_markers_), recording);
   }
 
   KinematicModel model_ = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/math/seeded_random.h"
+#include "tests/support/all_indices.h"
 
 namespace mmm_converter {
 namespace {
@@ -26,16 +27,17 @@ MarkerSequence Swinging(double noise) {
 TEST(MarkerNoise, IsTheNoiseWhereMarkersMove) {
   // The quietest tenth of the windows, with 30 differences each, is some 20 % below the mean.
   for (const double noise : {0.0005, 0.005, 0.02}) {
-    EXPECT_NEAR(MeasureMarkerNoise(Swinging(noise), AllIndices<LabelIx>(2)), 0.8 * noise,
+    EXPECT_NEAR(MeasureMarkerNoise(Swinging(noise), testing::AllIndices<LabelIx>(2)), 0.8 * noise,
                 0.15 * noise);
   }
-  EXPECT_LT(MeasureMarkerNoise(Swinging(0), AllIndices<LabelIx>(2)), 1e-4);
+  EXPECT_LT(MeasureMarkerNoise(Swinging(0), testing::AllIndices<LabelIx>(2)), 1e-4);
 }
 
 TEST(MarkerNoise, IsNotKnownWhereNothingIsSeen) {
+  EXPECT_TRUE(std::isnan(
+      MeasureMarkerNoise(MarkerSequence({"A"}, 100, 100, 0), testing::AllIndices<LabelIx>(1))));
   EXPECT_TRUE(
-      std::isnan(MeasureMarkerNoise(MarkerSequence({"A"}, 100, 100, 0), AllIndices<LabelIx>(1))));
-  EXPECT_TRUE(std::isnan(MeasureMarkerNoise(Swinging(0).Slice(0, 5), AllIndices<LabelIx>(2))));
+      std::isnan(MeasureMarkerNoise(Swinging(0).Slice(0, 5), testing::AllIndices<LabelIx>(2))));
 }
 
 }  // namespace
