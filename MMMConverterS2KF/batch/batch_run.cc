@@ -98,7 +98,7 @@ class BatchRunner {
     } catch (const std::bad_alloc&) {
       reason = entry.request.input.file + ": there is not enough memory for it; use fewer --jobs";
     } catch (const Error& error) {
-      reason = WithAdvice(error);
+      reason = WithManifestAdvice(error);
     } catch (const std::exception& error) {
       reason = fmt::format("{}: unexpected: {}", entry.request.input.file, error.what());
     }

@@ -186,7 +186,7 @@ class Scanner {
         recordings->push_back({file.filename().string(), {}, {}});
       }
     } catch (const Error& error) {
-      scan_.warnings.Add(WithAdvice(error));
+      scan_.warnings.Add(WithManifestAdvice(error));
     }
   }
 

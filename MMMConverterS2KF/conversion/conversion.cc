@@ -88,6 +88,21 @@ void WritePerson(const ConversionReport& report) {
   }
 }
 
+// Errors name the file.
+ConversionResult Track(const ConversionReport& report,
+                       const std::function<bool(int, int)>& progress) {
+  const Recording& recording = report.input.recording;
+  const int frames = recording.markers.num_frames();
+  const auto converter =
+      report.converter.plugin->factory().Create(report.setup, report.converter.config);
+  try {
+    return converter->Convert(recording.markers,
+                              [&](int done) { return !progress || progress(done, frames); });
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", recording.file, error.what()), error.remedy());
+  }
+}
+
 }  // namespace
 
 ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
@@ -150,16 +165,13 @@ void CheckOutputs(const ConversionRequest& request,
 ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
                           const std::function<bool(int, int)>& progress) {
   ConversionReport report{std::move(plan), {}, {}, {}, {}};
-  const MarkerSequence& markers = report.input.recording.markers;
   const WarningContext context(&report.warnings, report.input.recording.file,
                                report.input.recording.motion());
   if (self_calibrate && !report.object) SelfCalibrate(&report);
-  const auto converter =
-      report.converter.plugin->factory().Create(report.setup, report.converter.config);
-  report.result = converter->Convert(
-      markers, [&](int done) { return !progress || progress(done, markers.num_frames()); });
+  report.result = Track(report, progress);
   if (report.object) {
-    JudgeObject(report.input, report.setup.mapping, report.result.residuals, &report.warnings);
+    WarnOfUnknownTurns(report.input, report.setup.mapping, report.result.residuals,
+                       &report.warnings);
   }
   report.figures = MeasureConversion(report);
   report.verdict = JudgeConversion(report);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/convert/exchanged_sides.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_noise.h"
@@ -42,7 +43,9 @@ Verdict Judgement::Take() {
 }
 
 void JudgeReading(const Recording& recording, Judgement* judgement) {
-  for (const std::string& doubt : recording.doubts) judgement->Add(Level::kCheck, doubt);
+  for (const ReadingDoubt& doubt : recording.doubts) {
+    judgement->Add(Level::kCheck, WithAdvice(doubt.text, doubt.remedy));
+  }
 }
 
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,

@@ -316,19 +316,14 @@ void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping) {
                   count < kFewestMarkers ? "are too few" : "stand on a line"));
 }
 
-void JudgeObject(const Input& input, const MarkerMapping& mapping, const Eigen::MatrixXd& residuals,
-                 Warnings* warnings) {
+void WarnOfUnknownTurns(const Input& input, const MarkerMapping& mapping,
+                        const Eigen::MatrixXd& residuals, Warnings* warnings) {
   constexpr double kHardlyTold = 0.05;  // [rad]
   const Eigen::Matrix3Xd places = PlacesOf(input, mapping);
-  const double radius = RadiusOf(places);
   const double beside_line = DistanceFromLine(places);
   const double distance = SummarizeResiduals(residuals).mean;
-  if (distance > kMostStray * radius) {
-    warnings->Add(
-        fmt::format("{}: the markers are {:.1f} mm from this model, whose radius is {:.0f} mm "
-                    "(both on average); is it this object's?",
-                    input.model_file, 1e3 * distance, 1e3 * radius));
-  } else if (distance > kHardlyTold * beside_line) {
+  if (distance > kMostStray * RadiusOf(places)) return;  // the verdict says so
+  if (distance > kHardlyTold * beside_line) {
     warnings->Add(
         fmt::format("{}: the markers are {:.1f} mm (root mean square) beside a line, and {:.1f} "
                     "mm from their places on average: turns about that line are hardly known, "

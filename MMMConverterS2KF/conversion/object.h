@@ -65,10 +65,9 @@ std::string DescribeObjectModel(const ObjectModel& object);
 /// @throws Error where the mapped markers of an object do not determine its pose.
 void CheckDeterminesPose(const Input& input, const MarkerMapping& mapping);
 
-/// Warns of what a user should know of the track of an object: that the markers are far from the
-/// model, as those of another object would be, or that they hardly tell turns about the line that
-/// they are nearly on. residuals: markers x frames [m].
-void JudgeObject(const Input& input, const MarkerMapping& mapping, const Eigen::MatrixXd& residuals,
-                 Warnings* warnings);
+/// Warns where an object's markers are so nearly on a line that they hardly tell turns about it.
+/// residuals: markers x frames [m].
+void WarnOfUnknownTurns(const Input& input, const MarkerMapping& mapping,
+                        const Eigen::MatrixXd& residuals, Warnings* warnings);
 
 }  // namespace mmm_converter

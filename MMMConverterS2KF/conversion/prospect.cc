@@ -21,7 +21,9 @@ Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recordi
     prospect.mapping = plan.setup.mapping;
     prospect.person = plan.person;
     prospect.limbs = LimbsOf(plan.setup);
-    prospect.doubts = plan.input.recording.doubts;
+    for (const ReadingDoubt& doubt : plan.input.recording.doubts) {
+      prospect.doubts.push_back(WithAdvice(doubt.text, doubt.remedy));
+    }
     prospect.gaps = LongGaps(plan.setup, prospect.limbs, plan.input.recording.markers);
   } catch (const Error& error) {
     prospect.failure = WithAdvice(error);

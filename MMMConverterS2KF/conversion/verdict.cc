@@ -14,6 +14,7 @@
 #include "MMMConverterS2KF/conversion/coverage.h"
 #include "MMMConverterS2KF/conversion/judgement.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/fit/rigid_shape.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -88,8 +89,11 @@ class Judge {
     const double radius = RadiusOf(places);
     judgement_.AddBeyond(
         kObject, figures_.distance.mean / radius,
-        fmt::format("the markers are {:.1f} mm from the model, whose radius is {:.0f} mm",
-                    kMillimetres * figures_.distance.mean, kMillimetres * radius));
+        fmt::format(
+            "the markers are {:.1f} mm from the model {}, whose radius is {:.0f} mm (both on "
+            "average); is it this object's?",
+            kMillimetres * figures_.distance.mean, report_.input.model_file,
+            kMillimetres * radius));
   }
 
   // Whether the markers are farther from the model than a person's are.
@@ -174,9 +178,10 @@ class Judge {
       upside_down += up < -kUpright ? 1 : 0;
     }
     const auto frames = static_cast<double>(report_.result.trajectory.postures.size());
-    const std::string throughout = fmt::format(
-        "in more than {:.0f} % of the frames, with {} of the file as up; is that axis right?",
-        kPercent * kLyingFrames.check, Name(recording.up_axis));
+    const std::string throughout =
+        WithAdvice(fmt::format("in more than {:.0f} % of the frames, with {} of the file as up",
+                               kPercent * kLyingFrames.check, Name(recording.up_axis)),
+                   Remedy::kUpAxis);
     if (judgement_.AddBeyond(kLyingFrames, upside_down / frames,
                              "the body is upside down " + throughout)) {
       return;

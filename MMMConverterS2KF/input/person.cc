@@ -25,7 +25,7 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
                                   const std::optional<double>& in_recording) {
   if (given) return PersonValue{*given, "given"};
   if (in_processor_file) return PersonValue{*in_processor_file, processor_file};
-  if (in_recording) return PersonValue{*in_recording, "from the recording's file"};
+  if (in_recording) return PersonValue{*in_recording, "from the file"};
   return std::nullopt;
 }
 
@@ -124,6 +124,13 @@ Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config
 
 bool IsGiven(const PersonRequest& request) {
   return !request.processor_file.empty() || !request.subject_file.empty() || !request.size.empty();
+}
+
+std::string DescribeHeight(const Person& person) {
+  const double deviation = person.height_deviation;
+  return fmt::format("{:.3g} m{} ({})", person.height.value,
+                     deviation > 0 ? fmt::format(" +- {:.2g}", deviation) : "",
+                     person.height.source);
 }
 
 std::string WhyUnscaled(const ConverterConfig& config) {

@@ -40,6 +40,9 @@ struct Person {
   std::string subject_file;                ///< empty: none
 };
 
+/// For messages: metres, their deviation where the markers tell them, and where they are from.
+std::string DescribeHeight(const Person& person);
+
 /// For messages: which file has it that the model is not scaled.
 std::string WhyUnscaled(const ConverterConfig& config);
 

@@ -60,10 +60,7 @@ std::string DescribeWrongMarkers(const ConversionReport& report) {
 
 std::string DescribePersonShortly(const ConversionReport& report) {
   if (report.person.height.value <= 0) return report.person.height.source;
-  const double deviation = report.person.height_deviation;
-  return fmt::format("{:.3g} m{} ({}), {:.4g} kg ({})", report.person.height.value,
-                     deviation > 0 ? fmt::format(" +- {:.2g}", deviation) : "",
-                     report.person.height.source, report.person.mass.value,
+  return fmt::format("{}, {:.4g} kg ({})", DescribeHeight(report.person), report.person.mass.value,
                      report.person.mass.source);
 }
 

@@ -174,10 +174,10 @@ std::string DynamicsSentence(const DynamicsReport& report) {
 std::string FormatDynamicsSummary(const DynamicsReport& report) {
   const CheckedMotion& motion = report.motion;
   const MotionDynamics& dynamics = report.dynamics;
-  std::string text = DynamicsLine(
-      "motion", fmt::format("{}: \"{}\", {} frames at {:.6g} Hz ({:.3f} s)", motion.file,
-                            motion.name, dynamics.num_frames(), dynamics.rate,
-                            (dynamics.num_frames() - 1) / dynamics.rate));
+  std::string text =
+      DynamicsLine("motion", fmt::format("{}: \"{}\", {} frames at {:.6g} Hz ({:.3f} s)",
+                                         motion.file, motion.name, dynamics.num_frames(),
+                                         dynamics.rate, dynamics.num_frames() / dynamics.rate));
   text += DynamicsLine("person", DescribePerson(motion.person));
   text += DynamicsLine("model", motion.model_file);
   text += DynamicsLine("derivatives", DescribeDifferentiation(dynamics.differentiation));

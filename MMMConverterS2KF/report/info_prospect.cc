@@ -21,14 +21,6 @@ std::vector<std::string> LimbNames(const Prospect& prospect, bool is_known) {
   return names;
 }
 
-std::string DescribeHeight(const Person& person) {
-  if (person.height_deviation <= 0) {
-    return fmt::format("{:.3g} m ({})", person.height.value, person.height.source);
-  }
-  return fmt::format("{:.3g} m +- {:.2g} ({})", person.height.value, person.height_deviation,
-                     person.height.source);
-}
-
 std::string NamesOrNone(const std::vector<std::string>& names) {
   return names.empty() ? "none" : FirstNames(names);
 }

@@ -5,7 +5,7 @@ namespace mmm_converter {
 namespace {
 
 // Continues the library's message.
-const char* AdviceFor(Remedy remedy) {
+const char* OptionFor(Remedy remedy) {
   switch (remedy) {
     case Remedy::kNone:
       return "";
@@ -29,6 +29,42 @@ const char* AdviceFor(Remedy remedy) {
       return " (--ignore-residuals)";
     case Remedy::kLabels:
       return "; the command label finds the names of points that have none";
+    case Remedy::kUnit:
+      return " (another by --unit UNIT)";
+    case Remedy::kUpAxis:
+      return " (another by --up AXIS)";
+  }
+  return "";
+}
+
+// The same of a manifest of batch.
+const char* AttributeFor(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::kNone:
+    case Remedy::kLabels:  // another command
+      return "";
+    case Remedy::kHeight:
+      return "height_m=\"1.75\"";
+    case Remedy::kMass:
+      return "mass_kg=\"70\"";
+    case Remedy::kRate:
+      return "rate_hz=\"HZ\"";
+    case Remedy::kFrames:
+      return "frames=\"A:B\"";
+    case Remedy::kSubjectPrefix:
+      return "subject=\"NAME\"";
+    case Remedy::kMotion:
+      return "motion=\"NAME\"";
+    case Remedy::kMarkerSet:
+      return "markerSet=\"FILE\"";
+    case Remedy::kModel:
+      return "model=\"FILE\"";
+    case Remedy::kIgnoreResiduals:
+      return "ignoreResiduals=\"true\"";
+    case Remedy::kUnit:
+      return "unit=\"UNIT\"";
+    case Remedy::kUpAxis:
+      return "up=\"AXIS\"";
   }
   return "";
 }
@@ -38,7 +74,13 @@ const char* AdviceFor(Remedy remedy) {
 std::string WithAdvice(const Error& error) { return WithAdvice(error.what(), error.remedy()); }
 
 std::string WithAdvice(const std::string& failure, Remedy remedy) {
-  return failure + AdviceFor(remedy);
+  return failure + OptionFor(remedy);
+}
+
+std::string WithManifestAdvice(const Error& error) {
+  const std::string attribute = AttributeFor(error.remedy());
+  return attribute.empty() ? error.what()
+                           : error.what() + (" (in the manifest: " + attribute + ")");
 }
 
 }  // namespace mmm_converter

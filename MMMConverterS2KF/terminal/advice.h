@@ -11,4 +11,7 @@ namespace mmm_converter {
 std::string WithAdvice(const Error& error);
 std::string WithAdvice(const std::string& failure, Remedy remedy);
 
+/// Likewise, and the attribute of a manifest that helps.
+std::string WithManifestAdvice(const Error& error);
+
 }  // namespace mmm_converter

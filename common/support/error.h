@@ -20,6 +20,8 @@ enum class Remedy {
   kModel,            ///< another model
   kIgnoreResiduals,  ///< points that a C3D file marks as invalid
   kLabels,           ///< names for points that have none
+  kUnit,             ///< the unit of the file's coordinates
+  kUpAxis,           ///< the file's axis that points up
 };
 
 /// Bad input. The message is complete for a user: where it is (file and line or byte), what was

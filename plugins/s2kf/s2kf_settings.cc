@@ -93,7 +93,8 @@ SettingTable BindSettings(S2kfSettings* v) {
   BindMotionModel(v, &table);
   table.AddElement("Noise", "Trust in the markers.");
   table.Add("Noise", "markerStandardDeviation_mm", &v->marker_deviation, kMillimetre, 1e-6, 1e4,
-            "of each coordinate of each marker; a Mapping's noiseScale multiplies it");
+            "of each coordinate of each marker; a Mapping's noiseScale multiplies it; a calibrated "
+            "subject's skinDeviation_mm comes in its place where that is less, down to a fifth");
   table.Add("Noise", "robustDistance_mm", &v->robust_distance, kMillimetre, 0, 1e6,
             "a marker that is farther from where it is expected counts less, in proportion "
             "(Huber); 0: all count in full");

@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/recording/recording.h"
+#include "common/motion/occlusion.h"
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
 
@@ -104,6 +107,18 @@ TEST(Batch, OneBadEntryFailsAlone) {
     EXPECT_THAT(lines[i]["reason"].get<std::string>(), Not(IsEmpty()));
   }
   EXPECT_EQ(Contents(Out() + "/motions").size(), 3U);
+}
+
+TEST(Batch, WhatHelpsIsAnAttribute) {
+  const MarkerSequence markers = ReadRecording(testing::Handstand(), {}).markers.Slice(0, 150);
+  WriteC3d(TestFolder() + "/late.c3d", HideAllMarkers(markers, 0, 120));
+  const auto run = RunProgram({"convert", TestFolder() + "/late.c3d", "--height", "1.8"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("late.c3d: no frame of the first second shows 3"),
+                             HasSubstr("start at a later frame (--frames A:B)")));
+  const std::string manifest = WriteManifest(0, QuickConverter(), "<Recording file='late.c3d'/>");
+  EXPECT_THAT(RunProgram({"batch", manifest, "-o", Out()}).err,
+              HasSubstr("start at a later frame (in the manifest: frames=\"A:B\")"));
 }
 
 TEST(Batch, FailFastEndsWithTheFirst) {

@@ -342,8 +342,8 @@ TEST(Objects, AModelOfAnotherObjectIsToldByItsDistance) {
     return RunProgram({"convert", WriteRecording(ObjectMotion("box", body)), "--motion", "box",
                        "--object-models", models, "-o", TestFolder() + "/out.xml"});
   };
-  EXPECT_THAT(convert(kBox).err, Not(HasSubstr("is it this object's?")));
-  EXPECT_THAT(convert(2 * kBox).err, HasSubstr("is it this object's?"));
+  EXPECT_THAT(convert(kBox).out, Not(HasSubstr("is it this object's?")));
+  EXPECT_THAT(convert(2 * kBox).out, HasSubstr("is it this object's?"));
 }
 
 TEST(Objects, APersonIsOneWhereTheUserSaysSo) {

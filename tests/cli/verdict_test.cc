@@ -191,6 +191,7 @@ TEST(Verdict, AnAxisThatTheBodyContradictsIsToBeChecked) {
   Judged judged = ConvertMarkers(Changed(lie));
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("states that +z is up"));
+  EXPECT_THAT(judged.reasons, HasSubstr("+z is taken (another by --up AXIS)"));
   const auto turn_over = [](int, int, Point p) { p = Eigen::Vector3d(p.x(), -p.y(), -p.z()); };
   judged = ConvertMarkers(Changed(turn_over));
   EXPECT_EQ(judged.level, "check");

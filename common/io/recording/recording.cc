@@ -71,14 +71,14 @@ void BringToMetresAndZUp(const std::string& said_unit, const std::vector<UpAxis>
   recording->unit = unit.unit;
   recording->unit_was_guessed = unit.guessed;
   if (!unit.warning.empty()) Warn(warnings, unit.warning);
-  if (unit.is_doubtful) recording->doubts.push_back(unit.warning);
+  if (unit.is_doubtful) recording->doubts.push_back({unit.warning, Remedy::kUnit});
   const UpAxisDecision up = DecideUpAxis(recording->markers, unit.metres,
                                          {options.up_axis, recording->stated_up_axis, usual});
   recording->up_axis = up.axis;
   recording->up_axis_was_decided = up.decided;
   if (!up.warning.empty()) {
     Warn(warnings, up.warning);
-    recording->doubts.push_back(up.warning);
+    recording->doubts.push_back({up.warning, Remedy::kUpAxis});
     recording->up_axis_is_doubtful = true;
   }
   ToMetresAndZUp(unit.metres, recording->up_axis, &recording->markers);
@@ -120,8 +120,8 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
   }
   if (content.declared_frames > recording.markers.num_frames()) {
     recording.doubts.push_back(
-        fmt::format("the file is cut off: it declares {} frames and holds {}",
-                    content.declared_frames, recording.markers.num_frames()));
+        {fmt::format("the file is cut off: it declares {} frames and holds {}",
+                     content.declared_frames, recording.markers.num_frames())});
   }
   return recording;
 }

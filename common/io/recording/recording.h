@@ -8,6 +8,7 @@
 #include "common/math/up_axis.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/recording_content.h"
+#include "common/support/error.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -22,6 +23,12 @@ struct ReadRecordingOptions {
   std::string motion = {};               ///< MMM: motion to read; empty: that with most markers
 };
 
+/// Why something may be read wrong, and what else could be said of it.
+struct ReadingDoubt {
+  std::string text;
+  Remedy remedy = Remedy::kNone;
+};
+
 /// An optical recording as a file has it, brought to metres and z up.
 struct Recording {
   std::string file;
@@ -34,7 +41,7 @@ struct Recording {
   std::optional<UpAxis> stated_up_axis;  ///< what the file says
   bool up_axis_was_decided = false;      ///< from the markers; else given, stated or assumed
   bool up_axis_is_doubtful = false;      ///< something contradicts it
-  std::vector<std::string> doubts;       ///< why unit, axis or length may be wrong; warned of too
+  std::vector<ReadingDoubt> doubts;      ///< why unit, axis or length may be wrong; warned of too
   std::vector<std::string> subjects;     ///< label prefixes found
   std::string subject;                   ///< the one that was read; empty: no prefix
   long first_frame = 1;                  ///< number of the first stored frame in the capture
