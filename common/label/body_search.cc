@@ -51,8 +51,8 @@ class DistanceGrid {
   static constexpr double kFarthest = 0.2;  // [m]
   static constexpr int kCells = 96;         // in each direction, for a person and their reach
 
-  DistanceGrid(const Ref<const Matrix3Xd>& points, const Vector3d& middle)
-      : origin_(middle.array() - 0.5 * kCells * kCell) {
+  DistanceGrid(const Ref<const Matrix3Xd>& points, const Vector3d& centre)
+      : origin_(centre.array() - 0.5 * kCells * kCell) {
     cells_.assign(static_cast<std::size_t>(kCells) * kCells * kCells, kFarthest);
     constexpr int kReach = static_cast<int>(kFarthest / kCell);
     for (Eigen::Index p = 0; p < points.cols(); ++p) {

@@ -91,7 +91,7 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
        "unknown command \"fly\"; use convert, batch, calibrate, check-dynamics, compare, evaluate, "
-       "export-urdf, info, print-config or report"},
+       "export-urdf, info, label, print-config or report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},

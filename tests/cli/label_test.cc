@@ -103,6 +103,7 @@ TEST(Label, RepairTellsAndMendsWhatIsWrong) {
   const int frames = file.layout().frames;
   const std::vector<std::string> names = C3dPointNames(file, nullptr);
   std::vector<C3dRelabelledPoint> points;
+  points.reserve(names.size());
   for (int i = 0; i < file.layout().points; ++i) points.push_back({names[i], i, {{0, frames, i}}});
   const int left =
       static_cast<int>(std::find(names.begin(), names.end(), "1480:LKNE") - names.begin());
@@ -151,7 +152,7 @@ TEST(Label, WhatIsMissingIsSaid) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string input = Unlabelled();
   const std::string bytes = ReadText(input);
-  const auto expect = [&](std::vector<std::string> arguments, int exit_code,
+  const auto expect = [&](const std::vector<std::string>& arguments, int exit_code,
                           const std::string& said) {
     const ProgramRun run = RunProgram(arguments);
     EXPECT_EQ(run.exit_code, exit_code) << run.err;

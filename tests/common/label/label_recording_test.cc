@@ -12,6 +12,7 @@
 #include "common/math/seeded_random.h"
 #include "common/motion/occlusion.h"
 #include "common/support/error.h"
+#include "tests/support/all_indices.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/unnamed_points.h"
 
@@ -172,7 +173,7 @@ TEST(BodySearchTest, OneFrameIsEnoughInAnyPosture) {
   int right = 0, all = 0;
   for (int k = 0; k < made.recording.num_frames(); k += 60) {
     // Lying on the side, and turned.
-    const Eigen::Matrix3d turn(Eigen::AngleAxisd(k / 60 * EIGEN_PI / 2, Eigen::Vector3d::UnitX()) *
+    const Eigen::Matrix3d turn(Eigen::AngleAxisd(k * EIGEN_PI / 120, Eigen::Vector3d::UnitX()) *
                                Eigen::AngleAxisd(k, Eigen::Vector3d::UnitZ()));
     const Eigen::Matrix3Xd points = turn * made.recording.frame(k);
     const BodyMatch match = search.Find(points);

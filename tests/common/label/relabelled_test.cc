@@ -30,6 +30,7 @@ NamedPiece Piece(int point, int begin, int end, int name) {
 
 std::vector<std::string> Texts(const std::vector<LabelChange>& changes) {
   std::vector<std::string> texts;
+  texts.reserve(changes.size());
   for (const LabelChange& one : changes) {
     texts.push_back(std::to_string(one.point) + " " + std::to_string(one.begin) + "-" +
                     std::to_string(one.end) + " " + one.from + ">" + one.to);

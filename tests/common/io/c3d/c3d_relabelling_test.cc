@@ -173,7 +173,7 @@ std::string SmallFile(const C3dSection& section) {
     const auto t = static_cast<float>(k);
     bytes.frames.push_back({1 + t, 2, 3, 256, 4 + t, 5, 6, 0, 100 + t, 200 + t});
   }
-  const std::string path = testing::TestFolder() + "/small.c3d";
+  std::string path = testing::TestFolder() + "/small.c3d";
   WriteFileAtomically(path, bytes.File(section));
   return path;
 }
