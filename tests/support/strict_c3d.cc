@@ -70,13 +70,15 @@ std::vector<std::string> TextsOfAll(const StrictC3d& c3d, const std::string& nam
   }
 }
 
+int Signed(int byte) { return byte < 128 ? byte : byte - 256; }
+
 void ReadRecords(const C3dBits& bits, std::size_t section, std::size_t end, StrictC3d* c3d) {
   std::map<int, std::string> groups;
   std::vector<std::pair<int, std::string>> parameters;
   std::vector<std::string> contents;
   for (std::size_t at = section + 4; at + 2 < end;) {
-    const int length = std::abs(static_cast<int>(static_cast<signed char>(bits.Byte(at))));
-    const int id = static_cast<signed char>(bits.Byte(at + 1));
+    const int length = std::abs(Signed(bits.Byte(at)));
+    const int id = Signed(bits.Byte(at + 1));
     if (length == 0 || id == 0) break;
     const std::string name = bits.Part(at + 2, static_cast<std::size_t>(length));
     const std::size_t offset_at = at + 2 + static_cast<std::size_t>(length);

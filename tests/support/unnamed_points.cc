@@ -50,6 +50,7 @@ UnnamedPoints MakeUnnamed(const MarkerSequence& recording, const UnnamedErrors& 
   }
   const int columns = recording.num_labels() + errors.ghosts;
   std::vector<std::string> names;
+  names.reserve(columns);
   for (int c = 0; c < columns; ++c) names.push_back("*" + std::to_string(c + 1));
   UnnamedPoints made = {
       MarkerSequence(names, recording.num_frames(), recording.rate(), recording.first_time()), {}};
