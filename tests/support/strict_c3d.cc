@@ -88,8 +88,7 @@ void ReadRecords(const C3dBits& bits, std::size_t section, std::size_t end, Stri
     std::size_t data = 1;
     if (id > 0) {
       const int num_dimensions = bits.Byte(offset_at + 3);
-      data = static_cast<std::size_t>(
-          std::abs(static_cast<int>(static_cast<signed char>(bits.Byte(offset_at + 2)))));
+      data = static_cast<std::size_t>(std::abs(Signed(bits.Byte(offset_at + 2))));
       for (int i = 0; i < num_dimensions; ++i) {
         data *= static_cast<std::size_t>(bits.Byte(offset_at + 4 + static_cast<std::size_t>(i)));
       }

@@ -49,6 +49,7 @@ void Relabel(const std::string& path) {
   const C3dLayout& layout = file.layout();
   const std::vector<std::string> names = C3dPointNames(file, &warnings);
   std::vector<C3dRelabelledPoint> points;
+  points.reserve(names.size() + 1);
   for (int i = 0; i < layout.points; ++i) {
     points.push_back({names[i], i, {{0, layout.frames, i}}});
   }
