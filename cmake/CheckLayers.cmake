@@ -15,10 +15,11 @@ cmake_minimum_required(VERSION 3.25)
 set(layers
     common/support common/math common/model common/motion common/fit
     common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/urdf common/io common/io/recording
-    common/convert common/calibrate common/label common/evaluate
+    common/convert common/calibrate common/label common/evaluate common/live
     plugins
     MMMConverterS2KF/terminal MMMConverterS2KF/input MMMConverterS2KF/conversion
-    "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report MMMConverterS2KF/batch
+    "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report
+    "MMMConverterS2KF/batch|MMMConverterS2KF/live"
     MMMConverterS2KF/commands MMMConverterS2KF
     examples tests)
 # Of these the files alone are a layer: each of their folders is a layer of its own.
