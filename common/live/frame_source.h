@@ -47,9 +47,9 @@ class FrameSource {
  public:
   virtual ~FrameSource();
 
-  /// Goes on, for at most about `wait`: connects, where there is no connection (again and again, with
-  /// growing waits between), and reads. *frame is filled with kFrame only; once it has its size
-  /// nothing is allocated.
+  /// Goes on, for at most about `wait`: connects, where there is no connection (again and again,
+  /// with growing waits between), and reads. *frame is filled with kFrame only; once it has its
+  /// size nothing is allocated.
   /// @throws Error for what waiting does not mend: an address without a server at the first
   /// attempt, a refused version or password, a stream without labelled points.
   virtual StreamEvent Next(std::chrono::milliseconds wait, StreamFrame* frame) = 0;

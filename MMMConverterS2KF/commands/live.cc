@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/conversion/exporters.h"
+#include "MMMConverterS2KF/live/live_run.h"
+#include "MMMConverterS2KF/live/live_sinks.h"
+#include "MMMConverterS2KF/live/live_summary.h"
+#include "MMMConverterS2KF/live/motion_journal.h"
+#include "MMMConverterS2KF/report/conversion_page.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/interruption.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kDefaultCalibration = 15;  // [s]
+
+const OptionGroup kOutputOptions = {
+    "Output",
+    {{"output,o", "FILE",
+      "the motion; it is kept in FILE.live while it comes, so that nothing is lost", ""},
+     {"to", "ADDRESS",
+      "send postures: mvn://HOST:PORT (Xsens MVN, UDP), zmq://HOST:PORT (ZeroMQ publisher), "
+      "ws://HOST:PORT (WebSocket server); may be given several times",
+      "", true},
+     {"view", "", "serve a page to watch it, for browsers on this machine", ""},
+     {"view-at", "HOST:PORT", "where --view listens; default: 127.0.0.1 and a free port", ""},
+     {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
+     {"report", "FILE", "write a page (HTML) of the motion at the end", ""},
+     {"summary", "FILE", "write a summary as JSON", ""},
+     {"model-path", "PATH", "path of the model that is written into the motion", ""}}};
+
+const std::vector<OptionGroup> kOtherOptions = {
+    {"Converter",
+     {{"config,c", "FILE", "configuration, or the name of a shipped one; default: s2kf_default",
+       ""},
+      {"converter", "NAME", "default: what the configuration says, else S2KFConverter", ""},
+      {"plugin", "FILE", "take the converter from this plugin file", ""}}},
+    {"Calibration",
+     {{"self-calibrate", "",
+       "estimate segment lengths and marker places while the person moves about, then use them",
+       ""},
+      {"calibrate-seconds", "S", "how long to gather movement for it; default: 15", ""},
+      {"subject-out", "FILE", "with --self-calibrate: also write the person", ""}}},
+    {"Running",
+     {{"loop", "", "a replay begins again at its end", ""},
+      {"seconds", "S", "end after so many seconds; default: when the source ends, or with Ctrl-C",
+       ""},
+      {"realtime", "", "ask the system for real-time priority of the tracking thread", ""},
+      {"processor", "N", "keep the tracking thread on this processor", ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF live SOURCE [options]
+Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is one of
+  qtm://HOST[:PORT]         Qualisys QTM (real-time protocol over TCP); qtm:// alone looks for one
+  natnet://HOST[:PORT]      OptiTrack Motive (NatNet); ?multicast=GROUP, ?up=z, ?local=ADDRESS
+  replay:FILE[@SPEED]       a recording at its own pace; @2: twice as fast; @max: as fast as possible
+
+{}Examples
+  MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o anna.xml --view
+  MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1:9763
+  MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
+)";
+
+std::vector<OptionGroup> Options() {
+  OptionGroup exports = {"Export, at the end", {}};
+  for (const Exporter& exporter : Exporters()) {
+    exports.options.push_back({OptionOf(exporter), "FILE", exporter.help, ""});
+  }
+  std::vector<OptionGroup> options = {kOutputOptions};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  for (OptionGroup& group : options) {
+    std::erase_if(group.options, [](const OptionSpec& o) { return o.name == "frames"; });
+  }
+  options.push_back(std::move(exports));
+  options.insert(options.end(), kOtherOptions.begin(), kOtherOptions.end());
+  return options;
+}
+
+void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
+  if (!request.output.empty()) return;
+  std::vector<std::string> options = {"report", "format", "model-path"};
+  for (const Exporter& exporter : Exporters()) options.push_back(OptionOf(exporter));
+  for (const std::string& option : options) {
+    if (arguments.Has(option)) {
+      throw UsageError(
+          fmt::format("live: --{} is of a motion that is written; give -o too", option));
+    }
+  }
+}
+
+LiveRequest MakeRequest(const Arguments& arguments) {
+  if (!arguments.positional()) {
+    throw UsageError(
+        "live: which source? For instance: MMMConverterS2KF live qtm://192.168.0.10 --height 1.75 "
+        "-o "
+        "motion.xml");
+  }
+  LiveRequest request;
+  request.input = MakeInputRequest(arguments, *arguments.positional());
+  request.motion_name = request.input.reading.motion;
+  request.converter = {arguments.Get("config").value_or(""),
+                       arguments.Get("converter").value_or(""),
+                       arguments.Get("plugin").value_or("")};
+  request.loops = arguments.Has("loop");
+  const auto calibration = arguments.GetNumber("calibrate-seconds", "seconds, e.g. 15");
+  if (arguments.Has("self-calibrate")) {
+    request.calibration_time = calibration.value_or(kDefaultCalibration);
+    if (!(request.calibration_time >= 1)) {
+      throw UsageError("live: --calibrate-seconds is at least 1");
+    }
+    if (!request.input.person.subject_file.empty()) {
+      throw UsageError(
+          "live: --self-calibrate estimates the person, --subject-file says who it is; use one");
+    }
+  } else if (calibration || arguments.Has("subject-out")) {
+    throw UsageError("live: --calibrate-seconds and --subject-out need --self-calibrate");
+  }
+  request.subject_output = arguments.Get("subject-out").value_or("");
+  request.output = arguments.Get("output").value_or("");
+  if (arguments.Has("format")) {
+    request.output_format = arguments.GetChoice("format", {"2.0", "1.0"}, "");
+  }
+  request.model_path = arguments.Get("model-path").value_or("");
+  for (const Exporter& exporter : Exporters()) {
+    if (const auto file = arguments.Get(OptionOf(exporter))) request.exports[exporter.name] = *file;
+  }
+  for (const char* option : {"summary", "report"}) {
+    if (const auto file = arguments.Get(option)) request.more_outputs.push_back(*file);
+  }
+  request.sinks = arguments.GetAll("to");
+  request.view_address = arguments.Get("view-at").value_or("");
+  request.view = arguments.Has("view") || !request.view_address.empty();
+  request.longest = arguments.GetNumber("seconds", "seconds, e.g. 60").value_or(0);
+  request.realtime = arguments.Has("realtime");
+  request.processor = arguments.GetInteger("processor", 0, 1023).value_or(-1);
+  CheckNeedsOutput(arguments, request);
+  return request;
+}
+
+// One line on the terminal that is drawn over again.
+class StatusLine {
+ public:
+  StatusLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+  ~StatusLine() { Clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  void Show(const LiveStatus& status) {
+    if (!is_terminal_) return;
+    std::string text = fmt::format("{} frames, {} dropped: {}", status.frames, status.dropped,
+                                   Describe(status.stage));
+    if (status.stage == LiveStage::kGathering || status.stage == LiveStage::kMeasuring) {
+      text += fmt::format(", {:.0f} %", 100 * status.gathered);
+    }
+    if (text == shown_) return;
+    Clear();
+    std::cerr << text << std::flush;
+    shown_ = text;
+  }
+
+  void Clear() {
+    if (!shown_.empty()) std::cerr << '\r' << std::string(shown_.size(), ' ') << '\r' << std::flush;
+    shown_.clear();
+  }
+
+ private:
+  bool is_terminal_;
+  std::string shown_;
+};
+
+}  // namespace
+
+int RunLive(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("live", Options(), words);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const LiveRequest request = MakeRequest(arguments);
+  if (!request.output.empty()) {
+    const std::string recovered = RecoverMotion(request.output);
+    if (!recovered.empty()) {
+      LogWarning(fmt::format("{}: the motion of a run that was killed is now in {}", request.output,
+                             recovered));
+    }
+  }
+  StatusLine line;
+  LiveReport report;
+  {
+    const InterruptionWatch watch;
+    const auto clearing = [&line](void (*log)(const std::string&)) {
+      return [&line, log](const std::string& text) {
+        line.Clear();
+        log(text);
+      };
+    };
+    report = TrackLive(request, {clearing(LogInfo), clearing(LogWarning),
+                                 [&](const LiveStatus& status) { line.Show(status); },
+                                 [] { return InterruptionWatch::Signal() != 0; }});
+  }
+  line.Clear();
+  for (const ConversionReport& motion : report.motions) LogWarnings(motion.warnings);
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  if (const auto file = arguments.Get("report"); file && !report.motions.empty()) {
+    WriteFileAtomically(*file, FormatConversionPage({&report.motions.front()}));
+  }
+  std::cout << FormatSummary(report);
+  return 0;
+}
+
+}  // namespace mmm_converter

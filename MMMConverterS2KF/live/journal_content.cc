@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "MMMConverterS2KF/live/journal_lines.h"
+#include "MMMConverterS2KF/report/json.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr const char* kKind = "MMMConverterS2KF live 1";
+constexpr double kAssumedRate = 100;        // [Hz] of a source that states none, in one frame
+constexpr double kMostFrames = 20'000'000;  // a day at 200 Hz
+constexpr double kBridgedSeconds = 0.1;
+
+// Numbers of a line, one after the other.
+class LineNumbers {
+ public:
+  explicit LineNumbers(std::string_view line) : rest_(line) {}
+
+  double Next() {
+    while (!rest_.empty() && rest_.front() == ' ') rest_.remove_prefix(1);
+    double value = 0;
+    const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (failure != std::errc()) is_whole_ = false;
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    return value;
+  }
+  template <typename Vector>
+  void Fill(Vector&& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = Next();
+  }
+  int NextInt() { return static_cast<int>(std::clamp(Next(), -1e9, 1e9)); }
+  bool is_at_end() const { return is_whole_ && rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+  bool is_whole_ = true;
+};
+
+struct JournalFrame {
+  std::int64_t number = 0;
+  double time = 0;
+  bool is_tracking = false;
+  FrameDiagnostic diagnostic;
+  Posture posture;
+  Eigen::VectorXd deviations, residuals, verdicts;
+  Eigen::VectorXd points;
+};
+
+// Sizes are those of the header; the number of assignments is told by the line's length.
+bool ParseFrame(std::string_view line, const JournalHeader& header, JournalFrame* frame) {
+  LineNumbers numbers(line);
+  const auto joints = static_cast<Eigen::Index>(header.joints.size());
+  const auto labels = static_cast<Eigen::Index>(header.labels.size());
+  frame->number = static_cast<std::int64_t>(numbers.Next());
+  frame->time = numbers.Next();
+  frame->is_tracking = numbers.NextInt() != 0;
+  if (frame->is_tracking) {
+    const auto all = std::count(line.begin(), line.end(), ' ') + 1;
+    const auto assignments = (all - (3 + 7 + 7 + joints + 6 + joints + 3 * labels)) / 2;
+    if (assignments < 0) return false;
+    FrameDiagnostic& diagnostic = frame->diagnostic;
+    diagnostic.markers_seen = numbers.NextInt();
+    diagnostic.markers_downweighted = numbers.NextInt();
+    diagnostic.markers_wrong = numbers.NextInt();
+    diagnostic.nis = numbers.Next();
+    diagnostic.reassembled = numbers.NextInt() != 0;
+    diagnostic.converged = numbers.NextInt() != 0;
+    diagnostic.seconds = numbers.Next();
+    numbers.Fill(frame->posture.position);
+    numbers.Fill(frame->posture.orientation.coeffs());
+    frame->posture.joint_angles.resize(joints);
+    numbers.Fill(frame->posture.joint_angles);
+    frame->deviations.resize(6 + joints);
+    numbers.Fill(frame->deviations);
+    frame->residuals.resize(assignments);
+    numbers.Fill(frame->residuals);
+    frame->verdicts.resize(assignments);
+    numbers.Fill(frame->verdicts);
+  }
+  frame->points.resize(3 * labels);
+  numbers.Fill(frame->points);
+  return numbers.is_at_end() && std::isfinite(frame->time) && frame->posture.position.allFinite() &&
+         frame->posture.orientation.coeffs().allFinite() && frame->posture.joint_angles.allFinite();
+}
+
+JournalHeader ParseHeader(std::string_view line, const std::string& file) {
+  JournalHeader header;
+  try {
+    const Json json = ParseJson(line);
+    if (json.at("journal") != kKind) {
+      throw Error(fmt::format("is no journal of a live motion of this version of the program"));
+    }
+    header.output = json.at("output");
+    header.format = json.at("format");
+    header.recording_name = json.at("recording");
+    header.motion_name = json.at("motion");
+    header.model_path = json.at("model");
+    header.height = json.at("height");
+    header.mass = json.at("mass");
+    if (json.contains("hand_length")) header.hand_length = json.at("hand_length").get<double>();
+    header.comment = json.at("comment");
+    header.rate = json.at("rate");
+    header.labels = json.at("labels").get<std::vector<std::string>>();
+    header.joints = json.at("joints").get<std::vector<std::string>>();
+  } catch (const std::exception& problem) {  // ParseJson's, and what json says of a missing member
+    throw Error(fmt::format("{}: {}", file, problem.what()));
+  }
+  return header;
+}
+
+// Where on the grid each frame is. Where the source's time ran back or stood, frames follow each
+// other.
+std::vector<int> GridOf(const std::vector<JournalFrame>& frames, double rate,
+                        const std::string& file) {
+  std::vector<int> grid;
+  double shift = frames.front().time;
+  for (const JournalFrame& frame : frames) {
+    double index = std::round((frame.time - shift) * rate);
+    if (!grid.empty() && index <= grid.back()) {
+      index = grid.back() + 1;
+      if (frame.time <= frames[grid.size() - 1].time) shift = frame.time - index / rate;
+    }
+    if (index > kMostFrames) {
+      throw Error(fmt::format("{}: reaches over more than {:.0f} frames of {:g} Hz", file,
+                              kMostFrames, rate));
+    }
+    grid.push_back(static_cast<int>(index));
+  }
+  return grid;
+}
+
+double MedianRate(const std::vector<JournalFrame>& frames) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    if (frames[i].time > frames[i - 1].time) steps.push_back(frames[i].time - frames[i - 1].time);
+  }
+  if (steps.empty()) return kAssumedRate;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return std::clamp(1 / *middle, kLowestRate, kHighestRate);
+}
+
+// Postures of frames from `begin` to `end`, both of which have one.
+void Interpolate(int begin, int end, PoseTrajectory* trajectory) {
+  const Posture& first = trajectory->postures[begin];
+  const Eigen::VectorXd way = Local(first, trajectory->postures[end]);
+  for (int k = begin + 1; k < end; ++k) {
+    trajectory->postures[k] = Retract(first, way * (double(k - begin) / (end - begin)));
+  }
+}
+
+void FillResult(const std::vector<JournalFrame>& frames, const std::vector<int>& grid,
+                JournalContent* content) {
+  const int count = grid.back() + 1;
+  const auto assignments = frames.front().residuals.size();
+  ConversionResult& result = content->result;
+  PoseTrajectory& trajectory = result.trajectory;
+  trajectory.joint_names = content->header.joints;
+  trajectory.postures.resize(static_cast<std::size_t>(count));
+  trajectory.standard_deviations.setConstant(frames.front().deviations.size(), count, kNaN);
+  result.residuals.setConstant(assignments, count, kNaN);
+  result.frames.resize(static_cast<std::size_t>(count));
+  Eigen::MatrixXi verdicts = Eigen::MatrixXi::Constant(assignments, count, kAsLabelled);
+  int last = -1;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const int k = grid[i];
+    const JournalFrame& frame = frames[i];
+    content->markers.frame(k) =
+        Eigen::Map<const Eigen::Matrix3Xd>(frame.points.data(), 3, frame.points.size() / 3);
+    if (!frame.is_tracking) continue;
+    trajectory.postures[k] = frame.posture;
+    if (last >= 0) Interpolate(last, k, &trajectory);
+    last = k;
+    trajectory.standard_deviations.col(k) = frame.deviations;
+    if (frame.residuals.size() == assignments) {
+      result.residuals.col(k) = frame.residuals;
+      verdicts.col(k) = frame.verdicts.cwiseMax(kAsLabelled).cwiseMin(assignments).cast<int>();
+    }
+    result.frames[k] = frame.diagnostic;
+  }
+  result.incidents =
+      FindIncidents(verdicts, static_cast<int>(std::lround(kBridgedSeconds * trajectory.rate)));
+}
+
+std::string FreeName(const std::filesystem::path& output) {
+  for (int i = 1;; ++i) {
+    const auto name = output.parent_path() / fmt::format("{}_recovered{}{}", output.stem().string(),
+                                                         i == 1 ? "" : fmt::format("_{}", i),
+                                                         output.extension().string());
+    if (!std::filesystem::exists(name)) return name.string();
+  }
+}
+
+}  // namespace
+
+std::string FormatJournalHeader(const JournalHeader& header) {
+  Json json = {{"journal", kKind},
+               {"output", header.output},
+               {"format", header.format},
+               {"recording", header.recording_name},
+               {"motion", header.motion_name},
+               {"model", header.model_path},
+               {"height", header.height},
+               {"mass", header.mass},
+               {"comment", header.comment},
+               {"rate", header.rate},
+               {"labels", header.labels},
+               {"joints", header.joints}};
+  if (header.hand_length) json["hand_length"] = *header.hand_length;
+  return FormatJsonLine(json);
+}
+
+JournalContent ReadJournal(const std::string& file) {
+  JournalContent content;
+  std::vector<JournalFrame> frames;
+  bool has_header = false;
+  ForEachLine(file, [&](std::string_view line) {
+    if (!has_header || line.starts_with('{')) {
+      JournalHeader header = ParseHeader(line, file);
+      const bool is_same =
+          header.labels == content.header.labels && header.joints == content.header.joints;
+      if (!has_header || is_same) content.header = std::move(header);
+      has_header = true;
+      return;
+    }
+    JournalFrame frame;
+    if (!ParseFrame(line, content.header, &frame)) return;
+    if (frames.empty() && !frame.is_tracking) return;
+    frames.push_back(std::move(frame));
+  });
+  if (!has_header) throw Error(fmt::format("{}: is empty", file));
+  while (!frames.empty() && !frames.back().is_tracking) frames.pop_back();
+  if (frames.empty()) return content;
+  const double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
+  const std::vector<int> grid = GridOf(frames, rate, file);
+  content.frames = static_cast<int>(frames.size());
+  content.first_number = frames.front().number;
+  content.markers =
+      MarkerSequence(content.header.labels, grid.back() + 1, rate, frames.front().time);
+  content.result.trajectory.rate = rate;
+  content.result.trajectory.first_time = frames.front().time;
+  FillResult(frames, grid, &content);
+  return content;
+}
+
+std::string RecoverMotion(const std::string& output) {
+  const std::string journal = JournalOf(output);
+  if (!std::filesystem::exists(journal)) return "";
+  JournalContent content;
+  {
+    const LineFile only_one(journal);  // no process is writing to it
+    content = ReadJournal(journal);
+  }
+  std::string written;
+  if (content.frames > 0) {
+    MmmMotionOutput motion;
+    const JournalHeader& header = content.header;
+    motion.recording_name = header.recording_name;
+    motion.motion_name = header.motion_name;
+    motion.model_path = header.model_path;
+    motion.height = header.height;
+    motion.mass = header.mass;
+    motion.hand_length = header.hand_length;
+    motion.comment = header.comment;
+    motion.trajectory = &content.result.trajectory;
+    motion.markers = &content.markers;
+    written = std::filesystem::exists(output) ? FreeName(output) : output;
+    WriteFileAtomically(
+        written, header.format == "1.0" ? FormatMmmMotion1(motion) : FormatMmmMotion2(motion));
+  }
+  std::filesystem::remove(journal);
+  return written;
+}
+
+}  // namespace mmm_converter

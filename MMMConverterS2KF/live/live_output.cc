@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "MMMConverterS2KF/live/motion_journal.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/support/output_plan.h"
+
+namespace mmm_converter {
+
+LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
+  OutputPlan outputs;
+  InputRequest inputs = request.input;
+  inputs.file.clear();
+  NameInputs(inputs, &outputs);
+  outputs.Write(request.output);
+  outputs.Write(request.subject_output);
+  for (const auto& [unused, file] : request.exports) outputs.Write(file);
+  for (const std::string& file : request.more_outputs) outputs.Write(file);
+  outputs.Check();
+}
+
+std::string LiveOutput::FileOf(std::size_t motion) const {
+  if (motion == 0) return request_.output;
+  const std::filesystem::path output = request_.output;
+  return (output.parent_path() /
+          fmt::format("{}_{}{}", output.stem().string(), motion + 1, output.extension().string()))
+      .string();
+}
+
+ConversionRequest LiveOutput::RequestOf(std::size_t motion) const {
+  ConversionRequest request;
+  request.input = request_.input;
+  request.input.file = FileOf(motion);
+  request.output = FileOf(motion);
+  request.model_path = request_.model_path;
+  if (motion == 0) request.exports = request_.exports;
+  return request;
+}
+
+std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const LiveBody& body) {
+  plans_.push_back(plan);
+  JournalHeader header;
+  header.output = FileOf(plans_.size() - 1);
+  header.format = plan.output_format;
+  header.recording_name = std::filesystem::path(header.output).stem().string();
+  header.motion_name = plan.motion_name;
+  header.model_path = !request_.model_path.empty()
+                          ? request_.model_path
+                          : ModelPathFor(plan.input.model_file, header.output);
+  header.height = plan.person.height.value;
+  header.mass = plan.person.mass.value;
+  header.hand_length = plan.person.hand_length;
+  header.rate = body.rate;
+  header.labels = body.labels;
+  for (const int joint : body.setup.joints) {
+    header.joints.push_back(body.setup.model->joint(joint).name);
+  }
+  return std::make_unique<MotionJournal>(header);
+}
+
+std::vector<ConversionReport> LiveOutput::Finish(
+    const std::optional<CalibrationResult>& calibration) {
+  std::vector<ConversionReport> reports;
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    const std::string journal = JournalOf(FileOf(i));
+    JournalContent content = ReadJournal(journal);
+    if (content.frames > 0) {
+      ConversionReport report{std::move(plans_[i]), {}, {}, {}, {}};
+      report.output = FileOf(i);
+      report.input.recording.markers = std::move(content.markers);
+      report.result = std::move(content.result);
+      if (i == 0) report.calibration = calibration;
+      if (i > 0) report.subject_output.clear();
+      report.figures = MeasureConversion(report);
+      report.verdict = JudgeConversion(report);
+      WriteConversion(RequestOf(i), &report);
+      reports.push_back(std::move(report));
+    }
+    std::filesystem::remove(journal);
+  }
+  plans_.clear();
+  return reports;
+}
+
+}  // namespace mmm_converter

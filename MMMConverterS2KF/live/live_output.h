@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/live/live_request.h"
+#include "MMMConverterS2KF/live/live_session.h"
+#include "common/live/sink_runner.h"
+
+namespace mmm_converter {
+
+/// The motions that a run writes: one a body whose labels are its own, each kept in its journal
+/// until the end. All but the first are called OUTPUT_2.xml and so on.
+class LiveOutput {
+ public:
+  /// @throws Error where an output is a file that is read, two are the same, or one can't be
+  /// written.
+  explicit LiveOutput(const LiveRequest& request);
+
+  /// The journal for this plan, where the body is a new one.
+  std::unique_ptr<PoseSink> Begin(const ConversionPlan& plan, const LiveBody& body);
+
+  /// Writes all motions, the first with the request's exports; then the journals are removed.
+  /// plans: the last of each body. @throws Error; journals that were not written stay.
+  std::vector<ConversionReport> Finish(const std::optional<CalibrationResult>& calibration);
+
+  /// Of the motion that is being written: its plan has changed.
+  void Update(const ConversionPlan& plan) { plans_.back() = plan; }
+
+ private:
+  ConversionRequest RequestOf(std::size_t motion) const;
+  std::string FileOf(std::size_t motion) const;
+
+  LiveRequest request_;
+  std::vector<ConversionPlan> plans_;
+};
+
+}  // namespace mmm_converter

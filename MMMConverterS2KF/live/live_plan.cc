@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_plan.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "MMMConverterS2KF/conversion/object.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+
+namespace {
+
+// As of a recording that is converted.
+std::string NameOf(const LiveRequest& request, const Recording& head) {
+  for (const std::string& name : {request.motion_name, head.motion(), head.subject}) {
+    if (!name.empty()) return name;
+  }
+  return head.format == "live stream" ? "live" : std::filesystem::path(head.file).stem().string();
+}
+
+}  // namespace
+
+ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
+  ConversionPlan plan;
+  Warnings* warnings = &plan.warnings;
+  plan.input = ReadModel(request.input, {}, warnings);
+  plan.input.recording = head;
+  plan.converter = TakeConverter(request.converter, {}, warnings);
+  ConverterConfig& config = plan.converter.config;
+  MatchModel(request.input, &plan.input, &config);
+  if (request.calibration_time > 0) config.subject_file.clear();
+  plan.setup =
+      MatchMarkers({head.markers.labels(), {}, head.file}, plan.input.reference, config, warnings);
+  WarnOfFreeJoints(plan.setup, config, warnings);
+  CheckDeterminesPose(plan.input, plan.setup.mapping);
+  plan.person = FindPerson(request.input.person, plan.setup, head, config, warnings);
+  ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
+  if (request.calibration_time > 0 && config.model_processor == "None") {
+    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
+  }
+  plan.output = request.output;
+  plan.output_format = request.output_format.empty() ? config.output_format : request.output_format;
+  plan.motion_name = NameOf(request, head);
+  plan.subject_output = request.subject_output;
+  return plan;
+}
+
+LiveCalibration CalibrateLive(const ConversionPlan& plan, const MarkerSequence& frames) {
+  LiveCalibration calibration;
+  calibration.person = plan.person;
+  calibration.setup = plan.setup;
+  TrackingSetup& setup = calibration.setup;
+  calibration.result =
+      CalibratePerson(*setup.model, setup.joints, {{"the stream", &frames, setup.assignments()}},
+                      plan.person, plan.motion_name, &calibration.warnings);
+  calibration.person.subject = std::make_shared<Subject>(calibration.result.subject);
+  setup.model =
+      std::make_shared<KinematicModel>(FitToSubject(*setup.model, calibration.result.subject));
+  return calibration;
+}
+
+std::unique_ptr<MotionConverter> MakeConverter(const ConversionPlan& plan,
+                                               const TrackingSetup& setup) {
+  return plan.converter.plugin->factory().Create(setup, plan.converter.config);
+}
+
+}  // namespace mmm_converter

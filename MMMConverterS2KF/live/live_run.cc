@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_run.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <sched.h>
+
+#include <atomic>
+#include <cstring>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "MMMConverterS2KF/live/live_output.h"
+#include "MMMConverterS2KF/live/live_sinks.h"
+#include "MMMConverterS2KF/live/live_source.h"
+#include "MMMConverterS2KF/live/motion_journal.h"
+#include "common/live/frame_mailbox.h"
+#include "common/live/sink_runner.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kWait(100);
+constexpr int kFileCapacity = 4096;  // frames: 20 s of 200 Hz, while a disk stands
+constexpr int kNetworkCapacity = 64;
+constexpr int kRealtimePriority = 20;
+
+// What threads have to say, until the caller's thread says it.
+class NewsBox {
+ public:
+  void Add(bool is_warning, std::string text) {
+    const std::lock_guard lock(mutex_);
+    news_.emplace_back(is_warning, std::move(text));
+  }
+  void Tell(const LiveObserver& observer) {
+    std::vector<std::pair<bool, std::string>> news;
+    {
+      const std::lock_guard lock(mutex_);
+      news.swap(news_);
+    }
+    for (const auto& [is_warning, text] : news) {
+      const auto& tell = is_warning ? observer.warning : observer.news;
+      if (tell) tell(text);
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::pair<bool, std::string>> news_;
+};
+
+class LiveRun {
+ public:
+  LiveRun(const LiveRequest& request, const LiveObserver& observer)
+      : request_(request),
+        observer_(observer),
+        live_(Open(request, observer)),
+        output_(request),
+        session_(request, live_.head, live_.selects_labels),
+        mailbox_(live_.source->waits_for_reader()) {
+    for (const std::string& address : request.sinks) {
+      AddSink(OpenSink(address), kNetworkCapacity);
+    }
+  }
+
+  LiveReport Run() {
+    const auto start = steady_clock::now();
+    std::thread reader([this] { Guard([this] { Read(); }); });
+    std::thread tracker([this] { Guard([this] { Track(); }); });
+    const auto is_over = [&] {
+      const std::chrono::duration<double> seconds = steady_clock::now() - start;
+      return (request_.longest > 0 && seconds.count() > request_.longest) ||
+             (observer_.is_over && observer_.is_over());
+    };
+    while (!has_ended_.load()) {
+      std::this_thread::sleep_for(kWait);
+      news_.Tell(observer_);
+      if (observer_.status) observer_.status(Status());
+      if (is_over()) is_ending_ = true;
+    }
+    reader.join();
+    tracker.join();
+    report_.seconds = std::chrono::duration<double>(steady_clock::now() - start).count();
+    Finish();
+    return std::move(report_);
+  }
+
+ private:
+  static LiveSource Open(const LiveRequest& request, const LiveObserver& observer) {
+    Warnings warnings;
+    LiveSource source = OpenLiveSource(request, &warnings);
+    for (const std::string& text : warnings.texts()) observer.warning(text);
+    return source;
+  }
+
+  void AddSink(std::unique_ptr<PoseSink> sink, int capacity) {
+    const std::string name = sink->name();
+    const std::size_t index = sinks_.size();
+    failures_.emplace_back();
+    sinks_.push_back(std::make_unique<SinkRunner>(
+        std::move(sink), capacity, [this, name, index](const std::string& why) {
+          news_.Add(true, fmt::format("{}: {}; it gets no more frames", name, why));
+          const std::lock_guard lock(failures_mutex_);
+          failures_[index] = why;
+        }));
+  }
+
+  template <typename Work>
+  void Guard(Work work) {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(failures_mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      is_ending_ = true;
+    }
+    mailbox_.StopWaiting();
+    if (++ended_threads_ == 2) has_ended_ = true;
+  }
+
+  void Read() {
+    struct Closed {
+      FrameMailbox& box;
+      ~Closed() { box.Close(); }
+    } const closed{mailbox_};
+    std::shared_ptr<const StreamLayout> layout;
+    while (!is_ending_) {
+      LaidOutFrame& slot = mailbox_.next();
+      switch (live_.source->Next(kWait, &slot.frame)) {
+        case StreamEvent::kFrame:
+          slot.layout = layout;
+          mailbox_.Put();
+          break;
+        case StreamEvent::kLayout:
+          layout = std::make_shared<const StreamLayout>(live_.source->layout());
+          break;
+        case StreamEvent::kLost:
+          news_.Add(true, live_.source->message());
+          break;
+        case StreamEvent::kEnd:
+          news_.Add(false, live_.source->message());
+          return;
+        case StreamEvent::kNothing:
+          break;
+      }
+    }
+  }
+
+  void Track() {
+    ChooseScheduling();
+    while (!is_ending_) {
+      const LaidOutFrame* frame = mailbox_.Take(kWait);
+      if (frame == nullptr) {
+        if (mailbox_.is_closed()) return;
+        continue;
+      }
+      const PoseFrame& pose = session_.Take(*frame, mailbox_.dropped());
+      for (std::string& text : session_.TakeNews()) news_.Add(false, std::move(text));
+      report_.source = frame->layout->source;
+      ++report_.frames;
+      if (session_.body()) Give(pose);
+      status_frames_ = report_.frames;
+      status_stage_ = session_.stage();
+      status_gathered_ = session_.gathered();
+    }
+  }
+
+  void Give(const PoseFrame& pose) {
+    const auto& body = session_.body();
+    if (body != body_) TakeBody(body);
+    if (pose.is_tracking) {
+      ++report_.tracked;
+      report_.delays.Add(std::chrono::duration<double>(pose.tracked - pose.received).count());
+    }
+    const bool may_wait = live_.source->waits_for_reader();
+    for (const auto& sink : sinks_) {
+      if (sink) sink->Offer(body, pose, may_wait);
+    }
+  }
+
+  // Another person or other labels begin another motion, a calibration does not.
+  void TakeBody(const std::shared_ptr<const LiveBody>& body) {
+    const bool goes_on = body_ && body->labels == body_->labels && body->is_calibrated;
+    body_ = body;
+    if (request_.output.empty()) return;
+    if (goes_on) {
+      output_.Update(session_.plan());
+      return;
+    }
+    if (journal_ >= 0) sinks_[static_cast<std::size_t>(journal_)]->Finish();
+    journal_ = static_cast<int>(sinks_.size());
+    AddSink(output_.Begin(session_.plan(), *body), kFileCapacity);
+  }
+
+  void ChooseScheduling() {
+    if (request_.processor >= 0) {
+      cpu_set_t set;
+      CPU_ZERO(&set);
+      CPU_SET(static_cast<std::size_t>(request_.processor), &set);
+      const int failure = pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
+      if (failure != 0) {
+        news_.Add(true,
+                  fmt::format("processor {}: {}", request_.processor, std::strerror(failure)));
+      }
+    }
+    if (!request_.realtime) return;
+    sched_param priority{};
+    priority.sched_priority = kRealtimePriority;
+    const int failure = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+    if (failure != 0) {
+      news_.Add(true,
+                fmt::format("no real-time priority: {}; the user needs the right to it (rtprio "
+                            "in /etc/security/limits.conf)",
+                            std::strerror(failure)));
+    }
+  }
+
+  LiveStatus Status() const {
+    return {status_stage_, status_frames_, mailbox_.dropped(), status_gathered_};
+  }
+
+  void Finish() {
+    for (const auto& sink : sinks_) sink->Finish();
+    news_.Tell(observer_);
+    for (std::size_t i = 0; i < sinks_.size(); ++i) {
+      report_.sinks.push_back({sinks_[i]->sink().name(), sinks_[i]->written(), sinks_[i]->lost(),
+                               sinks_[i]->delays(), failures_[i]});
+    }
+    sinks_.clear();  // journals are closed
+    report_.counts = live_.source->counts();
+    report_.dropped = mailbox_.dropped();
+    report_.starts = session_.starts();
+    report_.motions = output_.Finish(session_.calibration());
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  const LiveRequest& request_;
+  const LiveObserver& observer_;
+  NewsBox news_;
+  LiveSource live_;
+  LiveOutput output_;
+  LiveSession session_;
+  FrameMailbox mailbox_;
+  std::vector<std::unique_ptr<SinkRunner>> sinks_;
+  std::shared_ptr<const LiveBody> body_;
+  int journal_ = -1;  // of the sinks the motion that is being written
+  LiveReport report_;
+  std::mutex failures_mutex_;
+  std::vector<std::string> failures_;  // of the sinks
+  std::exception_ptr failure_;
+  std::atomic<bool> is_ending_ = false, has_ended_ = false;
+  std::atomic<int> ended_threads_ = 0;
+  std::atomic<std::int64_t> status_frames_ = 0;
+  std::atomic<LiveStage> status_stage_ = LiveStage::kMeasuring;
+  std::atomic<double> status_gathered_ = 0;
+};
+
+}  // namespace
+
+LiveReport TrackLive(const LiveRequest& request, const LiveObserver& observer) {
+  LiveRun run(request, observer);
+  return run.Run();
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/live/live_request.h"
+#include "MMMConverterS2KF/live/live_session.h"
+#include "common/live/frame_source.h"
+#include "common/live/latency_histogram.h"
+
+namespace mmm_converter {
+
+/// What a sink did.
+struct SinkReport {
+  std::string name;
+  std::int64_t written = 0;
+  std::int64_t lost = 0;  ///< for want of room
+  LatencyHistogram delays;
+  std::string failure;  ///< empty: none
+};
+
+/// Everything that a summary tells.
+struct LiveReport {
+  std::string source;  ///< what it says of itself
+  StreamCounts counts;
+  std::int64_t dropped = 0;  ///< frames that a newer one took the place of before they were tracked
+  std::int64_t frames = 0;   ///< taken
+  std::int64_t tracked = 0;  ///< of them with a posture
+  int starts = 0;            ///< how often a track began
+  double seconds = 0;
+  LatencyHistogram delays;  ///< from received to tracked
+  std::vector<SinkReport> sinks;
+  std::vector<ConversionReport> motions;  ///< that were written
+};
+
+/// What runs now, ten times a second.
+struct LiveStatus {
+  LiveStage stage = LiveStage::kMeasuring;
+  std::int64_t frames = 0;
+  std::int64_t dropped = 0;
+  double gathered = 0;
+};
+
+/// How a caller hears of a run; all on its own thread.
+struct LiveObserver {
+  std::function<void(const std::string&)> news;
+  std::function<void(const std::string&)> warning;
+  std::function<void(const LiveStatus&)> status;
+  std::function<bool()> is_over;  ///< asked ten times a second: whether to end
+};
+
+/// Tracks until the source ends, the request's time is over or the observer wants so; then writes
+/// what the request asks for.
+/// @throws Error; what was tracked is in the journal then.
+LiveReport TrackLive(const LiveRequest& request, const LiveObserver& observer);
+
+}  // namespace mmm_converter

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "common/io/recording/marker_labels.h"
+#include "common/support/error.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kMeasuredTime = 3;        // [s] of frames that tell the height
+constexpr Eigen::Index kFewestSeen = 10;   // markers
+constexpr double kLongestGathering = 120;  // [s]
+constexpr double kUsualRate = 100;         // [Hz] of a source that states none
+
+// Enough to tell a height.
+bool ShowsPerson(const StreamFrame& frame) {
+  const Eigen::Index seen = frame.points.colwise().sum().array().isFinite().count();
+  return seen >= std::min<Eigen::Index>(kFewestSeen, frame.points.cols());
+}
+
+int FramesOf(double seconds, double rate) {
+  return std::max(1, static_cast<int>(std::lround(seconds * (rate > 0 ? rate : kUsualRate))));
+}
+
+}  // namespace
+
+const char* Describe(LiveStage stage) {
+  switch (stage) {
+    case LiveStage::kMeasuring:
+      return "the height is estimated";
+    case LiveStage::kWaiting:
+      return "waiting for the person";
+    case LiveStage::kTracking:
+      return "tracking";
+    case LiveStage::kGathering:
+      return "tracking; move all joints for the calibration";
+    case LiveStage::kCalibrating:
+      return "tracking; calibrating";
+  }
+  return "";
+}
+
+LiveSession::LiveSession(const LiveRequest& request, Recording head, bool selects_labels)
+    : request_(request),
+      head_(std::move(head)),
+      selects_labels_(selects_labels),
+      calibration_time_(request.calibration_time) {}
+
+double LiveSession::gathered() const {
+  return static_cast<double>(num_gathered_) / std::max(1, gathered_.num_frames());
+}
+
+std::vector<std::string> LiveSession::TakeNews() { return std::exchange(news_, {}); }
+
+void LiveSession::Begin(const StreamLayout& layout) {
+  std::vector<std::string> labels = layout.labels;
+  columns_.resize(labels.size());
+  std::iota(columns_.begin(), columns_.end(), 0);
+  if (selects_labels_) {
+    Warnings warnings;
+    LabelSelection selection = SelectLabels(layout.labels, {}, {}, request_.input.reading.subject,
+                                            layout.source, &warnings);
+    for (const std::string& text : warnings.texts()) Say(text);
+    columns_ = selection.indices;
+    labels = std::move(selection.labels);
+    head_.subject = selection.subject;
+  }
+  const bool is_same = body_ && labels == body_->labels && layout.rate == body_->rate;
+  if (is_same) {
+    tracker_->Restart();
+    return;
+  }
+  Say(fmt::format("{}: {} labels{}", layout.source, labels.size(),
+                  layout.rate > 0 ? fmt::format(", {:g} Hz", layout.rate) : ""));
+  if (tracker_) starts_ += tracker_->starts();
+  tracker_.reset();
+  body_.reset();
+  calibrated_ = {};
+  gathered_ = MarkerSequence(labels, FramesOf(kMeasuredTime, layout.rate),
+                             layout.rate > 0 ? layout.rate : kUsualRate, 0);
+  num_gathered_ = 0;
+  const auto count = static_cast<Eigen::Index>(labels.size());
+  frame_.points.setConstant(3, count, kNaN);
+  stage_ = LiveStage::kMeasuring;
+  TryToPlan(false);
+}
+
+bool LiveSession::TryToPlan(bool is_last_try) {
+  head_.markers = gathered_.Slice(0, std::max(1, num_gathered_));
+  try {
+    plan_ = PlanLive(request_, head_);
+  } catch (const Error& error) {
+    if (is_last_try || error.remedy() != Remedy::kHeight) throw;
+    return false;
+  }
+  for (const std::string& text : plan_->warnings.texts()) Say(text);
+  if (plan_->person.height_deviation > 0) {
+    Say(fmt::format("height: {}", DescribeHeight(plan_->person)));
+  }
+  auto converter = MakeConverter(*plan_, plan_->setup);
+  Use(plan_->setup, plan_->person.subject != nullptr, std::move(converter));
+  if (calibration_time_ > 0 && !plan_->person.subject) {
+    const double rate = gathered_.rate();
+    gathered_ = MarkerSequence(body_->labels, FramesOf(calibration_time_, rate), rate, 0);
+  }
+  num_gathered_ = 0;
+  return true;
+}
+
+void LiveSession::Use(TrackingSetup setup, bool is_calibrated,
+                      std::unique_ptr<MotionConverter> converter) {
+  auto body = std::make_shared<LiveBody>();
+  body->name = plan_->motion_name;
+  body->setup = std::move(setup);
+  body->labels = gathered_.labels();
+  body->rate = layout_->rate;
+  body->is_calibrated = is_calibrated;
+  body_ = std::move(body);
+  if (tracker_) starts_ += tracker_->starts();
+  tracker_ = std::make_unique<LiveTracker>(std::move(converter));
+}
+
+void LiveSession::Gather() {
+  if (num_gathered_ < gathered_.num_frames()) gathered_.frame(num_gathered_++) = frame_.points;
+}
+
+void LiveSession::Calibrate() {
+  stage_ = LiveStage::kCalibrating;
+  Say(fmt::format("calibrating on {:.0f} s of movement", num_gathered_ / gathered_.rate()));
+  calibrated_ = std::async(std::launch::async, [plan = *plan_, frames = gathered_] {
+    Calibrated calibrated{CalibrateLive(plan, frames), nullptr};
+    calibrated.converter = MakeConverter(plan, calibrated.person.setup);
+    return calibrated;
+  });
+}
+
+void LiveSession::TakeCalibration() {
+  try {
+    Calibrated calibrated = calibrated_.get();
+    calibration_ = std::move(calibrated.person.result);
+    plan_->person = std::move(calibrated.person.person);
+    plan_->setup = calibrated.person.setup;
+    for (const std::string& text : calibrated.person.warnings.texts()) Say(text);
+    Say(fmt::format("calibrated: mean marker distance {:.1f} mm, before {:.1f} mm",
+                    kMillimetres * calibration_->distance_after,
+                    kMillimetres * calibration_->distance_before));
+    Use(std::move(calibrated.person.setup), true, std::move(calibrated.converter));
+  } catch (const Error& error) {
+    calibration_time_ *= 2;
+    const bool goes_on = calibration_time_ <= kLongestGathering;
+    Say(fmt::format("calibration: {}{}", error.what(),
+                    goes_on ? "; once more, with more movement" : "; it is given up"));
+    if (goes_on) {
+      gathered_ = MarkerSequence(body_->labels, FramesOf(calibration_time_, gathered_.rate()),
+                                 gathered_.rate(), 0);
+      num_gathered_ = 0;
+    } else {
+      calibration_time_ = 0;
+    }
+  }
+}
+
+const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropped) {
+  if (frame.layout != layout_) {
+    layout_ = frame.layout;
+    Begin(*layout_);
+  }
+  frame_.time = frame.frame.time;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    frame_.points.col(static_cast<Eigen::Index>(i)) = frame.frame.points.col(columns_[i]);
+  }
+  pose_.number = frame.frame.number;
+  pose_.time = frame.frame.time;
+  pose_.received = frame.frame.received;
+  pose_.points = frame_.points;
+  pose_.dropped = dropped;
+  pose_.is_tracking = false;
+  if (!tracker_) {
+    if (ShowsPerson(frame_)) Gather();
+    if (num_gathered_ == gathered_.num_frames()) TryToPlan(true);
+  }
+  if (calibrated_.valid() &&
+      calibrated_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    TakeCalibration();
+  }
+  if (tracker_) {
+    const FrameEstimate* estimate = tracker_->Track(frame_);
+    pose_.is_tracking = estimate != nullptr;
+    if (estimate != nullptr) pose_.estimate = *estimate;
+    const bool is_tracked = tracker_->is_tracking();
+    const bool was_waiting = stage_ <= LiveStage::kWaiting;
+    if (is_tracked && was_waiting) Say(fmt::format("frame {}: the person is seen", pose_.number));
+    if (!is_tracked && stage_ > LiveStage::kWaiting) {
+      Say(fmt::format("frame {}: the person is not seen any more", pose_.number));
+    }
+    stage_ = is_tracked ? LiveStage::kTracking : LiveStage::kWaiting;
+    if (calibration_time_ > 0 && !body_->is_calibrated && is_tracked) {
+      if (calibrated_.valid()) {
+        stage_ = LiveStage::kCalibrating;
+      } else {
+        stage_ = LiveStage::kGathering;
+        Gather();
+        if (num_gathered_ == gathered_.num_frames()) Calibrate();
+      }
+    }
+  }
+  pose_.tracked = std::chrono::steady_clock::now();
+  return pose_;
+}
+
+}  // namespace mmm_converter

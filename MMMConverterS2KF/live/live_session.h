@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "MMMConverterS2KF/live/live_plan.h"
+#include "MMMConverterS2KF/live/live_request.h"
+#include "common/live/frame_mailbox.h"
+#include "common/live/live_tracker.h"
+#include "common/live/pose_frame.h"
+
+namespace mmm_converter {
+
+/// What the session is at.
+enum class LiveStage {
+  kMeasuring,   ///< the height is not known, and frames are gathered that tell it
+  kWaiting,     ///< for a person
+  kTracking,    ///< of a person that is known, or of one that will not be calibrated
+  kGathering,   ///< tracking; frames are gathered for the calibration
+  kCalibrating  ///< tracking; the person is being estimated in the background
+};
+const char* Describe(LiveStage stage);
+
+/// The work of the tracking thread: from a stream's frames to postures of a person who may not be
+/// known yet, be calibrated meanwhile, leave and return.
+class LiveSession {
+ public:
+  /// head: what is known of the stream beyond its frames. selects_labels: subject prefixes and
+  /// points without a label are to be taken off, as of a recording that is read.
+  LiveSession(const LiveRequest& request, Recording head, bool selects_labels);
+
+  /// @throws Error where the labels or the person are not known; ends the session.
+  const PoseFrame& Take(const LaidOutFrame& frame, std::int64_t dropped);
+
+  /// Null: not known yet.
+  const std::shared_ptr<const LiveBody>& body() const { return body_; }
+  /// With the calibrated person, once there is one. Only where there is a body.
+  const ConversionPlan& plan() const { return *plan_; }
+  const std::optional<CalibrationResult>& calibration() const { return calibration_; }
+  LiveStage stage() const { return stage_; }
+  double gathered() const;  ///< share of the frames that the calibration or the height needs
+  int starts() const { return starts_ + (tracker_ ? tracker_->starts() : 0); }
+
+  /// What there is to say since the last call, line by line.
+  std::vector<std::string> TakeNews();
+
+ private:
+  void Begin(const StreamLayout& layout);
+  bool TryToPlan(bool is_last_try);
+  void Use(TrackingSetup setup, bool is_calibrated, std::unique_ptr<MotionConverter> converter);
+  void Gather();
+  void Calibrate();
+  void TakeCalibration();
+  void Say(std::string text) { news_.push_back(std::move(text)); }
+
+  LiveRequest request_;
+  Recording head_;
+  bool selects_labels_;
+  std::shared_ptr<const StreamLayout> layout_;
+  std::vector<int> columns_;  // of the layout's labels those that count
+  std::optional<ConversionPlan> plan_;
+  std::shared_ptr<const LiveBody> body_;
+  std::unique_ptr<LiveTracker> tracker_;
+  StreamFrame frame_;  // the columns that count
+  PoseFrame pose_;
+  LiveStage stage_ = LiveStage::kMeasuring;
+  int starts_ = 0;  // of trackers before
+
+  MarkerSequence gathered_;
+  int num_gathered_ = 0;
+  double calibration_time_;
+  struct Calibrated {
+    LiveCalibration person;
+    std::unique_ptr<MotionConverter> converter;
+  };
+  std::future<Calibrated> calibrated_;
+  std::optional<CalibrationResult> calibration_;
+  std::vector<std::string> news_;
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_sinks.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+// A row is all there is to add.
+struct SinkKind {
+  const char* scheme;
+  std::unique_ptr<PoseSink> (*open)(const std::string& address);
+};
+
+const std::vector<SinkKind>& Kinds() {
+  static const std::vector<SinkKind> kinds = {};
+  return kinds;
+}
+
+}  // namespace
+
+std::string SinkKinds() {
+  std::vector<std::string> names;
+  for (const SinkKind& kind : Kinds()) names.emplace_back(kind.scheme);
+  return JoinNames(names);
+}
+
+std::unique_ptr<PoseSink> OpenSink(const std::string& address) {
+  for (const SinkKind& kind : Kinds()) {
+    if (address.starts_with(std::string(kind.scheme) + "://")) return kind.open(address);
+  }
+  throw Error(
+      fmt::format("{}: is no address that postures can be sent to; use {}", address, SinkKinds()));
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_source.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+#include "common/live/replay/replay_source.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr std::string_view kReplay = "replay:";
+
+LiveSource OpenReplay(const LiveRequest& request, Warnings* warnings) {
+  const ReplayAddress address = ParseReplayAddress(request.input.file.substr(kReplay.size()));
+  LiveSource live;
+  live.head = ReadRecording(address.file, request.input.reading, warnings);
+  live.head.format = "replay";
+  if (live.head.mmm) live.head.mmm->num_motions = 1;
+  MarkerSequence markers = std::move(live.head.markers);
+  live.source = std::make_unique<ReplaySource>(std::move(markers), live.head.first_frame,
+                                               Replay{address.speed, request.loops}, address.file);
+  return live;
+}
+
+}  // namespace
+
+LiveSource OpenLiveSource(const LiveRequest& request, Warnings* warnings) {
+  const std::string& address = request.input.file;
+  if (address.starts_with(kReplay)) return OpenReplay(request, warnings);
+  LiveSource live;
+  live.head.file = address;
+  live.head.format = "live stream";
+  live.head.unit = "m";
+  throw Error(
+      fmt::format("{}: is no source; use replay:FILE, qtm://HOST or natnet://HOST", address));
+}
+
+}  // namespace mmm_converter

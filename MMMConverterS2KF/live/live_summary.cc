@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/live/live_summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+std::string DescribeDelays(const LatencyHistogram& delays) {
+  if (delays.count() == 0) return "no posture";
+  return fmt::format("{:.3f} ms median, {:.3f} p99, {:.3f} longest",
+                     kMilliseconds * delays.Quantile(0.5), kMilliseconds * delays.Quantile(0.99),
+                     kMilliseconds * delays.longest());
+}
+
+Json DelaysJson(const LatencyHistogram& delays) {
+  return {{"p50_ms", Number(kMilliseconds * delays.Quantile(0.5))},
+          {"p99_ms", Number(kMilliseconds * delays.Quantile(0.99))},
+          {"longest_ms", Number(kMilliseconds * delays.longest())}};
+}
+
+}  // namespace
+
+std::string FormatSummary(const LiveReport& report) {
+  std::string text = fmt::format(
+      "source     {}; {} connection{}, {} lost and {} broken on the way\n",
+      report.source.empty() ? "gave no frame" : report.source, report.counts.connections,
+      report.counts.connections == 1 ? "" : "s", report.counts.lost, report.counts.broken);
+  text += fmt::format(
+      "frames     {} taken in {:.1f} s, {} dropped for newer ones, {} tracked in {} "
+      "part{}\n",
+      report.frames, report.seconds, report.dropped, report.tracked, report.starts,
+      report.starts == 1 ? "" : "s");
+  text += fmt::format("delay      received to tracked: {}\n", DescribeDelays(report.delays));
+  for (const SinkReport& sink : report.sinks) {
+    text += fmt::format("sent       {}: {} frames, {} lost; received to sent: {}{}\n", sink.name,
+                        sink.written, sink.lost, DescribeDelays(sink.delays),
+                        sink.failure.empty() ? "" : "; failed: " + sink.failure);
+  }
+  for (const ConversionReport& motion : report.motions) text += FormatSummary(motion);
+  return text;
+}
+
+Json ToJson(const LiveReport& report) {
+  Json sinks = Json::array();
+  for (const SinkReport& sink : report.sinks) {
+    sinks.push_back({{"name", sink.name},
+                     {"written", sink.written},
+                     {"lost", sink.lost},
+                     {"received_to_sent", DelaysJson(sink.delays)},
+                     {"failure", TextOrNull(sink.failure)}});
+  }
+  Json motions = Json::array();
+  for (const ConversionReport& motion : report.motions) motions.push_back(ToJson(motion));
+  return {{"source", report.source},
+          {"connections", report.counts.connections},
+          {"frames_lost", report.counts.lost},
+          {"broken_messages", report.counts.broken},
+          {"frames", report.frames},
+          {"dropped", report.dropped},
+          {"tracked", report.tracked},
+          {"parts", report.starts},
+          {"seconds", Number(report.seconds, 3)},
+          {"received_to_tracked", DelaysJson(report.delays)},
+          {"sinks", sinks},
+          {"motions", motions}};
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/motion_converter.h"
+#include "common/live/pose_frame.h"
+#include "common/live/pose_sink.h"
+#include "common/motion/marker_sequence.h"
+#include "common/support/line_file.h"
+
+namespace mmm_converter {
+
+/// What a motion is written with when its stream has ended, or its process was killed.
+struct JournalHeader {
+  std::string output;  ///< the motion's file
+  std::string format;  ///< "2.0" or "1.0"
+  std::string recording_name, motion_name, model_path;
+  double height = 0, mass = 0;
+  std::optional<double> hand_length;
+  std::string comment;
+  double rate = 0;  ///< [Hz]; 0: not known
+  std::vector<std::string> labels, joints;
+};
+
+/// The file that a motion is kept in while it comes: beside it, called as it + ".live". A line a
+/// frame (README.md); what is there survives the process.
+std::string JournalOf(const std::string& output);
+
+/// Writes frames into a journal, at least twice a second.
+class MotionJournal : public PoseSink {
+ public:
+  /// @throws Error as LineFile.
+  explicit MotionJournal(const JournalHeader& header);
+
+  std::string name() const override { return header_.output; }
+  /// Frames from the first posture on. @throws WriteError
+  void Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) override;
+  void End() override;
+  bool needs_every_frame() const override { return true; }
+
+ private:
+  void Flush();
+
+  JournalHeader header_;
+  LineFile file_;
+  std::string lines_;
+  SteadyTime flushed_;
+  bool has_begun_ = false, is_calibrated_ = false;
+};
+
+/// What a journal has, on an even grid of time: frames that did not come have no markers and
+/// postures between those around them.
+struct JournalContent {
+  JournalHeader header;
+  MarkerSequence markers;
+  ConversionResult result;
+  std::int64_t first_number = 0;
+  int frames = 0;  ///< that came
+};
+
+/// What can't be read of the last line, where the process was killed in it, is left out.
+/// @throws Error where it is no journal.
+JournalContent ReadJournal(const std::string& file);
+
+/// Writes the motion of a journal that a killed process left, where there is one: into the
+/// journal's output, or beside it where that is there. Returns the file written; empty: there was
+/// nothing.
+/// @throws Error
+std::string RecoverMotion(const std::string& output);
+
+}  // namespace mmm_converter

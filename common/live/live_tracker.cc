@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "common/live/live_tracker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/support/error.h"
+
+namespace mmm_converter {
+
+LiveTracker::LiveTracker(std::unique_ptr<MotionConverter> converter)
+    : converter_(std::move(converter)),
+      // Somebody who just comes in shows a few markers, from which a posture would be a guess.
+      fewest_to_start_(
+          std::max(kFewestMarkers, static_cast<int>(setup().assignments().size()) / 3)) {}
+
+int LiveTracker::CountSeen(const StreamFrame& frame) const {
+  const auto& assignments = setup().assignments();
+  return static_cast<int>(std::count_if(
+      assignments.begin(), assignments.end(),
+      [&](const MarkerAssignment& one) { return IsSeen(frame.points.col(one.label)); }));
+}
+
+bool LiveTracker::IsOver(double time, int seen) {
+  if (time <= time_ || time - time_ > kLongestGap) return true;
+  if (seen >= kFewestMarkers) seen_time_ = time;
+  return time - seen_time_ > kLongestGap;
+}
+
+const FrameEstimate* LiveTracker::Track(const StreamFrame& frame) {
+  const int seen = CountSeen(frame);
+  if (is_tracking_ && IsOver(frame.time, seen)) is_tracking_ = false;
+  const double dt = frame.time - time_;
+  time_ = frame.time;
+  if (is_tracking_) return &converter_->Track(frame.points, dt);
+  if (seen < fewest_to_start_) return nullptr;
+  const FrameEstimate& estimate = converter_->Assemble(frame.points);
+  is_tracking_ = true;
+  seen_time_ = frame.time;
+  ++starts_;
+  return &estimate;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "common/convert/motion_converter.h"
+#include "common/live/frame_source.h"
+
+namespace mmm_converter {
+
+/// Longest time without a frame, or without three seen markers, that is predicted through [s].
+inline constexpr double kLongestGap = 2;
+
+/// A converter that follows a stream: it waits until a person is seen, predicts through short gaps,
+/// and starts anew after long ones and where the source's time runs back. On the frames of a
+/// recording without long gaps it gives what MotionConverter::Convert gives from its first
+/// assembled frame on.
+class LiveTracker {
+ public:
+  explicit LiveTracker(std::unique_ptr<MotionConverter> converter);
+
+  const TrackingSetup& setup() const { return converter_->setup(); }
+
+  /// frame.points: 3 x labels of the setup. Null: the person is waited for. The estimate is valid
+  /// until the next call; tracking allocates nothing. The frames' own times drive the motion model.
+  const FrameEstimate* Track(const StreamFrame& frame);
+
+  /// The next frame starts anew.
+  void Restart() { is_tracking_ = false; }
+
+  bool is_tracking() const { return is_tracking_; }
+  int starts() const { return starts_; }  ///< how often a track began
+
+ private:
+  int CountSeen(const StreamFrame& frame) const;
+  bool IsOver(double time, int seen);
+
+  std::unique_ptr<MotionConverter> converter_;
+  int fewest_to_start_;
+  bool is_tracking_ = false;
+  double time_ = 0;       // of the last frame
+  double seen_time_ = 0;  // of the last frame that showed enough markers
+  int starts_ = 0;
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/convert/motion_converter.h"
+#include "common/live/frame_source.h"
+
+namespace mmm_converter {
+
+/// Whose postures a stream has: new with each person, calibration and layout.
+struct LiveBody {
+  std::string name;
+  TrackingSetup setup;              ///< scaled to the person
+  std::vector<std::string> labels;  ///< of PoseFrame::points
+  double rate = 0;                  ///< [Hz]; 0: not known
+  bool is_calibrated = false;
+};
+
+/// One frame of what is known of the body.
+struct PoseFrame {
+  std::int64_t number = 0;  ///< the source's
+  double time = 0;          ///< by the source's clock [s]
+  SteadyTime received, tracked;
+  bool is_tracking = false;  ///< else the person is waited for, and the estimate says nothing
+  FrameEstimate estimate;
+  Eigen::Matrix3Xd points;   ///< 3 x labels [m], z up; NaN: not seen
+  std::int64_t dropped = 0;  ///< frames until now that a newer one took the place of
+};
+
+}  // namespace mmm_converter
