@@ -15,7 +15,7 @@
 #include "MMMConverterS2KF/live/live_output.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
 #include "MMMConverterS2KF/live/live_source.h"
-#include "MMMConverterS2KF/live/motion_journal.h"
+#include "MMMConverterS2KF/live/web_sink.h"
 #include "common/live/frame_mailbox.h"
 #include "common/live/sink_runner.h"
 #include "common/support/error.h"
@@ -67,6 +67,10 @@ class LiveRun {
     for (const std::string& address : request.sinks) {
       AddSink(OpenSink(address), kNetworkCapacity);
     }
+    if (!request.view) return;
+    LivePage page = OpenLivePage(request.view_address, "Live: " + request.input.file);
+    AddSink(std::move(page.sink), kNetworkCapacity);
+    news_.Add(false, "to watch it, open " + page.address);
   }
 
   LiveReport Run() {
@@ -135,6 +139,7 @@ class LiveRun {
       switch (live_.source->Next(kWait, &slot.frame)) {
         case StreamEvent::kFrame:
           slot.layout = layout;
+          slot.counts = live_.source->counts();
           mailbox_.Put();
           break;
         case StreamEvent::kLayout:

@@ -182,6 +182,7 @@ const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropp
   pose_.received = frame.frame.received;
   pose_.points = frame_.points;
   pose_.dropped = dropped;
+  pose_.counts = frame.counts;
   pose_.is_tracking = false;
   if (!tracker_) {
     if (ShowsPerson(frame_)) Gather();
@@ -212,6 +213,8 @@ const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropp
       }
     }
   }
+  pose_.stage = Describe(stage_);
+  pose_.progress = stage_ == LiveStage::kGathering ? gathered() : 1;
   pose_.tracked = std::chrono::steady_clock::now();
   return pose_;
 }

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <vector>
 
+#include "MMMConverterS2KF/live/web_sink.h"
+#include "common/live/mvn/mvn_sink.h"
+#include "common/live/zmq/zmq_sink.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -19,7 +21,8 @@ struct SinkKind {
 };
 
 const std::vector<SinkKind>& Kinds() {
-  static const std::vector<SinkKind> kinds = {};
+  static const std::vector<SinkKind> kinds = {
+      {"mvn", OpenMvnSink}, {"ws", OpenWebSocketSink}, {"zmq", OpenZmqSink}};
   return kinds;
 }
 

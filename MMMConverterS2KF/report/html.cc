@@ -76,6 +76,7 @@ std::string FormatPage(const Page& page) {
   }
   return FillPage(PageFrame(), {{"title", title},
                                 {"hashes", hashes},
+                                {"policy", page.policy},
                                 {"styles", page.styles},
                                 {"content", page.content},
                                 {"data", page.data},

@@ -33,6 +33,7 @@ struct Page {
   std::string_view data;          ///< DataBlocks
   std::vector<Script> libraries;  ///< scripts of others, whose licences the page then has
   Script script;
+  std::string_view policy = {};  ///< what the page may do beyond: "connect-src 'self'; "
 };
 
 /// The whole text of a page; it loads nothing from elsewhere, and its policy lets no other script

@@ -37,4 +37,10 @@ std::string_view LabelContent();
 std::string_view LabelScript();
 std::string_view LabelScriptSha256();
 
+// Of a live view; the rest of its styles is a report's.
+std::string_view LiveContent();
+std::string_view LiveStyles();
+std::string_view LiveScript();
+std::string_view LiveScriptSha256();
+
 }  // namespace mmm_converter

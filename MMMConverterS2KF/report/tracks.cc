@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/report/drawn_frames.h"
+#include "MMMConverterS2KF/report/model_json.h"
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "MMMConverterS2KF/terminal/advice.h"
@@ -20,33 +21,6 @@ using Eigen::MatrixXd;
 
 Json Floats(const MatrixXd& numbers) { return ToJson(PackFloats(numbers)); }
 Json Quantised(const MatrixXd& numbers) { return ToJson(PackQuantised(numbers)); }
-
-Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json ModelJson(const KinematicModel& model) {
-  Json segments = Json::array();
-  for (const Segment& segment : model.segments()) {
-    const Eigen::Quaterniond q(segment.X_PF.linear());
-    segments.push_back({{"name", segment.name},
-                        {"parent", segment.parent},
-                        {"position", VectorJson(segment.X_PF.translation())},
-                        {"orientation", {q.x(), q.y(), q.z(), q.w()}},
-                        {"axis", VectorJson(segment.axis)},
-                        {"joint", segment.joint}});
-  }
-  Json markers = Json::array();
-  for (const ModelMarker& marker : model.markers()) {
-    markers.push_back({{"name", marker.name},
-                       {"segment", marker.segment},
-                       {"position", VectorJson(marker.p_SM)}});
-  }
-  Json joints = Json::array();
-  for (int i = 0; i < model.num_joints(); ++i) {
-    const Segment& joint = model.joint(i);
-    joints.push_back({{"name", joint.name}, {"lower", joint.lower}, {"upper", joint.upper}});
-  }
-  return {{"segments", segments}, {"markers", markers}, {"joints", joints}};
-}
 
 Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   const int frames = trajectory.num_frames();
@@ -103,7 +77,7 @@ Json TrialJson(const Trial& trial, const CommonGround& ground) {
               {"first_time", trial.markers.first_time()},
               {"labels", labels},
               {"markers", std::vector<int>(ground.markers.begin(), ground.markers.end())},
-              {"model", ModelJson(*trial.model)},
+              {"model", ToJson(*trial.model)},
               {"positions", Quantised(positions)},  // a frame's markers beside each other
               {"hidden", ToJson(PackBits(hidden.transpose()))},
               {"optimum", Floats(drawn.Of(ground.optimum))},

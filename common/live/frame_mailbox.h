@@ -16,6 +16,7 @@ namespace mmm_converter {
 struct LaidOutFrame {
   StreamFrame frame;
   std::shared_ptr<const StreamLayout> layout;
+  StreamCounts counts;  ///< of the source, until this frame
 };
 
 /// Between the thread that reads a source and the one that tracks: a queue of one in which the

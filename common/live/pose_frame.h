@@ -28,6 +28,9 @@ struct PoseFrame {
   bool is_tracking = false;  ///< else the person is waited for, and the estimate says nothing
   FrameEstimate estimate;
   Eigen::Matrix3Xd points;   ///< 3 x labels [m], z up; NaN: not seen
+  StreamCounts counts;       ///< of the source, until this frame
+  const char* stage = "";    ///< what the tracker is at, in words
+  double progress = 1;       ///< of gathering frames for a calibration
   std::int64_t dropped = 0;  ///< frames until now that a newer one took the place of
 };
 

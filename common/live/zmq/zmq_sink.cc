@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "common/live/zmq/zmq_sink.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+#include <zmq.hpp>
+
+#include "common/live/socket_address.h"
+#include "common/live/zmq/posture_message.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kZmqPort = 5556;
+constexpr int kMostWaiting = 64;  // messages for a subscriber
+
+class ZmqSink : public PoseSink {
+ public:
+  explicit ZmqSink(const std::string& address)
+      : name_(address), socket_(context_, zmq::socket_type::pub) {
+    const SocketAddress at = ParseSocketAddress(address, "127.0.0.1", kZmqPort);
+    const bool is_v6 = at.host.find(':') != std::string::npos;
+    try {
+      socket_.set(zmq::sockopt::sndhwm, kMostWaiting);
+      socket_.set(zmq::sockopt::linger, 0);
+      if (is_v6) socket_.set(zmq::sockopt::ipv6, true);
+      socket_.bind(fmt::format("tcp://{}:{}", is_v6 ? "[" + at.host + "]" : at.host, at.port));
+    } catch (const zmq::error_t& error) {
+      throw Error(fmt::format("{}: can't publish there: {}", address, error.what()));
+    }
+  }
+
+  std::string name() const override { return name_; }
+
+  void Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) override {
+    if (body != body_) {
+      format_.emplace(*body);
+      body_ = body;
+    }
+    const PostureMessage message = format_->Format(*body, frame, std::chrono::steady_clock::now());
+    constexpr auto kMore = zmq::send_flags::sndmore | zmq::send_flags::dontwait;
+    try {
+      socket_.send(zmq::str_buffer("posture"), kMore);
+      socket_.send(zmq::buffer(message.header), kMore);
+      socket_.send(zmq::buffer(message.arrays), zmq::send_flags::dontwait);
+    } catch (const zmq::error_t& error) {
+      throw Error(fmt::format("{}: {}", name_, error.what()));
+    }
+  }
+
+ private:
+  std::string name_;
+  zmq::context_t context_;
+  zmq::socket_t socket_;
+  std::shared_ptr<const LiveBody> body_;
+  std::optional<PostureMessageFormat> format_;
+};
+
+}  // namespace
+
+std::unique_ptr<PoseSink> OpenZmqSink(const std::string& address) {
+  return std::make_unique<ZmqSink>(address);
+}
+
+}  // namespace mmm_converter
