@@ -277,7 +277,7 @@ std::string RecoverMotion(const std::string& output) {
     motion.comment = header.comment;
     motion.trajectory = &content.result.trajectory;
     motion.markers = &content.markers;
-    written = std::filesystem::exists(output) ? FreeName(output) : output;
+    written = FreeName(output);
     WriteFileAtomically(
         written, header.format == "1.0" ? FormatMmmMotion1(motion) : FormatMmmMotion2(motion));
   }

@@ -125,7 +125,7 @@ void LiveSession::Use(TrackingSetup setup, bool is_calibrated,
   body->is_calibrated = is_calibrated;
   body_ = std::move(body);
   if (tracker_) starts_ += tracker_->starts();
-  tracker_ = std::make_unique<LiveTracker>(std::move(converter));
+  tracker_ = std::make_unique<LiveTracker>(std::move(converter), layout_->rate);
 }
 
 void LiveSession::Gather() {

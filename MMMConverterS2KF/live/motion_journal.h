@@ -67,9 +67,8 @@ struct JournalContent {
 /// @throws Error where it is no journal.
 JournalContent ReadJournal(const std::string& file);
 
-/// Writes the motion of a journal that a killed process left, where there is one: into the
-/// journal's output, or beside it where that is there. Returns the file written; empty: there was
-/// nothing.
+/// Writes the motion of a journal that a killed process left, where there is one, beside its output
+/// as OUTPUT_recovered.xml. Returns the file written; empty: there was nothing.
 /// @throws Error
 std::string RecoverMotion(const std::string& output);
 

@@ -2,17 +2,31 @@
 #include "common/live/live_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/support/error.h"
 
 namespace mmm_converter {
+namespace {
 
-LiveTracker::LiveTracker(std::unique_ptr<MotionConverter> converter)
+constexpr double kRounding = 1e-4;  // of a step
+
+}  // namespace
+
+LiveTracker::LiveTracker(std::unique_ptr<MotionConverter> converter, double rate)
     : converter_(std::move(converter)),
+      rate_(rate),
       // Somebody who just comes in shows a few markers, from which a posture would be a guess.
       fewest_to_start_(
           std::max(kFewestMarkers, static_cast<int>(setup().assignments().size()) / 3)) {}
+
+double LiveTracker::StepTo(double time) const {
+  const double dt = time - time_;
+  if (rate_ <= 0) return dt;
+  const double steps = std::round(dt * rate_);
+  return std::abs(dt * rate_ - steps) < kRounding ? steps / rate_ : dt;
+}
 
 int LiveTracker::CountSeen(const StreamFrame& frame) const {
   const auto& assignments = setup().assignments();
@@ -30,7 +44,7 @@ bool LiveTracker::IsOver(double time, int seen) {
 const FrameEstimate* LiveTracker::Track(const StreamFrame& frame) {
   const int seen = CountSeen(frame);
   if (is_tracking_ && IsOver(frame.time, seen)) is_tracking_ = false;
-  const double dt = frame.time - time_;
+  const double dt = StepTo(frame.time);
   time_ = frame.time;
   if (is_tracking_) return &converter_->Track(frame.points, dt);
   if (seen < fewest_to_start_) return nullptr;

@@ -17,7 +17,9 @@ inline constexpr double kLongestGap = 2;
 /// assembled frame on.
 class LiveTracker {
  public:
-  explicit LiveTracker(std::unique_ptr<MotionConverter> converter);
+  /// rate: of the source [Hz]; steps of time that are its multiples but for rounding are taken as these.
+  /// 0: not known.
+  LiveTracker(std::unique_ptr<MotionConverter> converter, double rate);
 
   const TrackingSetup& setup() const { return converter_->setup(); }
 
@@ -32,10 +34,12 @@ class LiveTracker {
   int starts() const { return starts_; }  ///< how often a track began
 
  private:
+  double StepTo(double time) const;
   int CountSeen(const StreamFrame& frame) const;
   bool IsOver(double time, int seen);
 
   std::unique_ptr<MotionConverter> converter_;
+  double rate_;
   int fewest_to_start_;
   bool is_tracking_ = false;
   double time_ = 0;       // of the last frame

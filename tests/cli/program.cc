@@ -80,6 +80,10 @@ void StartedProgram::WaitForLines(const std::string& file, int lines) {
   while (!HasEnded() && count() < lines) std::this_thread::yield();
 }
 
+void StartedProgram::WaitForText(const std::string& text) {
+  while (!HasEnded() && Said().find(text) == std::string::npos) std::this_thread::yield();
+}
+
 void StartedProgram::Send(int signal) {
   if (!HasEnded()) ::kill(process_, signal);
 }

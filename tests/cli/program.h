@@ -29,6 +29,8 @@ class StartedProgram {
 
   /// Waits until a file has so many lines, or the program has ended.
   void WaitForLines(const std::string& file, int lines);
+  /// Waits until it has said this, or has ended.
+  void WaitForText(const std::string& text);
   void Send(int signal);
   /// Waits for its end. The exit code; of one that a signal killed, -signal.
   int Wait();

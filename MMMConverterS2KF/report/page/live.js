@@ -80,7 +80,7 @@ class LiveView {
     this.trial = new LiveTrial(body);
     this.hasPlace = false;
     this.bars = this.trial.labels.map((label) => {
-      const bar = element("i", {class: "bar"});
+      const bar = element("i", {class: "distance"});
       const value = element("span", {});
       const row = element("div", {title: label}, bar, element("span", {}, label), value);
       return {row, bar, value};

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "common/io/mmm/mmm_motion.h"
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using nlohmann::json;
+using testing::Handstand;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::StartedProgram;
+using testing::TestFolder;
+using testing::WriteText;
+
+void ExpectSamePostures(const PoseTrajectory& live, const PoseTrajectory& converted,
+                        double tolerance) {
+  ASSERT_EQ(live.num_frames(), converted.num_frames());
+  EXPECT_EQ(live.joint_names, converted.joint_names);
+  double largest = 0;
+  for (int k = 0; k < live.num_frames(); ++k) {
+    const Posture& a = live.postures[static_cast<std::size_t>(k)];
+    const Posture& b = converted.postures[static_cast<std::size_t>(k)];
+    largest = std::max(
+        {largest, Local(a, b).lpNorm<Eigen::Infinity>(),
+         std::abs(live.time(k) - live.first_time - converted.time(k) + converted.first_time)});
+  }
+  EXPECT_LE(largest, tolerance);
+}
+
+// What the two wrote; MMM files have 8 decimals.
+void ExpectReplayIsConversion(const std::string& recording, std::vector<std::string> options) {
+  const std::string live = TestFolder() + "/live.xml";
+  const std::string converted = TestFolder() + "/converted.xml";
+  std::vector<std::string> words = {"live", "replay:" + recording + "@max", "-o", live};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto run = RunProgram(words);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(", 0 dropped"));
+  words = {"convert", recording, "-o", converted};
+  words.insert(words.end(), options.begin(), options.end());
+  const auto convert = RunProgram(words);
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  const MmmMotionFile a = ReadMmmMotionFile(live);
+  const MmmMotionFile b = ReadMmmMotionFile(converted);
+  ExpectSamePostures(a.motions.front().trajectory, b.motions.front().trajectory, 2e-8);
+  EXPECT_EQ(a.motions.front().name, b.motions.front().name);
+}
+
+TEST(Live, AReplayGivesWhatAConversionGives) {
+  ExpectReplayIsConversion(Handstand(), {"--height", "1.8"});
+}
+
+TEST(Live, RealReplaysGiveWhatConversionsGive) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  for (const char* file : {"kit_bimanual_c3d/Cut_1723.c3d", "kit_bimanual_c3d/Pour_1480.c3d"}) {
+    SCOPED_TRACE(file);
+    ExpectReplayIsConversion(testing::SharedData(std::string("recordings/") + file),
+                             {"--height", "1.75"});
+  }
+}
+
+TEST(Live, ExportsAndPagesAreThoseOfAConversion) {
+  const std::string folder = TestFolder();
+  const auto run = RunProgram({"live", "replay:" + Handstand() + "@max", "--height", "1.8", "-o",
+                               folder + "/a.xml", "--export-csv", folder + "/a.csv", "--report",
+                               folder + "/a.html", "--summary", folder + "/a.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto convert = RunProgram({"convert", Handstand(), "--height", "1.8", "-o",
+                                   folder + "/b.xml", "--export-csv", folder + "/b.csv"});
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  EXPECT_EQ(ReadText(folder + "/a.csv"), ReadText(folder + "/b.csv"));
+  EXPECT_THAT(ReadText(folder + "/a.html"), HasSubstr("handstand"));
+  const json summary = json::parse(ReadText(folder + "/a.json"));
+  EXPECT_EQ(summary["frames"], 675);
+  EXPECT_EQ(summary["tracked"], 675);
+  EXPECT_EQ(summary["dropped"], 0);
+  EXPECT_EQ(summary["motions"][0]["verdict"]["level"], "good");
+  EXPECT_FALSE(std::filesystem::exists(folder + "/a.xml.live"));
+}
+
+TEST(Live, AHeightThatNobodyGaveIsMeasuredFirst) {
+  const std::string motion = TestFolder() + "/motion.xml";
+  const auto run = RunProgram({"live", "replay:" + Handstand() + "@max", "-o", motion});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("height: 1."));
+  EXPECT_GT(ReadMmmMotionFile(motion).motions.front().trajectory.num_frames(), 300);
+}
+
+TEST(Live, CalibratesWhileThePersonMoves) {
+  const std::string folder = TestFolder();
+  const auto run =
+      RunProgram({"live", "replay:" + Handstand() + "@max", "--height", "1.8", "--self-calibrate",
+                  "--calibrate-seconds", "3", "--loop", "--seconds", "20", "-o", folder + "/a.xml",
+                  "--subject-out", folder + "/anna.xml"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("calibrated: mean marker distance"));
+  EXPECT_THAT(ReadText(folder + "/anna.xml"), HasSubstr("<Subject"));
+  EXPECT_THAT(ReadText(folder + "/a.xml"), HasSubstr("those of the subject"));
+}
+
+// The journal of a stream that a killed process left.
+std::string LeaveJournal(const std::string& motion) {
+  StartedProgram program({"live", "replay:" + Handstand(), "--height", "1.8", "-o", motion});
+  program.WaitForLines(motion + ".live", 60);
+  program.Send(SIGKILL);
+  EXPECT_EQ(program.Wait(), -SIGKILL);
+  return ReadText(motion + ".live");
+}
+
+TEST(Live, WhatAKilledProcessLeftBecomesAMotion) {
+  const std::string motion = TestFolder() + "/motion.xml";
+  LeaveJournal(motion);
+  EXPECT_FALSE(std::filesystem::exists(motion));
+  const auto run =
+      RunProgram({"live", "replay:" + Handstand() + "@max", "--height", "1.8", "-o", motion});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the motion of a run that was killed is now in"));
+  const std::string recovered = TestFolder() + "/motion_recovered.xml";
+  const PoseTrajectory whole = ReadMmmMotionFile(motion).motions.front().trajectory;
+  PoseTrajectory part = ReadMmmMotionFile(recovered).motions.front().trajectory;
+  ASSERT_GE(part.num_frames(), 59);
+  ASSERT_LE(part.num_frames(), whole.num_frames());
+  // At its own pace a frame may have been dropped, from which on the filter goes another way.
+  EXPECT_LT(Local(part.postures[0], whole.postures[0]).lpNorm<Eigen::Infinity>(), 2e-8);
+  EXPECT_EQ(part.rate, whole.rate);
+  EXPECT_FALSE(std::filesystem::exists(motion + ".live"));
+}
+
+TEST(Live, ADamagedJournalIsRecoveredAsFarAsItGoes) {
+  const std::string motion = TestFolder() + "/motion.xml";
+  const std::string text = LeaveJournal(motion);
+  const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;
+  WriteText(motion + ".live", text.substr(0, second) + "7 nan 1 garbage\n\n1e999 2\n" +
+                                  text.substr(second, text.size() - second - 40));
+  const auto run = RunProgram({"live", "replay:missing.c3d", "--height", "1.8", "-o", motion});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_GE(ReadMmmMotionFile(TestFolder() + "/motion_recovered.xml")
+                .motions.front()
+                .trajectory.num_frames(),
+            58);
+}
+
+TEST(Live, InterruptedItWritesWhatItHas) {
+  const std::string motion = TestFolder() + "/motion.xml";
+  StartedProgram program(
+      {"live", "replay:" + Handstand(), "--loop", "--height", "1.8", "-o", motion});
+  program.WaitForLines(motion + ".live", 30);
+  program.Send(SIGINT);
+  EXPECT_EQ(program.Wait(), 0) << program.Said();
+  EXPECT_GE(ReadMmmMotionFile(motion).motions.front().trajectory.num_frames(), 29);
+  EXPECT_FALSE(std::filesystem::exists(motion + ".live"));
+}
+
+void ExpectRefused(const std::vector<std::string>& words, int exit_code, const std::string& why) {
+  std::vector<std::string> all = {"live"};
+  all.insert(all.end(), words.begin(), words.end());
+  const auto run = RunProgram(all);
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
+  EXPECT_THAT(run.err, HasSubstr(why));
+  EXPECT_THAT(run.err, Not(HasSubstr("unexpected")));
+}
+
+TEST(Live, WhatCantBeIsSaid) {
+  ExpectRefused({}, 2, "which source");
+  ExpectRefused({"walk.c3d"}, 1, "replay:");
+  ExpectRefused({"replay:nothing.c3d"}, 1, "nothing.c3d");
+  ExpectRefused({"replay:" + Handstand() + "@quick"}, 1, "\"quick\"");
+  ExpectRefused({"replay:" + Handstand(), "--to", "smoke://signals"}, 1, "mvn, ws or zmq");
+  ExpectRefused({"replay:" + Handstand(), "--to", "mvn://a:b"}, 1, "\"b\" is no port");
+  ExpectRefused({"replay:" + Handstand(), "--export-csv", "x.csv"}, 2, "give -o too");
+  ExpectRefused({"replay:" + Handstand(), "--subject-out", "x.xml"}, 2, "need --self-calibrate");
+  ExpectRefused({"replay:" + Handstand(), "--height", "1.8", "-o", "/nowhere/x.xml"}, 1,
+                "/nowhere/x.xml");
+}
+
+TEST(Live, ADiskThatIsFullEndsTheMotionAndNotTheTracking) {
+  const std::string folder = TestFolder();
+  std::filesystem::create_directory(folder + "/m.xml.live");
+  const auto run = RunProgram(
+      {"live", "replay:" + Handstand() + "@max", "--height", "1.8", "-o", folder + "/m.xml"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("m.xml.live"));
+}
+
+}  // namespace
+}  // namespace mmm_converter
