@@ -100,12 +100,12 @@ TEST(Live, AHeightThatNobodyGaveIsMeasuredFirst) {
 
 TEST(Live, CalibratesWhileThePersonMoves) {
   const std::string folder = TestFolder();
-  const auto run =
-      RunProgram({"live", "replay:" + Handstand() + "@max", "--height", "1.8", "--self-calibrate",
-                  "--calibrate-seconds", "3", "--loop", "--seconds", "20", "-o", folder + "/a.xml",
-                  "--subject-out", folder + "/anna.xml"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("calibrated: mean marker distance"));
+  StartedProgram program({"live", "replay:" + Handstand() + "@20", "--height", "1.8",
+                          "--self-calibrate", "--calibrate-seconds", "3", "--loop", "-o",
+                          folder + "/a.xml", "--subject-out", folder + "/anna.xml"});
+  program.WaitForText("calibrated: mean marker distance");
+  program.Send(SIGINT);
+  ASSERT_EQ(program.Wait(), 0) << program.Said();
   EXPECT_THAT(ReadText(folder + "/anna.xml"), HasSubstr("<Subject"));
   EXPECT_THAT(ReadText(folder + "/a.xml"), HasSubstr("those of the subject"));
 }
