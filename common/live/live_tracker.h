@@ -17,8 +17,8 @@ inline constexpr double kLongestGap = 2;
 /// assembled frame on.
 class LiveTracker {
  public:
-  /// rate: of the source [Hz]; steps of time that are its multiples but for rounding are taken as these.
-  /// 0: not known.
+  /// rate: of the source [Hz]; steps of time that are its multiples but for rounding are taken as
+  /// these. 0: not known.
   LiveTracker(std::unique_ptr<MotionConverter> converter, double rate);
 
   const TrackingSetup& setup() const { return converter_->setup(); }

@@ -161,5 +161,6 @@ window.mmmLive = {
   get posture() { return view.posture; },
   get body() { return view.body; },
   get drawn() { return view.drawn.rate(performance.now()); },
+  drawNow: () => view.scene.draw(),
   get received() { return view.received.rate(performance.now()); },
 };

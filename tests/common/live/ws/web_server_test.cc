@@ -24,8 +24,7 @@ using ::testing::HasSubstr;
 
 tcp::socket Connect(asio::io_context* context, const WebServer& server) {
   tcp::socket socket(*context);
-  socket.connect(
-      {asio::ip::make_address("127.0.0.1"), static_cast<unsigned short>(server.port())});
+  socket.connect({asio::ip::make_address("127.0.0.1"), static_cast<unsigned short>(server.port())});
   return socket;
 }
 
