@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "common/convert/plugin_loader.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/recording/recording.h"
+#include "common/live/frame_mailbox.h"
+#include "common/live/live_tracker.h"
+#include "common/live/replay/replay_source.h"
+#include "common/live/sink_runner.h"
+#include "common/support/data_directory.h"
+#include "tests/support/shared_data.h"
+
+// Sanitizers have an allocator of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+thread_local long allocations = 0;
+
+}  // namespace
+
+extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+
+// Of the whole process, libraries too.
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+namespace mmm_converter {
+namespace {
+
+class NoSink : public PoseSink {
+ public:
+  std::string name() const override { return "none"; }
+  void Write(const std::shared_ptr<const LiveBody>& /*body*/, const PoseFrame& /*frame*/) override {
+  }
+};
+
+TEST(LiveAllocation, TheTrackingThreadAllocatesNothing) {
+  const auto reference =
+      std::make_shared<const KinematicModel>(ReadMmmModel(DataFile("models/mmm.xml")));
+  const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");
+  const ConverterConfig config =
+      ParseConverterConfig(plugin.factory().config_template(), "default");
+  MarkerSequence sample = ReadRecording(testing::SourcePath("examples/handstand.c3d"), {}).markers;
+  auto body = std::make_shared<LiveBody>();
+  body->setup = MakeTrackingSetup({.names = sample.labels(), .source = "sample"}, reference, config,
+                                  {.size = WinterScaling{1.8, 70, {}}});
+  LiveTracker tracker(plugin.factory().Create(body->setup, config), sample.rate());
+  ReplaySource source(std::move(sample), 1, {0, true}, "sample");
+  SinkRunner sink(std::make_unique<NoSink>(), 64, nullptr);
+  FrameMailbox box(false);
+  PoseFrame pose;
+  long counted = 0;
+  for (int k = 0; k < 600; ++k) {
+    // The first of all is a layout.
+    if (source.Next(std::chrono::milliseconds(0), &box.next().frame) != StreamEvent::kFrame)
+      continue;
+    const long before = allocations;
+    box.Put();
+    const LaidOutFrame* frame = box.Take(std::chrono::milliseconds(0));
+    ASSERT_NE(frame, nullptr);
+    const FrameEstimate* estimate = tracker.Track(frame->frame);
+    ASSERT_NE(estimate, nullptr);
+    pose.number = frame->frame.number;
+    pose.is_tracking = true;
+    pose.points = frame->frame.points;
+    pose.estimate = *estimate;
+    sink.Offer(body, pose, false);
+    // Each of the ring's frames gets its size once.
+    if (k > 100) counted += allocations - before;
+  }
+  EXPECT_EQ(counted, 0);
+  EXPECT_GT(allocations, 0);
+}
+
+}  // namespace
+}  // namespace mmm_converter
+
+#endif
