@@ -39,6 +39,8 @@ void ReadSubjectsTableBytes(std::string_view bytes);
 void ReadJournalBytes(std::string_view bytes);
 void ReadLcdSamplesBytes(std::string_view bytes);
 void ReadRecordingBytes(std::string_view bytes);
+void ReadNatNetBytes(std::string_view bytes);
+void ReadQtmBytes(std::string_view bytes);
 void ConvertRecordingBytes(std::string_view bytes);
 
 }  // namespace mmm_converter::testing
