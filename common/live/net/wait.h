@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+namespace mmm_converter {
+
+/// A socket that is waited for.
+struct WaitFor {
+  int handle = -1;        ///< -1: none
+  bool to_write = false;  ///< until it takes bytes, too; else until it has some
+};
+
+/// Until one of the sockets is ready, or a signal comes, at most so long. Sockets that fail are
+/// ready.
+void WaitForSockets(const std::vector<WaitFor>& sockets, std::chrono::milliseconds most);
+
+}  // namespace mmm_converter

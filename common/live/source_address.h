@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/live/frame_source.h"
+
+namespace mmm_converter {
+
+/// The source that an address names: "qtm://192.168.1.10", "natnet://192.168.1.10?up=z". Nothing is
+/// connected to yet.
+/// @throws Error where the address is not understood, which names the known kinds of sources.
+std::unique_ptr<FrameSource> OpenSource(const std::string& address);
+
+/// The kinds of sources, for a help text: one line each.
+std::string DescribeSources();
+
+}  // namespace mmm_converter

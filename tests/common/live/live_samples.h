@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/live/frame_source.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter::testing {
+
+/// A clock that goes on when it is told to.
+class TestClock {
+ public:
+  std::function<SteadyTime()> Now() const {
+    return [now = now_] { return *now; };
+  }
+  void GoOn(std::chrono::milliseconds time) { *now_ += time; }
+
+ private:
+  std::shared_ptr<SteadyTime> now_ = std::make_shared<SteadyTime>(std::chrono::hours(1));
+};
+
+/// Points of which each coordinate tells frame, marker and axis; "B" is not seen in frame 3.
+inline MarkerSequence SampleRecording(const std::vector<std::string>& labels = {"A", "B", "C c"},
+                                      int num_frames = 8) {
+  MarkerSequence recording(labels, num_frames, 120, 0);
+  for (int k = 0; k < num_frames; ++k) {
+    for (int i = 0; i < recording.num_labels(); ++i) {
+      recording.frame(k).col(i) = Eigen::Vector3d(0.25 * k, 0.5 * (i + 1), -0.125 * k * i);
+    }
+  }
+  if (num_frames > 3 && labels.size() > 1) {
+    recording.frame(3).col(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return recording;
+}
+
+inline void ExpectFrame(const StreamFrame& frame, const MarkerSequence& recording, int k) {
+  const auto expected = recording.frame(k);
+  ASSERT_EQ(frame.points.cols(), expected.cols());
+  for (Eigen::Index i = 0; i < expected.cols(); ++i) {
+    if (IsSeen(expected.col(i))) {
+      // Floats of some metres, or thousands of millimetres.
+      EXPECT_LT((frame.points.col(i) - expected.col(i)).norm(), 1e-6) << k << " " << i;
+    } else {
+      EXPECT_TRUE(frame.points.col(i).array().isNaN().all()) << k << " " << i;
+    }
+  }
+}
+
+/// What the source says next; it and the server take turns.
+template <typename Server>
+StreamEvent NextOf(FrameSource* source, Server* server, StreamFrame* frame) {
+  StreamEvent event = StreamEvent::kNothing;
+  for (int i = 0; i < 1000 && event == StreamEvent::kNothing; ++i) {
+    server->Step(std::chrono::milliseconds(0));
+    event = source->Next(std::chrono::milliseconds(0), frame);
+  }
+  return event;
+}
+
+/// Takes the layout and all frames of the recording.
+template <typename Server>
+void ExpectRecording(FrameSource* source, Server* server, const MarkerSequence& recording) {
+  StreamFrame frame;
+  ASSERT_EQ(NextOf(source, server, &frame), StreamEvent::kLayout);
+  EXPECT_EQ(source->layout().labels, recording.labels());
+  EXPECT_EQ(source->layout().rate, recording.rate());
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    ASSERT_EQ(NextOf(source, server, &frame), StreamEvent::kFrame) << k;
+    EXPECT_EQ(frame.number, k + 1);
+    EXPECT_EQ(frame.unnamed, 0);
+    ExpectFrame(frame, recording, k);
+  }
+  EXPECT_EQ(source->counts().frames, recording.num_frames());
+  EXPECT_EQ(source->counts().lost, 0);
+  EXPECT_EQ(source->counts().broken, 0);
+}
+
+}  // namespace mmm_converter::testing
