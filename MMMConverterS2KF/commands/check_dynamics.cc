@@ -134,7 +134,7 @@ int RunCheckDynamics(const std::vector<std::string>& words) {
   LogWarnings(report.motion.warnings);
   WriteFiles(arguments, report);
   std::cout << FormatDynamicsSummary(report);
-  return report.plausibility.judgement == Judgement::kImplausible ? kImplausible : 0;
+  return report.plausibility.judgement == DynamicsJudgement::kImplausible ? kImplausible : 0;
 }
 
 }  // namespace mmm_converter

@@ -37,12 +37,13 @@ std::string WhyNoForces(const MotionDynamics& dynamics) {
 
 DynamicsCheck NotJudged(const std::string& name, const std::string& expected,
                         const std::string& reason) {
-  return {name, "-", expected, Judgement::kNotJudged, reason};
+  return {name, "-", expected, DynamicsJudgement::kNotJudged, reason};
 }
 
 DynamicsCheck Judged(const std::string& name, const std::string& measured,
                      const std::string& expected, bool is_plausible, const std::string& reason) {
-  return {name, measured, expected, is_plausible ? Judgement::kPlausible : Judgement::kImplausible,
+  return {name, measured, expected,
+          is_plausible ? DynamicsJudgement::kPlausible : DynamicsJudgement::kImplausible,
           is_plausible ? "" : reason};
 }
 
@@ -151,29 +152,30 @@ double FallError(const BallisticPhase& flight) {
 
 // Two standard deviations of its noise excuse no error that is larger still: a flight that does
 // not fall in a parabola at all has much of both.
-Judgement JudgeFall(const BallisticPhase& flight, double rate) {
+DynamicsJudgement JudgeFall(const BallisticPhase& flight, double rate) {
   const double most = kMostFallError * kGravity;
   const double noise = 2 * FallDeviation(flight, rate);
-  if (FallError(flight) > most + noise) return Judgement::kImplausible;
+  if (FallError(flight) > most + noise) return DynamicsJudgement::kImplausible;
   const bool is_plausible = FallError(flight) <= most && noise <= most;
-  return is_plausible ? Judgement::kPlausible : Judgement::kNotJudged;
+  return is_plausible ? DynamicsJudgement::kPlausible : DynamicsJudgement::kNotJudged;
 }
 
 // Where the segments' shares nearly cancel, little is left that could be constant: between the two
 // measures nothing is said.
-Judgement JudgeMomentum(const BallisticPhase& flight) {
-  if (flight.AngularMomentumVariation() <= kMostMomentumVariation) return Judgement::kPlausible;
-  if (VariationOfSegments(flight) > kMostMomentumVariation) return Judgement::kImplausible;
-  return Judgement::kNotJudged;
+DynamicsJudgement JudgeMomentum(const BallisticPhase& flight) {
+  if (flight.AngularMomentumVariation() <= kMostMomentumVariation)
+    return DynamicsJudgement::kPlausible;
+  if (VariationOfSegments(flight) > kMostMomentumVariation) return DynamicsJudgement::kImplausible;
+  return DynamicsJudgement::kNotJudged;
 }
 
-int Severity(Judgement judgement) {
+int Severity(DynamicsJudgement judgement) {
   switch (judgement) {
-    case Judgement::kImplausible:
+    case DynamicsJudgement::kImplausible:
       return 2;
-    case Judgement::kPlausible:
+    case DynamicsJudgement::kPlausible:
       return 1;
-    case Judgement::kNotJudged:
+    case DynamicsJudgement::kNotJudged:
       return 0;
   }
   return 0;
@@ -206,15 +208,15 @@ DynamicsCheck CheckFall(const MotionDynamics& dynamics) {
                   Which(dynamics, flight)),
       fmt::format("-{:g} and 0, together ± {:.2f}", kGravity, kMostFallError * kGravity),
       judge(flight), ""};
-  if (check.judgement == Judgement::kImplausible) {
+  if (check.judgement == DynamicsJudgement::kImplausible) {
     check.reason = "nothing touches the ground, but the centre of mass does not fall freely";
-  } else if (check.judgement == Judgement::kNotJudged) {
+  } else if (check.judgement == DynamicsJudgement::kNotJudged) {
     check.reason = fmt::format("the noise of the flight's points leaves ± {:.2f} m/s² open",
                                2 * FallDeviation(flight, dynamics.rate));
   }
   const std::vector<BallisticPhase>& flights = dynamics.ballistic_phases;
   const auto open = std::count_if(flights.begin(), flights.end(), [&](const BallisticPhase& f) {
-    return judge(f) == Judgement::kNotJudged;
+    return judge(f) == DynamicsJudgement::kNotJudged;
   });
   if (open > 0 && flights.size() > 1) {
     if (!check.reason.empty()) check.reason += "; ";
@@ -234,9 +236,9 @@ DynamicsCheck CheckMomentum(const MotionDynamics& dynamics) {
                                      flight.angular_momentum.norm(), Which(dynamics, flight)),
                          fmt::format("at most {:.0f} %", 100 * kMostMomentumVariation),
                          JudgeMomentum(flight), ""};
-  if (check.judgement == Judgement::kImplausible) {
+  if (check.judgement == DynamicsJudgement::kImplausible) {
     check.reason = "nothing touches the ground, but the body turns faster or slower";
-  } else if (check.judgement == Judgement::kNotJudged) {
+  } else if (check.judgement == DynamicsJudgement::kNotJudged) {
     check.reason = fmt::format(
         "the parts of the body turn against each other, with little left over; it varies by {:.0f} "
         "% of what they have",
@@ -334,13 +336,13 @@ void TakeFreeJoints(const KinematicModel& model, const MotionDynamics& dynamics,
 
 }  // namespace
 
-const char* Name(Judgement judgement) {
+const char* Name(DynamicsJudgement judgement) {
   switch (judgement) {
-    case Judgement::kPlausible:
+    case DynamicsJudgement::kPlausible:
       return "plausible";
-    case Judgement::kImplausible:
+    case DynamicsJudgement::kImplausible:
       return "implausible";
-    case Judgement::kNotJudged:
+    case DynamicsJudgement::kNotJudged:
       return "not judged";
   }
   return "";
@@ -356,8 +358,8 @@ Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dy
   judged.checks.push_back(CheckTorque(dynamics, judged));
   // The first two hold for every motion: alone, they say nothing of this one.
   for (std::size_t i = 0; i < judged.checks.size(); ++i) {
-    const Judgement judgement = judged.checks[i].judgement;
-    if (i < 2 && judgement == Judgement::kPlausible) continue;
+    const DynamicsJudgement judgement = judged.checks[i].judgement;
+    if (i < 2 && judgement == DynamicsJudgement::kPlausible) continue;
     if (Severity(judgement) > Severity(judged.judgement)) judged.judgement = judgement;
   }
   return judged;

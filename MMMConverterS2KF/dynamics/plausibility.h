@@ -26,15 +26,15 @@ inline constexpr double kMostTorque = 5;   ///< of a joint [N m] for each kg of 
 inline constexpr double kMostNoise = 0.1;  ///< of a frame's force, rms, in body weights
 inline constexpr double kNoiseForce = 10;  ///< body weights that no body has, but jumps of a motion
 
-enum class Judgement { kPlausible, kImplausible, kNotJudged };
-const char* Name(Judgement judgement);  ///< "plausible", "implausible", "not judged"
+enum class DynamicsJudgement { kPlausible, kImplausible, kNotJudged };
+const char* Name(DynamicsJudgement judgement);  ///< "plausible", "implausible", "not judged"
 
 /// A measured figure beside what it must be.
 struct DynamicsCheck {
   std::string name;
   std::string measured;
   std::string expected;
-  Judgement judgement = Judgement::kNotJudged;
+  DynamicsJudgement judgement = DynamicsJudgement::kNotJudged;
   std::string reason;  ///< why it is implausible or not judged, or what is left out; may be empty
 };
 
@@ -52,7 +52,7 @@ struct JointPeak {
 
 struct Plausibility {
   std::vector<DynamicsCheck> checks;
-  Judgement judgement = Judgement::kNotJudged;  ///< implausible where one check is
+  DynamicsJudgement judgement = DynamicsJudgement::kNotJudged;  ///< implausible where one check is
   std::string differentiation;   ///< why forces and torques can't be judged; empty: they can
   std::vector<JointPeak> peaks;  ///< of all joints, the largest torque first; empty as said above
   /// Joints x frames [N m]; NaN where the ground's force is in it, and where it is not settled.

@@ -136,7 +136,8 @@ std::string FormatChecks(const Plausibility& judged) {
   return text + "\n";
 }
 
-std::vector<std::string> NamesOf(const std::vector<DynamicsCheck>& checks, Judgement judgement) {
+std::vector<std::string> NamesOf(const std::vector<DynamicsCheck>& checks,
+                                 DynamicsJudgement judgement) {
   std::vector<std::string> names;
   for (const DynamicsCheck& check : checks) {
     if (check.judgement == judgement) names.push_back(check.name);
@@ -149,20 +150,20 @@ std::vector<std::string> NamesOf(const std::vector<DynamicsCheck>& checks, Judge
 std::string DynamicsSentence(const DynamicsReport& report) {
   const std::vector<DynamicsCheck>& checks = report.plausibility.checks;
   const std::string& file = report.motion.file;
-  const auto implausible = NamesOf(checks, Judgement::kImplausible);
-  const auto plausible = NamesOf(checks, Judgement::kPlausible);
+  const auto implausible = NamesOf(checks, DynamicsJudgement::kImplausible);
+  const auto plausible = NamesOf(checks, DynamicsJudgement::kPlausible);
   const std::size_t open = checks.size() - implausible.size() - plausible.size();
   switch (report.plausibility.judgement) {
-    case Judgement::kImplausible:
+    case DynamicsJudgement::kImplausible:
       return fmt::format("{} is implausible: {} ({} of {} checks are plausible, {} not judged).",
                          file, JoinNames(implausible, " and "), plausible.size(), checks.size(),
                          open);
-    case Judgement::kPlausible:
+    case DynamicsJudgement::kPlausible:
       return fmt::format(
           "{} is plausible: a body can move like that ({} of {} checks, {} not "
           "judged).",
           file, plausible.size(), checks.size(), open);
-    case Judgement::kNotJudged:
+    case DynamicsJudgement::kNotJudged:
       return fmt::format("{} is not judged: {}.", file,
                          report.plausibility.differentiation.empty()
                              ? "no check has enough to go by"

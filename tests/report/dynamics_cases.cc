@@ -57,7 +57,7 @@ std::string HostileDynamicsPage() {
   const KinematicModel model = HostileModel();
   MotionDynamics dynamics = HostileDynamics();
   Plausibility judged = JudgeDynamics(model, dynamics);
-  judged.checks.push_back({text, text, text, Judgement::kImplausible, text});
+  judged.checks.push_back({text, text, text, DynamicsJudgement::kImplausible, text});
   Person person;
   person.height = {1.8, text};
   person.mass = {75, text};
