@@ -35,6 +35,7 @@ constexpr std::array kCommands = {
     Command{"export-urdf", "write the model of a person as a URDF", RunExportUrdf},
     Command{"info", "describe a file that this program reads or writes", RunInfo},
     Command{"label", "name the points of a recording, or repair its labels", RunLabel},
+    Command{"learn-markers", "learn where a laboratory's labels are worn", RunLearnMarkers},
     Command{"live", "track while a motion capture system streams", RunLive},
     Command{"print-config", "print the configuration of a converter with every setting",
             RunPrintConfig},

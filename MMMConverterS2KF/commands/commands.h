@@ -22,6 +22,7 @@ int RunEvaluate(const std::vector<std::string>& words);
 int RunExportUrdf(const std::vector<std::string>& words);
 int RunInfo(const std::vector<std::string>& words);
 int RunLabel(const std::vector<std::string>& words);
+int RunLearnMarkers(const std::vector<std::string>& words);
 int RunLive(const std::vector<std::string>& words);
 int RunPrintConfig(const std::vector<std::string>& words);
 int RunReport(const std::vector<std::string>& words);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/conversion/marker_learning.h"
+#include "MMMConverterS2KF/report/learn_summary.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kOwnOptions = {
+    {"Files",
+     {{"output,o", "FILE", "the marker set (.xml); needed", ""},
+      {"name", "NAME", "of the marker set; default: the name of its file", ""},
+      {"summary", "FILE", "write a summary as JSON", ""}}},
+    {"Converter",
+     {{"config,c", "FILE",
+       "configuration that names the joints, or a shipped one; default: s2kf_default", ""}}},
+    {"General",
+     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
+      {"help,h", "", "print this help", ""}}}};
+
+constexpr const char* kUsage = R"(MMMConverterS2KF learn-markers RECORDING... [options]
+Learns a laboratory's marker set from recordings whose labels are consistent, but whose meaning is
+not known: on which segment each marker is worn, and where on it, by how it moves. The result is a
+marker set for --marker-set of convert, calibrate and batch, and for people to read and change.
+Markers of which this is not sure are left out; the file says which and why. The more the joints
+move in the recordings, the surer it is.
+
+{}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
+for each recording in the same order.
+
+Examples
+  MMMConverterS2KF learn-markers range_of_motion.c3d --height 1.75 -o our_set.xml
+  MMMConverterS2KF learn-markers walk.c3d jump.c3d --height 1.75 -o our_set.xml
+  MMMConverterS2KF calibrate walk.c3d --height 1.75 --marker-set our_set.xml -o anna.xml
+)";
+
+// Given once for all recordings, or once for each in their order.
+const std::vector<std::string> kPerLearned = {"frames", "subject", "motion", "unit", "rate", "up"};
+
+std::vector<OptionGroup> Options() {
+  std::vector<OptionGroup> options = {kOwnOptions.front()};
+  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
+  options.insert(options.end(), kOwnOptions.begin() + 1, kOwnOptions.end());
+  for (OptionGroup& group : options) {
+    std::erase_if(group.options, [](const OptionSpec& o) {
+      return o.name == "subject-file" || o.name == "marker-set";
+    });
+    for (OptionSpec& option : group.options) {
+      option.repeatable |= std::count(kPerLearned.begin(), kPerLearned.end(), option.name) > 0;
+    }
+  }
+  return options;
+}
+
+LearnRequest MakeRequest(const Arguments& arguments) {
+  constexpr const char* kExample =
+      "MMMConverterS2KF learn-markers walk.c3d --height 1.75 -o our_set.xml";
+  const std::vector<std::string>& files = arguments.positionals();
+  if (files.empty()) {
+    throw UsageError(fmt::format("learn-markers: which recordings? For instance: {}", kExample));
+  }
+  if (!arguments.Has("output")) {
+    throw UsageError(
+        fmt::format("learn-markers: where shall the marker set go? For instance: {}", kExample));
+  }
+  LearnRequest request;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerLearned);
+    request.inputs.push_back(MakeInputRequest(own, files[i]));
+  }
+  request.converter.config = arguments.Get("config").value_or("");
+  request.name = arguments.Get("name").value_or("");
+  request.output = arguments.Get("output").value_or("");
+  request.more_outputs = {arguments.Get("summary").value_or("")};
+  return request;
+}
+
+}  // namespace
+
+int RunLearnMarkers(const std::vector<std::string>& words) {
+  const Arguments arguments = ParseArguments("learn-markers", Options(), words, true);
+  if (arguments.Has("help")) {
+    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    return 0;
+  }
+  StartLog(arguments.Get("log").value_or("info"));
+  const LearnRequest request = MakeRequest(arguments);
+  ProgressBar bar("steps");
+  const LearnReport report =
+      RunLearning(request, [&bar](int done, int all) { bar.Show(done, all); });
+  bar.Clear();
+  LogWarnings(report.warnings);
+  WriteFileAtomically(report.output, FormatLearnedSet(report));
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  std::cout << FormatLearnSummary(report);
+  return 0;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "MMMConverterS2KF/conversion/marker_learning.h"
+#include "MMMConverterS2KF/report/json.h"
+
+namespace mmm_converter {
+
+/// What was learnt in a few lines, for people: the markers of each segment, and what was left out.
+std::string FormatLearnSummary(const LearnReport& report);
+
+/// The same as JSON, with every place; README.md says what is in it.
+Json ToJson(const LearnReport& report);
+
+}  // namespace mmm_converter

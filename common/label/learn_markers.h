@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter {
+
+/// What was learnt of a label.
+struct LearnedMarker {
+  std::string label;
+  std::string segment;                             ///< a node of the model; empty: not known
+  Eigen::Vector3d p_SM = Eigen::Vector3d::Zero();  ///< axes of the segment, of that size [m]
+  double scatter = 0;                              ///< about the place, each coordinate [m]
+  double probability = 0;                          ///< of the segment
+  std::string left_out;  ///< why the marker is not to be used; empty: it is
+};
+
+struct LearnedMarkers {
+  std::vector<LearnedMarker> markers;  ///< by label, in the order in which recordings have them
+  double mean_distance = 0;            ///< of those that are used from their places [m]
+  int frames = 0;                      ///< that they were learnt on
+  std::vector<std::string> warnings;   ///< of names that contradict what is seen
+};
+
+/// Learns where a person wears markers whose labels mean nothing yet. model: of the person's size,
+/// with its own markers; joints: tracked. Labels are the same thing in all recordings.
+/// progress(done, all) may be empty.
+/// @throws Error where there are fewer than ten labels, or no person is found.
+LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>& joints,
+                            const std::vector<const MarkerSequence*>& recordings,
+                            const std::function<void(int, int)>& progress);
+
+}  // namespace mmm_converter
