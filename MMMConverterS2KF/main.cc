@@ -32,6 +32,8 @@ constexpr std::array kCommands = {
     Command{"check-dynamics", "check whether a body can move like a motion", RunCheckDynamics},
     Command{"compare", "compare converters on recordings", RunCompare},
     Command{"evaluate", "repeat the evaluation of the paper", RunEvaluate},
+    Command{"export-poses", "write where the segments of a motion are, as CSV or for NumPy",
+            RunExportPoses},
     Command{"export-urdf", "write the model of a person as a URDF", RunExportUrdf},
     Command{"info", "describe a file that this program reads or writes", RunInfo},
     Command{"label", "name the points of a recording, or repair its labels", RunLabel},

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "MMMConverterS2KF/conversion/exporters.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -23,6 +24,9 @@ void MakeFolder(const std::string& path) {
 
 std::string MotionPath(const std::string& id) { return "motions/" + id + ".xml"; }
 std::string ExportPath(const std::string& format, const std::string& id) {
+  for (const Exporter& exporter : Exporters()) {
+    if (format == exporter.name) return format + "/" + id + "." + exporter.ending;
+  }
   return format + "/" + id + "." + format;
 }
 std::string SubjectPath(const std::string& id) { return "subjects/" + id + ".xml"; }

@@ -19,6 +19,7 @@ int RunCheckDynamics(const std::vector<std::string>& words);
 int RunCompare(const std::vector<std::string>& words);
 int RunConvert(const std::vector<std::string>& words);
 int RunEvaluate(const std::vector<std::string>& words);
+int RunExportPoses(const std::vector<std::string>& words);
 int RunExportUrdf(const std::vector<std::string>& words);
 int RunInfo(const std::vector<std::string>& words);
 int RunLabel(const std::vector<std::string>& words);

@@ -4,7 +4,10 @@
 #include <filesystem>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/conversion/pose_output.h"
+#include "common/io/tables/bvh_writer.h"
 #include "common/io/tables/mot_writer.h"
+#include "common/io/tables/pose_table.h"
 #include "common/io/tables/trajectory_csv.h"
 #include "common/io/tables/trc_writer.h"
 #include "common/support/atomic_file.h"
@@ -36,20 +39,42 @@ void WriteMot(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatMot(report.result.trajectory, root));
 }
 
+void WritePoses(const std::string& file, const ConversionReport& report) {
+  const KinematicModel& model = *report.setup.model;
+  const PoseChoice choice;
+  BodySelection selection = SelectBodies(model, choice);
+  const Recording& recording = report.input.recording;
+  if (recording.mmm && recording.mmm->num_motions > 1) {
+    selection.objects = ObjectsBeside(recording.file, recording.motion());
+  }
+  const BodyPoses poses = ComputeBodyPoses(model, report.result.trajectory, selection);
+  WriteFileAtomically(file, FormatPoseFile(file, poses, choice.rotation));
+}
+
+void WriteBvh(const std::string& file, const ConversionReport& report) {
+  WriteFileAtomically(file, FormatBvh(*report.setup.model, report.result.trajectory));
+}
+
 }  // namespace
 
 const std::vector<Exporter>& Exporters() {
   static const std::vector<Exporter> exporters = {
-      {"csv", "postures and their standard deviations as CSV",
+      {"csv", "csv", "postures and their standard deviations as CSV",
        "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
        "postures are smoothed (-c s2kf_offline)",
        WriteCsv},
-      {"trc", "markers, measured and the model's, as TRC",
+      {"trc", "trc", "markers, measured and the model's, as TRC",
        "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
        "them (LABEL_model)",
        WriteTrc},
-      {"mot", "postures for OpenSim",
-       "postures as OpenSim's motion, in metres and degrees with y up", WriteMot}};
+      {"mot", "mot", "postures for OpenSim",
+       "postures as OpenSim's motion, in metres and degrees with y up", WriteMot},
+      {"poses", "npz", "poses of all segments, as NumPy's .npz",
+       "poses of all segments and of the file's objects, 21 points of the body and the centre of "
+       "mass: .npz for NumPy, else CSV; see export-poses",
+       WritePoses},
+      {"bvh", "bvh", "the skeleton and its motion as BVH",
+       "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh}};
   return exporters;
 }
 

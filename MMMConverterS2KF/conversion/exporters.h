@@ -14,9 +14,10 @@ struct ConversionReport;
 /// --export-NAME, the attribute of batches, the checks of outputs and the help texts are made from
 /// it.
 struct Exporter {
-  const char* name;  ///< "csv": attribute and folder of a batch, and the ending of its files
-  const char* what;  ///< "postures as CSV", for the help of a batch
-  const char* help;  ///< of the option
+  const char* name;    ///< "csv": attribute and folder of a batch
+  const char* ending;  ///< of its files there
+  const char* what;    ///< "postures as CSV", for the help of a batch
+  const char* help;    ///< of the option
   /// @throws Error; the file is then as it was before.
   void (*write)(const std::string& file, const ConversionReport& report);
 };

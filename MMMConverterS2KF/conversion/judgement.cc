@@ -27,13 +27,13 @@ constexpr Limit kUnseenLimbs = {0, 2};
 
 }  // namespace
 
-bool Judgement::AddBeyond(const Limit& limit, double value, const std::string& reason) {
+bool VerdictReasons::AddBeyond(const Limit& limit, double value, const std::string& reason) {
   if (!limit.IsBeyond(value)) return false;
   Add(limit.LevelOf(value), reason);
   return true;
 }
 
-Verdict Judgement::Take() {
+Verdict VerdictReasons::Take() {
   std::stable_sort(reasons_.begin(), reasons_.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   Verdict verdict;
@@ -42,14 +42,14 @@ Verdict Judgement::Take() {
   return verdict;
 }
 
-void JudgeReading(const Recording& recording, Judgement* judgement) {
+void JudgeReading(const Recording& recording, VerdictReasons* judgement) {
   for (const ReadingDoubt& doubt : recording.doubts) {
     judgement->Add(Level::kCheck, WithAdvice(doubt.text, doubt.remedy));
   }
 }
 
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                   Judgement* judgement) {
+                   VerdictReasons* judgement) {
   std::vector<std::string> unseen;
   for (const Limb& limb : limbs) {
     const int markers = static_cast<int>(limb.labels.size());
@@ -71,7 +71,8 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
                              setup.assignments().size(), degrees));
 }
 
-void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, Judgement* judgement) {
+void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
+                VerdictReasons* judgement) {
   const double noise = MeasureMarkerNoise(markers, LabelIndices(setup.assignments()));
   judgement->AddBeyond(
       kNoise, noise,
@@ -79,7 +80,7 @@ void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, Judge
                   kMillimetres * noise));
 }
 
-bool JudgeOffsets(const Subject& subject, Judgement* judgement) {
+bool JudgeOffsets(const Subject& subject, VerdictReasons* judgement) {
   std::vector<double> offsets;
   for (const MarkerOffset& offset : subject.offsets) offsets.push_back(offset.offset.norm());
   const double most = Percentile(offsets, 95);
@@ -91,7 +92,7 @@ bool JudgeOffsets(const Subject& subject, Judgement* judgement) {
 }
 
 void JudgeSides(TrackingSetup setup, std::shared_ptr<const KinematicModel> reference,
-                PersonScaling person, const MarkerSequence& markers, Judgement* judgement) {
+                PersonScaling person, const MarkerSequence& markers, VerdictReasons* judgement) {
   setup.model = std::move(reference);  // a subject's markers may have taken it up
   person.subject = nullptr;
   ScaleToPerson(person, &setup);

@@ -38,7 +38,7 @@ inline constexpr Limit kMeanDistance = {0.055, 0.15};
 inline constexpr Limit kCalibratedMeanDistance = {0.02, 0.06};
 
 /// Reasons as they are found.
-class Judgement {
+class VerdictReasons {
  public:
   void Add(Verdict::Level level, std::string reason) {
     reasons_.emplace_back(level, std::move(reason));
@@ -55,20 +55,21 @@ class Judgement {
 };
 
 /// Unit, axis and length of the file.
-void JudgeReading(const Recording& recording, Judgement* judgement);
+void JudgeReading(const Recording& recording, VerdictReasons* judgement);
 
 /// limbs: LimbsOf(setup).
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                   Judgement* judgement);
+                   VerdictReasons* judgement);
 
-void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, Judgement* judgement);
+void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
+                VerdictReasons* judgement);
 
 /// True where a calibrated person's markers sit too far from where the model has them.
-bool JudgeOffsets(const Subject& subject, Judgement* judgement);
+bool JudgeOffsets(const Subject& subject, VerdictReasons* judgement);
 
 /// Whether labels of the left and the right are exchanged, on the reference scaled to the person
 /// without its subject.
 void JudgeSides(TrackingSetup setup, std::shared_ptr<const KinematicModel> reference,
-                PersonScaling person, const MarkerSequence& markers, Judgement* judgement);
+                PersonScaling person, const MarkerSequence& markers, VerdictReasons* judgement);
 
 }  // namespace mmm_converter

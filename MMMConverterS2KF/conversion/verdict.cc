@@ -212,7 +212,7 @@ class Judge {
   const MarkerSequence& markers_;
   const ConversionFigures& figures_;
   const std::vector<Limb> limbs_;
-  Judgement judgement_;
+  VerdictReasons judgement_;
 };
 
 constexpr const char* kLevelNames[] = {"good", "check", "failed"};
@@ -237,7 +237,7 @@ std::string DescribeVerdict(const Verdict& verdict) {
 Verdict JudgeConversion(const ConversionReport& report) { return Judge(report).Run(); }
 
 Verdict JudgeCalibration(const CalibrationReport& report, const ConverterConfig& config) {
-  Judgement judgement;
+  VerdictReasons judgement;
   const CalibrationResult& result = report.result;
   bool is_far = judgement.AddBeyond(
       kMeanDistance, result.distance_before,

@@ -28,6 +28,7 @@ struct TableKind {
 
 constexpr TableKind kTables[] = {
     {"time_s,root_x_mm", "postures (CSV)", ',', ""},
+    {"time_s,", "poses of a body (CSV)", ',', ""},
     {"Coordinates", "postures for OpenSim (MOT)", '\t', "endheader"},
     {"id,state,reason,recording", "results of a batch (CSV)", ',', ""},
     {"recording,configuration,", "comparison of converters (CSV)", ',', ""},

@@ -19,7 +19,7 @@
 namespace mmm_converter {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+using FileBytes = std::vector<unsigned char>;
 using Points = std::vector<C3dRelabelledPoint>;
 
 constexpr std::size_t kLongestLabel = 127;  // so that 255 labels fit behind a 16 bit offset
@@ -29,7 +29,7 @@ constexpr std::uint64_t Blocks(std::uint64_t bytes) { return (bytes + kBlock - 1
 /// The new file but for its frames.
 struct Frame {
   std::uint64_t bytes = 0;       // of a frame of the output
-  Bytes before;                  // up to the first frame
+  FileBytes before;              // up to the first frame
   std::uint64_t padding = 0;     // zeros behind the last frame
   std::uint64_t rest_begin = 0;  // of the input, what follows
   std::uint64_t rest_bytes = 0;
@@ -141,13 +141,13 @@ void LayOutRest(const C3dFile& file, std::size_t num_points, Frame* frame) {
   frame->rest_bytes = file.data_bytes() - padded;
 }
 
-Bytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
+FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
   const C3dLayout& layout = file->layout();
   const C3dParameters& parameters = file->parameters();
   const std::uint64_t section_start = file->section_start();
-  Bytes before = file->ReadBytes(0, section_start);
+  FileBytes before = file->ReadBytes(0, section_start);
   unsigned char* const header = before.data();
-  Bytes old_section = file->ReadBytes(section_start, layout.data_start - section_start);
+  FileBytes old_section = file->ReadBytes(section_start, layout.data_start - section_start);
   const int stated_blocks = old_section[2];
   C3dSectionEdit section(std::move(old_section), parameters, file->path());
   const std::vector<std::string> names = C3dPointNames(*file, nullptr);
@@ -178,7 +178,7 @@ Bytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
                static_cast<std::int64_t>(data_shift) + data_blocks(frame->bytes) -
                    data_blocks(layout.frame_bytes),
                header, &section);
-  const Bytes changed = section.Finish();
+  const FileBytes changed = section.Finish();
   before.insert(before.end(), changed.begin(), changed.end());
   return before;
 }
@@ -221,7 +221,7 @@ class FrameMaker {
 void CopyRest(C3dFile* file, const Frame& frame, PieceWriter* pieces) {
   for (std::uint64_t done = 0; done < frame.rest_bytes;) {
     const std::uint64_t count = std::min(kBufferBytes, frame.rest_bytes - done);
-    const Bytes bytes = file->ReadBytes(frame.rest_begin + done, count);
+    const FileBytes bytes = file->ReadBytes(frame.rest_begin + done, count);
     pieces->text()->append(bytes.begin(), bytes.end());
     pieces->EndPart();
     done += count;
@@ -233,7 +233,7 @@ void WriteFrames(C3dFile* file, const Points& points, PieceWriter* pieces) {
   FrameMaker maker(layout, points);
   const int chunk = static_cast<int>(std::clamp<std::uint64_t>(
       kBufferBytes / layout.frame_bytes, 1, static_cast<std::uint64_t>(layout.frames)));
-  Bytes stored;
+  FileBytes stored;
   for (int k = 0; k < layout.frames; k += chunk) {
     const int count = std::min(chunk, layout.frames - k);
     file->ReadFrames(k, count, &stored);
