@@ -62,7 +62,7 @@ Metres; z is up in the world. README.md of the application says which columns an
 
 {}Examples
   MMMConverterS2KF export-poses walk_mmm.xml -o walk.npz
-  MMMConverterS2KF export-poses walk_mmm.xml -o hands.csv --segments LWy_joint,RWy_joint --points none
+  MMMConverterS2KF export-poses walk_mmm.xml -o hands.csv --segments LWy_joint,RWy_joint
   MMMConverterS2KF export-poses motions/*.xml -o poses --segments none --relative-to root
 )";
 

@@ -31,7 +31,7 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 
 TEST(Help, EveryCommandHasOneWithExamples) {
   for (const char* command : {"calibrate", "check-dynamics", "compare", "convert", "evaluate",
-                              "export-urdf", "info", "print-config", "report"}) {
+                              "export-poses", "export-urdf", "info", "print-config", "report"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -47,8 +47,9 @@ int Columns(const std::string& line) {
 }
 
 TEST(Help, NoLineIsWiderThan100Columns) {
-  for (const char* command : {"help", "batch", "calibrate", "check-dynamics", "compare", "convert",
-                              "evaluate", "export-urdf", "info", "print-config", "report"}) {
+  for (const char* command :
+       {"help", "batch", "calibrate", "check-dynamics", "compare", "convert", "evaluate",
+        "export-poses", "export-urdf", "info", "print-config", "report"}) {
     std::istringstream help(RunProgram({command, "--help"}).out);
     for (std::string line; std::getline(help, line);) EXPECT_LE(Columns(line), 100) << line;
   }
@@ -58,7 +59,8 @@ TEST(Help, ConvertSaysWhatItsExportsHold) {
   EXPECT_THAT(RunProgram({"convert", "--help"}).out,
               AllOf(HasSubstr("--export-csv FILE"), HasSubstr("where postures are smoothed"),
                     HasSubstr("--export-trc FILE"), HasSubstr("y up"), HasSubstr("LABEL_model"),
-                    HasSubstr("--export-mot FILE"), HasSubstr("degrees")));
+                    HasSubstr("--export-mot FILE"), HasSubstr("degrees"),
+                    HasSubstr("--export-poses FILE"), HasSubstr("--export-bvh FILE")));
 }
 
 TEST(Help, VersionIsPrinted) {
@@ -91,7 +93,7 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
        "unknown command \"fly\"; use convert, batch, calibrate, check-dynamics, compare, evaluate, "
-       "export-urdf, info, label, print-config or report"},
+       "export-poses, export-urdf, info, label, print-config or report"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
@@ -100,6 +102,10 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"calibrate", "a.c3d", "--subject-file", "s.xml"}, "unknown option --subject-file"},
       {{"convert", "a.c3d", "--self-calibrate", "--subject-file", "s.xml"}, "use one"},
       {{"convert", "a.c3d", "--subject-out", "s.xml"}, "--subject-out needs --self-calibrate"},
+      {{"export-poses", "a.xml"}, "export-poses: which motion, and which file"},
+      {{"export-poses", "a.xml", "-o", "a.txt"}, "a name that ends with .npz or .csv"},
+      {{"export-poses", "a.xml", "b.xml", "-o", "a.npz"}, "name a folder"},
+      {{"export-poses", "a.xml", "-o", "a.npz", "--points", "kit44"}, "use kit21, all or none"},
       {{"check-dynamics"}, "check-dynamics: which motion?"},
       {{"check-dynamics", "a.xml", "--low-pass", "-1"}, "--low-pass: -1 is not allowed"},
       {{"compare"}, "compare: which recordings?"},
