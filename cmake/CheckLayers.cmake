@@ -7,7 +7,7 @@
 #   - plugins never include each other, the application includes no plugin
 #   - include paths start at the project root; a file is opened only in io, support and above plugins
 #   - headers of other projects, except Eigen, appear only in .cc files (and in tests); one header of the
-#     application includes <nlohmann/json_fwd.hpp> for all
+#     application includes <nlohmann/json_fwd.hpp> for all, and those of python may include pybind11
 #   - the library and the plugins name no option of the command line
 #   - every source starts with its licence line and has at most 400 lines; every folder has a README.md
 cmake_minimum_required(VERSION 3.25)
@@ -20,7 +20,7 @@ set(layers
     MMMConverterS2KF/terminal MMMConverterS2KF/input MMMConverterS2KF/conversion
     "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report
     "MMMConverterS2KF/batch|MMMConverterS2KF/live"
-    MMMConverterS2KF/commands MMMConverterS2KF
+    "MMMConverterS2KF/commands|MMMConverterS2KF/python" MMMConverterS2KF
     examples tests)
 # Of these the files alone are a layer: each of their folders is a layer of its own.
 set(divided common/io MMMConverterS2KF)
@@ -101,6 +101,8 @@ endmacro()
 macro(check_foreign_include path)
   if(${path} STREQUAL nlohmann/json_fwd.hpp AND file MATCHES "^MMMConverterS2KF/.*\\.h$")
     list(APPEND json_headers ${file})
+  elseif(${path} MATCHES "^pybind11/" AND from STREQUAL MMMConverterS2KF/python)
+    # its headers stand between pybind11 and the application
   elseif(file MATCHES "\\.h$" AND NOT from STREQUAL tests AND NOT ${path} MATCHES "^([a-z_0-9]+|Eigen/.+)$")
     problem("<${path}> belongs in a .cc file")
   endif()

@@ -66,9 +66,10 @@ WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputReques
 
 Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {
   Recording recording;
-  if (read_before.motion.value) {
-    recording = *read_before.motion.value;
-    warnings->Append(read_before.motion.warnings);
+  const auto& read = read_before.motion.value ? read_before.motion : read_before.recording;
+  if (read.value) {
+    recording = *read.value;
+    warnings->Append(read.warnings);
   } else {
     recording = ReadRecording(request.file, request.reading, warnings);
   }

@@ -34,7 +34,8 @@ struct InputRequest {
 struct ReadBefore {
   WithWarnings<std::shared_ptr<const LoadedModel>> model = {};
   WithWarnings<std::shared_ptr<const ConverterChoice>> choice = {};
-  WithWarnings<std::shared_ptr<const Recording>> motion = {};  ///< one of several of the file
+  WithWarnings<std::shared_ptr<const Recording>> motion = {};     ///< one of several of the file
+  WithWarnings<std::shared_ptr<const Recording>> recording = {};  ///< the whole of the file
 };
 
 struct Input {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "MMMConverterS2KF/conversion/conversion.h"
+#include "MMMConverterS2KF/conversion/motion_output.h"
+#include "MMMConverterS2KF/python/arrays.h"
+#include "MMMConverterS2KF/python/background.h"
+#include "MMMConverterS2KF/python/module.h"
+#include "MMMConverterS2KF/python/requests.h"
+#include "MMMConverterS2KF/report/conversion_page.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/convert/marker_incidents.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// A conversion, and how it was asked for.
+struct Conversion {
+  ConversionRequest request;
+  ConversionReport report;
+
+  const PoseTrajectory& trajectory() const { return report.result.trajectory; }
+};
+
+ConversionRequest ConversionRequestOf(const py::dict& options) {
+  ConversionRequest request;
+  request.input = InputRequestOf(options);
+  request.converter = ConverterRequestOf(options);
+  request.motion_name = request.input.reading.motion;
+  request.output_format = TextOf(options, "format");
+  if (!request.output_format.empty() && request.output_format != "2.0" &&
+      request.output_format != "1.0") {
+    throw Error("format: \"" + request.output_format + "\" is not allowed; use 2.0 or 1.0");
+  }
+  request.self_calibrate = IsSet(options, "self_calibrate");
+  request.label = IsSet(options, "label");
+  request.is_object = IsSet(options, "object");
+  request.object_models = TextOf(options, "object_models");
+  return request;
+}
+
+// recording: a Recording, or None: the options' file is read.
+Conversion Convert(const py::object& recording, const py::dict& options,
+                   const py::object& progress) {
+  ConversionRequest request = ConversionRequestOf(options);
+  ReadBefore read_before;
+  if (!recording.is_none()) {
+    const auto& read = recording.cast<const ReadRecordingResult&>();
+    read_before.recording = {read.recording, read.warnings};
+    request.input.file = read.recording->file;
+  }
+  return InBackground(progress, [&](const Progress& on_progress) {
+    ConversionPlan plan = PlanConversion(request, read_before);
+    return Conversion{request, CarryOut(std::move(plan), request.self_calibrate, on_progress)};
+  });
+}
+
+void CheckOneOutput(const Conversion& conversion, const std::string& file, bool is_motion) {
+  OutputPlan plan;
+  NameInputs(conversion.request.input, &plan);
+  NameInputs(conversion.report.converter, &plan);
+  plan.Read(conversion.report.person.subject_file);
+  if (is_motion) {
+    plan.Rewrite(file, conversion.request.input.file);
+  } else {
+    plan.Write(file);
+  }
+  plan.Check();
+}
+
+void Save(Conversion* conversion, const std::string& file) {
+  const py::gil_scoped_release release;
+  CheckOneOutput(*conversion, file, true);
+  conversion->report.output = file;
+  WriteObjectModel(conversion->report);
+  WriteMotions(conversion->request, {&conversion->report});
+}
+
+void Export(const Conversion& conversion, const std::string& name, const std::string& file) {
+  const py::gil_scoped_release release;
+  CheckOneOutput(conversion, file, false);
+  WriteExports({{name, file}}, conversion.report);
+}
+
+void WritePage(const Conversion& conversion, const std::string& file) {
+  const py::gil_scoped_release release;
+  CheckOneOutput(conversion, file, false);
+  WriteFileAtomically(file, FormatConversionPage({&conversion.report}));
+}
+
+py::array_t<double> TimesOf(const PoseTrajectory& trajectory) {
+  py::array_t<double> times(trajectory.num_frames());
+  for (int k = 0; k < trajectory.num_frames(); ++k) times.mutable_data()[k] = trajectory.time(k);
+  return times;
+}
+
+py::list IncidentsOf(const Conversion& conversion) {
+  py::list incidents;
+  for (const MarkerIncident& incident : conversion.report.result.incidents) {
+    py::dict one;
+    one["kind"] = Name(incident.kind);
+    one["marker"] = LabelOf(conversion.report, incident.assignment);
+    one["other"] = incident.other < 0 ? py::object(py::none())
+                                      : py::cast(LabelOf(conversion.report, incident.other));
+    one["first_frame"] = incident.first_frame;
+    one["last_frame"] = incident.last_frame;
+    incidents.append(one);
+  }
+  return incidents;
+}
+
+// An array for each figure of the frames.
+py::dict FramesOf(const Conversion& conversion) {
+  const std::vector<FrameDiagnostic>& frames = conversion.report.result.frames;
+  const auto count = static_cast<py::ssize_t>(frames.size());
+  py::array_t<int> seen(count);
+  py::array_t<int> wrong(count);
+  py::array_t<double> nis(count);
+  py::array_t<bool> reassembled(count);
+  py::array_t<bool> converged(count);
+  for (py::ssize_t k = 0; k < count; ++k) {
+    const FrameDiagnostic& frame = frames[static_cast<std::size_t>(k)];
+    seen.mutable_data()[k] = frame.markers_seen;
+    wrong.mutable_data()[k] = frame.markers_wrong;
+    nis.mutable_data()[k] = frame.nis;
+    reassembled.mutable_data()[k] = frame.reassembled;
+    converged.mutable_data()[k] = frame.converged;
+  }
+  py::dict result;
+  result["markers_seen"] = seen;
+  result["markers_wrong"] = wrong;
+  result["nis"] = nis;
+  result["reassembled"] = reassembled;
+  result["converged"] = converged;
+  return result;
+}
+
+std::vector<std::string> MarkerLabelsOf(const Conversion& conversion) {
+  std::vector<std::string> labels;
+  const int count = static_cast<int>(conversion.report.setup.assignments().size());
+  for (int i = 0; i < count; ++i) labels.push_back(LabelOf(conversion.report, i));
+  return labels;
+}
+
+PersonModel ModelOf(const Conversion& conversion) {
+  const ConversionReport& report = conversion.report;
+  return {report.input.model_file, report.input.model,
+          ScalingOf(report.person, report.converter.config), report.setup.model};
+}
+
+}  // namespace
+
+void BindConversions(py::module_* module) {
+  py::class_<Conversion>(*module, "Conversion")
+      .def_property_readonly("rate", [](const Conversion& c) { return c.trajectory().rate; })
+      .def_property_readonly("times", [](const Conversion& c) { return TimesOf(c.trajectory()); })
+      .def_property_readonly("joint_names",
+                             [](const Conversion& c) { return c.trajectory().joint_names; })
+      .def_property_readonly("postures",
+                             [](const Conversion& c) {
+                               return PostureArrays(
+                                   c.trajectory().postures,
+                                   static_cast<int>(c.trajectory().joint_names.size()));
+                             })
+      .def_property_readonly(
+          "sd",
+          [](const Conversion& c) { return RowsOfColumns(c.trajectory().standard_deviations); })
+      .def_property_readonly(
+          "velocities",
+          [](const Conversion& c) { return RowsOfColumns(c.trajectory().velocities); })
+      .def_property_readonly(
+          "accelerations",
+          [](const Conversion& c) { return RowsOfColumns(c.trajectory().accelerations); })
+      .def_property_readonly(
+          "residuals", [](const Conversion& c) { return RowsOfColumns(c.report.result.residuals); })
+      .def_property_readonly("marker_labels", &MarkerLabelsOf)
+      .def_property_readonly("incidents", &IncidentsOf)
+      .def_property_readonly("frames", &FramesOf)
+      .def_property_readonly("model", &ModelOf)
+      .def_property_readonly("summary",
+                             [](const Conversion& c) { return PythonOf(ToJson(c.report)); })
+      .def_property_readonly("text", [](const Conversion& c) { return FormatSummary(c.report); })
+      .def_property_readonly("verdict",
+                             [](const Conversion& c) { return Name(c.report.verdict.level); })
+      .def_property_readonly("reasons",
+                             [](const Conversion& c) { return c.report.verdict.reasons; })
+      .def_property_readonly("warnings",
+                             [](const Conversion& c) { return c.report.warnings.texts(); })
+      .def("save", &Save)
+      .def("export", &Export)
+      .def("report", &WritePage);
+  module->def("convert", &Convert);
+  module->def("exporters", [] {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Exporter& one : Exporters()) names.emplace_back(one.name, one.ending);
+    return names;
+  });
+}
+
+}  // namespace mmm_converter::python

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""Motion capture markers to MMM motions: MMMConverterS2KF from Python.
+
+Everything is what the program ``MMMConverterS2KF`` computes, with the same numbers. Lengths are
+metres, angles radians, times seconds; quaternions are ``w, x, y, z``; z is up. What was not seen is
+NaN. Arrays have frames first.
+
+>>> import mmmconverter
+>>> recording = mmmconverter.read("examples/handstand.c3d")
+>>> result = mmmconverter.convert(recording, height=1.8, frames=(0, 50))
+>>> result.joints.shape
+(50, 44)
+>>> result.verdict
+'good'
+"""
+
+from ._conversions import Conversion, convert
+from ._mmmconverter import Error, version_text as _version_text
+from ._models import Estimate, Model, Poses, Tracker, read_model
+from ._recordings import Motion, Recording, Subject, read, read_motion, read_motions, read_subject
+from ._studies import (Calibration, Comparison, Dynamics, LabelledRecording, calibrate,
+                       check_dynamics, compare, label)
+
+Error.__module__ = __name__
+
+__version__ = _version_text().split()[1]
+
+__all__ = [
+    "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
+    "Model", "Motion", "Poses", "Recording", "Subject", "Tracker", "calibrate", "check_dynamics",
+    "compare", "convert", "label", "read", "read_model", "read_motion", "read_motions",
+    "read_subject"]

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: MIT
+"""From a recording to a motion."""
+
+from __future__ import annotations
+
+import functools
+import os
+from typing import Callable, Optional, Tuple
+
+import numpy as np
+
+from . import _mmmconverter
+from ._models import Model
+from ._present import Presented, given, path_text
+from ._recordings import Recording, subject_file
+
+
+class Conversion(Presented):
+    """What `convert` found. J joints are tracked, M markers are used.
+
+    Attributes
+    ----------
+    times : numpy.ndarray, shape (frames,)
+        In seconds.
+    rate : float
+        Frames a second.
+    root_positions : numpy.ndarray, shape (frames, 3)
+        Of the model's root in the world, in metres.
+    root_quaternions : numpy.ndarray, shape (frames, 4)
+        w, x, y, z.
+    joint_names : list of str
+    joints : numpy.ndarray, shape (frames, J)
+        In radians.
+    sd : numpy.ndarray, shape (frames, 6 + J), or None
+        Standard deviations: root position [m], its rotation about its own axes [rad], joints [rad].
+    velocities, accelerations : numpy.ndarray, shape (frames, 6 + J), or None
+        Of the root's position and its rotation in the world, and of joints, per second and per second
+        squared; where postures are smooth (config="s2kf_offline").
+    marker_labels : list of str
+    residuals : numpy.ndarray, shape (frames, M)
+        Distances of measured from model markers in metres; NaN: not seen.
+    incidents : list of dict
+        Labels that were wrong for a while: kind, marker, other, first_frame, last_frame.
+    frames : dict of numpy.ndarray, shape (frames,)
+        markers_seen, markers_wrong, nis, reassembled, converged.
+    summary : dict
+        The JSON that ``convert --summary`` writes.
+    text : str
+        The same in a dozen lines.
+    verdict : str
+        "good", "check" or "failed".
+    reasons, warnings : list of str
+    model : Model
+        Of the person.
+    """
+
+    def __init__(self, raw, source):
+        self._raw = raw
+        self._source = source
+
+    def __getattr__(self, name):
+        if name in ("rate", "verdict", "reasons", "warnings", "text"):
+            return getattr(self._raw, name)
+        raise AttributeError(name)
+
+    # What is computed or copied once.
+    times = functools.cached_property(lambda self: self._raw.times)
+    joint_names = functools.cached_property(lambda self: self._raw.joint_names)
+    _postures = functools.cached_property(lambda self: self._raw.postures)
+    sd = functools.cached_property(lambda self: self._raw.sd)
+    velocities = functools.cached_property(lambda self: self._raw.velocities)
+    accelerations = functools.cached_property(lambda self: self._raw.accelerations)
+    residuals = functools.cached_property(lambda self: self._raw.residuals)
+    marker_labels = functools.cached_property(lambda self: self._raw.marker_labels)
+    incidents = functools.cached_property(lambda self: self._raw.incidents)
+    frames = functools.cached_property(lambda self: self._raw.frames)
+    model = functools.cached_property(lambda self: Model(self._raw.model))
+
+    @property
+    def root_positions(self) -> np.ndarray:
+        return self._postures[0]
+
+    @property
+    def root_quaternions(self) -> np.ndarray:
+        return self._postures[1]
+
+    @property
+    def joints(self) -> np.ndarray:
+        return self._postures[2]
+
+    @property
+    def summary(self) -> dict:
+        return self._raw.summary
+
+    def save(self, file) -> None:
+        """Writes the motion, or what the ending of the file's name says.
+
+        .xml and others: an MMM motion, the bytes that ``convert -o`` writes; .csv, .trc, .mot, .npz
+        and .bvh: what ``--export-csv``, ..., ``--export-poses`` and ``--export-bvh`` write.
+        """
+        file = path_text(file)
+        ending = os.path.splitext(file)[1].lower()[1:]
+        for name, of_files in _mmmconverter.exporters():
+            if ending == of_files:
+                self._raw.export(name, file)
+                return
+        self._raw.save(file)
+
+    def report(self, file) -> None:
+        """Writes the page of ``convert --report``."""
+        self._raw.report(path_text(file))
+
+    def to_dataframe(self):
+        """Root positions [m], quaternions and joints [rad] over time [s], as a pandas.DataFrame."""
+        import pandas
+        columns = [f"root_{axis}" for axis in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+        data = np.hstack([self.root_positions, self.root_quaternions, self.joints])
+        return pandas.DataFrame(data, columns=columns + self.joint_names,
+                                index=pandas.Index(self.times, name="time"))
+
+    def __len__(self):
+        return len(self.times)
+
+    def _facts(self):
+        residuals = self.residuals
+        mean = np.nanmean(residuals) if np.isfinite(residuals).any() else np.nan
+        return [("conversion of", os.path.basename(self._source)), ("frames", len(self)),
+                ("joints", len(self.joint_names)), ("markers", len(self.marker_labels)),
+                ("mean distance", f"{1e3 * mean:.1f} mm"), ("verdict", self.verdict)]
+
+
+def convert(recording, *, height: Optional[float] = None, mass: Optional[float] = None,
+            hand_length: Optional[float] = None, person=None, subject=None, config=None,
+            converter: Optional[str] = None, plugin=None, model=None, marker_set=None,
+            frames: Optional[Tuple[Optional[int], Optional[int]]] = None,
+            unit: Optional[str] = None, up: Optional[str] = None, rate: Optional[float] = None,
+            ignore_residuals: bool = False, prefix: Optional[str] = None,
+            motion: Optional[str] = None, self_calibrate: bool = False, label: bool = False,
+            object: bool = False, object_models=None, format: Optional[str] = None,
+            progress: Optional[Callable[[int, int], None]] = None) -> Conversion:
+    """Converts a recording into a motion, as the command ``convert`` does; writes nothing.
+
+    Other threads run meanwhile; Ctrl-C ends it.
+
+    Parameters
+    ----------
+    recording : Recording or path
+        Of a `Recording`, what it was read with stays (unit, up, rate, ...).
+    height, mass, hand_length : float, optional
+        Of the person, in metres and kilograms; default: as the file says, else height is estimated
+        from the markers and mass is 70.
+    person : path, optional
+        A ModelProcessorConfig with these.
+    subject : path, Subject or Calibration, optional
+        A calibrated person.
+    config : str or path, optional
+        A configuration, or the name of a shipped one: "s2kf_default" (default), "s2kf_offline", ...
+    converter, plugin : optional
+        Another converter, by name or by its file.
+    model, marker_set : optional
+        The reference model, or a URDF; which labels stand for which markers.
+    frames : (int, int), optional
+        (A, B): frames A to B-1, counted from 0; None: the first, or the last.
+    unit, up, rate, ignore_residuals, prefix, motion : optional
+        As of `read`, of a path.
+    self_calibrate : bool
+        Estimates the person from the recording itself first.
+    label : bool
+        Finds the names of points that have none first; a `Recording` must have been read
+        `with_unlabelled`.
+    object : bool
+        It is a rigid object.
+    object_models : path, optional
+        Folder of the models of objects; needed where a model is built and the motion is saved.
+    format : str, optional
+        Of the motion that is saved: "2.0" or "1.0".
+    progress : callable, optional
+        Is called with (frames done, all frames) some 20 times a second. What it raises ends the
+        conversion.
+
+    Returns
+    -------
+    Conversion
+
+    Raises
+    ------
+    Error
+        With the text that the program would print.
+
+    Examples
+    --------
+    >>> result = convert("examples/handstand.c3d", height=1.8, config="s2kf_offline", frames=(0, 60))
+    >>> result
+    <Conversion handstand.c3d: frames 60, joints 44, markers 53, mean distance 39.4 mm, verdict good>
+    >>> result.root_positions.shape, result.velocities.shape
+    ((60, 3), (60, 50))
+    """
+    source = recording.file if isinstance(recording, Recording) else path_text(recording)
+    options = given(
+        file=source, height=height, mass=mass, hand_length=hand_length, person=person,
+        subject_file=subject_file(subject), config=config, converter=converter, plugin=plugin,
+        model=model, marker_set=marker_set, frames=frames, unit=unit, up=up, rate=rate,
+        ignore_residuals=ignore_residuals, prefix=prefix, motion=motion,
+        self_calibrate=self_calibrate, label=label, object=object, object_models=object_models,
+        format=format)
+    raw = recording._raw if isinstance(recording, Recording) else None
+    if raw is not None and recording._options is not None:
+        options = {**recording._options, **options}
+    return Conversion(_mmmconverter.convert(raw, options, progress), source)

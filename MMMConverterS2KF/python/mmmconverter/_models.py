@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: MIT
+"""Models of persons, forward kinematics, and tracking frame by frame."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, NamedTuple, Optional, Sequence
+
+import numpy as np
+
+from . import _mmmconverter
+from ._present import Presented, given, path_text
+from ._recordings import subject_file
+
+
+class Poses(NamedTuple):
+    """Where a body is; of one posture without the first axis.
+
+    Attributes
+    ----------
+    positions : numpy.ndarray, shape (frames, segments, 3)
+        Origins of all segments in metres.
+    rotations : numpy.ndarray, shape (frames, segments, 3, 3)
+        Their rotation matrices in the world.
+    markers : numpy.ndarray, shape (frames, markers, 3)
+        Of all model markers in metres.
+    """
+
+    positions: np.ndarray
+    rotations: np.ndarray
+    markers: np.ndarray
+
+
+class Model(Presented):
+    """A kinematic model, scaled to a person. Made by `read_model` and `Conversion.model`.
+
+    Attributes
+    ----------
+    segments, markers, joint_names : list of str
+    limits : numpy.ndarray, shape (joints, 2)
+        In radians.
+    height : float or None
+        That it was scaled by, in metres.
+    mass : float
+        In kilograms.
+    """
+
+    def __init__(self, raw):
+        self._raw = raw
+
+    def __getattr__(self, name):
+        if name in ("file", "name", "segments", "markers", "joint_names", "limits", "mass", "height"):
+            return getattr(self._raw, name)
+        raise AttributeError(name)
+
+    def forward(self, root_positions: Any, root_quaternions: Any = None, joints: Any = None,
+                joint_names: Optional[Sequence[str]] = None) -> Poses:
+        """Poses of all segments and places of all markers, of one posture or of many at once.
+
+        Parameters
+        ----------
+        root_positions : array_like, shape (3,) or (frames, 3)
+            In metres; or a `Conversion`, `Motion` or `Estimate`, alone.
+        root_quaternions : array_like, shape (4,) or (frames, 4)
+            w, x, y, z, of length 1.
+        joints : array_like, shape (joints,) or (frames, joints)
+            In radians.
+        joint_names : sequence of str, optional
+            Of the columns of `joints`; default: all joints of the model. Others are at 0, or at their
+            limit.
+
+        Examples
+        --------
+        >>> model = read_model(height=1.8)
+        >>> motion = mmmconverter.read_motion("examples/handstand_true.xml")
+        >>> poses = model.forward(motion)
+        >>> poses.markers.shape
+        (675, 53, 3)
+        >>> wrist = model.segments.index("LWx_joint")
+        >>> np.round(poses.positions[0, wrist], 3)
+        array([-0.301, -0.002,  0.818])
+        """
+        if root_quaternions is None:
+            source = root_positions
+            if hasattr(source, "root_position"):
+                return self.forward(source.root_position, source.root_quaternion, source.joints,
+                                    source.joint_names)
+            return self.forward(source.root_positions, source.root_quaternions, source.joints,
+                                source.joint_names)
+        positions = np.asarray(root_positions, dtype=float)
+        quaternions = np.asarray(root_quaternions, dtype=float)
+        joints = np.asarray(joints if joints is not None else np.zeros(positions.shape[:-1] + (0,)),
+                            dtype=float)
+        if joint_names is None:
+            joint_names = self.joint_names if joints.shape[-1] > 0 else []
+        if np.any(np.abs(np.linalg.norm(quaternions, axis=-1) - 1) > 1e-6):
+            raise _mmmconverter.Error("root_quaternions: must have the length 1")
+        if positions.ndim > 1:
+            return Poses(*self._raw.forward(positions, quaternions, joints, list(joint_names)))
+        poses = self._raw.forward(positions[np.newaxis], quaternions[np.newaxis],
+                                  joints[np.newaxis], list(joint_names))
+        return Poses(*(array[0] for array in poses))
+
+    def _facts(self):
+        size = "not scaled" if self.height is None else f"{self.height:g} m"
+        return [("model", self.name), ("height", size), ("segments", len(self.segments)),
+                ("joints", len(self.joint_names)), ("markers", len(self.markers))]
+
+
+def read_model(model=None, *, height: Optional[float] = None, mass: Optional[float] = None,
+               hand_length: Optional[float] = None, person=None, subject=None,
+               marker_set: Optional[str] = None) -> Model:
+    """The model of a person.
+
+    Parameters
+    ----------
+    model : path, optional
+        An MMM reference model or a URDF; default: the shipped MMM model.
+    height, mass, hand_length : float, optional
+        Of the person, in metres and kilograms; mass: default 70. Nothing: as the file has it, an MMM
+        model of 1 m and 1 kg.
+    person : path, optional
+        A ModelProcessorConfig with these.
+    subject : path, Subject or Calibration, optional
+        A calibrated person.
+    marker_set : str or path, optional
+        Places markers on the model.
+
+    Examples
+    --------
+    >>> read_model(height=1.75)
+    <Model MMM: height 1.75 m, segments 129, joints 104, markers 53>
+    """
+    if height is not None and mass is None and person is None and subject is None:
+        mass = 70.0
+    return Model(_mmmconverter.read_model(given(
+        model=model, height=height, mass=mass, hand_length=hand_length, person=person,
+        subject_file=subject_file(subject), marker_set=marker_set)))
+
+
+@dataclasses.dataclass(repr=False, eq=False)
+class Estimate(Presented):
+    """What a `Tracker` knows of a frame.
+
+    Attributes
+    ----------
+    root_position, root_quaternion : numpy.ndarray, shapes (3,), (4,)
+        In metres; w, x, y, z.
+    joints : numpy.ndarray, shape (joints,)
+        Of the tracker's `joint_names`, in radians.
+    joint_names : list of str
+    sd : numpy.ndarray, shape (6 + joints,), or None
+        Standard deviations: root position [m], its rotation about its own axes [rad], joints [rad].
+    residuals : numpy.ndarray, shape (markers,)
+        Distances of measured from model markers in metres, of the tracker's `marker_labels`.
+    markers_seen, markers_wrong : int
+    nis : float
+        Normalised innovation squared over its degrees of freedom.
+    reassembled, converged : bool
+    """
+
+    root_position: np.ndarray
+    root_quaternion: np.ndarray
+    joints: np.ndarray
+    joint_names: list
+    sd: Optional[np.ndarray]
+    residuals: np.ndarray
+    markers_seen: int
+    markers_wrong: int
+    nis: float
+    reassembled: bool
+    converged: bool
+
+    def _facts(self):
+        return [("estimate", "of a frame"), ("markers seen", self.markers_seen),
+                ("mean distance", f"{1e3 * np.nanmean(self.residuals):.1f} mm"),
+                ("converged", self.converged)]
+
+
+class Tracker(Presented):
+    """Tracks a person frame by frame, as a live system does.
+
+    Parameters
+    ----------
+    model : Model
+        Of the person.
+    labels : sequence of str
+        Of the markers of each frame.
+    config : str or path, optional
+        Default: s2kf_default.
+    marker_set : str or path, optional
+        Which labels stand for which markers; default: the set that knows most labels.
+
+    Attributes
+    ----------
+    joint_names, marker_labels : list of str
+        Of the joints that are tracked, and of the markers that are used.
+    warnings : list of str
+
+    Examples
+    --------
+    >>> recording = mmmconverter.read("examples/handstand.c3d")
+    >>> tracker = Tracker(read_model(height=1.8), recording.labels)
+    >>> estimate = tracker.assemble(recording.markers[0])
+    >>> for frame in recording.markers[1:10]:
+    ...     estimate = tracker.track(frame, 1 / recording.rate)
+    >>> estimate.joints.shape, estimate.markers_seen
+    ((44,), 53)
+    """
+
+    def __init__(self, model: Model, labels: Sequence[str], config=None, *,
+                 converter: Optional[str] = None, plugin=None, marker_set=None):
+        self._raw = _mmmconverter.Tracker(model._raw, list(labels), given(
+            config=config, converter=converter, plugin=plugin, marker_set=marker_set))
+        self.labels = list(labels)
+        self.joint_names = self._raw.joint_names
+        self.marker_labels = self._raw.marker_labels
+        self.warnings = self._raw.warnings
+
+    def assemble(self, frame: Any) -> Estimate:
+        """The posture of a first frame, from nothing. frame: shape (labels, 3), metres, NaN: not seen."""
+        return Estimate(joint_names=self.joint_names, **self._raw.assemble(frame))
+
+    def track(self, frame: Any, dt: float) -> Estimate:
+        """The posture `dt` seconds after the last frame; any number of markers may be unseen."""
+        return Estimate(joint_names=self.joint_names, **self._raw.track(frame, dt))
+
+    def _facts(self):
+        return [("tracker", "of a person"), ("joints", len(self.joint_names)),
+                ("markers", len(self.marker_labels))]

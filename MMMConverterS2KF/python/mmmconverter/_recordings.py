@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: MIT
+"""What is in files: recordings, finished motions and subjects."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import tempfile
+from typing import Any, Optional, Sequence
+
+import numpy as np
+
+from . import _mmmconverter
+from ._present import Presented, given, path_text
+
+
+class Recording(Presented):
+    """Marker positions over time, in metres with z up.
+
+    Made by `read` and by `from_arrays`.
+
+    Attributes
+    ----------
+    labels : list of str
+        Of the markers, without the subject's prefix.
+    rate, first_time : float
+        Frames a second, and the time of the first frame in seconds.
+    markers : numpy.ndarray, shape (frames, labels, 3), read-only
+        Positions in metres, NaN where a marker is not seen. It is the recording's own memory:
+        nothing is copied.
+    file, format, unit, up_axis, motion : str
+        Where it is from, and how it was read.
+    subjects : list of str
+        Prefixes of labels that the file has.
+    height, mass : float or None
+        Of the person in metres and kilograms, as an MMM file says.
+    events : list of dict
+        Of a C3D file: time [s], label, context and subject.
+    analog : dict
+        Of a C3D file: rate, labels and units of the channels beside the markers, not their samples.
+    warnings : list of str
+        What there was to say when it was read.
+    """
+
+    def __init__(self, raw, options):
+        self._raw = raw
+        self._options = options
+
+    def __getattr__(self, name):
+        if name in ("labels", "rate", "first_time", "markers", "file", "format", "unit", "up_axis",
+                    "motion", "subjects", "height", "mass", "events", "analog", "warnings"):
+            return getattr(self._raw, name)
+        raise AttributeError(name)
+
+    @classmethod
+    def from_arrays(cls, labels: Sequence[str], markers: Any, rate: float, first_time: float = 0.0,
+                    name: str = "recording") -> "Recording":
+        """A recording of positions that are there already.
+
+        Parameters
+        ----------
+        labels : sequence of str
+            Of the markers.
+        markers : array_like, shape (frames, labels, 3)
+            Positions in metres with z up; NaN: not seen.
+        rate : float
+            Frames a second.
+        first_time : float
+            Of the first frame, in seconds.
+        name : str
+            For messages.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> Recording.from_arrays(["C7", "T10"], np.zeros((5, 2, 3)), 100).markers.shape
+        (5, 2, 3)
+        """
+        return cls(_mmmconverter.from_arrays(list(labels), markers, rate, first_time, name), None)
+
+    @property
+    def times(self) -> np.ndarray:
+        """Of all frames, shape (frames,), in seconds."""
+        return self.first_time + np.arange(len(self.markers)) / self.rate
+
+    def save(self, file) -> None:
+        """Writes the markers as C3D, in millimetres with z up."""
+        self._raw.save_c3d(path_text(file))
+
+    def __len__(self):
+        return len(self.markers)
+
+    def _facts(self):
+        return [("recording", os.path.basename(self.file)), ("frames", len(self)),
+                ("markers", len(self.labels)), ("rate", f"{self.rate:g} Hz"),
+                ("format", self.format)]
+
+
+def read(file, *, unit: Optional[str] = None, up: Optional[str] = None,
+         rate: Optional[float] = None, ignore_residuals: bool = False, prefix: Optional[str] = None,
+         motion: Optional[str] = None, with_unlabelled: bool = False) -> Recording:
+    """Reads the markers of a C3D, TRC or MMM file.
+
+    Parameters
+    ----------
+    file : path
+        Its format is told from its content.
+    unit, up, rate : optional
+        Instead of what the file says: "mm", "cm", "m" or "in"; the axis that points up, as "z" or
+        "-y"; frames a second.
+    ignore_residuals : bool
+        Of a C3D file, use points that are marked invalid, too.
+    prefix : str, optional
+        Of the labels, where a file has several subjects.
+    motion : str, optional
+        Of an MMM file, where not that with most markers.
+    with_unlabelled : bool
+        Points without a label, too, as "*" and a number.
+
+    Returns
+    -------
+    Recording
+
+    Raises
+    ------
+    Error
+        Where the file is no recording, or is not clear.
+
+    Examples
+    --------
+    >>> recording = read("examples/handstand.c3d")
+    >>> recording.markers.shape, recording.rate
+    ((675, 53, 3), 100.0)
+    >>> recording.labels[:3]
+    ['C7', 'CLAV', 'L3']
+    """
+    options = given(file=path_text(file), unit=unit, up=up, rate=rate,
+                    ignore_residuals=ignore_residuals, prefix=prefix, motion=motion)
+    raw = _mmmconverter.read(dict(options, with_unlabelled=with_unlabelled))
+    return Recording(raw, options)
+
+
+@dataclasses.dataclass(repr=False, eq=False)
+class Motion(Presented):
+    """A motion of an MMM file.
+
+    Attributes
+    ----------
+    name, type, model : str
+        Of the motion; "mmm" or "object"; the model as the file names it.
+    height, mass, hand_length : float or None
+        Of the person, in metres and kilograms.
+    rate, first_time : float
+        Of the postures, in frames a second and seconds.
+    root_positions : numpy.ndarray, shape (frames, 3)
+    root_quaternions : numpy.ndarray, shape (frames, 4)
+        w, x, y, z.
+    joint_names : list of str
+    joints : numpy.ndarray, shape (frames, joints)
+    labels : list of str
+    markers : numpy.ndarray, shape (frames, labels, 3)
+        Those that the file has; it may have none.
+    """
+
+    name: str
+    type: str
+    model: str
+    height: Optional[float]
+    mass: Optional[float]
+    hand_length: Optional[float]
+    rate: float
+    first_time: float
+    joint_names: list
+    root_positions: np.ndarray
+    root_quaternions: np.ndarray
+    joints: np.ndarray
+    labels: list
+    markers: np.ndarray
+
+    @property
+    def times(self) -> np.ndarray:
+        """Of all postures, shape (frames,), in seconds."""
+        return self.first_time + np.arange(len(self.root_positions)) / self.rate
+
+    def _facts(self):
+        return [("motion", self.name), ("frames", len(self.root_positions)),
+                ("joints", len(self.joint_names)), ("rate", f"{self.rate:g} Hz")]
+
+
+def read_motions(file) -> "list[Motion]":
+    """All motions of an MMM file (1.0 or 2.0), persons and objects.
+
+    Examples
+    --------
+    >>> [motion.name for motion in read_motions("examples/handstand_true.xml")]
+    ['synthetic_subject']
+    """
+    return [Motion(**one) for one in _mmmconverter.read_motions(path_text(file))]
+
+
+def read_motion(file, motion: Optional[str] = None) -> Motion:
+    """The motion of that name of an MMM file, or else the only one with joint angles.
+
+    Examples
+    --------
+    >>> read_motion("examples/handstand_true.xml")
+    <Motion synthetic_subject: frames 675, joints 44, rate 100 Hz>
+    """
+    motions = read_motions(file)
+    found = [one for one in motions if one.name == motion] if motion is not None else [
+        one for one in motions if len(one.joints) > 0 and len(one.joint_names) > 0]
+    if len(found) == 1:
+        return found[0]
+    names = ", ".join(one.name for one in motions)
+    raise _mmmconverter.Error(
+        f"{path_text(file)}: which motion? It has {names or 'none'} (motion=\"NAME\")")
+
+
+class Subject(Presented):
+    """A calibrated person: height, mass, segment lengths and marker places.
+
+    Attributes
+    ----------
+    file : str or None
+        Where it is saved.
+    name : str
+    height, mass : float
+        In metres and kilograms.
+    data : dict
+        All that is known, with standard deviations; the report's README.md says what is in it.
+    """
+
+    def __init__(self, data, file=None, write=None):
+        self.data = data
+        self.file = file
+        self._write = write
+        self._folder = None
+
+    def __getattr__(self, name):
+        names = {"name": "name", "height": "height_m", "mass": "mass_kg"}
+        if name not in names or names[name] not in self.data:
+            raise AttributeError(name)
+        return self.data[names[name]]
+
+    def _as_file(self):
+        if self.file is not None:
+            return self.file
+        if self._folder is None:
+            self._folder = tempfile.TemporaryDirectory()
+            self._write(os.path.join(self._folder.name, "subject.xml"))
+        return os.path.join(self._folder.name, "subject.xml")
+
+    def _facts(self):
+        return [("subject", self.name), ("height", f"{self.height:.3f} m"),
+                ("mass", f"{self.mass:.1f} kg")]
+
+
+def read_subject(file, model=None) -> Subject:
+    """A subject that `calibrate` wrote. model: its `Model`, where that is not the shipped one."""
+    from ._models import read_model
+    reference = model if model is not None else read_model()
+    data = _mmmconverter.read_subject(path_text(file), reference._raw)
+    return Subject(data, path_text(file))
+
+
+def subject_file(subject):
+    """The file of what a function was given as a subject; None: nothing."""
+    if subject is None:
+        return None
+    subject = getattr(subject, "subject", subject)  # of a Calibration
+    return subject._as_file() if isinstance(subject, Subject) else path_text(subject)
+
+
+def input_options(recording, what):
+    """The options that read a recording again. what: for the message."""
+    if not isinstance(recording, Recording):
+        return {"file": path_text(recording)}
+    if recording._options is None:
+        raise _mmmconverter.Error(
+            f"{what}: reads its recordings from files; save() this one and name its file")
+    return dict(recording._options)

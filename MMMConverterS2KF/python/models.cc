@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Models, forward kinematics, and tracking frame by frame.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "MMMConverterS2KF/python/arrays.h"
+#include "MMMConverterS2KF/python/module.h"
+#include "MMMConverterS2KF/python/requests.h"
+#include "MMMConverterS2KF/report/subject_json.h"
+#include "common/convert/motion_converter.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/model/forward_kinematics.h"
+#include "common/support/error.h"
+
+namespace mmm_converter::python {
+
+namespace py = pybind11;
+
+namespace {
+
+PersonModel ReadPersonModel(const py::dict& options) {
+  InputRequest request = InputRequestOf(options);
+  const py::gil_scoped_release release;
+  Warnings warnings;
+  Input input = ReadModel(request, {}, &warnings);
+  ConverterConfig config;
+  MatchModel(request, &input, &config);
+  PersonModel result = {input.model_file, input.model, {}, input.reference};
+  if (!IsGiven(request.person)) return result;
+  const Person person = FindKnownPerson(request.person, *input.reference, config, &warnings);
+  result.scaling = ScalingOf(person, config);
+  result.model =
+      std::make_shared<const KinematicModel>(ScaleModel(*input.reference, result.scaling));
+  return result;
+}
+
+std::vector<int> JointIndices(const KinematicModel& model, const std::vector<std::string>& names) {
+  std::vector<int> indices;
+  for (const std::string& name : names) {
+    indices.push_back(model.FindJoint(name));
+    if (indices.back() < 0) {
+      throw Error("the model " + model.name() + " has no joint \"" + name + "\"");
+    }
+  }
+  return indices;
+}
+
+// What ComputeForward reads and writes: arrays as Forward has them, in C order.
+struct ForwardArrays {
+  const double *positions, *quaternions, *angles;
+  double *p_WS, *R_WS, *p_WM;
+};
+
+// Of all postures. The interpreter's lock is not needed.
+void ComputeForward(const KinematicModel& model, const std::vector<int>& joints, py::ssize_t frames,
+                    ForwardArrays arrays) {
+  Posture posture = ZeroPosture(model);
+  for (py::ssize_t k = 0; k < frames; ++k) {
+    posture.position = Eigen::Map<const Eigen::Vector3d>(arrays.positions + 3 * k);
+    const double* q = arrays.quaternions + 4 * k;
+    posture.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    for (const int joint : joints) posture.joint_angles[joint] = *arrays.angles++;
+    const std::vector<Eigen::Isometry3d> X_WS = SegmentPoses(model, posture);
+    for (const Eigen::Isometry3d& X : X_WS) {
+      for (int i = 0; i < 3; ++i) {
+        *arrays.p_WS++ = X(i, 3);
+        for (int j = 0; j < 3; ++j) *arrays.R_WS++ = X(i, j);
+      }
+    }
+    for (const ModelMarker& marker : model.markers()) {
+      const Eigen::Vector3d p = X_WS[marker.segment] * marker.p_SM;
+      arrays.p_WM = std::copy(p.data(), p.data() + 3, arrays.p_WM);
+    }
+  }
+}
+
+// (frames, segments, 3), (frames, segments, 3, 3), (frames, markers, 3).
+py::tuple Forward(const PersonModel& person, const Numbers& positions, const Numbers& quaternions,
+                  const Numbers& angles, const std::vector<std::string>& names) {
+  const KinematicModel& model = *person.model;
+  const std::vector<int> joints = JointIndices(model, names);
+  CheckShape(positions, {-1, 3}, "root_positions");
+  const py::ssize_t frames = positions.shape(0);
+  CheckShape(quaternions, {frames, 4}, "root_quaternions");
+  CheckShape(angles, {frames, static_cast<py::ssize_t>(joints.size())}, "joints");
+  const auto segments = static_cast<py::ssize_t>(model.segments().size());
+  const auto markers = static_cast<py::ssize_t>(model.markers().size());
+  py::array_t<double> p_WS({frames, segments, py::ssize_t{3}});
+  py::array_t<double> R_WS({frames, segments, py::ssize_t{3}, py::ssize_t{3}});
+  py::array_t<double> p_WM({frames, markers, py::ssize_t{3}});
+  const ForwardArrays arrays = {positions.data(),    quaternions.data(),  angles.data(),
+                                p_WS.mutable_data(), R_WS.mutable_data(), p_WM.mutable_data()};
+  {
+    const py::gil_scoped_release release;
+    ComputeForward(model, joints, frames, arrays);
+  }
+  return py::make_tuple(p_WS, R_WS, p_WM);
+}
+
+/// A converter that is fed frame by frame.
+class Tracker {
+ public:
+  Tracker(const PersonModel& person, const std::vector<std::string>& labels,
+          const ConverterRequest& request, const std::string& marker_set) {
+    Warnings warnings;
+    choice_ = ChooseConverter(request, &warnings);
+    Input input;
+    input.model_file = person.file;
+    input.model = person.loaded;
+    input.reference = std::shared_ptr<const KinematicModel>(person.loaded, &person.loaded->model);
+    InputRequest input_request;
+    input_request.marker_set = marker_set;
+    MatchModel(input_request, &input, &choice_.config);
+    const bool is_scaled = person.scaling.size.has_value();
+    if (!is_scaled) choice_.config.model_processor = "None";
+    const TrackingSetup setup =
+        MakeTrackingSetup({labels}, input.reference, choice_.config, person.scaling, &warnings);
+    for (const int joint : setup.joints) joint_names_.push_back(setup.model->joint(joint).name);
+    for (const MarkerAssignment& one : setup.assignments()) {
+      marker_labels_.push_back(labels[static_cast<std::size_t>(one.label)]);
+    }
+    converter_ = choice_.plugin->factory().Create(setup, choice_.config);
+    num_labels_ = static_cast<py::ssize_t>(labels.size());
+    warnings_ = warnings.texts();
+  }
+
+  py::dict Assemble(const Numbers& frame) {
+    return Estimate(frame, [this](const auto& points) -> const FrameEstimate& {
+      return converter_->Assemble(points);
+    });
+  }
+
+  py::dict Track(const Numbers& frame, double dt) {
+    if (!(dt > 0 && dt < 1e6)) throw Error("dt: must be seconds greater than 0");
+    if (!is_assembled_) throw Error("assemble() a first frame, then track() the others");
+    return Estimate(frame, [this, dt](const auto& points) -> const FrameEstimate& {
+      return converter_->Track(points, dt);
+    });
+  }
+
+  const std::vector<std::string>& joint_names() const { return joint_names_; }
+  const std::vector<std::string>& marker_labels() const { return marker_labels_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  template <typename Work>
+  py::dict Estimate(const Numbers& frame, const Work& work) {
+    CheckShape(frame, {num_labels_, 3}, "frame");
+    const Eigen::Map<const Eigen::Matrix3Xd> points(frame.data(), 3, num_labels_);
+    const FrameEstimate* estimate = nullptr;
+    {
+      const py::gil_scoped_release release;
+      estimate = &work(points);
+    }
+    is_assembled_ = true;
+    return DictOf(*estimate);
+  }
+
+  py::dict DictOf(const FrameEstimate& estimate) const {
+    const std::vector<int>& joints = converter_->setup().joints;
+    const auto count = static_cast<Eigen::Index>(joints.size());
+    Posture posture = estimate.posture;
+    posture.joint_angles.resize(count);
+    Eigen::VectorXd deviations;
+    if (estimate.standard_deviations.size() > 0) {
+      deviations.resize(6 + count);
+      deviations.head<6>() = estimate.standard_deviations.head<6>();
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      posture.joint_angles[i] = estimate.posture.joint_angles[joints[i]];
+      if (deviations.size() > 0) deviations[6 + i] = estimate.standard_deviations[6 + joints[i]];
+    }
+    const py::tuple arrays = PostureArrays(posture);
+    py::dict result;
+    result["root_position"] = arrays[0];
+    result["root_quaternion"] = arrays[1];
+    result["joints"] = arrays[2];
+    result["sd"] = deviations.size() == 0
+                       ? py::object(py::none())
+                       : py::array_t<double>(deviations.size(), deviations.data());
+    result["residuals"] = py::array_t<double>(estimate.residuals.size(), estimate.residuals.data());
+    result["markers_seen"] = estimate.markers_seen;
+    result["markers_wrong"] = estimate.markers_wrong;
+    result["nis"] = estimate.nis;
+    result["reassembled"] = estimate.reassembled;
+    result["converged"] = estimate.converged;
+    return result;
+  }
+
+  ConverterChoice choice_;  // its plugin outlives the converter
+  std::unique_ptr<MotionConverter> converter_;
+  std::vector<std::string> joint_names_, marker_labels_, warnings_;
+  py::ssize_t num_labels_ = 0;
+  bool is_assembled_ = false;
+};
+
+std::vector<std::string> JointNames(const KinematicModel& model) {
+  std::vector<std::string> names;
+  for (int j = 0; j < model.num_joints(); ++j) names.push_back(model.joint(j).name);
+  return names;
+}
+
+py::array_t<double> Limits(const KinematicModel& model) {
+  py::array_t<double> limits({py::ssize_t{model.num_joints()}, py::ssize_t{2}});
+  double* out = limits.mutable_data();
+  for (int j = 0; j < model.num_joints(); ++j) {
+    *out++ = model.joint(j).lower;
+    *out++ = model.joint(j).upper;
+  }
+  return limits;
+}
+
+template <typename Items>
+std::vector<std::string> Names(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+py::object ReadSubjectFile(const std::string& file, const PersonModel& person) {
+  return PythonOf(ToJson(ReadSubject(file, person.loaded->model)));
+}
+
+}  // namespace
+
+void BindModels(py::module_* module) {
+  py::class_<PersonModel>(*module, "Model")
+      .def_readonly("file", &PersonModel::file)
+      .def_property_readonly("name", [](const PersonModel& p) { return p.model->name(); })
+      .def_property_readonly("segments",
+                             [](const PersonModel& p) { return Names(p.model->segments()); })
+      .def_property_readonly("markers",
+                             [](const PersonModel& p) { return Names(p.model->markers()); })
+      .def_property_readonly("joint_names",
+                             [](const PersonModel& p) { return JointNames(*p.model); })
+      .def_property_readonly("limits", [](const PersonModel& p) { return Limits(*p.model); })
+      .def_property_readonly("mass", [](const PersonModel& p) { return p.model->total_mass(); })
+      .def_property_readonly("height",
+                             [](const PersonModel& p) {
+                               return p.scaling.size ? std::optional(p.scaling.size->height)
+                                                     : std::nullopt;
+                             })
+      .def("forward", &Forward);
+  py::class_<Tracker>(*module, "Tracker")
+      .def(py::init([](const PersonModel& person, const std::vector<std::string>& labels,
+                       const py::dict& options) {
+        return std::make_unique<Tracker>(person, labels, ConverterRequestOf(options),
+                                         TextOf(options, "marker_set"));
+      }))
+      .def_property_readonly("joint_names", &Tracker::joint_names)
+      .def_property_readonly("marker_labels", &Tracker::marker_labels)
+      .def_property_readonly("warnings", &Tracker::warnings)
+      .def("assemble", &Tracker::Assemble)
+      .def("track", &Tracker::Track);
+  module->def("read_model", &ReadPersonModel);
+  module->def("read_subject", &ReadSubjectFile);
+}
+
+}  // namespace mmm_converter::python

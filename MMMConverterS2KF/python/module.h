@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+
+#include "common/convert/tracking_setup.h"
+#include "common/io/model_file.h"
+#include "common/io/recording/recording.h"
+#include "common/support/warnings.h"
+
+namespace mmm_converter::python {
+
+/// A recording as it was read, or made of arrays.
+struct ReadRecordingResult {
+  std::shared_ptr<const Recording> recording;
+  Warnings warnings;
+};
+
+/// A model scaled to a person.
+struct PersonModel {
+  std::string file;
+  std::shared_ptr<const LoadedModel> loaded;
+  PersonScaling scaling;
+  std::shared_ptr<const KinematicModel> model;  ///< scaled
+};
+
+// Each binds the classes and functions of a source.
+void BindRecordings(pybind11::module_* module);
+void BindModels(pybind11::module_* module);
+void BindConversions(pybind11::module_* module);
+void BindStudies(pybind11::module_* module);
+
+}  // namespace mmm_converter::python

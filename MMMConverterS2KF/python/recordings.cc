@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "MMMConverterS2KF/python/arrays.h"
+#include "MMMConverterS2KF/python/module.h"
+#include "MMMConverterS2KF/python/requests.h"
+#include "common/io/c3d/c3d_analog.h"
+#include "common/io/c3d/c3d_events.h"
+#include "common/io/c3d/c3d_writer.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/io/recording/recording.h"
+#include "common/support/error.h"
+
+namespace mmm_converter::python {
+
+namespace py = pybind11;
+
+namespace {
+
+constexpr const char* kC3d = "C3D";
+
+// The markers as they lie in the recording, (frames, labels, 3); `owner` keeps them.
+py::array MarkersOf(const MarkerSequence& markers, const py::handle& owner) {
+  const auto frames = static_cast<py::ssize_t>(markers.num_frames());
+  const auto labels = static_cast<py::ssize_t>(markers.num_labels());
+  if (frames * labels == 0) return py::array_t<double>({frames, labels, py::ssize_t{3}});
+  py::array_t<double> view({frames, labels, py::ssize_t{3}}, markers.frame(0).data(), owner);
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+ReadRecordingResult Read(const py::dict& options) {
+  const InputRequest request = InputRequestOf(options);
+  ReadRecordingOptions reading = request.reading;
+  reading.with_unlabelled = IsSet(options, "with_unlabelled");
+  const py::gil_scoped_release release;
+  ReadRecordingResult result;
+  result.recording =
+      std::make_shared<Recording>(ReadRecording(request.file, reading, &result.warnings));
+  return result;
+}
+
+ReadRecordingResult FromArrays(const std::vector<std::string>& labels, const Numbers& positions,
+                               double rate, double first_time, const std::string& name) {
+  const auto count = static_cast<py::ssize_t>(labels.size());
+  CheckShape(positions, {-1, count, 3}, "markers");
+  if (!IsFrameRate(rate)) throw Error("rate: must be from 1 to 100000 frames a second");
+  if (positions.shape(0) == 0 || count == 0) throw Error("markers: there are none");
+  auto recording = std::make_shared<Recording>();
+  recording->file = name;
+  recording->format = "arrays";
+  recording->unit = "m";
+  recording->markers =
+      MarkerSequence(labels, static_cast<int>(positions.shape(0)), rate, first_time);
+  std::copy(positions.data(), positions.data() + positions.size(),
+            recording->markers.frame(0).data());
+  for (int i = 0; i < recording->markers.num_labels(); ++i) recording->points.push_back(i);
+  return {std::move(recording), {}};
+}
+
+py::list EventsOf(const ReadRecordingResult& read) {
+  py::list events;
+  if (read.recording->format != kC3d) return events;
+  const C3dFile file(read.recording->file);
+  for (const C3dEvent& event : ReadC3dEvents(file, nullptr)) {
+    py::dict one;
+    one["time"] = event.time;
+    one["label"] = event.label;
+    one["context"] = event.context;
+    one["subject"] = event.subject;
+    events.append(one);
+  }
+  return events;
+}
+
+py::dict AnalogOf(const ReadRecordingResult& read) {
+  py::dict result;
+  if (read.recording->format != kC3d) return result;
+  const C3dFile file(read.recording->file);
+  const C3dAnalog analog = ReadC3dAnalog(file, nullptr);
+  py::list labels;
+  py::list units;
+  for (const C3dAnalogChannel& channel : analog.channels) {
+    labels.append(channel.label);
+    units.append(channel.unit);
+  }
+  result["rate"] = analog.rate;
+  result["labels"] = labels;
+  result["units"] = units;
+  return result;
+}
+
+py::dict MotionOf(const MmmMotion& motion) {
+  const PoseTrajectory& trajectory = motion.trajectory;
+  py::dict one;
+  one["name"] = motion.name;
+  one["type"] = motion.type;
+  one["model"] = motion.model_path;
+  one["height"] = motion.size.height;
+  one["mass"] = motion.size.mass;
+  one["hand_length"] = motion.size.hand_length;
+  one["rate"] = trajectory.rate;
+  one["first_time"] = trajectory.first_time;
+  one["joint_names"] = trajectory.joint_names;
+  const py::tuple postures =
+      PostureArrays(trajectory.postures, static_cast<int>(trajectory.joint_names.size()));
+  one["root_positions"] = postures[0];
+  one["root_quaternions"] = postures[1];
+  one["joints"] = postures[2];
+  auto markers = std::make_shared<MarkerSequence>(motion.markers);
+  const py::capsule owner(new std::shared_ptr<MarkerSequence>(markers), [](void* held) {
+    delete static_cast<std::shared_ptr<MarkerSequence>*>(held);
+  });
+  one["labels"] = markers->labels();
+  one["markers"] = MarkersOf(*markers, owner);
+  return one;
+}
+
+py::list ReadMotions(const std::string& file) {
+  MmmMotionFile content;
+  {
+    const py::gil_scoped_release release;
+    content = ReadMmmMotionFile(file);
+  }
+  py::list motions;
+  for (const MmmMotion& motion : content.motions) motions.append(MotionOf(motion));
+  return motions;
+}
+
+}  // namespace
+
+void BindRecordings(py::module_* module) {
+  py::class_<ReadRecordingResult>(*module, "Recording")
+      .def_property_readonly("file", [](const ReadRecordingResult& r) { return r.recording->file; })
+      .def_property_readonly("format",
+                             [](const ReadRecordingResult& r) { return r.recording->format; })
+      .def_property_readonly(
+          "labels", [](const ReadRecordingResult& r) { return r.recording->markers.labels(); })
+      .def_property_readonly(
+          "rate", [](const ReadRecordingResult& r) { return r.recording->markers.rate(); })
+      .def_property_readonly(
+          "first_time",
+          [](const ReadRecordingResult& r) { return r.recording->markers.first_time(); })
+      .def_property_readonly("unit", [](const ReadRecordingResult& r) { return r.recording->unit; })
+      .def_property_readonly(
+          "up_axis", [](const ReadRecordingResult& r) { return Name(r.recording->up_axis); })
+      .def_property_readonly("subjects",
+                             [](const ReadRecordingResult& r) { return r.recording->subjects; })
+      .def_property_readonly("motion",
+                             [](const ReadRecordingResult& r) { return r.recording->motion(); })
+      .def_property_readonly(
+          "height", [](const ReadRecordingResult& r) { return r.recording->size().height; })
+      .def_property_readonly("mass",
+                             [](const ReadRecordingResult& r) { return r.recording->size().mass; })
+      .def_property_readonly("warnings",
+                             [](const ReadRecordingResult& r) { return r.warnings.texts(); })
+      .def_property_readonly("markers",
+                             [](const py::object& self) {
+                               const auto& r = self.cast<const ReadRecordingResult&>();
+                               return MarkersOf(r.recording->markers, self);
+                             })
+      .def_property_readonly("events", &EventsOf)
+      .def_property_readonly("analog", &AnalogOf)
+      .def("save_c3d", [](const ReadRecordingResult& r, const std::string& file) {
+        const py::gil_scoped_release release;
+        WriteC3d(file, r.recording->markers);
+      });
+  module->def("read", &Read);
+  module->def("from_arrays", &FromArrays);
+  module->def("read_motions", &ReadMotions);
+}
+
+}  // namespace mmm_converter::python

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// What the commands calibrate, compare, label and check-dynamics do.
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
+#include "MMMConverterS2KF/conversion/labelled_output.h"
+#include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/conversion/recording_labels.h"
+#include "MMMConverterS2KF/dynamics/dynamics_check.h"
+#include "MMMConverterS2KF/python/arrays.h"
+#include "MMMConverterS2KF/python/background.h"
+#include "MMMConverterS2KF/python/module.h"
+#include "MMMConverterS2KF/python/requests.h"
+#include "MMMConverterS2KF/report/calibration_summary.h"
+#include "MMMConverterS2KF/report/comparison_json.h"
+#include "MMMConverterS2KF/report/comparison_table.h"
+#include "MMMConverterS2KF/report/dynamics_page.h"
+#include "MMMConverterS2KF/report/dynamics_summary.h"
+#include "MMMConverterS2KF/report/label_page.h"
+#include "MMMConverterS2KF/report/label_summary.h"
+#include "MMMConverterS2KF/report/report.h"
+#include "common/io/mmm/mmm_model_subject.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/label/relabelled.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter::python {
+
+namespace py = pybind11;
+
+namespace {
+
+std::vector<InputRequest> InputRequestsOf(const py::list& inputs) {
+  std::vector<InputRequest> requests;
+  for (const py::handle& one : inputs) requests.push_back(InputRequestOf(one.cast<py::dict>()));
+  return requests;
+}
+
+// An output that may not be one of the inputs.
+void WriteBeside(const std::vector<InputRequest>& inputs, const std::string& file,
+                 const TextPieces& content) {
+  const py::gil_scoped_release release;
+  OutputPlan plan;
+  for (const InputRequest& input : inputs) NameInputs(input, &plan);
+  plan.Write(file);
+  plan.Check();
+  WriteFileAtomically(file, content);
+}
+
+TextPieces Whole(std::string text) {
+  return [text = std::move(text)](const TextSink& sink) { sink(text); };
+}
+
+struct Calibration {
+  CalibrationRequest request;
+  CalibrationReport report;
+  std::string output;  ///< where the subject was saved; empty: nowhere
+};
+
+Calibration Calibrate(const py::list& inputs, const py::dict& options, const py::object& progress) {
+  CalibrationRequest request;
+  request.inputs = InputRequestsOf(inputs);
+  if (request.inputs.empty()) throw Error("calibrate: which recordings?");
+  request.converter = ConverterRequestOf(options);
+  request.name = TextOf(options, "name");
+  return InBackground(progress, [&](const Progress& on_progress) {
+    Warnings warnings;
+    ConverterChoice choice = ChooseConverter(request.converter, &warnings);
+    return Calibration{request,
+                       RunCalibration(request, {std::move(choice.config), std::move(warnings)},
+                                      OrThrow(on_progress)),
+                       ""};
+  });
+}
+
+void SaveSubject(Calibration* calibration, const std::string& file) {
+  const Subject& subject = calibration->report.result.subject;
+  WriteBeside(calibration->request.inputs, file, Whole(FormatSubject(subject, SubjectProgram())));
+  calibration->output = file;
+}
+
+void SaveSubjectsModel(const Calibration& calibration, const std::string& file) {
+  const std::string& model = calibration.report.recordings.front().input.model_file;
+  WriteBeside(calibration.request.inputs, file,
+              Whole(ReadModelForSubject(model, calibration.report.result.subject)));
+}
+
+struct Comparing {
+  std::vector<InputRequest> inputs;
+  Comparison comparison;
+};
+
+Comparing CompareAll(const py::list& inputs, const std::vector<std::string>& configs,
+                     const py::dict& options, const py::object& progress) {
+  Comparing result;
+  result.inputs = InputRequestsOf(inputs);
+  ComparisonOptions comparison;
+  comparison.hiding.amount = options["hide"].cast<double>();
+  comparison.runs = options["repeat"].cast<int>();
+  comparison.seed = options["seed"].cast<std::uint64_t>();
+  comparison.jobs = options["jobs"].cast<int>();
+  if (!(comparison.hiding.amount >= 0 && comparison.hiding.amount <= 1)) {
+    throw Error("hide: must be a number from 0 to 1");
+  }
+  if (comparison.runs < 1 || comparison.jobs < 0) {
+    throw Error("repeat and jobs: must not be less than 1");
+  }
+  const auto truths = options["truths"].cast<std::vector<std::string>>();
+  result.comparison = InBackground(progress, [&](const Progress& on_progress) {
+    std::vector<Contender> contenders;
+    for (const std::string& config : configs) {
+      contenders.push_back(MakeContender(config));
+      if (!result.inputs.empty()) TakeMarkerSet(result.inputs.front(), &contenders.back().config);
+    }
+    std::vector<Trial> trials;
+    Warnings warnings;
+    for (std::size_t i = 0; i < result.inputs.size(); ++i) {
+      trials.push_back(MakeTrial(result.inputs[i], truths.at(i),
+                                 contenders.empty() ? ConverterConfig() : contenders.front().config,
+                                 &warnings));
+    }
+    MakeNamesUnique(&trials, &contenders);
+    return Compare(std::move(trials), std::move(contenders), comparison, OrThrow(on_progress));
+  });
+  return result;
+}
+
+struct LabelledRecording {
+  LabelRequest request;
+  LabelReport report;
+};
+
+LabelledRecording LabelPoints(const py::dict& input, const py::dict& options,
+                              const py::object& progress) {
+  LabelRequest request;
+  request.input = InputRequestOf(input);
+  request.converter = ConverterRequestOf(options);
+  request.hints.like = TextOf(options, "like");
+  request.hints.repair = IsSet(options, "repair");
+  return InBackground(progress, [&](const Progress& on_progress) {
+    return LabelledRecording{request, RunLabelling(request, on_progress)};
+  });
+}
+
+void SaveLabelled(LabelledRecording* labelled, const std::string& file) {
+  const py::gil_scoped_release release;
+  CheckLabelledOutput(file);
+  CheckKeepsRecording(file, labelled->report.input.recording);
+  OutputPlan plan;
+  NameInputs(labelled->request.input, &plan);
+  plan.Read(labelled->request.hints.like);
+  plan.Rewrite(file, labelled->request.input.file);
+  plan.Check();
+  labelled->report.output = file;
+  WriteLabelled(labelled->report);
+}
+
+ReadRecordingResult RecordingOf(const LabelledRecording& labelled) {
+  auto recording = std::make_shared<Recording>(labelled.report.input.recording);
+  recording->markers = Relabelled(labelled.report.found.points, recording->markers);
+  return {std::move(recording), labelled.report.warnings};
+}
+
+struct CheckedDynamics {
+  InputRequest request;
+  DynamicsReport report;
+};
+
+CheckedDynamics CheckMotion(const py::dict& input, double cutoff, const py::object& progress) {
+  InputRequest request = InputRequestOf(input);
+  if (!(cutoff >= 0)) throw Error("low_pass: must be hertz, or 0 for none");
+  return InBackground(progress, [&](const Progress&) {
+    DynamicsOptions options;
+    options.cutoff = cutoff;
+    return CheckedDynamics{request, CheckDynamics(ReadCheckedMotion(request), options)};
+  });
+}
+
+}  // namespace
+
+void BindStudies(py::module_* module) {
+  py::class_<Calibration>(*module, "Calibration")
+      .def_property_readonly(
+          "summary", [](const Calibration& c) { return PythonOf(ToJson(c.report, c.output)); })
+      .def_property_readonly(
+          "text", [](const Calibration& c) { return FormatCalibrationSummary(c.report, c.output); })
+      .def_property_readonly("verdict",
+                             [](const Calibration& c) { return Name(c.report.verdict.level); })
+      .def_property_readonly("warnings",
+                             [](const Calibration& c) { return c.report.warnings.texts(); })
+      .def("save", &SaveSubject)
+      .def("save_model", &SaveSubjectsModel);
+  py::class_<Comparing>(*module, "Comparison")
+      .def_property_readonly("summary",
+                             [](const Comparing& c) { return PythonOf(ToJson(c.comparison)); })
+      .def_property_readonly("text",
+                             [](const Comparing& c) { return FormatComparisonTable(c.comparison); })
+      .def("report", [](const Comparing& c, const std::string& file) {
+        WriteBeside(c.inputs, file,
+                    Whole(FormatReport("Comparison", {{"Comparison", "", &c.comparison}})));
+      });
+  py::class_<LabelledRecording>(*module, "LabelledRecording")
+      .def_property_readonly("summary",
+                             [](const LabelledRecording& l) { return PythonOf(ToJson(l.report)); })
+      .def_property_readonly("text",
+                             [](const LabelledRecording& l) {
+                               return FormatLabelSummary(l.report, l.request.hints.repair);
+                             })
+      .def_property_readonly("warnings",
+                             [](const LabelledRecording& l) { return l.report.warnings.texts(); })
+      .def_property_readonly("recording", &RecordingOf)
+      .def("save", &SaveLabelled)
+      .def("report", [](const LabelledRecording& l, const std::string& file) {
+        WriteBeside({l.request.input}, file, Whole(FormatLabelPage(l.report)));
+      });
+  py::class_<CheckedDynamics>(*module, "Dynamics")
+      .def_property_readonly("summary",
+                             [](const CheckedDynamics& d) { return PythonOf(ToJson(d.report)); })
+      .def_property_readonly(
+          "text", [](const CheckedDynamics& d) { return FormatDynamicsSummary(d.report); })
+      .def_property_readonly(
+          "judgement",
+          [](const CheckedDynamics& d) { return Name(d.report.plausibility.judgement); })
+      .def_property_readonly(
+          "warnings", [](const CheckedDynamics& d) { return d.report.motion.warnings.texts(); })
+      .def("report", [](const CheckedDynamics& d, const std::string& file) {
+        const std::string title = std::filesystem::path(d.report.motion.file).filename().string();
+        WriteBeside({d.request}, file, Whole(FormatDynamicsPage(title, d.report)));
+      });
+  module->def("calibrate", &Calibrate);
+  module->def("compare", &CompareAll);
+  module->def("label", &LabelPoints);
+  module->def("check_dynamics", &CheckMotion);
+}
+
+}  // namespace mmm_converter::python

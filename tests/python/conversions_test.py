@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: MIT
+"""Conversions beside those of the program, to the last bit."""
+import json
+import os
+import signal
+import threading
+import unittest
+import unittest.mock
+
+import numpy as np
+
+import mmmconverter
+from support import Case, SAMPLE, SHARED, needs_shared_data, run_program
+
+
+def without_times(summary):
+    """What two runs have alike."""
+    summary = json.loads(json.dumps(summary))
+    for name in ("ms_per_frame", "output", "seconds"):
+        summary.pop(name, None)
+    return summary
+
+
+class Conversions(Case):
+
+    def expect_the_programs(self, file, options, **keywords):
+        """Converts in both ways. Returns Python's."""
+        motion, csv, npz = (self.folder / f"program.{name}" for name in ("xml", "csv", "npz"))
+        self.run_program("convert", file, "-o", motion, "--export-csv", csv, "--export-poses", npz,
+                         "--summary", self.folder / "program.json", *options)
+        result = mmmconverter.convert(file, **keywords)
+        for theirs in (motion, csv, npz):
+            ours = self.folder / f"python{theirs.suffix}"
+            result.save(ours)
+            self.assert_same_files(ours, theirs)
+        summary = json.loads((self.folder / "program.json").read_text())
+        self.assertEqual(without_times(result.summary), without_times(summary))
+        self.assertEqual(result.verdict, summary["verdict"]["level"])
+        # All digits of what the program computed.
+        poses = np.load(npz)
+        root = list(poses["segments"]).index("root_joint")
+        np.testing.assert_array_equal(result.root_positions, poses["segment_positions"][:, root])
+        np.testing.assert_array_equal(result.times, poses["time"])
+        forward = result.model.forward(result)
+        np.testing.assert_array_equal(forward.positions, poses["segment_positions"])
+        return result
+
+    def test_the_sample(self):
+        result = self.expect_the_programs(SAMPLE, ["--height", "1.8"], height=1.8)
+        self.assertEqual(result.joints.shape, (675, 44))
+        self.assertEqual(result.sd.shape, (675, 50))
+        self.assertIsNone(result.velocities)
+        self.assertEqual(result.residuals.shape, (675, 53))
+        self.assertEqual(len(result.marker_labels), 53)
+        self.assertEqual(result.frames["markers_seen"].tolist(), [53] * 675)
+        self.assertIn("verdict good", repr(result))
+        self.assertIn("verdict", result._repr_html_())
+        self.assertIn("handstand.c3d", result.text)
+
+    def test_smoothed_and_of_a_part(self):
+        result = self.expect_the_programs(
+            SAMPLE, ["--height", "1.8", "--mass", "80", "-c", "s2kf_offline", "--frames", "100:220"],
+            height=1.8, mass=80, config="s2kf_offline", frames=(100, 220))
+        self.assertEqual(result.velocities.shape, (120, 50))
+        self.assertEqual(result.accelerations.shape, (120, 50))
+        self.assertAlmostEqual(result.times[0], 1)
+
+    def test_calibrated_on_itself(self):
+        self.expect_the_programs(
+            SAMPLE, ["--height", "1.8", "--self-calibrate", "--frames", ":200", "-c", "jacobian_pull"],
+            height=1.8, self_calibrate=True, frames=(None, 200), config="jacobian_pull")
+
+    @needs_shared_data
+    def test_real_recordings(self):
+        folder = SHARED / "recordings/kit_bimanual_c3d"
+        files = sorted(folder.glob("*.c3d"))[:2]
+        self.assertTrue(files)
+        for file in files:
+            with self.subTest(file=file.name):
+                self.expect_the_programs(
+                    file, ["--height", "1.7", "--frames", ":100", "--motion", "all"][:4], height=1.7,
+                    frames=(None, 100))
+
+    def test_a_recording_is_read_once(self):
+        recording = mmmconverter.read(SAMPLE)
+        of_recording = mmmconverter.convert(recording, height=1.8, frames=(0, 40))
+        of_file = mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 40))
+        of_arrays = mmmconverter.convert(
+            mmmconverter.Recording.from_arrays(recording.labels, recording.markers[:40], 100,
+                                               recording.first_time), height=1.8)
+        for other in (of_file, of_arrays):
+            np.testing.assert_array_equal(of_recording.joints, other.joints)
+            np.testing.assert_array_equal(of_recording.root_quaternions, other.root_quaternions)
+            np.testing.assert_array_equal(of_recording.sd, other.sd)
+
+    def test_two_threads_give_the_same(self):
+        recording = mmmconverter.read(SAMPLE)
+        results = [None, None]
+
+        def work(i):
+            results[i] = mmmconverter.convert(recording, height=1.8, frames=(0, 150))
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_array_equal(results[0].joints, results[1].joints)
+
+    def test_progress_is_said_and_can_end_the_work(self):
+        said = []
+        mmmconverter.convert(SAMPLE, height=1.8, progress=lambda done, all: said.append((done, all)))
+        self.assertEqual(said[-1], (675, 675))
+
+        def stop(done, all):
+            raise RuntimeError(f"enough at {done}")
+
+        with self.assertRaisesRegex(RuntimeError, "enough at"):
+            mmmconverter.convert(SAMPLE, height=1.8, progress=stop)
+
+    def test_ctrl_c_ends_the_work(self):
+        def interrupt(done, all):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(1000):  # what is shorter than a look for signals ends by itself
+                mmmconverter.convert(SAMPLE, height=1.8, progress=interrupt)
+
+    def test_errors_have_the_programs_text(self):
+        for options, keywords in (
+                (["--frames", "700:800"], {"frames": (700, 800)}),
+                (["-c", "no_such"], {"config": "no_such"}),
+                (["--model", "no_such.xml"], {"model": "no_such.xml"}),
+                (["--height", "18"], {"height": 18})):
+            with self.subTest(**keywords):
+                run = run_program("convert", SAMPLE, "-o", self.folder / "m.xml", *options)
+                with self.assertRaises(mmmconverter.Error) as raised:
+                    mmmconverter.convert(SAMPLE, **keywords)
+                self.assertEqual(run.stderr.strip(), f"error: {raised.exception}")
+        with self.assertRaisesRegex(mmmconverter.Error, "format: "):
+            mmmconverter.convert(SAMPLE, height=1.8, format="3.0")
+        with self.assertRaises(TypeError):
+            mmmconverter.convert(SAMPLE, heigth=1.8)
+
+    def test_no_recording_is_overwritten(self):
+        recording = mmmconverter.read(SAMPLE)
+        copy = self.folder / "walk.c3d"
+        recording.save(copy)
+        before = copy.read_bytes()
+        result = mmmconverter.convert(copy, height=1.8, frames=(0, 20))
+        for write in (result.save, result.report):
+            with self.assertRaises(mmmconverter.Error):
+                write(copy)
+        with self.assertRaises(mmmconverter.Error):
+            result.save(self.folder / "absent" / "m.xml")
+        self.assertEqual(copy.read_bytes(), before)
+
+    def test_files_for_other_programs(self):
+        result = mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 20))
+        for name, start in (("o.trc", b"PathFileType"), ("o.mot", b"Coordinates"),
+                            ("o.bvh", b"HIERARCHY"), ("o.NPZ", b"PK")):
+            result.save(self.folder / name)
+            self.assertTrue((self.folder / name).read_bytes().startswith(start), name)
+        result.report(self.folder / "o.html")
+        self.assertIn(b"</html>", (self.folder / "o.html").read_bytes())
+
+    def test_incidents_name_markers(self):
+        markers = np.array(mmmconverter.read(SAMPLE).markers[:100])
+        markers[50:, 10] += 1.0
+        recording = mmmconverter.Recording.from_arrays(mmmconverter.read(SAMPLE).labels, markers, 100)
+        result = mmmconverter.convert(recording, height=1.8)
+        incident = result.incidents[0]
+        self.assertEqual(incident["kind"], "misplaced")
+        self.assertEqual(incident["marker"], recording.labels[10])
+        self.assertEqual(incident["first_frame"], 50)
+
+    def test_dataframe(self):
+        result = mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 20))
+        try:
+            import pandas
+        except ImportError:
+            pandas = unittest.mock.MagicMock()
+            with unittest.mock.patch.dict("sys.modules", pandas=pandas):
+                result.to_dataframe()
+            data = pandas.DataFrame.call_args.args[0]
+            self.assertEqual(pandas.DataFrame.call_args.kwargs["columns"][7:], result.joint_names)
+        else:
+            data = result.to_dataframe().to_numpy()
+        np.testing.assert_array_equal(data[:, :3], result.root_positions)
+        np.testing.assert_array_equal(data[:, 7:], result.joints)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: MIT
+"""Forward kinematics and tracking frame by frame."""
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import mmm_chain
+import mmmconverter
+from support import Case, ROOT, SAMPLE
+
+
+class Models(Case):
+
+    def test_forward_is_the_models_chain(self):
+        height, frames = mmm_chain.read_sensors(ROOT / "examples/handstand_true.xml")
+        chain = mmm_chain.Chain(ROOT / "xml_config/models/mmm.xml", height)
+        model = mmmconverter.read_model(height=height)
+        motion = mmmconverter.read_motion(ROOT / "examples/handstand_true.xml")
+        poses = model.forward(motion)
+        self.assertEqual(poses.positions.shape, (675, len(model.segments), 3))
+        self.assertEqual(poses.rotations.shape, (675, len(model.segments), 3, 3))
+        for k in range(0, 675, 25):
+            for node in mmm_chain.POINTS.values():
+                expected = chain.pose(node, *frames[k])
+                i = model.segments.index(node)
+                np.testing.assert_allclose(poses.positions[k, i], expected[:3, 3], atol=1e-9)
+                np.testing.assert_allclose(poses.rotations[k, i], expected[:3, :3], atol=1e-9)
+
+    def test_one_posture_is_the_same(self):
+        model = mmmconverter.read_model(height=1.75, mass=60)
+        self.assertAlmostEqual(model.mass, 60, 6)
+        motion = mmmconverter.read_motion(ROOT / "examples/handstand_true.xml")
+        all_poses = model.forward(motion)
+        one = model.forward(motion.root_positions[7], motion.root_quaternions[7], motion.joints[7],
+                            motion.joint_names)
+        for many, single in zip(all_poses, one):
+            np.testing.assert_array_equal(many[7], single)
+        still = model.forward([0, 0, 1], [1, 0, 0, 0])
+        np.testing.assert_array_equal(still.positions[0], [0, 0, 1])
+
+    def test_arguments_are_checked(self):
+        model = mmmconverter.read_model(height=1.75)
+        position, quaternion = np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1))
+        for arguments, message in (
+                ((position, quaternion, np.zeros((4, 2))), "joints: has the shape"),
+                ((position, quaternion[:3], np.zeros((4, 0))), "root_quaternions: has the shape"),
+                ((position[:, :2], quaternion, np.zeros((4, 0))), "root_positions: has the shape"),
+                ((position, 2 * quaternion, np.zeros((4, 0))), "must have the length 1"),
+                ((position, quaternion, np.zeros((4, 1)), ["Knee"]), "has no joint \"Knee\"")):
+            with self.assertRaisesRegex(mmmconverter.Error, message):
+                model.forward(*arguments)
+        with self.assertRaises(mmmconverter.Error):
+            mmmconverter.read_model("no_such.xml")
+
+    def test_what_a_model_says(self):
+        model = mmmconverter.read_model(height=1.75)
+        self.assertEqual(model.limits.shape, (len(model.joint_names), 2))
+        self.assertTrue((model.limits[:, 0] < model.limits[:, 1]).all())
+        self.assertIn("LWx_joint", model.segments)
+        self.assertIn("height 1.75 m", repr(model))
+        self.assertIn("<table>", model._repr_html_())
+        self.assertIn("not scaled", repr(mmmconverter.read_model()))
+        frames = 20000
+        joints = np.zeros((frames, len(model.joint_names)))
+        quaternions = np.tile([1.0, 0, 0, 0], (frames, 1))
+        began = time.perf_counter()
+        markers = model.forward(np.zeros((frames, 3)), quaternions, joints).markers
+        seconds = time.perf_counter() - began
+        self.assertEqual(len(markers), frames)
+        print(f"{60e-6 * frames / seconds:.1f} million postures of all segments and markers a minute")
+
+    def test_a_tracker_is_the_conversion(self):
+        recording = mmmconverter.read(SAMPLE)
+        result = mmmconverter.convert(recording, height=1.8, config="jacobian_pull", frames=(0, 60))
+        tracker = mmmconverter.Tracker(mmmconverter.read_model(height=1.8), recording.labels,
+                                       "jacobian_pull")
+        self.assertEqual(tracker.joint_names, result.joint_names)
+        self.assertEqual(tracker.marker_labels, result.marker_labels)
+        for k in range(60):
+            frame = recording.markers[k]
+            estimate = tracker.assemble(frame) if k == 0 else tracker.track(frame, 0.01)
+            np.testing.assert_array_equal(estimate.joints, result.joints[k])
+            np.testing.assert_array_equal(estimate.root_position, result.root_positions[k])
+            np.testing.assert_array_equal(estimate.root_quaternion, result.root_quaternions[k])
+            np.testing.assert_array_equal(estimate.residuals, result.residuals[k])
+        self.assertIn("markers seen 53", repr(estimate))
+        self.assertIn("joints 44", repr(tracker))
+        poses = tracker_model_poses = mmmconverter.read_model(height=1.8).forward(estimate)
+        self.assertEqual(poses.markers.shape, tracker_model_poses.markers.shape)
+
+    def test_a_tracker_goes_on_without_markers(self):
+        recording = mmmconverter.read(SAMPLE)
+        tracker = mmmconverter.Tracker(mmmconverter.read_model(height=1.8), recording.labels)
+        with self.assertRaisesRegex(mmmconverter.Error, "assemble"):
+            tracker.track(recording.markers[0], 0.01)
+        tracker.assemble(recording.markers[0])
+        estimate = tracker.track(np.full((53, 3), np.nan), 0.01)
+        self.assertEqual(estimate.markers_seen, 0)
+        self.assertTrue(np.isfinite(estimate.joints).all())
+        self.assertEqual(estimate.sd.shape, (50,))
+        with self.assertRaisesRegex(mmmconverter.Error, "frame: has the shape"):
+            tracker.track(np.zeros((3, 53)), 0.01)
+        with self.assertRaisesRegex(mmmconverter.Error, "dt: "):
+            tracker.track(recording.markers[1], 0)
+
+    def test_threads_have_a_tracker_each(self):
+        recording = mmmconverter.read(SAMPLE)
+        model = mmmconverter.read_model(height=1.8)
+        last = {}
+
+        def work(name):
+            tracker = mmmconverter.Tracker(model, recording.labels)
+            estimate = tracker.assemble(recording.markers[0])
+            for frame in recording.markers[1:50]:
+                estimate = tracker.track(frame, 0.01)
+            last[name] = estimate.joints
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_array_equal(last[0], last[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
