@@ -78,8 +78,9 @@ void CheckOneOutput(const Conversion& conversion, const std::string& file, bool 
 
 void Save(Conversion* conversion, const std::string& file) {
   const py::gil_scoped_release release;
+  conversion->request.output = file;
+  ChooseMotionOutput(conversion->request, false, &conversion->report);
   CheckOneOutput(*conversion, file, true);
-  conversion->report.output = file;
   WriteObjectModel(conversion->report);
   WriteMotions(conversion->request, {&conversion->report});
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
@@ -13,6 +14,7 @@
 #include "common/convert/motion_converter.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/model/forward_kinematics.h"
+#include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -77,15 +79,24 @@ void ComputeForward(const KinematicModel& model, const std::vector<int>& joints,
   }
 }
 
-// (frames, segments, 3), (frames, segments, 3, 3), (frames, markers, 3).
-py::tuple Forward(const PersonModel& person, const Numbers& positions, const Numbers& quaternions,
-                  const Numbers& angles, const std::vector<std::string>& names) {
-  const KinematicModel& model = *person.model;
-  const std::vector<int> joints = JointIndices(model, names);
+// The model's joints of these names. @throws Error where the arrays are not postures.
+std::vector<int> CheckPostures(const KinematicModel& model, const Numbers& positions,
+                               const Numbers& quaternions, const Numbers& angles,
+                               const std::vector<std::string>& names) {
+  std::vector<int> joints = JointIndices(model, names);
   CheckShape(positions, {-1, 3}, "root_positions");
   const py::ssize_t frames = positions.shape(0);
   CheckShape(quaternions, {frames, 4}, "root_quaternions");
   CheckShape(angles, {frames, static_cast<py::ssize_t>(joints.size())}, "joints");
+  return joints;
+}
+
+// (frames, segments, 3), (frames, segments, 3, 3), (frames, markers, 3).
+py::tuple Forward(const PersonModel& person, const Numbers& positions, const Numbers& quaternions,
+                  const Numbers& angles, const std::vector<std::string>& names) {
+  const KinematicModel& model = *person.model;
+  const std::vector<int> joints = CheckPostures(model, positions, quaternions, angles, names);
+  const py::ssize_t frames = positions.shape(0);
   const auto segments = static_cast<py::ssize_t>(model.segments().size());
   const auto markers = static_cast<py::ssize_t>(model.markers().size());
   py::array_t<double> p_WS({frames, segments, py::ssize_t{3}});
@@ -98,6 +109,63 @@ py::tuple Forward(const PersonModel& person, const Numbers& positions, const Num
     ComputeForward(model, joints, frames, arrays);
   }
   return py::make_tuple(p_WS, R_WS, p_WM);
+}
+
+// Fills a batch with the postures [begin, begin + samples).
+void FillBatch(const KinematicModel& model, const std::vector<int>& joints,
+               const ForwardArrays& arrays, py::ssize_t begin, int samples, MarkerBatch* batch) {
+  const Posture rest = ZeroPosture(model);
+  const auto count = static_cast<py::ssize_t>(joints.size());
+  for (int j = 0; j < model.num_joints(); ++j) {
+    std::fill_n(batch->angles.col(j), samples, rest.joint_angles[j]);
+  }
+  for (int i = 0; i < samples; ++i) {
+    const py::ssize_t k = begin + i;
+    const double* q = arrays.quaternions + 4 * k;
+    const Eigen::Matrix3d R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+    for (int e = 0; e < 9; ++e) batch->rotation.col(e)[i] = R(e / 3, e % 3);
+    for (int e = 0; e < 3; ++e) batch->position.col(e)[i] = arrays.positions[3 * k + e];
+    for (py::ssize_t j = 0; j < count; ++j) {
+      batch->angles.col(joints[j])[i] = arrays.angles[count * k + j];
+    }
+  }
+}
+
+void ComputeMarkerPlaces(const KinematicModel& model, const std::vector<int>& joints,
+                         py::ssize_t frames, const ForwardArrays& arrays) {
+  constexpr py::ssize_t kSamples = 256;  // what stays in the cache
+  std::vector<int> all(model.num_joints());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<MarkerIx> markers;
+  for (std::size_t i = 0; i < model.markers().size(); ++i) {
+    markers.emplace_back(static_cast<int>(i));
+  }
+  const MarkerKinematics kinematics(model, all, markers);
+  MarkerBatch batch = kinematics.MakeBatch(kSamples);
+  const int columns = 3 * kinematics.num_markers();
+  for (py::ssize_t begin = 0; begin < frames; begin += kSamples) {
+    const int samples = static_cast<int>(std::min(kSamples, frames - begin));
+    FillBatch(model, joints, arrays, begin, samples, &batch);
+    kinematics.ComputeBatch(&batch);
+    Eigen::Map<Eigen::MatrixXd>(arrays.p_WM + columns * begin, columns, samples) =
+        batch.markers.view().topLeftCorner(samples, columns).transpose();
+  }
+}
+
+// (frames, markers, 3).
+py::array_t<double> MarkerPlaces(const PersonModel& person, const Numbers& positions,
+                                 const Numbers& quaternions, const Numbers& angles,
+                                 const std::vector<std::string>& names) {
+  const std::vector<int> joints =
+      CheckPostures(*person.model, positions, quaternions, angles, names);
+  const py::ssize_t frames = positions.shape(0);
+  const auto markers = static_cast<py::ssize_t>(person.model->markers().size());
+  py::array_t<double> p_WM({frames, markers, py::ssize_t{3}});
+  const ForwardArrays arrays = {positions.data(), quaternions.data(), angles.data(), nullptr,
+                                nullptr,          p_WM.mutable_data()};
+  const py::gil_scoped_release release;
+  ComputeMarkerPlaces(*person.model, joints, frames, arrays);
+  return p_WM;
 }
 
 /// A converter that is fed frame by frame.
@@ -243,7 +311,8 @@ void BindModels(py::module_* module) {
                                return p.scaling.size ? std::optional(p.scaling.size->height)
                                                      : std::nullopt;
                              })
-      .def("forward", &Forward);
+      .def("forward", &Forward)
+      .def("place_markers", &MarkerPlaces);
   py::class_<Tracker>(*module, "Tracker")
       .def(py::init([](const PersonModel& person, const std::vector<std::string>& labels,
                        const py::dict& options) {

@@ -1,4 +1,4 @@
-# cmake -DSTEP=... -DBUILD_DIR=... -DSOURCE_DIR=... -DWORK_DIR=... -DCXX_FLAGS=... -P packaging_test.cmake
+# cmake -DSTEP=... -DBUILD_DIR=... -DSOURCE_DIR=... -DWORK_DIR=... -DCXX_FLAGS=... -DPYTHON=... -P packaging_test.cmake
 #
 # What an installation must be good for, after it has been moved. Each STEP is a test of its own.
 cmake_minimum_required(VERSION 3.25)
@@ -60,6 +60,15 @@ elseif(STEP STREQUAL ExternalPlugin)
   build_project(${SOURCE_DIR}/examples/external_plugin ${plugin_build})
 elseif(STEP STREQUAL Convert)
   convert_with(${application})
+elseif(STEP STREQUAL Python)
+  file(WRITE ${WORK_DIR}/convert.py "import sys, mmmconverter\n"
+    "result = mmmconverter.convert(sys.argv[1], height=1.8, frames=(0, 40))\n"
+    "print(mmmconverter.__file__, result.joints.shape)\n")
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/lib/python3/dist-packages
+      ${PYTHON} -B ${WORK_DIR}/convert.py ${SOURCE_DIR}/examples/handstand.c3d)
+  if(NOT output MATCHES "^${prefix}/.*\\(40, 44\\)")
+    message(FATAL_ERROR "not a conversion by the installed module:\n${output}")
+  endif()
 elseif(STEP STREQUAL PluginByFile)
   set(options --plugin ${plugin} --converter RigidFitConverter)
   convert_with(${application})

@@ -72,14 +72,14 @@ class Conversions(Case):
 
     @needs_shared_data
     def test_real_recordings(self):
-        folder = SHARED / "recordings/kit_bimanual_c3d"
-        files = sorted(folder.glob("*.c3d"))[:2]
-        self.assertTrue(files)
-        for file in files:
-            with self.subTest(file=file.name):
+        for file, height in (("kit_bimanual_c3d/Close_1723.c3d", 1.68),
+                             ("kit_bimanual_c3d/Pour_1480.c3d", 1.75),
+                             ("whole_body/cmu_02_05.c3d", 1.75),
+                             ("whole_body/pycgm_movement_trial.c3d", 1.8)):
+            with self.subTest(file=file):
                 self.expect_the_programs(
-                    file, ["--height", "1.7", "--frames", ":100", "--motion", "all"][:4], height=1.7,
-                    frames=(None, 100))
+                    SHARED / "recordings" / file, ["--height", str(height), "--frames", ":80"],
+                    height=height, frames=(None, 80))
 
     def test_a_recording_is_read_once(self):
         recording = mmmconverter.read(SAMPLE)
@@ -130,13 +130,15 @@ class Conversions(Case):
         for options, keywords in (
                 (["--frames", "700:800"], {"frames": (700, 800)}),
                 (["-c", "no_such"], {"config": "no_such"}),
-                (["--model", "no_such.xml"], {"model": "no_such.xml"}),
-                (["--height", "18"], {"height": 18})):
+                (["--model", "no_such.xml"], {"model": "no_such.xml"})):
             with self.subTest(**keywords):
                 run = run_program("convert", SAMPLE, "-o", self.folder / "m.xml", *options)
                 with self.assertRaises(mmmconverter.Error) as raised:
                     mmmconverter.convert(SAMPLE, **keywords)
                 self.assertEqual(run.stderr.strip(), f"error: {raised.exception}")
+        with self.assertRaisesRegex(mmmconverter.Error,
+                                    "^height 18 m is outside .*; give metres, e.g. height=1.75$"):
+            mmmconverter.convert(SAMPLE, height=18)
         with self.assertRaisesRegex(mmmconverter.Error, "format: "):
             mmmconverter.convert(SAMPLE, height=1.8, format="3.0")
         with self.assertRaises(TypeError):

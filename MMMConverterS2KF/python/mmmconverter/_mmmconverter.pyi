@@ -44,6 +44,8 @@ class Model:
     height: Optional[float]
     def forward(self, root_positions: Any, root_quaternions: Any, joints: Any,
                 joint_names: List[str]) -> Tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+    def place_markers(self, root_positions: Any, root_quaternions: Any, joints: Any,
+                      joint_names: List[str]) -> np.ndarray: ...
 
 class Tracker:
     joint_names: List[str]

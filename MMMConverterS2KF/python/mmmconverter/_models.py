@@ -78,15 +78,39 @@ class Model(Presented):
         (675, 53, 3)
         >>> wrist = model.segments.index("LWx_joint")
         >>> np.round(poses.positions[0, wrist], 3)
-        array([-0.301, -0.002,  0.818])
+        array([-0.287,  0.059,  0.886])
         """
+        positions, quaternions, joints, joint_names = self._postures(
+            root_positions, root_quaternions, joints, joint_names)
+        if positions.ndim > 1:
+            return Poses(*self._raw.forward(positions, quaternions, joints, joint_names))
+        poses = self._raw.forward(positions[np.newaxis], quaternions[np.newaxis],
+                                  joints[np.newaxis], joint_names)
+        return Poses(*(array[0] for array in poses))
+
+    def place_markers(self, root_positions: Any, root_quaternions: Any = None, joints: Any = None,
+                      joint_names: Optional[Sequence[str]] = None) -> np.ndarray:
+        """Places of all markers alone, several times as fast as `forward`, whose arguments it has.
+
+        Returns
+        -------
+        numpy.ndarray, shape (markers, 3) or (frames, markers, 3)
+            In metres; the last digits may be others than those of `forward`.
+        """
+        positions, quaternions, joints, joint_names = self._postures(
+            root_positions, root_quaternions, joints, joint_names)
+        if positions.ndim > 1:
+            return self._raw.place_markers(positions, quaternions, joints, joint_names)
+        return self._raw.place_markers(positions[np.newaxis], quaternions[np.newaxis],
+                                       joints[np.newaxis], joint_names)[0]
+
+    def _postures(self, root_positions, root_quaternions, joints, joint_names):
         if root_quaternions is None:
             source = root_positions
-            if hasattr(source, "root_position"):
-                return self.forward(source.root_position, source.root_quaternion, source.joints,
-                                    source.joint_names)
-            return self.forward(source.root_positions, source.root_quaternions, source.joints,
-                                source.joint_names)
+            is_one = hasattr(source, "root_position")
+            root_positions = source.root_position if is_one else source.root_positions
+            root_quaternions = source.root_quaternion if is_one else source.root_quaternions
+            joints, joint_names = source.joints, source.joint_names
         positions = np.asarray(root_positions, dtype=float)
         quaternions = np.asarray(root_quaternions, dtype=float)
         joints = np.asarray(joints if joints is not None else np.zeros(positions.shape[:-1] + (0,)),
@@ -95,11 +119,7 @@ class Model(Presented):
             joint_names = self.joint_names if joints.shape[-1] > 0 else []
         if np.any(np.abs(np.linalg.norm(quaternions, axis=-1) - 1) > 1e-6):
             raise _mmmconverter.Error("root_quaternions: must have the length 1")
-        if positions.ndim > 1:
-            return Poses(*self._raw.forward(positions, quaternions, joints, list(joint_names)))
-        poses = self._raw.forward(positions[np.newaxis], quaternions[np.newaxis],
-                                  joints[np.newaxis], list(joint_names))
-        return Poses(*(array[0] for array in poses))
+        return positions, quaternions, joints, list(joint_names)
 
     def _facts(self):
         size = "not scaled" if self.height is None else f"{self.height:g} m"
@@ -129,7 +149,7 @@ def read_model(model=None, *, height: Optional[float] = None, mass: Optional[flo
     Examples
     --------
     >>> read_model(height=1.75)
-    <Model MMM: height 1.75 m, segments 129, joints 104, markers 53>
+    <Model MMM: height 1.75 m, segments 129, joints 92, markers 53>
     """
     if height is not None and mass is None and person is None and subject is None:
         mass = 70.0

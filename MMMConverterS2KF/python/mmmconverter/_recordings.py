@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import shutil
 import tempfile
+import weakref
 from typing import Any, Optional, Sequence
 
 import numpy as np
@@ -132,7 +134,7 @@ def read(file, *, unit: Optional[str] = None, up: Optional[str] = None,
     >>> recording.markers.shape, recording.rate
     ((675, 53, 3), 100.0)
     >>> recording.labels[:3]
-    ['C7', 'CLAV', 'L3']
+    ['L3', 'STRN', 'T10']
     """
     options = given(file=path_text(file), unit=unit, up=up, rate=rate,
                     ignore_residuals=ignore_residuals, prefix=prefix, motion=motion)
@@ -246,9 +248,10 @@ class Subject(Presented):
         if self.file is not None:
             return self.file
         if self._folder is None:
-            self._folder = tempfile.TemporaryDirectory()
-            self._write(os.path.join(self._folder.name, "subject.xml"))
-        return os.path.join(self._folder.name, "subject.xml")
+            self._folder = tempfile.mkdtemp()
+            weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
+            self._write(os.path.join(self._folder, "subject.xml"))
+        return os.path.join(self._folder, "subject.xml")
 
     def _facts(self):
         return [("subject", self.name), ("height", f"{self.height:.3f} m"),
