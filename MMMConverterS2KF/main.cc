@@ -41,7 +41,8 @@ constexpr std::array kCommands = {
     Command{"live", "track while a motion capture system streams", RunLive},
     Command{"print-config", "print the configuration of a converter with every setting",
             RunPrintConfig},
-    Command{"report", "show finished motions and their recording on a page", RunReport}};
+    Command{"report", "show finished motions and their recording on a page", RunReport},
+    Command{"serve", "play a recording as a motion capture system streams", RunServe}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF {}: motion capture markers to MMM motions
 

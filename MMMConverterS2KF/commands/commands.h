@@ -27,5 +27,6 @@ int RunLearnMarkers(const std::vector<std::string>& words);
 int RunLive(const std::vector<std::string>& words);
 int RunPrintConfig(const std::vector<std::string>& words);
 int RunReport(const std::vector<std::string>& words);
+int RunServe(const std::vector<std::string>& words);
 
 }  // namespace mmm_converter

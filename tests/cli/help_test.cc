@@ -31,7 +31,7 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 
 TEST(Help, EveryCommandHasOneWithExamples) {
   for (const char* command : {"calibrate", "check-dynamics", "compare", "convert", "evaluate",
-                              "export-poses", "export-urdf", "info", "print-config", "report"}) {
+                              "export-poses", "export-urdf", "info", "label", "learn-markers", "live", "print-config", "report", "serve"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -49,7 +49,7 @@ int Columns(const std::string& line) {
 TEST(Help, NoLineIsWiderThan100Columns) {
   for (const char* command :
        {"help", "batch", "calibrate", "check-dynamics", "compare", "convert", "evaluate",
-        "export-poses", "export-urdf", "info", "print-config", "report"}) {
+        "export-poses", "export-urdf", "info", "label", "learn-markers", "live", "print-config", "report", "serve"}) {
     std::istringstream help(RunProgram({command, "--help"}).out);
     for (std::string line; std::getline(help, line);) EXPECT_LE(Columns(line), 100) << line;
   }

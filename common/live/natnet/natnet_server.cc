@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -59,6 +60,10 @@ NatNetServer::NatNetServer(MarkerSequence recording, NatNetServerOptions options
   CheckSize();
   if (!is_multicast()) return;
   group_ = FindUdpAddress(options_.group, options_.data_port);
+  if ((group_.ip >> 28) != 0xE) {
+    throw Error(fmt::format("{} is no multicast group; groups are 224.0.0.0 to 239.255.255.255",
+                            options_.group));
+  }
   command_.SendThrough(options_.address);
   playback_.Start();
 }
@@ -84,7 +89,8 @@ void NatNetServer::Step(std::chrono::milliseconds wait) {
   if (playback_.is_running() && (is_heard || options_.playback.speed > 0)) {
     wait = std::min(wait, playback_.UntilNext());
   }
-  WaitForSockets({command_.Waiting()}, wait);
+  const std::array sockets = {command_.Waiting()};
+  WaitForSockets(sockets, wait);
   UdpAddress sender;
   for (int i = 0; i < 256; ++i) {
     const auto datagram = command_.Receive(&sender);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "common/live/natnet/natnet_layout.h"
@@ -41,9 +42,10 @@ StreamEvent NatNetSource::Next(milliseconds wait, StreamFrame* frame) {
     const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
     if (left.count() <= 0) return StreamEvent::kNothing;
     const SteadyTime until = step_ == Step::kWaiting ? retry_at_ : std::min(limit_, ask_again_at_);
-    WaitForSockets(
-        {command_ ? command_->Waiting() : WaitFor(), data_ ? data_->Waiting() : WaitFor()},
-        std::min(left, std::chrono::ceil<milliseconds>(until - options_.now())));
+    const std::array sockets = {command_ ? command_->Waiting() : WaitFor(),
+                                data_ ? data_->Waiting() : WaitFor()};
+    WaitForSockets(sockets,
+                   std::min(left, std::chrono::ceil<milliseconds>(until - options_.now())));
   }
 }
 
@@ -175,10 +177,17 @@ void NatNetSource::OpenData() {
                                                       : options_.local_address);
     return;
   }
+  // Motive sends unicast to where it was asked from. Other servers send it to the data port, and
+  // old ones do not say that they stream to the group.
+  const bool may_be_multicast = info_.version < kNatNet3;
   try {
-    data_.emplace("", port);  // where some servers send unicast to
+    data_.emplace("", port, may_be_multicast);
+    if (may_be_multicast) {
+      data_->Join(kNatNetGroup, options_.local_address.empty() ? LocalAddressTowards(server_)
+                                                               : options_.local_address);
+    }
   } catch (const Error&) {
-    data_.reset();  // another program has it: Motive sends to where it was asked from
+    return;  // another program has the port, or the network has no multicast
   }
 }
 

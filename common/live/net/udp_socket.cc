@@ -84,6 +84,11 @@ void UdpSocket::Join(const std::string& group, const std::string& interface_addr
   error_code error;
   state_->socket.set_option(asio::ip::multicast::join_group(ip, ToAddress(interface_address)),
                             error);
+#ifdef IP_MULTICAST_ALL
+  // Not what other programs of this computer have joined.
+  const int all = 0;
+  ::setsockopt(state_->socket.native_handle(), IPPROTO_IP, IP_MULTICAST_ALL, &all, sizeof all);
+#endif
   if (error) {
     throw Error(fmt::format(
         "the multicast group {} can't be joined through {}: {}; give the address of the network "

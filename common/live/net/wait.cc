@@ -4,10 +4,11 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace mmm_converter {
 
-void WaitForSockets(const std::vector<WaitFor>& sockets, std::chrono::milliseconds most) {
+void WaitForSockets(std::span<const WaitFor> sockets, std::chrono::milliseconds most) {
   thread_local std::vector<pollfd> polled;
   polled.clear();
   for (const WaitFor& socket : sockets) {

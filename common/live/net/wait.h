@@ -2,7 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <vector>
+#include <span>
 
 namespace mmm_converter {
 
@@ -14,6 +14,6 @@ struct WaitFor {
 
 /// Until one of the sockets is ready, or a signal comes, at most so long. Sockets that fail are
 /// ready.
-void WaitForSockets(const std::vector<WaitFor>& sockets, std::chrono::milliseconds most);
+void WaitForSockets(std::span<const WaitFor> sockets, std::chrono::milliseconds most);
 
 }  // namespace mmm_converter

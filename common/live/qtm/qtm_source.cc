@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "common/support/error.h"
@@ -43,8 +44,9 @@ StreamEvent QtmSource::Next(milliseconds wait, StreamFrame* frame) {
 void QtmSource::Wait(milliseconds most) {
   const SteadyTime until = step_ == Step::kWaiting ? retry_at_ : limit_;
   const auto left = std::chrono::ceil<milliseconds>(until - options_.now());
-  WaitForSockets({connection_.Waiting(), udp_ ? udp_->Waiting() : WaitFor()},
-                 is_paused_ ? most : std::min(most, left));
+  const std::array sockets = {connection_.Waiting(), udp_ ? udp_->Waiting() : WaitFor()};
+  if (has_more_) most = milliseconds(0);
+  WaitForSockets(sockets, is_paused_ ? most : std::min(most, left));
 }
 
 void QtmSource::Go(Step step, milliseconds limit) {
@@ -63,6 +65,7 @@ QtmSource::Event QtmSource::Advance(StreamFrame* frame) {
     if (const Event event = Connect()) return event;
   }
   if (step_ == Step::kDiscovering) return Discover();
+  has_more_ = true;
   for (int i = 0; i < kPacketsAtOnce; ++i) {
     std::string_view packet;
     UdpAddress sender;
@@ -74,11 +77,13 @@ QtmSource::Event QtmSource::Advance(StreamFrame* frame) {
     } else if (connection_.Receive()) {
       received_ = std::chrono::steady_clock::now();
     } else {
+      has_more_ = false;
       break;
     }
-    if (step_ == Step::kWaiting) return std::nullopt;
+    if (step_ == Step::kWaiting) break;
   }
-  return CheckTime();
+  has_more_ = has_more_ && step_ != Step::kWaiting;
+  return step_ == Step::kWaiting ? std::nullopt : CheckTime();
 }
 
 QtmSource::Event QtmSource::CheckTime() {
@@ -95,7 +100,7 @@ QtmSource::Event QtmSource::CheckTime() {
     ++counts_.connections;
     Go(Step::kGreeting, kAnswerLimit);
   }
-  if (options_.now() < limit_ || is_paused_) return std::nullopt;
+  if (options_.now() < limit_ || (is_paused_ && !awaits_parameters_)) return std::nullopt;
   if (step_ == Step::kConnecting) return Lose("no answer", "check the address and the firewall");
   if (step_ != Step::kStreaming || awaits_parameters_) {
     return Lose("it does not answer", "check that this is QTM's port of the real-time protocol");

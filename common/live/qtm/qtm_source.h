@@ -102,6 +102,7 @@ class QtmSource : public FrameSource {
 
   QtmData data_;
   bool data_is_pending_ = false;  // kLayout was said before it
+  bool has_more_ = false;         // has been received than was read
   SteadyTime received_;
   std::int64_t last_number_ = -1;
   std::string message_;
