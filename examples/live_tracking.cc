@@ -1,91 +1,53 @@
 // SPDX-License-Identifier: MIT
 //
-// Live use: frames come one at a time, and each gives a posture before the next one comes. The
-// stream is played from a recording here; in a laboratory it is the motion capture system's.
+// Live use: each frame of a motion capture system gives a posture before the next one comes.
 //
-//   live_tracking RECORDING HEIGHT_M
+//   live_tracking SOURCE HEIGHT_M        SOURCE: qtm://HOST, natnet://HOST, replay:FILE[@SPEED]
 
-#include <chrono>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "common/convert/plugin_loader.h"
-#include "common/convert/tracking_setup.h"
 #include "common/io/mmm/mmm_model.h"
-#include "common/io/recording/recording.h"
+#include "common/live/live_tracker.h"
+#include "common/live/source_address.h"
 #include "common/support/data_directory.h"
-#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
 
-// A motion capture system as a program sees it: its labels are known before the first frame, of its
-// frames only the present one.
-class Stream {
- public:
-  explicit Stream(const std::string& recording) : played_(ReadRecording(recording, {}).markers) {}
-
-  const std::vector<std::string>& labels() const { return played_.labels(); }
-  // The next frame; false where the stream has ended.
-  bool Next() { return ++present_ < played_.num_frames(); }
-  auto frame() const { return played_.frame(present_); }  // 3 x labels [m]; NaN: not seen
-  double time() const { return played_.time(present_); }  // [s]
-
- private:
-  const MarkerSequence played_;
-  int present_ = -1;
-};
-
-// What is tracked, from labels alone.
-TrackingSetup MakeSetup(const Stream& stream, const ConverterConfig& config, double height) {
-  const auto reference =
-      std::make_shared<const KinematicModel>(ReadMmmModel(DataFile("models/mmm.xml")));
-  return MakeTrackingSetup({.names = stream.labels(), .source = "the stream"}, reference, config,
-                           {.size = WinterScaling{height, 70, {}}});
-}
-
-// Waits for a first frame in which the person is seen.
-void WaitForPerson(const TrackingSetup& setup, Stream* stream) {
-  constexpr int kFewestMarkers = 3;
-  while (stream->Next()) {
-    int seen = 0;
-    for (const int label : LabelIndices(setup.assignments())) {
-      seen += IsSeen(stream->frame().col(label)) ? 1 : 0;
-    }
-    if (seen >= kFewestMarkers) return;
-  }
-  throw Error("the stream has ended before a frame has shown three mapped markers");
-}
-
-void Run(const std::string& recording, double height) {
-  Stream stream(recording);
-  const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");
+// The labels of a stream are known before its first frame; they are all that a setup needs.
+std::unique_ptr<LiveTracker> MakeTracker(const StreamLayout& layout, const LoadedPlugin& plugin,
+                                         double height) {
   const ConverterConfig config =
       ParseConverterConfig(plugin.factory().config_template(), "default configuration");
-  const TrackingSetup setup = MakeSetup(stream, config, height);
-  const auto converter = plugin.factory().Create(setup, config);
-  std::cout << setup.assignments().size() << " of " << stream.labels().size()
+  const auto model =
+      std::make_shared<const KinematicModel>(ReadMmmModel(DataFile("models/mmm.xml")));
+  const TrackingSetup setup =
+      MakeTrackingSetup({.names = layout.labels, .source = layout.source}, model, config,
+                        {.size = WinterScaling{height, 70, {}}});
+  std::cout << setup.assignments().size() << " of " << layout.labels.size()
             << " labels are tracked\n";
+  return std::make_unique<LiveTracker>(plugin.factory().Create(setup, config), layout.rate);
+}
 
-  // The first posture is found from nothing, which may take a while.
-  WaitForPerson(setup, &stream);
-  converter->Assemble(stream.frame());
-
-  // Each next one comes from the one before. dt is the time since then: frames may be left out.
-  double last_time = stream.time();
-  for (int tracked = 1; stream.Next(); ++tracked) {
-    const auto start = std::chrono::steady_clock::now();
-    const FrameEstimate& estimate = converter->Track(stream.frame(), stream.time() - last_time);
-    const std::chrono::duration<double, std::milli> elapsed =
-        std::chrono::steady_clock::now() - start;
-    last_time = stream.time();
-    if (tracked % 50 == 0) {
-      std::cout << last_time << " s: root at " << estimate.posture.position.transpose() << " m, "
-                << estimate.markers_seen << " markers seen, " << elapsed.count() << " ms\n";
-    }
+void Run(const std::string& address, double height) {
+  const LoadedPlugin plugin = LoadPluginByName("S2KFConverter");
+  const std::unique_ptr<FrameSource> source = OpenSource(address);
+  std::unique_ptr<LiveTracker> tracker;
+  StreamFrame frame;
+  while (true) {
+    const StreamEvent event = source->Next(std::chrono::milliseconds(100), &frame);
+    if (event == StreamEvent::kEnd) return;
+    if (event == StreamEvent::kLost) std::cerr << source->message() << '\n';
+    if (event == StreamEvent::kLayout) tracker = MakeTracker(source->layout(), plugin, height);
+    if (event != StreamEvent::kFrame) continue;
+    // Null until somebody is seen, and again when they have been away for two seconds.
+    const FrameEstimate* estimate = tracker->Track(frame);
+    if (estimate == nullptr || frame.number % 50 != 0) continue;
+    std::cout << "frame " << frame.number << ": root at " << estimate->posture.position.transpose()
+              << " m, " << estimate->markers_seen << " markers seen\n";
   }
 }
 
@@ -94,7 +56,7 @@ void Run(const std::string& recording, double height) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::cerr << "usage: live_tracking RECORDING HEIGHT_M\n";
+    std::cerr << "usage: live_tracking SOURCE HEIGHT_M\n";
     return 2;
   }
   try {

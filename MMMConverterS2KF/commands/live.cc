@@ -18,6 +18,7 @@
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
+#include "common/live/source_address.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {
@@ -64,10 +65,7 @@ const std::vector<OptionGroup> kOtherOptions = {
 
 constexpr const char* kUsage = R"(MMMConverterS2KF live SOURCE [options]
 Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is one of
-  qtm://HOST[:PORT]         Qualisys QTM (real-time protocol over TCP); qtm:// alone looks for one
-  natnet://HOST[:PORT]      OptiTrack Motive (NatNet); ?multicast=GROUP, ?up=z, ?local=ADDRESS
-  replay:FILE[@SPEED]       a recording at its own pace; @2: twice as fast; @max: as fast as possible
-
+{}
 {}Examples
   MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o anna.xml --view
   MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1:9763
@@ -186,7 +184,7 @@ class StatusLine {
 int RunLive(const std::vector<std::string>& words) {
   const Arguments arguments = ParseArguments("live", Options(), words);
   if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
+    std::cout << fmt::format(kUsage, DescribeSources(), FormatOptions(Options()));
     return 0;
   }
   StartLog(arguments.Get("log").value_or("info"));

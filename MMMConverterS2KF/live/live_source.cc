@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/live/live_source.h"
 
-#include <fmt/format.h>
-
 #include <string_view>
 #include <utility>
 
 #include "common/live/replay/replay_source.h"
-#include "common/support/error.h"
+#include "common/live/source_address.h"
 
 namespace mmm_converter {
 namespace {
 
 constexpr std::string_view kReplay = "replay:";
 
-LiveSource OpenReplay(const LiveRequest& request, Warnings* warnings) {
+LiveSource OpenRecording(const LiveRequest& request, Warnings* warnings) {
   const ReplayAddress address = ParseReplayAddress(request.input.file.substr(kReplay.size()));
   LiveSource live;
   live.head = ReadRecording(address.file, request.input.reading, warnings);
@@ -30,13 +28,14 @@ LiveSource OpenReplay(const LiveRequest& request, Warnings* warnings) {
 
 LiveSource OpenLiveSource(const LiveRequest& request, Warnings* warnings) {
   const std::string& address = request.input.file;
-  if (address.starts_with(kReplay)) return OpenReplay(request, warnings);
+  if (address.starts_with(kReplay)) return OpenRecording(request, warnings);
   LiveSource live;
   live.head.file = address;
   live.head.format = "live stream";
   live.head.unit = "m";
-  throw Error(
-      fmt::format("{}: is no source; use replay:FILE, qtm://HOST or natnet://HOST", address));
+  live.source = OpenSource(address);
+  live.selects_labels = true;
+  return live;
 }
 
 }  // namespace mmm_converter

@@ -10,6 +10,7 @@
 #include "MMMConverterS2KF/live/posture_json.h"
 #include "MMMConverterS2KF/report/html.h"
 #include "MMMConverterS2KF/report/page_sources.h"
+#include "common/live/stream_address.h"
 #include "common/live/ws/web_server.h"
 
 namespace mmm_converter {
@@ -62,19 +63,22 @@ std::string MakePage(const std::string& title) {
 }  // namespace
 
 std::unique_ptr<PoseSink> OpenWebSocketSink(const std::string& address) {
+  const StreamAddress at = ParseStreamAddress(address);
+  at.AllowOnly({});
   return std::make_unique<WebSink>(
-      address, WebServerOptions{ParseSocketAddress(address, kLoopback, kWebSocketPort), "/", ""},
+      address, WebServerOptions{at.HostOr(kLoopback), at.port.value_or(kWebSocketPort), "/", ""},
       true);
 }
 
 LivePage OpenLivePage(const std::string& at, const std::string& title) {
-  const SocketAddress address = ParseSocketAddress(at, kLoopback, 0);
+  const StreamAddress address = ParseStreamAddress("http://" + at);
+  const std::string host = address.HostOr(kLoopback);
   const std::string path = "/" + MakeToken() + "/";
-  auto sink =
-      std::make_unique<WebSink>("--view", WebServerOptions{address, path, MakePage(title)}, false);
-  const bool is_v6 = address.host.find(':') != std::string::npos;
-  const std::string where = fmt::format(
-      "http://{}:{}{}", is_v6 ? "[" + address.host + "]" : address.host, sink->port(), path);
+  auto sink = std::make_unique<WebSink>(
+      "--view", WebServerOptions{host, address.port.value_or(0), path, MakePage(title)}, false);
+  const bool is_v6 = host.find(':') != std::string::npos;
+  const std::string where =
+      fmt::format("http://{}:{}{}", is_v6 ? "[" + host + "]" : host, sink->port(), path);
   return {std::move(sink), where};
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/live/natnet/natnet_source.h"
 #include "common/live/qtm/qtm_source.h"
+#include "common/live/replay/replay_source.h"
 #include "common/live/stream_address.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -22,6 +23,9 @@ struct SourceKind {
   std::unique_ptr<FrameSource> (*open)(const StreamAddress& address);
 };
 
+constexpr std::string_view kReplay = "replay:";
+constexpr const char* kReplayForm = "replay:FILE[@SPEED]";
+
 // A new source is a folder and a row.
 constexpr std::array kSourceKinds = {
     SourceKind{"qtm", "qtm://HOST[:PORT]", "Qualisys QTM; without a host: the one of the network",
@@ -32,8 +36,9 @@ constexpr std::array kSourceKinds = {
 }  // namespace
 
 std::unique_ptr<FrameSource> OpenSource(const std::string& address) {
+  if (address.starts_with(kReplay)) return OpenReplay(address.substr(kReplay.size()));
   const StreamAddress parsed = ParseStreamAddress(address);
-  std::vector<std::string> forms;
+  std::vector<std::string> forms = {kReplayForm};
   for (const SourceKind& kind : kSourceKinds) {
     if (parsed.scheme == kind.scheme) return kind.open(parsed);
     forms.emplace_back(kind.form);
@@ -47,7 +52,8 @@ std::string DescribeSources() {
   for (const SourceKind& kind : kSourceKinds) {
     text += fmt::format("  {:<24} {}\n", kind.form, kind.description);
   }
-  return text;
+  return text + fmt::format("  {:<24} {}\n", kReplayForm,
+                            "a recording; @2: twice as fast, @max: as fast as possible");
 }
 
 }  // namespace mmm_converter

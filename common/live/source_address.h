@@ -8,8 +8,8 @@
 
 namespace mmm_converter {
 
-/// The source that an address names: "qtm://192.168.1.10", "natnet://192.168.1.10?up=z". Nothing is
-/// connected to yet.
+/// The source that an address names: "qtm://192.168.1.10", "natnet://192.168.1.10?up=z",
+/// "replay:walk.c3d@2". Nothing is connected to yet.
 /// @throws Error where the address is not understood, which names the known kinds of sources.
 std::unique_ptr<FrameSource> OpenSource(const std::string& address);
 

@@ -57,7 +57,8 @@ bool StreamAddress::GetSwitch(const std::string& option) const {
 void StreamAddress::AllowOnly(const std::vector<std::string>& names) const {
   for (const auto& [name, value] : options) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw Error(fmt::format("{}: unknown option \"{}\"; use {}", text, name, JoinNames(names)));
+      throw Error(fmt::format("{}: unknown option \"{}\"; {}", text, name,
+                              names.empty() ? "there are none" : "use " + JoinNames(names)));
     }
   }
 }

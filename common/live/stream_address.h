@@ -16,6 +16,7 @@ struct StreamAddress {
   std::optional<int> port;  ///< 1 to 65535
   std::map<std::string, std::string> options;
 
+  std::string HostOr(const std::string& otherwise) const { return host.empty() ? otherwise : host; }
   std::optional<std::string> Get(const std::string& option) const;
   std::optional<int> GetPort(const std::string& option) const;
   /// "yes" or nothing behind the name: true, "no": false.

@@ -178,7 +178,7 @@ TEST(Live, WhatCantBeIsSaid) {
   ExpectRefused({"replay:nothing.c3d"}, 1, "nothing.c3d");
   ExpectRefused({"replay:" + Handstand() + "@quick"}, 1, "\"quick\"");
   ExpectRefused({"replay:" + Handstand(), "--to", "smoke://signals"}, 1, "mvn, ws or zmq");
-  ExpectRefused({"replay:" + Handstand(), "--to", "mvn://a:b"}, 1, "\"b\" is no port");
+  ExpectRefused({"replay:" + Handstand(), "--to", "mvn://a:b"}, 1, "the port is \"b\"");
   ExpectRefused({"replay:" + Handstand(), "--export-csv", "x.csv"}, 2, "give -o too");
   ExpectRefused({"replay:" + Handstand(), "--subject-out", "x.xml"}, 2, "need --self-calibrate");
   ExpectRefused({"replay:" + Handstand(), "--height", "1.8", "-o", "/nowhere/x.xml"}, 1,

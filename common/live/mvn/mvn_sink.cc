@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "common/live/mvn/mvn_body.h"
-#include "common/live/socket_address.h"
+#include "common/live/stream_address.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -22,10 +22,12 @@ constexpr int kMvnPort = 9763;
 class MvnSink : public PoseSink {
  public:
   explicit MvnSink(const std::string& address) : name_(address), socket_(context_) {
-    const SocketAddress target = ParseSocketAddress(address, "127.0.0.1", kMvnPort);
+    const StreamAddress parsed = ParseStreamAddress(address);
+    parsed.AllowOnly({});
     boost::system::error_code failure;
     udp::resolver resolver(context_);
-    const auto found = resolver.resolve(target.host, std::to_string(target.port), failure);
+    const auto found = resolver.resolve(parsed.HostOr("127.0.0.1"),
+                                        std::to_string(parsed.port.value_or(kMvnPort)), failure);
     if (failure) throw Error(fmt::format("{}: {}", address, failure.message()));
     target_ = found.begin()->endpoint();
     socket_.open(target_.protocol(), failure);

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/io/recording/recording.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -70,6 +71,13 @@ ReplayAddress ParseReplayAddress(const std::string& text) {
         "replay:{}: the speed after @ is a number above 0 or \"max\", not \"{}\"", text, speed));
   }
   return {file, *number};
+}
+
+std::unique_ptr<FrameSource> OpenReplay(const std::string& address) {
+  const ReplayAddress parsed = ParseReplayAddress(address);
+  Recording recording = ReadRecording(parsed.file, {});
+  return std::make_unique<ReplaySource>(std::move(recording.markers), recording.first_frame,
+                                        Replay{parsed.speed, false}, parsed.file);
 }
 
 }  // namespace mmm_converter

@@ -227,12 +227,11 @@ class WebServer::Impl {
     const auto check = [&](const Failure& failure) {
       if (!failure) return;
       throw Error(fmt::format("can't listen at {}:{}: {}; another program may have the port",
-                              options_.address.host, options_.address.port, failure.message()));
+                              options_.host, options_.port, failure.message()));
     };
     Failure failure;
     tcp::resolver resolver(context_);
-    const auto found =
-        resolver.resolve(options_.address.host, std::to_string(options_.address.port), failure);
+    const auto found = resolver.resolve(options_.host, std::to_string(options_.port), failure);
     check(failure);
     const tcp::endpoint endpoint = found.begin()->endpoint();
     acceptor_.open(endpoint.protocol(), failure);

@@ -4,12 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "common/live/socket_address.h"
-
 namespace mmm_converter {
 
 struct WebServerOptions {
-  SocketAddress address;   ///< port 0: a free one
+  std::string host = "127.0.0.1";
+  int port = 0;            ///< 0: a free one
   std::string path = "/";  ///< all else is not found; begins and ends with /
   std::string page;        ///< HTML that is served at the path; empty: none
 };

@@ -7,7 +7,7 @@
 #include <optional>
 #include <zmq.hpp>
 
-#include "common/live/socket_address.h"
+#include "common/live/stream_address.h"
 #include "common/live/zmq/posture_message.h"
 #include "common/support/error.h"
 
@@ -21,13 +21,16 @@ class ZmqSink : public PoseSink {
  public:
   explicit ZmqSink(const std::string& address)
       : name_(address), socket_(context_, zmq::socket_type::pub) {
-    const SocketAddress at = ParseSocketAddress(address, "127.0.0.1", kZmqPort);
-    const bool is_v6 = at.host.find(':') != std::string::npos;
+    const StreamAddress at = ParseStreamAddress(address);
+    at.AllowOnly({});
+    const std::string host = at.HostOr("127.0.0.1");
+    const bool is_v6 = host.find(':') != std::string::npos;
     try {
       socket_.set(zmq::sockopt::sndhwm, kMostWaiting);
       socket_.set(zmq::sockopt::linger, 0);
       if (is_v6) socket_.set(zmq::sockopt::ipv6, true);
-      socket_.bind(fmt::format("tcp://{}:{}", is_v6 ? "[" + at.host + "]" : at.host, at.port));
+      socket_.bind(
+          fmt::format("tcp://{}:{}", is_v6 ? "[" + host + "]" : host, at.port.value_or(kZmqPort)));
     } catch (const zmq::error_t& error) {
       throw Error(fmt::format("{}: can't publish there: {}", address, error.what()));
     }

@@ -69,7 +69,7 @@ std::pair<int, std::string> Get(const WebServer& server, const std::string& targ
   return Ask(server, "GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
 }
 
-WebServerOptions Secret() { return {{"127.0.0.1", 0}, "/secret/", "<p>the page</p>"}; }
+WebServerOptions Secret() { return {"127.0.0.1", 0, "/secret/", "<p>the page</p>"}; }
 
 TEST(WebServer, OnePageAndNothingElse) {
   const WebServer server(Secret());
@@ -136,7 +136,7 @@ TEST(WebServer, OnlyPagesOfThisMachineAreLetIn) {
 TEST(WebServer, APortThatSomebodyHas) {
   const WebServer server(Secret());
   WebServerOptions options = Secret();
-  options.address.port = server.port();
+  options.port = server.port();
   try {
     const WebServer second(options);
     FAIL() << "it listens twice";
