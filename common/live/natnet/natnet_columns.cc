@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "common/live/natnet/natnet_layout.h"
 #include "common/support/units.h"
@@ -81,9 +80,9 @@ void NatNetColumns::AddAssets(const NatNetModel& model) {
 }
 
 void NatNetColumns::AddAsset(const NatNetModel& model, const std::string& name, std::int32_t id,
-                             std::vector<std::string> own_names) {
+                             const std::vector<std::string>& own_names) {
   const NatNetMarkerSet* set = FindSet(model, name);
-  groups_.push_back({name, id & kLowWord, set == nullptr ? std::move(own_names) : set->markers, 0});
+  groups_.push_back({name, id & kLowWord, set == nullptr ? own_names : set->markers, 0});
 }
 
 void NatNetColumns::NameColumns() {

@@ -41,7 +41,7 @@ class NatNetColumns {
 
   void AddAssets(const NatNetModel& model);
   void AddAsset(const NatNetModel& model, const std::string& name, std::int32_t id,
-                std::vector<std::string> own_names);
+                const std::vector<std::string>& own_names);
   void NameColumns();
   const Group* FindAsset(std::int32_t id) const;
   void FillSets(const NatNetFrame& frame, Eigen::Matrix3Xd* points) const;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -34,7 +33,14 @@ enum class NatNetId : std::uint16_t {
 struct NatNetVersion {
   int major = 0;
   int minor = 0;
-  auto operator<=>(const NatNetVersion&) const = default;
+
+  bool operator==(const NatNetVersion&) const = default;
+  bool operator<(const NatNetVersion& other) const {
+    return major != other.major ? major < other.major : minor < other.minor;
+  }
+  bool operator>(const NatNetVersion& other) const { return other < *this; }
+  bool operator<=(const NatNetVersion& other) const { return !(other < *this); }
+  bool operator>=(const NatNetVersion& other) const { return !(*this < other); }
 };
 
 inline constexpr NatNetVersion kOldestNatNet{2, 5};

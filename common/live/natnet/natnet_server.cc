@@ -26,7 +26,8 @@ constexpr const char* kAllMarkers = "all";
 NatNetModel MakeModel(const std::string& asset, const std::vector<std::string>& labels) {
   NatNetModel model;
   std::vector<std::string> all;
-  for (const std::string& label : labels) all.push_back(asset + "_" + label);
+  all.reserve(labels.size());
+  for (const std::string& label : labels) all.push_back(fmt::format("{}_{}", asset, label));
   model.marker_sets = {{asset, labels}, {kAllMarkers, std::move(all)}};
   return model;
 }

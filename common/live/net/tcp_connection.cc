@@ -33,7 +33,7 @@ struct TcpConnection::State {
   std::vector<tcp::endpoint> untried;  // the last first
   bool is_connecting = false;
   std::string failure;
-  std::array<char, kReceivedAtOnce> buffer;
+  std::array<char, kReceivedAtOnce> buffer{};
 
   void Close(const std::string& reason) {
     error_code ignored;

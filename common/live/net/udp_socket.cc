@@ -26,7 +26,7 @@ udp::endpoint ToEndpoint(const UdpAddress& address) {
 
 address_v4 ToAddress(const std::string& text) {
   error_code error;
-  const address_v4 address = asio::ip::make_address_v4(text, error);
+  address_v4 address = asio::ip::make_address_v4(text, error);
   if (error) throw Error(fmt::format("\"{}\" is no IPv4 address such as 192.168.1.2", text));
   return address;
 }
@@ -53,7 +53,7 @@ std::string FormatIp(const UdpAddress& address) { return address_v4(address.ip).
 struct UdpSocket::State {
   asio::io_context context;
   udp::socket socket{context};
-  std::array<char, kReceivedAtOnce> buffer;
+  std::array<char, kReceivedAtOnce> buffer{};
 };
 
 UdpSocket::UdpSocket(const std::string& address, int port, bool shared)

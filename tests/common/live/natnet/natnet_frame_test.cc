@@ -98,11 +98,11 @@ std::string RealPayload(const std::string& name) {
 }
 
 struct RealFrame {
-  const char* file;
+  const char* file = "";
   NatNetVersion version;
-  int number;
-  int markers;
-  double time;
+  int number = 0;
+  int markers = 0;
+  double time = 0;
 };
 
 TEST(NatNetFrame, OfMotive) {

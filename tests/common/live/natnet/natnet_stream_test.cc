@@ -28,7 +28,7 @@ using ::testing::ThrowsMessage;
 
 int FreeUdpPort() { return UdpSocket("127.0.0.1", 0).port(); }
 
-NatNetServerOptions Fast(const NatNetVersion& version = {4, 1}, const TestClock& clock = {}) {
+NatNetServerOptions FastNatNet(const NatNetVersion& version = {4, 1}, const TestClock& clock = {}) {
   NatNetServerOptions options;
   options.command_port = 0;
   options.data_port = FreeUdpPort();
@@ -48,7 +48,7 @@ NatNetSourceOptions To(const NatNetServer& server, const TestClock& clock = {}) 
 
 TEST(NatNetStream, EveryVersion) {
   for (const NatNetVersion& version : testing::kNatNetVersions) {
-    NatNetServer server(SampleRecording(), Fast(version));
+    NatNetServer server(SampleRecording(), FastNatNet(version));
     NatNetSource source(To(server));
     StreamFrame frame;
     ASSERT_EQ(NextOf(&source, &server, &frame), StreamEvent::kLayout) << Format(version);
@@ -70,7 +70,7 @@ TEST(NatNetStream, EveryVersion) {
 }
 
 TEST(NatNetStream, ZUpWhereItIsSaid) {
-  NatNetServerOptions options = Fast();
+  NatNetServerOptions options = FastNatNet();
   options.up_axis = UpAxis::kZ;
   NatNetServer server(SampleRecording(), options);
   const auto source = OpenSource(
@@ -82,7 +82,7 @@ TEST(NatNetStream, ZUpWhereItIsSaid) {
 }
 
 TEST(NatNetStream, TwoClients) {
-  NatNetServerOptions options = Fast();
+  NatNetServerOptions options = FastNatNet();
   options.playback.loop = true;
   NatNetServer server(SampleRecording(), options);
   NatNetSource first(To(server)), second(To(server));
@@ -99,7 +99,7 @@ TEST(NatNetStream, TwoClients) {
 }
 
 TEST(NatNetStream, Multicast) {
-  NatNetServerOptions options = Fast({3, 0});
+  NatNetServerOptions options = FastNatNet({3, 0});
   options.group = "239.255.42.98";
   options.playback.loop = true;
   NatNetServer server(SampleRecording(), options);
@@ -117,7 +117,7 @@ TEST(NatNetStream, Multicast) {
 
 TEST(NatNetStream, OtherMarkersOnTheFly) {
   TestClock clock;
-  NatNetServerOptions options = Fast({3, 1}, clock);
+  NatNetServerOptions options = FastNatNet({3, 1}, clock);
   options.playback.loop = true;
   NatNetServer server(SampleRecording(), options);
   NatNetSource source(To(server, clock));
@@ -135,12 +135,12 @@ TEST(NatNetStream, OtherMarkersOnTheFly) {
 
 TEST(NatNetStream, CutAndResumed) {
   TestClock clock;
-  auto server = std::make_unique<NatNetServer>(SampleRecording(), Fast());
+  auto server = std::make_unique<NatNetServer>(SampleRecording(), FastNatNet());
   NatNetSource source(To(*server, clock));
   StreamFrame frame;
   NextOf(&source, server.get(), &frame);
   ASSERT_EQ(NextOf(&source, server.get(), &frame), StreamEvent::kFrame);
-  NatNetServerOptions same_port = Fast();
+  NatNetServerOptions same_port = FastNatNet();
   same_port.command_port = server->command_port();
   server.reset();
   StreamEvent event = StreamEvent::kFrame;
@@ -165,7 +165,7 @@ TEST(NatNetStream, CutAndResumed) {
 
 TEST(NatNetStream, SilenceIsLossAndBrokenMessagesAreCounted) {
   TestClock clock;
-  NatNetServer server(SampleRecording(), Fast());
+  NatNetServer server(SampleRecording(), FastNatNet());
   NatNetSourceOptions options = To(server, clock);
   NatNetSource source(options);
   StreamFrame frame;
@@ -239,7 +239,7 @@ NatNetVersion VersionIn(const std::string& message) {
 
 TEST(NatNetServer, Messages) {
   TestClock clock;
-  NatNetServer server(SampleRecording(), Fast({4, 1}, clock));
+  NatNetServer server(SampleRecording(), FastNatNet({4, 1}, clock));
   RawNatNetClient client(&server);
   EXPECT_EQ(VersionIn(client.Ask(NatNetId::kDiscovery)), (NatNetVersion{4, 1}));
   EXPECT_EQ(server.num_clients(), 0U);
@@ -267,7 +267,7 @@ TEST(NatNetServer, Messages) {
 }
 
 TEST(NatNetServer, TheVersionThatAClientConnectsWith) {
-  NatNetServer server(SampleRecording(), Fast());
+  NatNetServer server(SampleRecording(), FastNatNet());
   RawNatNetClient client(&server);
   EXPECT_EQ(VersionIn(client.Ask(NatNetId::kConnect, FormatNatNetConnect("x", {4, 0}))),
             (NatNetVersion{4, 0}));
@@ -275,7 +275,7 @@ TEST(NatNetServer, TheVersionThatAClientConnectsWith) {
 
 TEST(NatNetServer, MoreMarkersThanADatagramHolds) {
   const std::vector<std::string> labels(4000, "a");
-  EXPECT_THAT([&] { NatNetServer(MarkerSequence(labels, 1, 100, 0), Fast()); },
+  EXPECT_THAT([&] { NatNetServer(MarkerSequence(labels, 1, 100, 0), FastNatNet()); },
               ThrowsMessage<Error>(HasSubstr("no room in a datagram")));
 }
 

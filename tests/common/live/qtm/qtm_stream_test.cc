@@ -23,7 +23,7 @@ using testing::SampleRecording;
 using testing::TestClock;
 using ::testing::ThrowsMessage;
 
-QtmServerOptions Fast() {
+QtmServerOptions FastQtm() {
   QtmServerOptions options;
   options.port = 0;
   options.playback.speed = 0;
@@ -41,7 +41,7 @@ QtmSourceOptions To(const QtmServer& server, const TestClock& clock = {}) {
 TEST(QtmStream, EveryVersion) {
   const MarkerSequence recording = SampleRecording();
   for (int minor = kOldestQtmMinor; minor <= kNewestQtmMinor; ++minor) {
-    QtmServer server(recording, Fast());
+    QtmServer server(recording, FastQtm());
     QtmSourceOptions options = To(server);
     options.newest_minor = minor;
     QtmSource source(options);
@@ -54,7 +54,7 @@ TEST(QtmStream, EveryVersion) {
 }
 
 TEST(QtmStream, TheNewestVersionOfBoth) {
-  QtmServerOptions options = Fast();
+  QtmServerOptions options = FastQtm();
   options.newest_minor = 19;
   QtmServer server(SampleRecording(), options);
   QtmSource source(To(server));
@@ -65,7 +65,7 @@ TEST(QtmStream, TheNewestVersionOfBoth) {
 
 TEST(QtmStream, LabsOfAllAxes) {
   for (int axis = 0; axis < 6; ++axis) {
-    QtmServerOptions options = Fast();
+    QtmServerOptions options = FastQtm();
     options.up_axis = static_cast<UpAxis>(axis);
     QtmServer server(SampleRecording(), options);
     QtmSource source(To(server));
@@ -74,7 +74,7 @@ TEST(QtmStream, LabsOfAllAxes) {
 }
 
 TEST(QtmStream, ByUdp) {
-  QtmServer server(SampleRecording(), Fast());
+  QtmServer server(SampleRecording(), FastQtm());
   const auto source =
       OpenSource(fmt::format("qtm://127.0.0.1:{}?udp=yes&version=1.22", server.port()));
   ExpectRecording(source.get(), &server, SampleRecording());
@@ -82,7 +82,7 @@ TEST(QtmStream, ByUdp) {
 }
 
 TEST(QtmStream, TimesAreOfTheFrameNumbers) {
-  QtmServer server(SampleRecording(), Fast());
+  QtmServer server(SampleRecording(), FastQtm());
   QtmSource source(To(server));
   StreamFrame frame;
   NextOf(&source, &server, &frame);
@@ -93,7 +93,7 @@ TEST(QtmStream, TimesAreOfTheFrameNumbers) {
 }
 
 TEST(QtmStream, TwoClientsAndALoop) {
-  QtmServerOptions options = Fast();
+  QtmServerOptions options = FastQtm();
   options.playback.loop = true;
   const MarkerSequence recording = SampleRecording();
   QtmServer server(recording, options);
@@ -113,7 +113,7 @@ TEST(QtmStream, TwoClientsAndALoop) {
 
 TEST(QtmStream, InTheRecordingsTime) {
   const TestClock clock;
-  QtmServerOptions options = Fast();
+  QtmServerOptions options = FastQtm();
   options.playback = {.speed = 2, .now = clock.Now()};
   QtmServer server(SampleRecording(), options);
   QtmSource source(To(server));
@@ -129,7 +129,7 @@ TEST(QtmStream, InTheRecordingsTime) {
 }
 
 TEST(QtmStream, OtherLabelsOnTheFly) {
-  QtmServerOptions options = Fast();
+  QtmServerOptions options = FastQtm();
   options.playback.loop = true;
   QtmServer server(SampleRecording(), options);
   QtmSource source(To(server));
@@ -147,7 +147,7 @@ TEST(QtmStream, OtherLabelsOnTheFly) {
 }
 
 TEST(QtmStream, PlayedAgainForTheNextClient) {
-  QtmServer server(SampleRecording(), Fast());
+  QtmServer server(SampleRecording(), FastQtm());
   QtmSource first(To(server));
   ExpectRecording(&first, &server, SampleRecording());
   StreamFrame frame;
@@ -162,12 +162,12 @@ TEST(QtmStream, PlayedAgainForTheNextClient) {
 
 TEST(QtmStream, CutAndResumed) {
   TestClock clock;
-  auto server = std::make_unique<QtmServer>(SampleRecording(), Fast());
+  auto server = std::make_unique<QtmServer>(SampleRecording(), FastQtm());
   QtmSource source(To(*server, clock));
   StreamFrame frame;
   NextOf(&source, server.get(), &frame);
   ASSERT_EQ(NextOf(&source, server.get(), &frame), StreamEvent::kFrame);
-  QtmServerOptions same_port = Fast();
+  QtmServerOptions same_port = FastQtm();
   same_port.port = server->port();
   server.reset();
   EXPECT_EQ(source.Next(100ms, &frame), StreamEvent::kLost);
@@ -186,7 +186,7 @@ TEST(QtmStream, CutAndResumed) {
 
 TEST(QtmStream, Discovered) {
   TestClock clock;
-  QtmServerOptions options = Fast();
+  QtmServerOptions options = FastQtm();
   options.discovery_port = 0;
   QtmServer server(SampleRecording(), options);
   QtmSourceOptions anybody;
