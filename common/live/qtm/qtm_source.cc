@@ -101,6 +101,11 @@ QtmSource::Event QtmSource::CheckTime() {
     Go(Step::kGreeting, kAnswerLimit);
   }
   if (options_.now() < limit_ || (is_paused_ && !awaits_parameters_)) return std::nullopt;
+  if (step_ == Step::kSoftware) {  // it can be done without
+    AskForParameters();
+    Go(Step::kParameters, kAnswerLimit);
+    return std::nullopt;
+  }
   if (step_ == Step::kConnecting) return Lose("no answer", "check the address and the firewall");
   if (step_ != Step::kStreaming || awaits_parameters_) {
     return Lose("it does not answer", "check that this is QTM's port of the real-time protocol");

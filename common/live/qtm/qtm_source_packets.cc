@@ -14,6 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kReplyLimit{5000};
+constexpr milliseconds kSoftwareLimit{1000};
 constexpr milliseconds kQuietLimit{5000};
 constexpr milliseconds kQuietAfterStop{1000};
 constexpr milliseconds kAskAgainAfter{1000};
@@ -67,7 +68,6 @@ QtmSource::Event QtmSource::HandleText(const QtmPacket& packet) {
     case Step::kVersion:
       return HandleVersion(packet);
     case Step::kSoftware:
-      software_ = "QTM";
       if (!is_error) {
         software_ = text.starts_with(kSoftwareText)
                         ? "QTM " + text.substr(std::string_view(kSoftwareText).size())
@@ -101,7 +101,8 @@ QtmSource::Event QtmSource::HandleVersion(const QtmPacket& packet) {
   const std::string text = ToUtf8(QtmText(packet));
   if (packet.type == QtmPacketType::kCommand && ToLower(text).starts_with("version set to")) {
     connection_.SendCommand("QTMVersion");
-    Go(Step::kSoftware, kReplyLimit);
+    software_ = "QTM";
+    Go(Step::kSoftware, kSoftwareLimit);
     return std::nullopt;
   }
   if (--minor_ < kOldestQtmMinor) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "common/io/bytes/file_content.h"
 #include "common/live/natnet/natnet_layout.h"
 #include "common/support/error.h"
@@ -196,6 +198,27 @@ TEST(NatNetMessage, ServerInfoOfMotive) {
   EXPECT_EQ(info.data_port, 1511);
   EXPECT_TRUE(info.is_multicast);
   EXPECT_EQ(info.group, "239.255.42.99");
+}
+
+TEST(NatNetMessage, OtherOnesOfMotive) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const auto expect = [](const std::string& name, NatNetId id, std::size_t bytes) {
+    const std::string datagram = ReadFileContent(testing::SharedData("live/" + name));
+    const NatNetMessage message = ParseNatNetMessage(datagram);
+    EXPECT_EQ(message.id, id) << name;
+    EXPECT_EQ(message.payload.size(), bytes) << name;
+  };
+  expect("natnet_3.0/connect_packet_v3.bin", NatNetId::kConnect, 264);
+  expect("natnet_3.0/discovery_packet_v3.bin", NatNetId::kDiscovery, 264);
+  expect("natnet_3.0/echorequest_packet_v3.bin", NatNetId::kEchoRequest, 8);
+  expect("natnet_3.0/echoresponse_packet_v3.bin", NatNetId::kEchoResponse, 16);
+  expect("natnet_3.0/requestmodeldef_packet_v3.bin", NatNetId::kRequestModel, 0);
+  for (const auto& [motive, minor] : {std::pair("1.5.0", 5), {"1.7.2", 7}, {"1.9.0", 9}}) {
+    const std::string payload =
+        RealPayload(std::string("natnet_2.x/frame-motive-") + motive + "-000.bin");
+    EXPECT_EQ(ParseNatNetServerInfo(payload).version, (NatNetVersion{2, minor}));
+    EXPECT_EQ(ParseNatNetServerInfo(payload).application, "NatNetLib");
+  }
 }
 
 TEST(NatNetMessage, Versions) {

@@ -153,6 +153,14 @@ TEST(QtmHostile, EventsBetweenACommandAndItsReply) {
   EXPECT_THAT(pair.server.asked()[2], "GetParameters General 3D");
 }
 
+TEST(QtmHostile, WhichQtmItIsNeedNotBeSaid) {
+  Pair pair({kHello, kVersionSet, "", Parameters({"A"})});
+  EXPECT_EQ(pair.Next(), StreamEvent::kNothing);
+  pair.clock.GoOn(2s);
+  EXPECT_EQ(pair.Next(), StreamEvent::kLayout);
+  EXPECT_EQ(pair.source.layout().source, "QTM, protocol 1.25");
+}
+
 TEST(QtmHostile, WithoutUnlabelledPointsWhereTheyAreRefused) {
   Pair pair(
       {kHello, kVersionSet, kSoftware, Parameters({"A"}), ErrorText("Parse error"), Data(5, 1)});
