@@ -21,6 +21,11 @@ Description DescribePage(const FileStart& file, const ReadRecordingOptions& opti
 Description DescribeSummary(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeSampleSet(const FileStart& file, const ReadRecordingOptions& options);
 
+bool IsNpz(const FileStart& file);
+Description DescribeNpz(const FileStart& file, const ReadRecordingOptions& options);
+bool IsBvh(const FileStart& file);
+Description DescribeBvh(const FileStart& file, const ReadRecordingOptions& options);
+
 /// A table of the program's own: of its first line.
 bool IsTable(const FileStart& file);
 Description DescribeTable(const FileStart& file, const ReadRecordingOptions& options);

@@ -83,6 +83,8 @@ const std::vector<FileKind>& FileKinds() {
       {"C3D recordings", HasFormat<kC3d>, DescribeC3d},
       {"TRC recordings", HasFormat<kTrc>, DescribeTrc},
       {"tables (CSV, MOT)", IsTable, DescribeTable},
+      {"arrays (.npz)", IsNpz, DescribeNpz},
+      {"skeletons (BVH)", IsBvh, DescribeBvh},
       {"summaries (JSON)", IsJson, DescribeSummary},
       {"sample sets of filters", IsSampleSet, DescribeSampleSet},
   };

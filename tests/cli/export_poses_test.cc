@@ -172,6 +172,25 @@ TEST(ExportPoses, ObjectsOfTheFileAreThere) {
   EXPECT_GT(compared, 80);
 }
 
+TEST(ExportBvh, InfoSaysWhatIsInTheFiles) {
+  ConvertSample({"--export-csv", TestFolder() + "/angles.csv"});
+  const std::string npz = TestFolder() + "/m.npz";
+  ASSERT_EQ(RunProgram({"export-poses", TestFolder() + "/m.xml", "-o", npz}).exit_code, 0);
+  const auto info = [](const std::string& file) { return RunProgram({"info", file}).out; };
+  EXPECT_THAT(info(npz), HasSubstr("arrays for NumPy"));
+  EXPECT_THAT(info(npz), ::testing::ContainsRegex("point_positions +<f8 \\(30, 21, 3\\)"));
+  EXPECT_THAT(info(TestFolder() + "/m.bvh"), HasSubstr("frames     30"));
+  EXPECT_THAT(info(TestFolder() + "/m.bvh"), HasSubstr("joints     23: Hips, Spine"));
+  EXPECT_THAT(info(TestFolder() + "/m.csv"), HasSubstr("table of poses of a body"));
+  EXPECT_THAT(info(TestFolder() + "/angles.csv"), HasSubstr("table of postures"));
+  // Half of a file, and an archive whose sizes are not true.
+  const std::string bytes = ReadText(npz);
+  testing::WriteText(npz, bytes.substr(0, bytes.size() / 2));
+  EXPECT_THAT(info(npz), HasSubstr("segment_positions"));
+  testing::WriteText(npz, bytes.substr(0, 18) + std::string(12, '\xff') + ".npy");
+  EXPECT_THAT(info(npz), HasSubstr("arrays for NumPy"));
+}
+
 TEST(ExportBvh, JointsAreWhereTheMotionHasThem) {
   const PoseTrajectory motion = ConvertSample({});
   const KinematicModel model = SamplesModel();
