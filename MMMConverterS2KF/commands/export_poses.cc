@@ -116,6 +116,7 @@ std::vector<std::string> OutputFiles(const Arguments& arguments) {
         "export-poses: -o {}: several motions have a file each; name a folder", output));
   }
   std::vector<std::string> files;
+  files.reserve(motions.size());
   for (const std::string& motion : motions) {
     files.push_back(
         (fs::path(output) / (fs::path(motion).stem().string() + "." + format)).string());

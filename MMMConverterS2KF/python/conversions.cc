@@ -147,6 +147,7 @@ py::dict FramesOf(const Conversion& conversion) {
 std::vector<std::string> MarkerLabelsOf(const Conversion& conversion) {
   std::vector<std::string> labels;
   const int count = static_cast<int>(conversion.report.setup.assignments().size());
+  labels.reserve(count);
   for (int i = 0; i < count; ++i) labels.push_back(LabelOf(conversion.report, i));
   return labels;
 }

@@ -41,6 +41,7 @@ PersonModel ReadPersonModel(const py::dict& options) {
 
 std::vector<int> JointIndices(const KinematicModel& model, const std::vector<std::string>& names) {
   std::vector<int> indices;
+  indices.reserve(names.size());
   for (const std::string& name : names) {
     indices.push_back(model.FindJoint(name));
     if (indices.back() < 0) {
@@ -137,6 +138,7 @@ void ComputeMarkerPlaces(const KinematicModel& model, const std::vector<int>& jo
   std::vector<int> all(model.num_joints());
   std::iota(all.begin(), all.end(), 0);
   std::vector<MarkerIx> markers;
+  markers.reserve(model.markers().size());
   for (std::size_t i = 0; i < model.markers().size(); ++i) {
     markers.emplace_back(static_cast<int>(i));
   }
@@ -267,6 +269,7 @@ class Tracker {
 
 std::vector<std::string> JointNames(const KinematicModel& model) {
   std::vector<std::string> names;
+  names.reserve(model.num_joints());
   for (int j = 0; j < model.num_joints(); ++j) names.push_back(model.joint(j).name);
   return names;
 }
@@ -284,6 +287,7 @@ py::array_t<double> Limits(const KinematicModel& model) {
 template <typename Items>
 std::vector<std::string> Names(const Items& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.push_back(item.name);
   return names;
 }

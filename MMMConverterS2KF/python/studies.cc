@@ -36,6 +36,7 @@ namespace {
 
 std::vector<InputRequest> InputRequestsOf(const py::list& inputs) {
   std::vector<InputRequest> requests;
+  requests.reserve(inputs.size());
   for (const py::handle& one : inputs) requests.push_back(InputRequestOf(one.cast<py::dict>()));
   return requests;
 }
