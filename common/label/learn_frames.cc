@@ -86,7 +86,6 @@ Matrix3Xd SeenPoints(const LearnFrame& frame) {
   return points.leftCols(count);
 }
 
-/// Standard deviation of the labels' distances over the frames, robust [m]; infinite where unknown.
 Eigen::MatrixXd DistanceDeviations(const std::vector<LearnFrame>& frames) {
   const Eigen::Index labels = frames.front().z.cols();
   Eigen::MatrixXd deviations = Eigen::MatrixXd::Constant(labels, labels, 1e9);
@@ -106,7 +105,18 @@ Eigen::MatrixXd DistanceDeviations(const std::vector<LearnFrame>& frames) {
   return deviations;
 }
 
-/// Labels of one site that keep their distances, in groups.
+std::optional<double> DeviationFrom(int site, int label, const std::vector<int>& sites,
+                                    const Eigen::MatrixXd& deviations) {
+  std::vector<double> of_site;
+  for (std::size_t other = 0; other < sites.size(); ++other) {
+    if (static_cast<int>(other) == label || sites[other] != site) continue;
+    of_site.push_back(deviations(label, static_cast<Eigen::Index>(other)));
+  }
+  if (of_site.empty()) return std::nullopt;
+  std::sort(of_site.begin(), of_site.end());
+  return of_site.size() > 1 ? (of_site[0] + of_site[1]) / 2 : of_site[0];
+}
+
 std::vector<std::vector<int>> RigidGroups(const std::vector<int>& sites,
                                           const Eigen::MatrixXd& deviations) {
   constexpr double kRigid = 0.006;  // [m]

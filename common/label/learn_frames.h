@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ Eigen::Matrix3Xd SeenPoints(const LearnFrame& frame);
 /// Standard deviations of the distances between labels over the frames, from percentiles, labels x
 /// labels [m]; large where they are not known.
 Eigen::MatrixXd DistanceDeviations(const std::vector<LearnFrame>& frames);
+
+/// How well a label keeps its distances from the others of a site: the mean of the two least of
+/// their deviations [m]; nothing where it has no others.
+std::optional<double> DeviationFrom(int site, int label, const std::vector<int>& sites,
+                                    const Eigen::MatrixXd& deviations);
 
 /// Labels of one site that keep their distances, in groups. sites: by label, -1: none.
 std::vector<std::vector<int>> RigidGroups(const std::vector<int>& sites,

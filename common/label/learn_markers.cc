@@ -11,6 +11,7 @@
 #include "common/label/body_sites.h"
 #include "common/label/learn_frames.h"
 #include "common/label/learned_places.h"
+#include "common/label/marker_names.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -24,7 +25,7 @@ constexpr int kFewestLabels = 10;
 constexpr int kSearched = 8;         // frames that the body is looked for in
 constexpr double kAnyPlace = 0.045;  // [m] of others' markers from the model's
 constexpr double kOwnCost = 1;       // of a marker, where the set is the model's own
-constexpr double kSureOfSite = 0.8;
+constexpr double kSureOfSite = 0.9;
 constexpr double kFewFrames = 2, kMoreFrames = 5, kAllFrames = 15;  // that count each for itself
 
 /// The model's markers but for those at the ends of limbs, one of each is enough: hardly any set
@@ -191,18 +192,28 @@ class Mover {
   double stays_ = 0, group_stays_ = 0;  // what it costs if nothing moves
 };
 
-/// Why the site of a label is not believed; empty: it is.
-std::string DoubtOf(const BodySites& sites, const LearnedPlaces& learned, int label,
-                    double probability) {
-  constexpr double kClearly = 1;
+/// Why the site of a label is not believed; empty: it is. What only moves says is not enough where
+/// both sites are near, but for markers that keep their distances from one of these far better.
+std::string DoubtOf(const BodySites& sites, const LearnedPlaces& learned,
+                    const MatrixXd& deviations, int label, double probability) {
+  constexpr double kClearly = 1, kFarBetter = 3, kRigidly = 0.004, kOutside = 0.03;
   const auto name_of = [&sites](int site) {
     return sites.model().segments()[sites.sites()[site].segment].name;
   };
-  const int site = learned.places()[label].site;
+  const std::vector<int> of_labels = learned.SitesOfLabels();
+  const int site = of_labels[label];
+  const double own = DeviationFrom(site, label, of_labels, deviations).value_or(kRigidly);
+  const auto prior = learned.prior_costs().row(label);
   int usual = site;
   for (const int other : Neighbours(sites, site)) {
-    const auto prior = learned.prior_costs().row(label);
-    if (prior[other] < prior[site] - kClearly && prior[other] < prior[usual]) usual = other;
+    const auto others = DeviationFrom(other, label, of_labels, deviations);
+    const bool is_far_better = others && own<kRigidly&& * others> kFarBetter * own;
+    if (!is_far_better && prior[other] < std::min(prior[site] - kClearly, prior[usual])) {
+      usual = other;
+    }
+  }
+  if (own > kRigidly && learned.DistanceBeyond(site, learned.places()[label].p_SM) > kOutside) {
+    return fmt::format("moves like {}, but too far from it", name_of(site));
   }
   if (usual != site) {
     return fmt::format("moves like {}, but is where {} has its markers", name_of(site),
@@ -212,6 +223,37 @@ std::string DoubtOf(const BodySites& sites, const LearnedPlaces& learned, int la
     return fmt::format("on {} with a probability of {:.2f} only", name_of(site), probability);
   }
   return "";
+}
+
+/// Warns where names say another side than the body; single ones of them are left out.
+void CheckNamedSides(const BodySites& sites, const LearnedPlaces& learned,
+                     const std::vector<std::string>& names, LearnedMarkers* result) {
+  const std::vector<NamedSide> named = NamedSides(names);
+  std::vector<int> contradicted;
+  int confirmed = 0;
+  for (int l = 0; l < static_cast<int>(names.size()); ++l) {
+    const int site = learned.places()[l].site;
+    if (named[l] == NamedSide::kNone || site < 0 || sites.sites()[site].side.empty()) continue;
+    const bool is_left = sites.sites()[site].side == "left";
+    if (is_left == (named[l] == NamedSide::kLeft)) {
+      ++confirmed;
+    } else {
+      contradicted.push_back(l);
+    }
+  }
+  if (contradicted.empty()) return;
+  if (static_cast<int>(contradicted.size()) > confirmed) {
+    result->warnings.push_back(fmt::format(
+        "{} of {} labels name the other side than that on which the body has them, {} for "
+        "instance: are left and right exchanged, or is the recording mirrored?",
+        contradicted.size(), contradicted.size() + static_cast<std::size_t>(confirmed),
+        names[contradicted.front()]));
+    return;
+  }
+  for (const int l : contradicted) {
+    result->markers[l].left_out =
+        fmt::format("moves like {}, which its name contradicts", result->markers[l].segment);
+  }
 }
 
 }  // namespace
@@ -246,8 +288,9 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
     marker.p_SM = p_SM;
     marker.scatter = worn.scatter;
     marker.probability = 1 / (1 + std::exp(-std::min(mover.leads()[l], worn.lead)));
-    marker.left_out = DoubtOf(sites, learned, l, marker.probability);
+    marker.left_out = DoubtOf(sites, learned, deviations, l, marker.probability);
   }
+  CheckNamedSides(sites, learned, labels.names, &result);
   if (progress) progress(kSearched + 1, kSearched + 1);
   return result;
 }

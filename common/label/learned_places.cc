@@ -105,37 +105,32 @@ Eigen::MatrixXd LearnedPlaces::Strangeness() const {
   constexpr double kWeight = 4, kUsual = 0.004;  // [m]
   const int labels = static_cast<int>(places_.size());
   Eigen::MatrixXd strangeness(labels, static_cast<Eigen::Index>(sites_.sites().size()));
-  std::vector<double> of_site;
+  const std::vector<int> sites = SitesOfLabels();
+  std::vector<int> counts(static_cast<std::size_t>(strangeness.cols()), 0);
+  for (const int site : sites) {
+    if (site >= 0) ++counts[site];
+  }
   for (int l = 0; l < labels; ++l) {
     for (int s = 0; s < strangeness.cols(); ++s) {
-      of_site.clear();
-      for (int o = 0; o < labels; ++o) {
-        if (o != l && places_[o].site == s) of_site.push_back(deviations_(l, o));
-      }
-      double usual = kUsual;
-      if (!of_site.empty()) {
-        std::sort(of_site.begin(), of_site.end());
-        usual = of_site.size() > 1 ? (of_site[0] + of_site[1]) / 2 : of_site[0];
-      }
-      strangeness(l, s) = kWeight * std::log1p(std::pow(std::min(usual, 0.1) / kUsual, 2));
+      const double deviation = DeviationFrom(s, l, sites, deviations_).value_or(kUsual);
+      strangeness(l, s) = kWeight * std::log1p(std::pow(std::min(deviation, 0.1) / kUsual, 2));
       const int mirror = sites_.sites()[s].mirror;
       if (mirror < 0) {
         strangeness(l, s) += kUnlikeOtherSide / 2;
-      } else {
-        const auto others = static_cast<long>(of_site.size());
-        const auto opposite = std::count_if(places_.begin(), places_.end(),
-                                            [&](const WornPlace& o) { return o.site == mirror; }) -
-                              (places_[l].site == mirror ? 1 : 0);
-        if (others >= opposite) strangeness(l, s) += kUnlikeOtherSide;
+      } else if (counts[s] - (sites[l] == s) >= counts[mirror] - (sites[l] == mirror)) {
+        strangeness(l, s) += kUnlikeOtherSide;
       }
     }
   }
   return strangeness;
 }
 
+double LearnedPlaces::DistanceBeyond(int site, const Vector3d& p_SM) const {
+  return std::max(0.0, sites_.DistanceFromBones(site, p_SM) - radii_[site]);
+}
+
 double LearnedPlaces::PriorCost(int site, const Vector3d& p_SM) const {
-  const double beyond =
-      std::max(0.0, sites_.DistanceFromBones(site, p_SM) - radii_[site]) / kBeyond;
+  const double beyond = DistanceBeyond(site, p_SM) / kBeyond;
   const double near = sites_.DistanceFromMarkers(site, p_SM) / kNear;
   return std::min(beyond * beyond / 2, kMostOfBeyond) + std::min(near * near / 2, kMostOfNear);
 }

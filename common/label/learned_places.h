@@ -54,6 +54,9 @@ class LearnedPlaces {
   /// The part of these that is known without any motion.
   const Eigen::MatrixXd& prior_costs() const { return prior_costs_; }
 
+  /// How far a place is outside of where a site has its markers [m].
+  double DistanceBeyond(int site, const Eigen::Vector3d& p_SM) const;
+
  private:
   /// What it costs that a label keeps no distance from those of a site, labels x sites.
   Eigen::MatrixXd Strangeness() const;

@@ -131,6 +131,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"convert", "a.c3d", "--log", "loud"}, "\"loud\" is not a level; use off, error"},
       {{"export-urdf", "--height", "1.7"}, "export-urdf: which file is to be written?"},
       {{"info"}, "info: which file?"},
+      {{"learn-markers"}, "learn-markers: which recordings?"},
+      {{"learn-markers", "a.c3d"}, "learn-markers: where shall the marker set go?"},
       {{"print-config"}, "print-config: which converter?"}};
   for (const Misuse& misuse : misuses) {
     const auto run = RunProgram(misuse.arguments);
