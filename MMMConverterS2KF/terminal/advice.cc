@@ -22,7 +22,8 @@ const char* OptionFor(Remedy remedy) {
     case Remedy::kMotion:
       return " (--motion NAME)";
     case Remedy::kMarkerSet:
-      return " (--marker-set FILE); points without names get them by the command label, labels of an "
+      return " (--marker-set FILE); points without names get them by the command label, labels of "
+             "an "
              "unknown meaning become a marker set by the command learn-markers";
     case Remedy::kModel:
       return " (--model FILE)";
