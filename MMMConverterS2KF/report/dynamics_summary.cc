@@ -42,7 +42,7 @@ std::string DescribeDifferentiation(const Differentiation& differentiation) {
       made, differentiation.raw_force_peak, differentiation.raw_force_rms);
 }
 
-std::string DescribePerson(const Person& person) {
+std::string DescribePersonOf(const Person& person) {
   if (person.height.value == 0) return person.height.source;
   return fmt::format("{:.3g} m ({}), {:.4g} kg ({})", person.height.value, person.height.source,
                      person.mass.value, person.mass.source);
@@ -108,7 +108,7 @@ std::string FormatPeaks(const Plausibility& judged) {
 }
 
 // What is said of the torques already is not repeated.
-std::string Verdict(const DynamicsCheck& check, const Plausibility& judged) {
+std::string VerdictText(const DynamicsCheck& check, const Plausibility& judged) {
   if (check.reason.empty()) return Name(check.judgement);
   return fmt::format("{}: {}", Name(check.judgement),
                      check.reason == judged.differentiation ? "see torques" : check.reason);
@@ -131,7 +131,7 @@ std::string FormatChecks(const Plausibility& judged) {
   };
   std::string text = "\n" + row("check", "measured", "expected", "verdict");
   for (const DynamicsCheck& check : checks) {
-    text += row(check.name, check.measured, check.expected, Verdict(check, judged));
+    text += row(check.name, check.measured, check.expected, VerdictText(check, judged));
   }
   return text + "\n";
 }
@@ -179,7 +179,7 @@ std::string FormatDynamicsSummary(const DynamicsReport& report) {
       DynamicsLine("motion", fmt::format("{}: \"{}\", {} frames at {:.6g} Hz ({:.3f} s)",
                                          motion.file, motion.name, dynamics.num_frames(),
                                          dynamics.rate, dynamics.num_frames() / dynamics.rate));
-  text += DynamicsLine("person", DescribePerson(motion.person));
+  text += DynamicsLine("person", DescribePersonOf(motion.person));
   text += DynamicsLine("model", motion.model_file);
   text += DynamicsLine("derivatives", DescribeDifferentiation(dynamics.differentiation));
   text += FormatFigures(dynamics) + FormatPeaks(report.plausibility);

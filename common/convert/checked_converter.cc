@@ -14,7 +14,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kUnitTolerance = 1e-6;  // of a quaternion's length
+constexpr double kQuaternionTolerance = 1e-6;  // of a quaternion's length
 
 [[noreturn]] void ThrowFaulty(const std::string& file, const std::string& why) {
   throw Error(fmt::format("{}: the plugin is faulty: {}; nothing of it is used", file, why));
@@ -48,7 +48,7 @@ void RequireSize(const char* what, Eigen::Index size, Eigen::Index expected) {
 void CheckPosture(const Posture& posture, Eigen::Index num_joints) {
   RequireSize("joint angles", posture.joint_angles.size(), num_joints);
   Require(posture.position.allFinite() && posture.joint_angles.allFinite() &&
-              std::abs(posture.orientation.coeffs().norm() - 1) <= kUnitTolerance,
+              std::abs(posture.orientation.coeffs().norm() - 1) <= kQuaternionTolerance,
           "it gave a posture that is not finite, or whose orientation is not a unit quaternion");
 }
 

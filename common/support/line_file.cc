@@ -19,7 +19,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::size_t kReadBytes = std::size_t{1} << 16;
 
 [[noreturn]] void ThrowNotRegular(const std::string& path) {
   throw Error(fmt::format(
@@ -92,7 +92,7 @@ void ForEachLine(const std::string& path, const std::function<void(std::string_v
   const std::unique_ptr<const int, void (*)(const int*)> closed(
       &descriptor, [](const int* opened) { ::close(*opened); });
   if (!IsRegular(descriptor)) ThrowNotRegular(path);
-  std::string block(kBlockBytes, '\0');
+  std::string block(kReadBytes, '\0');
   std::string line;
   for (;;) {
     const ssize_t count = ::read(descriptor, block.data(), block.size());

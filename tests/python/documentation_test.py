@@ -6,8 +6,10 @@ import importlib
 import inspect
 import os
 import pathlib
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -32,6 +34,14 @@ class Documentation(unittest.TestCase):
             self.assertEqual(result.failed, 0, name)
             attempted += result.attempted
         self.assertGreater(attempted, 20)
+
+    def test_the_readme_plots_a_joint(self):
+        block = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.S).group(1)
+        with tempfile.TemporaryDirectory() as folder:
+            os.symlink(ROOT / "examples", pathlib.Path(folder) / "examples")
+            subprocess.run([sys.executable, "-B", "-c", block], cwd=folder, check=True,
+                           env={**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": folder})
+            self.assertTrue((pathlib.Path(folder) / "knee.png").read_bytes().startswith(b"\x89PNG"))
 
     def test_everything_public_is_explained(self):
         for name in mmmconverter.__all__:
