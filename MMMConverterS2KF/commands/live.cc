@@ -68,7 +68,7 @@ Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is 
 {}
 {}Examples
   MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o anna.xml --view
-  MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1:9763
+  MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1
   MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
 )";
 

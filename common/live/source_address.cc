@@ -37,11 +37,14 @@ constexpr std::array kSourceKinds = {
 
 std::unique_ptr<FrameSource> OpenSource(const std::string& address) {
   if (address.starts_with(kReplay)) return OpenReplay(address.substr(kReplay.size()));
-  const StreamAddress parsed = ParseStreamAddress(address);
   std::vector<std::string> forms = {kReplayForm};
+  for (const SourceKind& kind : kSourceKinds) forms.emplace_back(kind.form);
+  if (address.find("://") == std::string::npos) {
+    throw Error(fmt::format("\"{}\" is no source of frames; use {}", address, JoinNames(forms)));
+  }
+  const StreamAddress parsed = ParseStreamAddress(address);
   for (const SourceKind& kind : kSourceKinds) {
     if (parsed.scheme == kind.scheme) return kind.open(parsed);
-    forms.emplace_back(kind.form);
   }
   throw Error(fmt::format("{}: there is no source of the kind \"{}\"; use {}", address,
                           parsed.scheme, JoinNames(forms)));

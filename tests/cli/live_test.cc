@@ -13,7 +13,6 @@
 namespace mmm_converter {
 namespace {
 
-using nlohmann::json;
 using testing::Handstand;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -82,7 +81,7 @@ TEST(Live, ExportsAndPagesAreThoseOfAConversion) {
   ASSERT_EQ(convert.exit_code, 0) << convert.err;
   EXPECT_EQ(ReadText(folder + "/a.csv"), ReadText(folder + "/b.csv"));
   EXPECT_THAT(ReadText(folder + "/a.html"), HasSubstr("handstand"));
-  const json summary = json::parse(ReadText(folder + "/a.json"));
+  const nlohmann::json summary = nlohmann::json::parse(ReadText(folder + "/a.json"));
   EXPECT_EQ(summary["frames"], 675);
   EXPECT_EQ(summary["tracked"], 675);
   EXPECT_EQ(summary["dropped"], 0);

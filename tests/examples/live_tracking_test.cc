@@ -26,9 +26,9 @@ class LiveTrackingTest : public ::testing::Test {
   std::string Track(const MarkerSequence& markers) {
     WriteC3d(folder_ + "/stream.c3d", markers);
     const std::string output = folder_ + "/output.txt";
-    const int status = std::system(
-        ("\"" LIVE_TRACKING "\" \"replay:" + folder_ + "/stream.c3d@max\" 1.8 >\"" + output + "\" 2>&1")
-            .c_str());
+    const int status = std::system(("\"" LIVE_TRACKING "\" \"replay:" + folder_ +
+                                    "/stream.c3d@max\" 1.8 >\"" + output + "\" 2>&1")
+                                       .c_str());
     code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return ReadFileContent(output);
   }

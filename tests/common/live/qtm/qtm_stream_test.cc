@@ -217,8 +217,8 @@ TEST(SourceAddress, WhatIsNotUnderstood) {
   const auto expect = [](const std::string& address, const std::string& said) {
     EXPECT_THAT([&] { OpenSource(address); }, ThrowsMessage<Error>(HasSubstr(said))) << address;
   };
-  expect("192.168.1.10", "is no address of a stream");
-  expect("vicon://host", "use qtm://");
+  expect("192.168.1.10", "is no source of frames");
+  expect("vicon://host", "qtm://HOST[:PORT]");
   expect("qtm://host:0", "port");
   expect("qtm://host:70000", "port");
   expect("qtm://[::1", "closing");

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "common/live/zmq/posture_message.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -116,15 +119,17 @@ TEST(PostureMessage, WithoutAPersonThePostureIsUnknown) {
   EXPECT_THAT(arrays["marker_states"], ElementsAre(3, 0, 3, 3));
 }
 
+// A port that is free now.
+int FreePort() {
+  boost::asio::io_context context;
+  using boost::asio::ip::tcp;
+  const tcp::acceptor acceptor(context, {boost::asio::ip::make_address("127.0.0.1"), 0});
+  return acceptor.local_endpoint().port();
+}
+
 TEST(ZmqSink, ASubscriberGetsThreeParts) {
-  // A port that is free now.
+  const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", FreePort());
   zmq::context_t context;
-  std::string endpoint;
-  {
-    zmq::socket_t probe(context, zmq::socket_type::pub);
-    probe.bind("tcp://127.0.0.1:*");
-    endpoint = probe.get(zmq::sockopt::last_endpoint);
-  }
   const auto sink = OpenZmqSink("zmq" + endpoint.substr(3));
   EXPECT_THROW(OpenZmqSink("zmq" + endpoint.substr(3)), Error);
   zmq::socket_t subscriber(context, zmq::socket_type::sub);
