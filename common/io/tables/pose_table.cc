@@ -40,8 +40,8 @@ void AppendRotation(const Eigen::Ref<const Eigen::Vector4d>& wxyz, RotationForm 
     const Eigen::Vector3d w = wxyz.allFinite() ? Log(q) : Eigen::Vector3d::Constant(kNaN);
     out->insert(out->end(), {w[0], w[1], w[2]});
   } else {
-    const Eigen::Matrix3d R = q.toRotationMatrix().transpose();
-    out->insert(out->end(), R.data(), R.data() + 9);
+    const Eigen::Matrix3d R = q.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) out->insert(out->end(), {R(i, 0), R(i, 1), R(i, 2)});
   }
 }
 
