@@ -134,6 +134,7 @@ class LiveRun {
       ~Closed() { box.Close(); }
     } const closed{mailbox_};
     std::shared_ptr<const StreamLayout> layout;
+    bool is_lost = false;
     while (!is_ending_) {
       LaidOutFrame& slot = mailbox_.next();
       switch (live_.source->Next(kWait, &slot.frame)) {
@@ -144,8 +145,11 @@ class LiveRun {
           break;
         case StreamEvent::kLayout:
           layout = std::make_shared<const StreamLayout>(live_.source->layout());
+          if (is_lost) news_.Add(false, fmt::format("{}: frames come again", layout->source));
+          is_lost = false;
           break;
         case StreamEvent::kLost:
+          is_lost = true;
           news_.Add(true, live_.source->message());
           break;
         case StreamEvent::kEnd:

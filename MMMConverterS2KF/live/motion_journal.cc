@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/live/journal_lines.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

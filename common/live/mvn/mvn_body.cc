@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 enum class Side { kMiddle, kRightArm, kLeftArm };
 
 struct MvnSegment {
-  const char* segment;
+  const char* segment = nullptr;
   Side side = Side::kMiddle;
   const char* toward = nullptr;
   double share = 0;
@@ -69,7 +69,7 @@ int FindSegment(const KinematicModel& model, const std::string& name) {
 // MVN's axes in the world, of a person with MMM's zero posture: upright, looking along y, the arms
 // hanging.
 Quaterniond AxesAtZero(Side side) {
-  const Quaterniond forward(AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+  Quaterniond forward(AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
   if (side == Side::kMiddle) return forward;
   const double down = side == Side::kRightArm ? M_PI / 2 : -M_PI / 2;
   return forward * AngleAxisd(down, Vector3d::UnitX());
