@@ -90,6 +90,7 @@ KinematicModel WithProbes(const KinematicModel& model, const std::vector<BodySit
 
 std::vector<MarkerIx> AllProbes(const KinematicModel& model) {
   std::vector<MarkerIx> all;
+  all.reserve(model.markers().size());
   for (int m = 0; m < static_cast<int>(model.markers().size()); ++m) all.emplace_back(m);
   return all;
 }

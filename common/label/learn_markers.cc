@@ -41,12 +41,14 @@ std::vector<MarkerAssignment> UsualMarkers(const BodySites& sites) {
   }
   std::sort(chosen.begin(), chosen.end());
   std::vector<MarkerAssignment> assignments;
+  assignments.reserve(chosen.size());
   for (const int m : chosen) assignments.push_back({LabelIx(m), MarkerIx(m), 1.0});
   return assignments;
 }
 
 std::vector<MarkerAssignment> AllMarkers(const KinematicModel& model) {
   std::vector<MarkerAssignment> assignments;
+  assignments.reserve(model.markers().size());
   for (int m = 0; m < static_cast<int>(model.markers().size()); ++m) {
     assignments.push_back({LabelIx(m), MarkerIx(m), 1.0});
   }
