@@ -69,6 +69,20 @@ MatrixXd ScalePrior(const SegmentLengths& lengths, const CalibrationOptions& opt
   return own - common.weights * common.weights.transpose() / common.variance;
 }
 
+/// Of each frame, what it says that no other one says too: skin that moves as an Ornstein-Uhlenbeck
+/// process is much the same in frames near each other.
+VectorXd OwnShares(const std::vector<CalibrationFrame>& frames, double skin_time) {
+  VectorXd repeated = VectorXd::Zero(static_cast<Eigen::Index>(frames.size()));
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    for (const CalibrationFrame& other : frames) {
+      if (other.recording != frames[k].recording) continue;
+      repeated[static_cast<Eigen::Index>(k)] +=
+          std::exp(-std::abs(other.time - frames[k].time) / skin_time);
+    }
+  }
+  return repeated.cwiseInverse();
+}
+
 class BodyFit {
  public:
   BodyFit(BodyKinematics* kinematics, const CalibrationOptions& options,
@@ -87,8 +101,10 @@ class BodyFit {
         model_kinematics_(kinematics->model(), kinematics->joints(), kinematics->markers()),
         solvers_(kParts, NormalEquations(model_kinematics_)) {
     equations_.reserve(frames->size());
-    for (const CalibrationFrame& frame : *frames) {
-      equations_.emplace_back(*kinematics, frame.z, options.skin_deviation * noise_scale);
+    const VectorXd shares = OwnShares(*frames, options.skin_time);
+    for (std::size_t k = 0; k < frames->size(); ++k) {
+      equations_.emplace_back(*kinematics, (*frames)[k].z, options.skin_deviation * noise_scale,
+                              shares[static_cast<Eigen::Index>(k)]);
     }
   }
 

@@ -27,7 +27,8 @@ struct CalibrationOptions {
   double scale_deviation = 0.06;   ///< of a segment's scale
   double side_deviation = 0.01;    ///< of left against right scale
   double height_deviation = 0;     ///< of all scales together, where the height is a guess
-  double skin_deviation = 0.006;   ///< of a marker in its segment from frame to frame [m]
+  double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
+  double skin_time = 0.3;          ///< in which the skin moves on: nearer frames repeat it [s]
 };
 
 struct CalibrationResult {

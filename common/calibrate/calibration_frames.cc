@@ -86,6 +86,7 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
       CalibrationFrame frame;
       frame.recording = static_cast<int>(r);
       frame.frame = k;
+      frame.time = k / sequence.rate();
       frame.z.setConstant(3, static_cast<Eigen::Index>(markers.size()), kNaN);
       for (const MarkerAssignment& assignment : recordings[r].assignments) {
         const auto found = std::lower_bound(markers.begin(), markers.end(), assignment.marker);

@@ -14,6 +14,7 @@ namespace mmm_converter {
 struct CalibrationFrame {
   int recording = 0;   ///< index
   int frame = 0;       ///< of the recording, counted from 0
+  double time = 0;     ///< from the recording's first frame [s]
   Eigen::Matrix3Xd z;  ///< 3 x used markers [m]; NaN: not seen
   Posture posture;     ///< tracked joints
 };

@@ -45,10 +45,11 @@ void BodyEquations::Add(const BodyEquations& other) {
 }
 
 FrameEquations::FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3Xd z,
-                               VectorXd deviation)
+                               VectorXd deviation, double share)
     : at_(kinematics.MakeJacobian()),
       z_(std::move(z)),
       deviation_(std::move(deviation)),
+      share_(share),
       weights_(VectorXd::Zero(z_.cols())),
       natural_(NaturalAngles(kinematics.kinematics())),
       lower_(kinematics.kinematics().lower()),
@@ -75,10 +76,10 @@ double FrameEquations::Cost(const BodyKinematics& kinematics, const Posture& pos
     const double variance = deviation_[m] * deviation_[m];
     const double square = (z_.col(m) - at_.posture.p_WM.col(m)).squaredNorm() / variance;
     cost += CauchyCost(square, kSkinScale);
-    weights_[m] = CauchyWeight(square, kSkinScale) / variance;
+    weights_[m] = share_ * CauchyWeight(square, kSkinScale) / variance;
   }
-  return cost +
-         (posture.joint_angles - natural_).squaredNorm() / (kNaturalDeviation * kNaturalDeviation);
+  cost += (posture.joint_angles - natural_).squaredNorm() / (kNaturalDeviation * kNaturalDeviation);
+  return share_ * cost;
 }
 
 void FrameEquations::Linearize(const BodyKinematics& kinematics, const Posture& posture,
@@ -116,9 +117,9 @@ void FrameEquations::Linearize(const BodyKinematics& kinematics, const Posture& 
   H_.SetZero();
   AddSquare(1, at_.posture.J_transposed, &H_);
   const Eigen::Index joints = natural_.size();
-  constexpr double kNatural = 1 / (kNaturalDeviation * kNaturalDeviation);
-  H_.view().diagonal().tail(joints).array() += kNatural;
-  g_.tail(joints) += kNatural * (natural_ - posture.joint_angles);
+  const double pull = share_ / (kNaturalDeviation * kNaturalDeviation);
+  H_.view().diagonal().tail(joints).array() += pull;
+  g_.tail(joints) += pull * (natural_ - posture.joint_angles);
   for (Eigen::Index j = 0; j < joints; ++j) {
     const double angle = posture.joint_angles[j];
     held_[j] = (angle <= lower_[j] + kOnLimit && g_[6 + j] < 0) ||

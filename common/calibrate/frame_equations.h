@@ -27,11 +27,13 @@ struct BodyEquations {
 /// tracked joints [rad]]. Made once; nothing is allocated later.
 class FrameEquations {
  public:
-  /// z: 3 x used markers [m], NaN: not seen. deviation: of each marker's coordinates [m].
-  FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3Xd z, Eigen::VectorXd deviation);
+  /// z: 3 x used markers [m], NaN: not seen. deviation: of each marker's coordinates [m]. share: of
+  /// what the frame says that no other one says too, (0, 1].
+  FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3Xd z, Eigen::VectorXd deviation,
+                 double share);
 
-  /// -log of the likelihood of z at a posture, and of the posture, where marker distances are
-  /// distributed as in FitBody. Keeps what Linearize needs.
+  /// `share` of -log of the likelihood of z at a posture, and of the posture, where marker distances
+  /// are distributed as in FitBody. Keeps what Linearize needs.
   double Cost(const BodyKinematics& kinematics, const Posture& posture);
 
   /// About the posture that Cost got last; adds to `body` what the frame says of it.
@@ -50,6 +52,7 @@ class FrameEquations {
   BodyJacobian at_;
   Eigen::Matrix3Xd z_;
   Eigen::VectorXd deviation_;
+  double share_;
   Eigen::VectorXd weights_;  // of each marker in the squares, 0 where not seen
   Eigen::VectorXd natural_;  // of the tracked joints [rad]
   Eigen::VectorXd lower_;

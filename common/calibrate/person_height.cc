@@ -42,6 +42,7 @@ std::vector<CalibrationFrame> ChooseFrames(const TrackingSetup& setup,
     for (int k = static_cast<int>(n * (2 * part + 1) / (2 * kFrames)); k < end; ++k) {
       CalibrationFrame frame;
       frame.frame = k;
+      frame.time = k / recording.rate();
       frame.z = recording.frame(k)(Eigen::all, labels);
       if (frame.z.row(0).array().isFinite().count() < kLeastHeightMarkers) continue;
       frames.push_back(std::move(frame));

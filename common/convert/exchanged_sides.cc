@@ -2,7 +2,6 @@
 #include "common/convert/exchanged_sides.h"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,7 +17,7 @@ constexpr double kClearlyNearer = 0.75;  // of the distance with the labels as t
 
 // Two assignments whose markers are called alike but for the side.
 struct Pair {
-  int left = -1, right = -1;
+  int one = -1, other = -1;
   std::string limb;  // "arm", "leg" or neither
 };
 
@@ -35,19 +34,10 @@ std::string LimbOfMarker(const KinematicModel& model, const MarkerKinematics& ki
 }
 
 std::vector<Pair> FindPairs(const KinematicModel& model, const MarkerKinematics& kinematics) {
-  const auto name = [&](int m) {
-    constexpr std::string_view kPrefix = "MARKER_";
-    const std::string& full = model.markers()[kinematics.markers()[m]].name;
-    return full.starts_with(kPrefix) ? full.substr(kPrefix.size()) : full;
-  };
+  const std::vector<int> mirrored = MirroredMarkers(model, kinematics.markers());
   std::vector<Pair> pairs;
-  for (int left = 0; left < kinematics.num_markers(); ++left) {
-    const std::string other = MirroredName(name(left));
-    if (other.empty() || !name(left).starts_with('L')) continue;
-    for (int right = 0; right < kinematics.num_markers(); ++right) {
-      if (name(right) != other) continue;
-      pairs.push_back({left, right, LimbOfMarker(model, kinematics, left)});
-    }
+  for (int m = 0; m < kinematics.num_markers(); ++m) {
+    if (mirrored[m] > m) pairs.push_back({m, mirrored[m], LimbOfMarker(model, kinematics, m)});
   }
   return pairs;
 }
@@ -98,8 +88,8 @@ std::optional<ExchangedSides> FindExchangedSides(const TrackingSetup& setup,
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     for (const Pair& pair : pairs) {
       if (limb != "all" && pair.limb != limb) continue;
-      std::swap(order[static_cast<std::size_t>(pair.left)],
-                order[static_cast<std::size_t>(pair.right)]);
+      std::swap(order[static_cast<std::size_t>(pair.one)],
+                order[static_cast<std::size_t>(pair.other)]);
     }
     return MeanDistance(kinematics, frames, order);
   };

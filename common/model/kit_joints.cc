@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <utility>
 
 namespace mmm_converter {
@@ -47,6 +48,23 @@ std::string MirroredName(const std::string& name) {
     if (name.starts_with(right)) return std::string(left) + name.substr(right.size());
   }
   return "";
+}
+
+std::vector<int> MirroredMarkers(const KinematicModel& model,
+                                 const std::vector<MarkerIx>& markers) {
+  const auto name = [&](MarkerIx marker) {
+    constexpr std::string_view kPrefix = "MARKER_";
+    const std::string& full = model.markers()[marker].name;
+    return full.starts_with(kPrefix) ? full.substr(kPrefix.size()) : full;
+  };
+  std::vector<int> mirrored(markers.size(), -1);
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    const std::string other = MirroredName(name(markers[i]));
+    const auto found = std::find_if(markers.begin(), markers.end(),
+                                    [&](MarkerIx marker) { return name(marker) == other; });
+    if (found != markers.end()) mirrored[i] = static_cast<int>(found - markers.begin());
+  }
+  return mirrored;
 }
 
 }  // namespace mmm_converter

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/model/kinematic_model.h"
+
 namespace mmm_converter {
 
 /// The 44 joints of KIT's motions since 2016, in their order. Those before had 40: without LFx,
@@ -18,5 +20,8 @@ std::string LimbOfJoint(std::string_view joint);
 /// The name of a segment, joint or marker with its side exchanged: "L..." and "R...", or "Left..."
 /// and "Right..."; empty where it has none.
 std::string MirroredName(const std::string& name);
+
+/// Of each of these markers, which of them has its name with the side exchanged; -1: none.
+std::vector<int> MirroredMarkers(const KinematicModel& model, const std::vector<MarkerIx>& markers);
 
 }  // namespace mmm_converter

@@ -10,11 +10,11 @@ constexpr int kPasses = 4;
 
 }  // namespace
 
-GatedUpdate::GatedUpdate(const MarkerKinematics& kinematics, double probability)
-    : gate_(kinematics, probability),
+GatedUpdate::GatedUpdate(const TrackedMarkers& markers, double probability)
+    : gate_(markers.kinematics(), markers.mirror(), probability),
       is_active_(probability > 0),
-      prior_at_(kinematics.MakeJacobian()) {
-  prior_posture_.joint_angles.setZero(kinematics.num_joints());
+      prior_at_(markers.kinematics().MakeJacobian()) {
+  prior_posture_.joint_angles.setZero(markers.kinematics().num_joints());
 }
 
 void GatedUpdate::Update(MarkerFilter* filter, Belief* belief, GateState* gate,

@@ -4,6 +4,7 @@
 #include "plugins/s2kf/marker_filter.h"
 #include "plugins/s2kf/marker_gate.h"
 #include "plugins/s2kf/tracked_frame.h"
+#include "plugins/s2kf/tracked_markers.h"
 
 namespace mmm_converter::s2kf {
 
@@ -12,8 +13,8 @@ namespace mmm_converter::s2kf {
 /// after construction.
 class GatedUpdate {
  public:
-  /// probability: as MarkerGate; 0: every marker is right. kinematics must outlive the update.
-  GatedUpdate(const MarkerKinematics& kinematics, double probability);
+  /// probability: as MarkerGate; 0: every marker is right. markers must outlive the update.
+  GatedUpdate(const TrackedMarkers& markers, double probability);
 
   /// belief: predicted, then the posterior. gate: advanced by the frame's step, then the judgement
   /// of this frame. frame->measured is read; z, outcome, posture and at are written. May be called

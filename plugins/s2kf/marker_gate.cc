@@ -47,8 +47,10 @@ void LeaveOut(int m, GateState* state) {
 
 }  // namespace
 
-MarkerGate::MarkerGate(const MarkerKinematics& kinematics, double probability)
+MarkerGate::MarkerGate(const MarkerKinematics& kinematics, std::vector<int> mirror,
+                       double probability)
     : kinematics_(kinematics),
+      mirror_(std::move(mirror)),
       allowed_(AllowedDistance(probability)),
       scratch_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
       offset_W_(3, kinematics.num_markers()),
@@ -58,7 +60,8 @@ MarkerGate::MarkerGate(const MarkerKinematics& kinematics, double probability)
       expected_(3, kinematics.num_markers()),
       covariance_(kinematics.num_markers()),
       scores_(kinematics.num_markers()),
-      nearest_(kinematics.num_markers()) {}
+      nearest_(kinematics.num_markers()),
+      moved_(3, kinematics.num_markers()) {}
 
 double MarkerGate::Score(const GateState& state, const Matrix3Xd& points, int point, int m) const {
   const Vector3d deviation = points.col(point) - expected_.col(m);
@@ -121,23 +124,38 @@ bool MarkerGate::ExchangeByPrior(const Matrix3Xd& measured, const MarkerJacobian
                                  GateState* state) {
   ExpectByPrior(prior, state->offset);
   const bool is_any = ExchangeBeyond(kFarSwap, 0, measured, state);
+  FollowExchanged(measured, state->verdicts);
   return ExchangeBeyond(kNearSwap, kLimbPairs, measured, state) || is_any;
 }
 
-int MarkerGate::CountOfSameLimbs(int a, int b, const Eigen::VectorXi& verdicts) const {
-  const auto is_on_limb = [this](int other, int marker, int beyond) {
-    for (int j = 0; j < kinematics_.num_joints(); ++j) {
-      if (kinematics_.Moves(j, other) && kinematics_.Moves(j, marker) &&
-          !kinematics_.Moves(j, beyond)) {
-        return true;
-      }
+bool MarkerGate::IsOnLimb(int other, int marker, int beyond) const {
+  for (int j = 0; j < kinematics_.num_joints(); ++j) {
+    if (kinematics_.Moves(j, other) && kinematics_.Moves(j, marker) &&
+        !kinematics_.Moves(j, beyond)) {
+      return true;
     }
-    return false;
-  };
+  }
+  return false;
+}
+
+void MarkerGate::FollowExchanged(const Matrix3Xd& measured, const Eigen::VectorXi& verdicts) {
+  moved_.setZero();
+  for (int m = 0; m < moved_.cols(); ++m) {
+    int count = 0;
+    for (int c = 0; c < verdicts.size(); ++c) {
+      const int d = verdicts[c];
+      if (d < 0 || d == c || !measured.col(d).allFinite() || !IsOnLimb(c, m, d)) continue;
+      moved_.col(m) += (measured.col(d) - expected_.col(c) - moved_.col(m)) / ++count;
+    }
+  }
+  expected_ += moved_;
+}
+
+int MarkerGate::CountOfSameLimbs(int a, int b, const Eigen::VectorXi& verdicts) const {
   int count = 0;
   for (int c = 0; c < verdicts.size(); ++c) {
     const int d = verdicts[c];
-    count += d >= 0 && d != c && is_on_limb(c, a, b) && is_on_limb(d, b, a);
+    count += d >= 0 && d != c && IsOnLimb(c, a, b) && IsOnLimb(d, b, a);
   }
   return count;
 }
@@ -150,8 +168,10 @@ bool MarkerGate::ExchangeBeyond(double least, int limb_pairs, const Matrix3Xd& m
     if (verdicts[label] >= 0 || !measured.col(label).allFinite()) continue;
     const auto squared = (expected_.colwise() - measured.col(label)).colwise().squaredNorm();
     if (squared[label] < least * least) continue;
-    Eigen::Index nearest = 0;
-    if (squared.minCoeff(&nearest) > kSwapShare * squared[label]) continue;
+    const int mirror = mirror_[label];
+    Eigen::Index nearest = mirror;
+    if (mirror < 0 || squared[mirror] > kSwapShare * squared[label]) squared.minCoeff(&nearest);
+    if (squared[nearest] > kSwapShare * squared[label]) continue;
     nearest_[label] = static_cast<int>(nearest);
   }
   bool is_any = false;

@@ -24,9 +24,9 @@ namespace mmm_converter::s2kf {
 /// after construction. z, measured: 3 x markers [m], NaN = not seen; measured is by label.
 class MarkerGate {
  public:
-  /// probability: of a right marker to fail in a frame; 0: none fails. kinematics must outlive the
-  /// gate.
-  MarkerGate(const MarkerKinematics& kinematics, double probability);
+  /// mirror: by marker, the one at that place of the other side; -1: none. probability: of a right
+  /// marker to fail in a frame; 0: none fails. kinematics must outlive the gate.
+  MarkerGate(const MarkerKinematics& kinematics, std::vector<int> mirror, double probability);
 
   /// True where a marker of z is too far from its place beside the estimate's markers.
   bool IsSuspicious(const GateState& state, const Eigen::Matrix3Xd& z,
@@ -37,7 +37,8 @@ class MarkerGate {
   void Reconsider(const Eigen::Matrix3Xd& measured, const MarkerJacobian& prior, GateState* state);
 
   /// Takes those for swapped that are far from where `prior`, the estimate before the frame, has
-  /// them, and nearest to each other's places. True where there are such.
+  /// them, and nearest to each other's places or, in both, to the other side's. True where there
+  /// are such.
   bool ExchangeByPrior(const Eigen::Matrix3Xd& measured, const MarkerJacobian& prior,
                        GateState* state);
 
@@ -65,6 +66,10 @@ class MarkerGate {
   /// Squared Mahalanobis distance of a point from the place of marker m, over what is allowed.
   double Score(const GateState& state, const Eigen::Matrix3Xd& points, int point, int m) const;
   void ExpectByPrior(const MarkerJacobian& prior, const Eigen::Matrix3Xd& offsets);
+  /// A joint moves both and not the one beyond.
+  bool IsOnLimb(int other, int marker, int beyond) const;
+  /// Expects a limb of which markers were exchanged where these are seen to have moved it.
+  void FollowExchanged(const Eigen::Matrix3Xd& measured, const Eigen::VectorXi& verdicts);
   /// How many pairs are exchanged between the limbs of markers a and b.
   int CountOfSameLimbs(int a, int b, const Eigen::VectorXi& verdicts) const;
   /// Exchanges those beyond `least` [m], where so many pairs of the same limbs are exchanged.
@@ -74,6 +79,7 @@ class MarkerGate {
   bool Exchange(const Eigen::Matrix3Xd& measured, GateState* state) const;
 
   const MarkerKinematics& kinematics_;
+  std::vector<int> mirror_;
   double allowed_;  // squared Mahalanobis distance
   GaussianUpdate::Scratch scratch_;
   // Of this frame:
@@ -85,6 +91,7 @@ class MarkerGate {
   std::vector<Eigen::Matrix3d> covariance_;  // of p [m^2]; 0 where the marker was used
   Eigen::VectorXd scores_;
   std::vector<int> nearest_;  // by label: the marker expected there, where that is another
+  Eigen::Matrix3Xd moved_;    // of each marker, how its limb moved
 };
 
 }  // namespace mmm_converter::s2kf

@@ -16,7 +16,7 @@ OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& 
       settings_(settings),
       clip_(FitOptions(settings).robust_distance),
       filter_(markers.kinematics(), settings, markers.FilterScale(settings.marker_deviation)),
-      update_(markers.kinematics(), settings.gate_probability),
+      update_(markers, settings.gate_probability),
       watch_(markers.UsualDeviation(settings.marker_deviation), settings.smoothing),
       recovery_(markers, settings) {
   candidate_.joint_angles.setZero(markers.kinematics().num_joints());

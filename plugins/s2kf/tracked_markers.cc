@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/kit_joints.h"
 #include "common/support/units.h"
 
 namespace mmm_converter::s2kf {
@@ -21,6 +22,7 @@ constexpr double kLeastShare = 0.2;
 
 TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
     : kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
+      mirror_(MirroredMarkers(*setup.model, kinematics_.markers())),
       labels_(LabelIndices(setup.assignments())),
       noise_scale_(NoiseScales(setup.assignments())),
       place_deviation_(noise_scale_.size()),

@@ -26,6 +26,8 @@ class TrackedMarkers {
   TrackedMarkers Worn(const WornPlaces& places) const;
 
   const MarkerKinematics& kinematics() const { return kinematics_; }
+  /// By marker, the one at that place of the other side of the body; -1: none.
+  const std::vector<int>& mirror() const { return mirror_; }
   /// Factor on a marker's standard deviation.
   const Eigen::VectorXd& noise_scale() const { return noise_scale_; }
 
@@ -50,6 +52,7 @@ class TrackedMarkers {
 
  private:
   MarkerKinematics kinematics_;
+  std::vector<int> mirror_;
   std::vector<LabelIx> labels_;
   Eigen::VectorXd noise_scale_;
   Eigen::VectorXd place_deviation_;

@@ -29,7 +29,7 @@ TEST(FrameEquations, GradientIsThatOfTheCost) {
   Eigen::Matrix3Xd z = at.posture.p_WM;
   for (double& coordinate : z.reshaped()) coordinate += 0.01 * (random() % 100) / 50 - 0.01;
   z.col(3).setConstant(kNaN);
-  FrameEquations equations(kinematics, z, Eigen::VectorXd::Constant(z.cols(), 0.005));
+  FrameEquations equations(kinematics, z, Eigen::VectorXd::Constant(z.cols(), 0.005), 0.5);
 
   BodyEquations body(kinematics);
   equations.Cost(kinematics, posture);
