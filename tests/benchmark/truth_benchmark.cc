@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Figures on persons, motions and errors that were made, so that the truth is known:
-//   truth_benchmark WHAT PRESET FIRST_SEED LAST_SEED
+// Figures on persons, motions and errors that were made, so that the truth is known (Session):
+//   truth_benchmark swapped-limbs|swapped-limbs-calibrated|late-markers|calibrations
+//       CONFIGURATION FIRST_SEED LAST_SEED
 // Every seed is another person, who wears every marker elsewhere.
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <span>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "common/calibrate/calibration.h"
-#include "common/calibrate/person_height.h"
 #include "common/convert/converter_config.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
@@ -29,88 +29,99 @@ namespace mmm_converter::s2kf {
 namespace {
 
 constexpr int kFrames = 300;
-constexpr int kSecond = 100;  // frames
+constexpr int kSecond = 100;        // frames
+constexpr int kMissingFrames = 50;  // of the start
+constexpr double kMissingShare = 0.6;
+constexpr double kMostDamage = 0.01;  // what an event may cost a joint's centre [m]
+constexpr double kWorse = 0.001;      // a group's centres are worse [m]
 constexpr double kMillimetres = 1000;
 
 const std::vector<std::string> kArm = {"UPA", "AEL", "AOL", "FRA", "WTS",
                                        "WPS", "HTS", "HPS", "IFD"};
 const std::vector<std::string> kLeg = {"THI", "KNE", "TIP", "ANK", "HEE", "TOE", "MT1", "MT5"};
 
-/// How far joint centres are from where they should be, by joint group ("all" is all) [m].
+/// How far joint centres are from where they should be [m], by joint group; "all" is all.
 class CentreErrors {
  public:
+  /// Every third frame from `begin` on.
   void Add(const KinematicModel& person, const PoseTrajectory& truth, const KinematicModel& model,
-           const PoseTrajectory& estimate, const std::vector<int>& joints) {
-    for (int k = 0; k < std::min(truth.num_frames(), estimate.num_frames()); k += kStep) {
+           const PoseTrajectory& estimate, const std::vector<int>& joints, int begin = 0) {
+    for (int k = begin; k < std::min(truth.num_frames(), estimate.num_frames()); k += 3) {
       const auto X_true = SegmentPoses(person, ModelPosture(person, truth, k));
       const auto X = SegmentPoses(model, ModelPosture(model, estimate, k));
       for (const int joint : joints) {
         const int s = model.joint_segment(joint);
         const double error = (X[s].translation() - X_true[s].translation()).norm();
         for (const std::string& group : {GroupOf(model.joint(joint).name), std::string("all")}) {
-          sums_[group].first += error;
-          sums_[group].second += 1;
+          groups_[group].first += error;
+          groups_[group].second += 1;
         }
         largest_ = std::max(largest_, error);
       }
     }
   }
 
-  void Print(const std::string& title) const {
-    std::printf("%-34s", title.c_str());
-    for (const auto& [group, sum] : sums_) {
-      std::printf(" %s %.1f", group.c_str(), kMillimetres * sum.first / sum.second);
+  void Add(const CentreErrors& other) {
+    for (const auto& [group, sum] : other.groups_) {
+      groups_[group].first += sum.first;
+      groups_[group].second += sum.second;
     }
-    std::printf(" mm\n");
-    std::fflush(stdout);
   }
 
-  double Mean(const std::string& group) const {
-    return sums_.at(group).first / sums_.at(group).second;
-  }
-  void Add(const CentreErrors& other) {
-    for (const auto& [group, sum] : other.sums_) {
-      sums_[group].first += sum.first;
-      sums_[group].second += sum.second;
-    }
-    largest_ = std::max(largest_, other.largest_);
-  }
-  std::vector<std::string> Groups() const {
-    std::vector<std::string> groups;
-    for (const auto& [group, sum] : sums_) groups.push_back(group);
-    return groups;
+  std::map<std::string, double> Means() const {
+    std::map<std::string, double> means;
+    for (const auto& [group, sum] : groups_) means[group] = sum.first / sum.second;
+    return means;
   }
   double largest() const { return largest_; }
 
  private:
-  static constexpr int kStep = 3;
-  std::map<std::string, std::pair<double, long>> sums_;
+  std::map<std::string, std::pair<double, double>> groups_;  // sum, samples
   double largest_ = 0;
+};
+
+/// What events of a kind cost: the largest change of a joint's centre against the clean run.
+class Damages {
+ public:
+  void Add(const std::string& kind, int person, int begin, double damage) {
+    damages_[kind].push_back(damage);
+    if (damage <= kMostDamage) return;
+    std::printf("  person %d, %s, from frame %d: %.0f mm\n", person, kind.c_str(), begin,
+                kMillimetres * damage);
+    std::fflush(stdout);
+  }
+
+  ~Damages() {
+    for (const auto& [kind, damages] : damages_) {
+      const auto bad =
+          std::count_if(damages.begin(), damages.end(), [](double d) { return d > kMostDamage; });
+      std::printf("%-24s beyond 10 mm in %d of %d, worst %.0f mm\n", kind.c_str(),
+                  static_cast<int>(bad), static_cast<int>(damages.size()),
+                  kMillimetres * *std::max_element(damages.begin(), damages.end()));
+    }
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> damages_;
 };
 
 class Runs {
  public:
-  Runs(const std::string& preset, std::uint64_t first, std::uint64_t last)
-      : settings_(ReadSettings(
-            ReadConverterConfig(testing::SourcePath("xml_config/converters/" + preset + ".xml")))),
+  Runs(const std::string& configuration, int first, int last)
+      : settings_(ReadSettings(ReadConverterConfig(
+            testing::SourcePath("xml_config/converters/" + configuration + ".xml")))),
         first_(first),
         last_(last) {}
 
-  ConversionResult Convert(const KinematicModel& model, const std::vector<int>& joints,
-                           const MarkerSequence& seen) const {
-    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), settings_)
-        .Convert(seen, {});
-  }
-
-  /// Legs or arms that bear each other's labels for a second, against the same without.
+  /// Legs or arms bear each other's labels for a second.
   void SwappedLimbs(bool is_calibrated) const {
-    std::map<std::string, std::vector<double>> worst;
-    for (std::uint64_t seed = first_; seed <= last_; ++seed) {
+    Damages damages;
+    for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
       const KinematicModel model = is_calibrated ? session.Calibrate() : session.model;
       for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
         const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
-        const PoseTrajectory clean = Convert(model, session.joints, seen).trajectory;
+        const PoseTrajectory clean = Convert(model, session.joints, seen);
         for (const auto* limb : {&kLeg, &kArm}) {
           for (const int begin : {40, 140}) {
             MarkerSequence swapped = seen;
@@ -119,109 +130,124 @@ class Runs {
                   SwapMarkers(std::move(swapped), "L" + name, "R" + name, begin, begin + kSecond);
             }
             CentreErrors errors;
-            errors.Add(model, clean, model, Convert(model, session.joints, swapped).trajectory,
+            errors.Add(model, clean, model, Convert(model, session.joints, swapped),
                        session.joints);
-            const std::string what = named.name + (limb == &kLeg ? ", legs" : ", arms");
-            worst[what].push_back(errors.largest());
-            if (errors.largest() <= kMostDamage / 2) continue;
-            std::printf("  person %d, %s from frame %d: %.0f mm\n", static_cast<int>(seed),
-                        what.c_str(), begin, kMillimetres * errors.largest());
-            std::fflush(stdout);
+            damages.Add(named.name + (limb == &kLeg ? ", legs" : ", arms"), seed, begin,
+                        errors.largest());
           }
         }
       }
     }
-    for (const auto& [what, values] : worst) {
-      const auto bad = std::count_if(values.begin(), values.end(),
-                                     [](double value) { return value > kMostDamage / 2; });
-      std::printf("%-28s beyond 10 mm in %d of %d, worst %.0f mm\n", what.c_str(),
-                  static_cast<int>(bad), static_cast<int>(values.size()),
-                  kMillimetres * *std::max_element(values.begin(), values.end()));
+  }
+
+  /// Most markers are missing in the first half second; what is left of that a second later.
+  void LateMarkers() const {
+    Damages damages;
+    for (int seed = first_; seed <= last_; ++seed) {
+      const Session session(seed);
+      for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+        const MarkerSequence all = HideBlocks(session.Record(named.motion), seed);
+        const MarkerSequence hidden = OccludeShare(all, kMissingShare, 10 * kMissingFrames, seed);
+        MarkerSequence seen = all;
+        for (int k = 0; k < kMissingFrames; ++k) seen.frame(k) = hidden.frame(k);
+        CentreErrors errors;
+        errors.Add(session.model, Convert(session.model, session.joints, all), session.model,
+                   Convert(session.model, session.joints, seen), session.joints,
+                   kMissingFrames + kSecond);
+        damages.Add(named.name, seed, 0, errors.largest());
+      }
     }
   }
 
-  /// Joint centres of every motion, by what the person was calibrated on.
+  /// Joint centres over all motions, by what the person was calibrated on.
   void Calibrations() const {
     std::map<std::string, CentreErrors> errors;
-    std::map<std::string, std::pair<int, double>> worse;
-    for (std::uint64_t seed = first_; seed <= last_; ++seed) {
+    std::map<std::string, std::vector<double>> worse;
+    for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
-      const std::vector<NamedMotion> motions = SessionMotions(session.model, kFrames, seed);
-      std::map<std::string, KinematicModel> models = {{"0 nothing", session.model},
-                                                      {"1 (truth)", session.person}};
-      CalibrationOptions options;
-      if (getenv("SKIN") && *getenv("SKIN")) options.skin_deviation = atof(getenv("SKIN"));
-      if (getenv("FR")) options.frames = atoi(getenv("FR"));
-      MarkerSequence trial = session.Record(testing::RangeOfMotion(session.model, 40, 0.7, seed));
-      const auto calibrate = [&](const std::string& what) {
-        const CalibrationRecording recording = {"trial", &trial, AssignAll(session.model, trial)};
-        try {
-          const Subject subject =
-              CalibrateSubject(session.model, session.joints, {recording}, options).subject;
-          models.emplace(what, FitToSubject(session.model, subject));
-        } catch (const Error& e) {
-          std::printf("  person %d, %s: %s\n", static_cast<int>(seed), what.c_str(), e.what());
-        }
-      };
-      calibrate("2 range of motion");
-      for (const NamedMotion& named : SessionMotions(session.model, 1000, seed)) {
-        if (named.name != "walking" && named.name != "waving") continue;
-        trial = session.Record(named.motion);
-        calibrate("3 " + named.name);
-      }
-      CentreErrors uncalibrated;
-      for (const auto& [what, model] : models) {
-        CentreErrors own;
-        for (const NamedMotion& named : motions) {
-          const MarkerSequence seen = session.Record(named.motion);
-          const PoseTrajectory estimate = Convert(model, session.joints, seen).trajectory;
-          own.Add(session.person, named.motion, model, estimate, session.joints);
-        }
+      const std::map<std::string, double> uncalibrated =
+          OverAllMotions(session, session.model).Means();
+      for (const auto& [what, model] : CalibratedModels(session)) {
+        const CentreErrors own = OverAllMotions(session, model);
         errors[what].Add(own);
-        if (what[0] == '0') uncalibrated = own;
-        for (const std::string& group : own.Groups()) {
-          const double more = own.Mean(group) - uncalibrated.Mean(group);
-          if (more <= 0.001) continue;
-          auto& [count, most] = worse[what + ": " + group];
-          ++count;
-          most = std::max(most, more);
+        for (const auto& [group, mean] : own.Means()) {
+          const double more = mean - uncalibrated.at(group);
+          if (more > kWorse) worse[what + ": " + group].push_back(more);
         }
       }
     }
-    for (const auto& [what, error] : errors) error.Print(what);
-    for (const auto& [what, bad] : worse) {
-      std::printf("%s: over 1 mm worse than uncalibrated in %d persons, by up to %.0f mm\n",
-                  what.c_str(), bad.first, kMillimetres * bad.second);
+    for (const auto& [what, error] : errors) {
+      std::printf("%-28s", what.c_str());
+      for (const auto& [group, mean] : error.Means()) {
+        std::printf(" %s %.1f", group.c_str(), kMillimetres * mean);
+      }
+      std::printf(" mm\n");
+    }
+    for (const auto& [what, more] : worse) {
+      std::printf("%s, worse than uncalibrated in %d persons, by up to %.0f mm\n", what.c_str(),
+                  static_cast<int>(more.size()),
+                  kMillimetres * *std::max_element(more.begin(), more.end()));
     }
   }
 
  private:
-  static constexpr double kMostDamage = 0.02;
+  PoseTrajectory Convert(const KinematicModel& model, const std::vector<int>& joints,
+                         const MarkerSequence& seen) const {
+    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), settings_)
+        .Convert(seen, {})
+        .trajectory;
+  }
+
+  CentreErrors OverAllMotions(const Session& session, const KinematicModel& model) const {
+    CentreErrors errors;
+    for (const NamedMotion& named : SessionMotions(session.model, kFrames, session.seed)) {
+      errors.Add(session.person, named.motion, model,
+                 Convert(model, session.joints, session.Record(named.motion)), session.joints);
+    }
+    return errors;
+  }
+
+  static std::map<std::string, KinematicModel> CalibratedModels(const Session& session) {
+    std::map<std::string, KinematicModel> models = {
+        {"uncalibrated", session.model},
+        {"the true person", session.person},
+        {"on 40 s range of motion", session.Calibrate()}};
+    for (const NamedMotion& named : SessionMotions(session.model, 10 * kSecond, session.seed)) {
+      if (named.name != "walking" && named.name != "waving") continue;
+      const MarkerSequence trial = session.Record(named.motion);
+      const CalibrationRecording recording = {"trial", &trial, AssignAll(session.model, trial)};
+      const Subject subject =
+          CalibrateSubject(session.model, session.joints, {recording}, {}).subject;
+      models.emplace("on at most 10 s " + named.name, FitToSubject(session.model, subject));
+    }
+    return models;
+  }
 
   S2kfSettings settings_;
-  std::uint64_t first_;
-  std::uint64_t last_;
+  int first_;
+  int last_;
 };
 
 }  // namespace
 }  // namespace mmm_converter::s2kf
 
 int main(int argc, char** argv) try {
-  using namespace mmm_converter::s2kf;
+  using mmm_converter::s2kf::Runs;
   const std::span<char*> args(argv, static_cast<std::size_t>(argc));
-  const std::string what = argc == 5 ? args[1] : "";
-  const auto run = [&] { return Runs(args[2], std::stoul(args[3]), std::stoul(args[4])); };
+  if (argc != 5) throw mmm_converter::Error("WHAT CONFIGURATION FIRST_SEED LAST_SEED");
+  const std::string what = args[1];
+  const Runs runs(args[2], std::stoi(args[3]), std::stoi(args[4]));
   if (what == "swapped-limbs") {
-    run().SwappedLimbs(false);
+    runs.SwappedLimbs(false);
   } else if (what == "swapped-limbs-calibrated") {
-    run().SwappedLimbs(true);
+    runs.SwappedLimbs(true);
+  } else if (what == "late-markers") {
+    runs.LateMarkers();
   } else if (what == "calibrations") {
-    run().Calibrations();
+    runs.Calibrations();
   } else {
-    std::fprintf(stderr,
-                 "truth_benchmark swapped-limbs|swapped-limbs-calibrated|calibrations "
-                 "PRESET FIRST_SEED LAST_SEED\n");
-    return 2;
+    throw mmm_converter::Error(
+        what + " is none of swapped-limbs, swapped-limbs-calibrated, late-markers, calibrations");
   }
   return 0;
 } catch (const std::exception& e) {

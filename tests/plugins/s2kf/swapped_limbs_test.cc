@@ -50,15 +50,13 @@ struct SwapScene {
     if (!is_exact) markers = OccludeShare(std::move(markers), 0.1, 20, seed);
   }
 
-  /// Somebody whom the model does not know, who stands and waves.
-  static SwapScene Standing(std::uint64_t seed) {
-    SwapScene scene(false, seed);
+  /// Somebody whom the model does not know, in one of SessionMotions.
+  SwapScene(const std::string& motion, std::uint64_t seed) : SwapScene(false, seed) {
     const Session session(seed);
-    for (const NamedMotion& named : SessionMotions(scene.model, 3 * kSecond, seed)) {
-      if (named.name != "waving") continue;
-      scene.markers = HideBlocks(session.Record(named.motion), seed);
+    for (const NamedMotion& named : SessionMotions(model, 3 * kSecond, seed)) {
+      if (named.name != motion) continue;
+      markers = HideBlocks(session.Record(named.motion), seed);
     }
-    return scene;
   }
 
   ConversionResult Convert(const S2kfSettings& settings, const MarkerSequence& seen) const {
@@ -108,9 +106,22 @@ TEST_P(SwappedLimbTest, CostsNothingThoughATenthIsHidden) {
 TEST_P(SwappedLimbTest, FeetMayStandBesideEachOther) {
   const S2kfSettings settings = Preset(GetParam());
   for (const auto& [seed, begin] : {std::pair(1, 140), std::pair(4, 40), std::pair(15, 40)}) {
-    const SwapScene scene = SwapScene::Standing(seed);
+    const SwapScene scene("waving", seed);
     const ConversionResult swapped =
         scene.Convert(settings, SwapLimb(scene.markers, kLeg, begin, begin + kSecond));
+    EXPECT_LE(scene.Largest(swapped, scene.Convert(settings, scene.markers), 0), kLeastError)
+        << "person " << seed;
+  }
+}
+
+// They move by 60 mm from frame to frame, where feet are 100 mm apart.
+TEST_P(SwappedLimbTest, LegsMayMoveFast) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const S2kfSettings settings = Preset(GetParam());
+  for (const int seed : {103, 107, 113}) {
+    const SwapScene scene("quick motion", seed);
+    const ConversionResult swapped =
+        scene.Convert(settings, SwapLimb(scene.markers, kLeg, 140, 140 + kSecond));
     EXPECT_LE(scene.Largest(swapped, scene.Convert(settings, scene.markers), 0), kLeastError)
         << "person " << seed;
   }

@@ -116,6 +116,23 @@ TEST(Calibration, DoesNoHarmWhereAMotionTellsLittle) {
   }
 }
 
+// Ten seconds of somebody who hardly moves: skin that is much the same in frames near each other
+// must not be taken for what joints do.
+TEST(Calibration, DoesNoHarmWhereAPersonHardlyMoves) {
+  const KinematicModel model = testing::ScaledReferenceModel(kHeight);
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Trial trial(model, testing::RangeOfMotion(model, 10, 0.15, seed), seed);
+    const Trial held_out(model, MakeCartwheel(model), seed);
+    const KinematicModel fitted = FitToSubject(model, trial.Calibrate().subject);
+    const double before = held_out.CentreError(model);
+    const double after = held_out.CentreError(fitted);
+    std::printf(
+        "[ measured ] person %d, hardly moving: joint centres of a cartwheel %.1f mm -> %.1f mm\n",
+        static_cast<int>(seed), 1000 * before, 1000 * after);
+    EXPECT_LT(after, 0.6 * before);
+  }
+}
+
 TEST(Calibration, TheModelsOwnPersonStaysTheModel) {
   const KinematicModel model = testing::ScaledReferenceModel(kHeight);
   const MarkerSequence recording =
