@@ -19,8 +19,9 @@ LiveSource OpenRecording(const LiveRequest& request, Warnings* warnings) {
   live.head.format = "replay";
   if (live.head.mmm) live.head.mmm->num_motions = 1;
   MarkerSequence markers = std::move(live.head.markers);
-  live.source = std::make_unique<ReplaySource>(std::move(markers), live.head.first_frame,
-                                               Replay{address.speed, request.loops}, address.file);
+  live.source = std::make_unique<ReplaySource>(
+      std::move(markers), live.head.first_frame,
+      PlaybackOptions{.speed = address.speed, .loop = request.loops}, address.file);
   return live;
 }
 

@@ -87,11 +87,12 @@ void NatNetServer::CheckSize() {
 
 void NatNetServer::Step(std::chrono::milliseconds wait) {
   const bool is_heard = is_multicast() || !clients_.empty();
+  std::chrono::nanoseconds most = wait;
   if (playback_.is_running() && (is_heard || options_.playback.speed > 0)) {
-    wait = std::min(wait, playback_.UntilNext());
+    most = std::min(most, playback_.UntilNext());
   }
   const std::array sockets = {command_.Waiting()};
-  WaitForSockets(sockets, wait);
+  WaitForSockets(sockets, most);
   UdpAddress sender;
   for (int i = 0; i < 256; ++i) {
     const auto datagram = command_.Receive(&sender);

@@ -14,6 +14,6 @@ struct WaitFor {
 
 /// Until one of the sockets is ready, or a signal comes, at most so long. Sockets that fail are
 /// ready.
-void WaitForSockets(std::span<const WaitFor> sockets, std::chrono::milliseconds most);
+void WaitForSockets(std::span<const WaitFor> sockets, std::chrono::nanoseconds most);
 
 }  // namespace mmm_converter

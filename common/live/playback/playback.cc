@@ -7,7 +7,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestPause{1000};
+constexpr std::chrono::nanoseconds kLongestPause = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -40,11 +40,11 @@ std::optional<std::int64_t> Playback::Take() {
   return taken_++;
 }
 
-std::chrono::milliseconds Playback::UntilNext() const {
+std::chrono::nanoseconds Playback::UntilNext() const {
+  using std::chrono::nanoseconds;
   if (!is_running_) return kLongestPause;
-  if (options_.speed == 0) return std::chrono::milliseconds(0);
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(DueTime() - options_.now());
-  return std::clamp(left, std::chrono::milliseconds(0), kLongestPause);
+  if (options_.speed == 0) return nanoseconds(0);
+  return std::clamp<nanoseconds>(DueTime() - options_.now(), nanoseconds(0), kLongestPause);
 }
 
 }  // namespace mmm_converter

@@ -34,8 +34,8 @@ class Playback {
   std::int64_t taken() const { return taken_; }
   /// Of a running number, in the recording.
   int FrameOf(std::int64_t number) const { return static_cast<int>(number % num_frames_); }
-  /// How long until the next frame is due, at most; 0: now.
-  std::chrono::milliseconds UntilNext() const;
+  /// How long until the next frame is due, a second at most; 0: now.
+  std::chrono::nanoseconds UntilNext() const;
   const PlaybackOptions& options() const { return options_; }
 
  private:

@@ -33,7 +33,7 @@ QtmServer::QtmServer(MarkerSequence recording, QtmServerOptions options)
 
 QtmServer::~QtmServer() { Shutdown(); }
 
-void QtmServer::Wait(std::chrono::milliseconds most) {
+void QtmServer::Wait(std::chrono::nanoseconds most) {
   std::vector<WaitFor> sockets = {listener_.Waiting()};
   if (discovery_) sockets.push_back(discovery_->Waiting());
   bool is_streaming = false;

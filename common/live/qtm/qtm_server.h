@@ -64,7 +64,7 @@ class QtmServer {
     UdpAddress udp;  // port 0: by TCP
   };
 
-  void Wait(std::chrono::milliseconds most);
+  void Wait(std::chrono::nanoseconds most);
   void Accept();
   void Answer(Session* session, std::string_view bytes);
   void AnswerWithVersion(Session* session, const std::vector<std::string>& words);

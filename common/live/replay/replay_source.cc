@@ -14,47 +14,39 @@
 
 namespace mmm_converter {
 
-using std::chrono::duration;
-using std::chrono::duration_cast;
-using std::chrono::steady_clock;
-
-ReplaySource::ReplaySource(MarkerSequence recording, long first_number, const Replay& replay,
+ReplaySource::ReplaySource(MarkerSequence recording, long first_number, PlaybackOptions options,
                            const std::string& name)
-    : recording_(std::move(recording)), first_number_(first_number), replay_(replay) {
-  layout_ = {name, recording_.labels(), recording_.rate()};
-  message_ = fmt::format("{} ended", name);
+    : recording_(std::move(recording)),
+      first_number_(first_number),
+      playback_(recording_.num_frames(), recording_.rate(), std::move(options)),
+      layout_{name, recording_.labels(), recording_.rate()},
+      message_(fmt::format("{} ended", name)) {
   counts_.connections = 1;
-}
-
-StreamEvent ReplaySource::EndOrBeginAgain() {
-  if (!replay_.loops) return StreamEvent::kEnd;
-  next_ = 0;
-  ++rounds_;
-  start_ = steady_clock::now();
-  return StreamEvent::kLayout;
 }
 
 StreamEvent ReplaySource::Next(std::chrono::milliseconds wait, StreamFrame* frame) {
   if (!has_begun_) {
     has_begun_ = true;
-    start_ = steady_clock::now();
+    playback_.Start();
     return StreamEvent::kLayout;
   }
-  if (next_ == recording_.num_frames()) return EndOrBeginAgain();
-  if (replay_.speed > 0) {
-    const duration<double> due(next_ / (recording_.rate() * replay_.speed));
-    const SteadyTime when = start_ + duration_cast<steady_clock::duration>(due);
-    const SteadyTime until = steady_clock::now() + wait;
-    std::this_thread::sleep_until(std::min(when, until));
-    if (until < when) return StreamEvent::kNothing;
+  if (playback_.options().loop && playback_.taken() == begun_ + recording_.num_frames() &&
+      playback_.is_running()) {
+    begun_ = playback_.taken();
+    return StreamEvent::kLayout;
   }
-  const std::int64_t passed = std::int64_t{rounds_} * recording_.num_frames();
-  frame->number = first_number_ + passed + next_;
-  frame->time = recording_.time(next_) + static_cast<double>(passed) / recording_.rate();
-  frame->received = steady_clock::now();
-  frame->points = recording_.frame(next_);
+  auto number = playback_.Take();
+  if (!number && playback_.is_running()) {
+    std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(playback_.UntilNext(), wait));
+    number = playback_.Take();
+  }
+  if (!number) return playback_.is_running() ? StreamEvent::kNothing : StreamEvent::kEnd;
+  const int k = playback_.FrameOf(*number);
+  frame->number = first_number_ + *number;
+  frame->time = recording_.time(k) + static_cast<double>(*number - k) / recording_.rate();
+  frame->received = std::chrono::steady_clock::now();
+  frame->points = recording_.frame(k);
   frame->unnamed = 0;
-  ++next_;
   ++counts_.frames;
   return StreamEvent::kFrame;
 }
@@ -77,7 +69,7 @@ std::unique_ptr<FrameSource> OpenReplay(const std::string& address) {
   const ReplayAddress parsed = ParseReplayAddress(address);
   Recording recording = ReadRecording(parsed.file, {});
   return std::make_unique<ReplaySource>(std::move(recording.markers), recording.first_frame,
-                                        Replay{parsed.speed, false}, parsed.file);
+                                        PlaybackOptions{.speed = parsed.speed}, parsed.file);
 }
 
 }  // namespace mmm_converter

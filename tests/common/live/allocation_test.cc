@@ -51,7 +51,7 @@ TEST(LiveAllocation, TheTrackingThreadAllocatesNothing) {
   body->setup = MakeTrackingSetup({.names = sample.labels(), .source = "sample"}, reference, config,
                                   {.size = WinterScaling{1.8, 70, {}}});
   LiveTracker tracker(plugin.factory().Create(body->setup, config), sample.rate());
-  ReplaySource source(std::move(sample), 1, {0, true}, "sample");
+  ReplaySource source(std::move(sample), 1, {.speed = 0, .loop = true}, "sample");
   SinkRunner sink(std::make_unique<NoSink>(), 64, nullptr);
   FrameMailbox box(false);
   PoseFrame pose;

@@ -20,7 +20,7 @@ class TestClock {
   std::function<SteadyTime()> Now() const {
     return [now = now_] { return *now; };
   }
-  void GoOn(std::chrono::milliseconds time) { *now_ += time; }
+  void GoOn(std::chrono::nanoseconds time) { *now_ += time; }
 
  private:
   std::shared_ptr<SteadyTime> now_ = std::make_shared<SteadyTime>(std::chrono::hours(1));
@@ -81,6 +81,38 @@ void ExpectRecording(FrameSource* source, Server* server, const MarkerSequence& 
   EXPECT_EQ(source->counts().frames, recording.num_frames());
   EXPECT_EQ(source->counts().lost, 0);
   EXPECT_EQ(source->counts().broken, 0);
+}
+
+/// Both clients take their layout, then the same frames of the recording, which is looped.
+template <typename Source, typename Server>
+void ExpectLoopForTwo(Source* first, Source* second, Server* server,
+                      const MarkerSequence& recording) {
+  StreamFrame frame;
+  EXPECT_EQ(NextOf(first, server, &frame), StreamEvent::kLayout);
+  EXPECT_EQ(NextOf(second, server, &frame), StreamEvent::kLayout);
+  EXPECT_EQ(server->num_clients(), 2U);
+  for (int i = 0; i < 30; ++i) {
+    for (Source* source : {first, second}) {
+      ASSERT_EQ(NextOf(source, server, &frame), StreamEvent::kFrame);
+      ExpectFrame(frame, recording, static_cast<int>((frame.number - 1) % recording.num_frames()));
+    }
+  }
+  EXPECT_EQ(first->counts().lost, 0);
+}
+
+/// The server's recording becomes another while it is looped: the layout comes, then its frames.
+template <typename Server>
+void ExpectReplaced(FrameSource* source, Server* server, const MarkerSequence& other) {
+  StreamFrame frame;
+  EXPECT_EQ(NextOf(source, server, &frame), StreamEvent::kLayout);
+  EXPECT_EQ(NextOf(source, server, &frame), StreamEvent::kFrame);
+  server->Replace(other);
+  StreamEvent event = StreamEvent::kFrame;
+  while (event == StreamEvent::kFrame) event = NextOf(source, server, &frame);
+  ASSERT_EQ(event, StreamEvent::kLayout);
+  EXPECT_EQ(source->layout().labels, other.labels());
+  ASSERT_EQ(NextOf(source, server, &frame), StreamEvent::kFrame);
+  ExpectFrame(frame, other, static_cast<int>((frame.number - 1) % other.num_frames()));
 }
 
 }  // namespace mmm_converter::testing

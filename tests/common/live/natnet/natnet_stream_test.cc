@@ -13,17 +13,12 @@
 #include "tests/common/live/live_samples.h"
 #include "tests/common/live/natnet/natnet_samples.h"
 
-namespace mmm_converter {
+namespace mmm_converter::testing {
 namespace {
 
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
-using testing::ExpectFrame;
-using testing::ExpectRecording;
 using ::testing::HasSubstr;
-using testing::NextOf;
-using testing::SampleRecording;
-using testing::TestClock;
 using ::testing::ThrowsMessage;
 
 int FreeUdpPort() { return UdpSocket("127.0.0.1", 0).port(); }
@@ -47,7 +42,7 @@ NatNetSourceOptions To(const NatNetServer& server, const TestClock& clock = {}) 
 }
 
 TEST(NatNetStream, EveryVersion) {
-  for (const NatNetVersion& version : testing::kNatNetVersions) {
+  for (const NatNetVersion& version : kNatNetVersions) {
     NatNetServer server(SampleRecording(), FastNatNet(version));
     NatNetSource source(To(server));
     StreamFrame frame;
@@ -86,16 +81,7 @@ TEST(NatNetStream, TwoClients) {
   options.playback.loop = true;
   NatNetServer server(SampleRecording(), options);
   NatNetSource first(To(server)), second(To(server));
-  StreamFrame frame;
-  EXPECT_EQ(NextOf(&first, &server, &frame), StreamEvent::kLayout);
-  EXPECT_EQ(NextOf(&second, &server, &frame), StreamEvent::kLayout);
-  EXPECT_EQ(server.num_clients(), 2U);
-  for (int i = 0; i < 20; ++i) {
-    for (NatNetSource* source : {&first, &second}) {
-      ASSERT_EQ(NextOf(source, &server, &frame), StreamEvent::kFrame);
-      ExpectFrame(frame, SampleRecording(), static_cast<int>((frame.number - 1) % 8));
-    }
-  }
+  ExpectLoopForTwo(&first, &second, &server, SampleRecording());
 }
 
 TEST(NatNetStream, Multicast) {
@@ -121,16 +107,7 @@ TEST(NatNetStream, OtherMarkersOnTheFly) {
   options.playback.loop = true;
   NatNetServer server(SampleRecording(), options);
   NatNetSource source(To(server, clock));
-  StreamFrame frame;
-  NextOf(&source, &server, &frame);
-  ASSERT_EQ(NextOf(&source, &server, &frame), StreamEvent::kFrame);
-  server.Replace(SampleRecording({"D", "A"}));
-  StreamEvent event = StreamEvent::kFrame;
-  while (event == StreamEvent::kFrame) event = NextOf(&source, &server, &frame);
-  ASSERT_EQ(event, StreamEvent::kLayout);
-  EXPECT_THAT(source.layout().labels, ElementsAre("D", "A"));
-  ASSERT_EQ(NextOf(&source, &server, &frame), StreamEvent::kFrame);
-  ExpectFrame(frame, SampleRecording({"D", "A"}), static_cast<int>((frame.number - 1) % 8));
+  ExpectReplaced(&source, &server, SampleRecording({"D", "A"}));
 }
 
 TEST(NatNetStream, CutAndResumed) {
@@ -280,4 +257,4 @@ TEST(NatNetServer, MoreMarkersThanADatagramHolds) {
 }
 
 }  // namespace
-}  // namespace mmm_converter
+}  // namespace mmm_converter::testing

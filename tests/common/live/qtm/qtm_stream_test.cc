@@ -10,17 +10,11 @@
 #include "common/support/error.h"
 #include "tests/common/live/live_samples.h"
 
-namespace mmm_converter {
+namespace mmm_converter::testing {
 namespace {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using testing::ExpectFrame;
-using testing::ExpectRecording;
 using ::testing::HasSubstr;
-using testing::NextOf;
-using testing::SampleRecording;
-using testing::TestClock;
 using ::testing::ThrowsMessage;
 
 QtmServerOptions FastQtm() {
@@ -95,20 +89,9 @@ TEST(QtmStream, TimesAreOfTheFrameNumbers) {
 TEST(QtmStream, TwoClientsAndALoop) {
   QtmServerOptions options = FastQtm();
   options.playback.loop = true;
-  const MarkerSequence recording = SampleRecording();
-  QtmServer server(recording, options);
+  QtmServer server(SampleRecording(), options);
   QtmSource first(To(server)), second(To(server));
-  StreamFrame frame;
-  EXPECT_EQ(NextOf(&first, &server, &frame), StreamEvent::kLayout);
-  EXPECT_EQ(NextOf(&second, &server, &frame), StreamEvent::kLayout);
-  EXPECT_EQ(server.num_clients(), 2U);
-  for (int i = 0; i < 30; ++i) {
-    for (QtmSource* source : {&first, &second}) {
-      ASSERT_EQ(NextOf(source, &server, &frame), StreamEvent::kFrame);
-      ExpectFrame(frame, recording, static_cast<int>((frame.number - 1) % 8));
-    }
-  }
-  EXPECT_EQ(first.counts().lost, 0);
+  ExpectLoopForTwo(&first, &second, &server, SampleRecording());
 }
 
 TEST(QtmStream, InTheRecordingsTime) {
@@ -133,17 +116,7 @@ TEST(QtmStream, OtherLabelsOnTheFly) {
   options.playback.loop = true;
   QtmServer server(SampleRecording(), options);
   QtmSource source(To(server));
-  StreamFrame frame;
-  NextOf(&source, &server, &frame);
-  ASSERT_EQ(NextOf(&source, &server, &frame), StreamEvent::kFrame);
-  const MarkerSequence other = SampleRecording({"C c", "B", "A", "D"});
-  server.Replace(other);
-  StreamEvent event = StreamEvent::kFrame;
-  while (event == StreamEvent::kFrame) event = NextOf(&source, &server, &frame);
-  ASSERT_EQ(event, StreamEvent::kLayout);
-  EXPECT_THAT(source.layout().labels, ElementsAre("C c", "B", "A", "D"));
-  ASSERT_EQ(NextOf(&source, &server, &frame), StreamEvent::kFrame);
-  ExpectFrame(frame, other, static_cast<int>((frame.number - 1) % 8));
+  ExpectReplaced(&source, &server, SampleRecording({"C c", "B", "A", "D"}));
 }
 
 TEST(QtmStream, PlayedAgainForTheNextClient) {
@@ -230,4 +203,4 @@ TEST(SourceAddress, WhatIsNotUnderstood) {
 }
 
 }  // namespace
-}  // namespace mmm_converter
+}  // namespace mmm_converter::testing

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "common/live/replay/replay_source.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "common/support/error.h"
+#include "tests/common/live/live_samples.h"
 #include "tests/support/test_folder.h"
 
 namespace mmm_converter {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::ElementsAre;
 
 MarkerSequence ThreeFrames() {
   MarkerSequence recording({"a", "b"}, 3, 100, 2.5);
@@ -21,7 +24,7 @@ MarkerSequence ThreeFrames() {
 }
 
 TEST(ReplaySource, GivesEveryFrameWithItsNumberAndTime) {
-  ReplaySource source(ThreeFrames(), 7, {0, false}, "walk.c3d");
+  ReplaySource source(ThreeFrames(), 7, {.speed = 0}, "walk.c3d");
   EXPECT_TRUE(source.waits_for_reader());
   StreamFrame frame;
   ASSERT_EQ(source.Next(milliseconds(0), &frame), StreamEvent::kLayout);
@@ -39,7 +42,7 @@ TEST(ReplaySource, GivesEveryFrameWithItsNumberAndTime) {
 }
 
 TEST(ReplaySource, ALoopStartsWithALayoutAndCountsOn) {
-  ReplaySource source(ThreeFrames(), 1, {0, true}, "walk.c3d");
+  ReplaySource source(ThreeFrames(), 1, {.speed = 0, .loop = true}, "walk.c3d");
   StreamFrame frame;
   for (int k = 0; k < 4; ++k) source.Next(milliseconds(0), &frame);
   ASSERT_EQ(source.Next(milliseconds(0), &frame), StreamEvent::kLayout);
@@ -49,13 +52,25 @@ TEST(ReplaySource, ALoopStartsWithALayoutAndCountsOn) {
   EXPECT_EQ(frame.points(0, 0), 0);
 }
 
-TEST(ReplaySource, AtItsOwnPaceNothingComesBeforeItsTime) {
-  ReplaySource source(ThreeFrames(), 1, {1e-6, false}, "walk.c3d");
+TEST(ReplaySource, FramesAreDueInTheRecordingsTimeToTheMicrosecond) {
+  testing::TestClock clock;
+  MarkerSequence recording({"a"}, 3, 1600, 0);
+  ReplaySource source(recording, 1, {.loop = true, .now = clock.Now()}, "walk.c3d");
   EXPECT_FALSE(source.waits_for_reader());
+  std::vector<StreamEvent> events;
   StreamFrame frame;
-  source.Next(milliseconds(0), &frame);
-  EXPECT_EQ(source.Next(milliseconds(0), &frame), StreamEvent::kFrame);
-  EXPECT_EQ(source.Next(milliseconds(0), &frame), StreamEvent::kNothing);
+  for (int k = 0; k < 4; ++k) {  // 1/1600 s each
+    for (const int time : {624, 1}) {
+      for (int i = 0; i < 2; ++i) events.push_back(source.Next(milliseconds(0), &frame));
+      clock.GoOn(std::chrono::microseconds(time));
+    }
+  }
+  using enum StreamEvent;
+  EXPECT_THAT(events, ElementsAre(kLayout, kFrame, kNothing, kNothing,   //
+                                  kFrame, kNothing, kNothing, kNothing,  //
+                                  kFrame, kLayout, kNothing, kNothing,   //
+                                  kFrame, kNothing, kNothing, kNothing));
+  EXPECT_EQ(frame.number, 4);
 }
 
 TEST(ReplayAddress, Speeds) {
