@@ -18,35 +18,30 @@ using std::chrono::milliseconds;
 constexpr milliseconds kConnectLimit{3000};
 constexpr milliseconds kAskAgain{500};
 constexpr milliseconds kKeepAlivePeriod{1000};
-constexpr milliseconds kShortestRetry{500};
-constexpr milliseconds kLongestRetryWait{8000};
 constexpr int kDatagramsAtOnce = 64;
 constexpr const char* kOwnName = "MMMConverterS2KF";
 
 }  // namespace
 
 NatNetSource::NatNetSource(NatNetSourceOptions options)
-    : options_(std::move(options)),
-      retry_at_(options_.now()),
-      retry_wait_(kShortestRetry),
+    : ConnectedSource(options.now),
+      options_(std::move(options)),
       rotation_(RotationToZUp(options_.up_axis)) {}
 
 NatNetSource::~NatNetSource() {
   if (command_ && server_.port != 0 && !is_multicast_) Send(NatNetId::kDisconnect);
 }
 
-StreamEvent NatNetSource::Next(milliseconds wait, StreamFrame* frame) {
-  const SteadyTime end = std::chrono::steady_clock::now() + wait;
-  while (true) {
-    if (const Event event = Advance(frame)) return *event;
-    const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) return StreamEvent::kNothing;
-    const SteadyTime until = step_ == Step::kWaiting ? retry_at_ : std::min(limit_, ask_again_at_);
-    const std::array sockets = {command_ ? command_->Waiting() : WaitFor(),
-                                data_ ? data_->Waiting() : WaitFor()};
-    WaitForSockets(sockets,
-                   std::min(left, std::chrono::ceil<milliseconds>(until - options_.now())));
-  }
+void NatNetSource::Wait(std::chrono::nanoseconds most) {
+  const std::array sockets = {command_ ? command_->Waiting() : WaitFor(),
+                              data_ ? data_->Waiting() : WaitFor()};
+  if (is_connected()) most = std::min(most, std::min(limit_, ask_again_at_) - now());
+  WaitForSockets(sockets, most);
+}
+
+void NatNetSource::Disconnect() {
+  command_.reset();
+  data_.reset();
 }
 
 std::string NatNetSource::Server() const {
@@ -56,11 +51,6 @@ std::string NatNetSource::Server() const {
 }
 
 NatNetSource::Event NatNetSource::Advance(StreamFrame* frame) {
-  if (frame_is_pending_) return FillFrame(frame);
-  if (step_ == Step::kWaiting) {
-    if (options_.now() < retry_at_) return std::nullopt;
-    if (const Event event = Connect()) return event;
-  }
   for (int i = 0; i < kDatagramsAtOnce; ++i) {
     UdpAddress sender;
     auto datagram = data_ ? data_->Receive(&sender) : std::nullopt;
@@ -68,7 +58,7 @@ NatNetSource::Event NatNetSource::Advance(StreamFrame* frame) {
     if (!datagram) break;
     received_ = std::chrono::steady_clock::now();
     if (const Event event = Handle(*datagram, sender, frame)) return event;
-    if (step_ == Step::kWaiting) return std::nullopt;
+    if (!is_connected()) return std::nullopt;
   }
   return CheckTime();
 }
@@ -88,9 +78,8 @@ NatNetSource::Event NatNetSource::Connect() {
   }
   has_model_ = false;
   rate_ = 0;
-  last_number_ = -1;
   step_ = Step::kConnecting;
-  limit_ = options_.now() + kConnectLimit;
+  limit_ = now() + kConnectLimit;
   Ask();
   return std::nullopt;
 }
@@ -100,7 +89,7 @@ void NatNetSource::Send(NatNetId id, std::string_view payload) {
 }
 
 void NatNetSource::Ask() {
-  ask_again_at_ = options_.now() + (step_ == Step::kStreaming ? kKeepAlivePeriod : kAskAgain);
+  ask_again_at_ = now() + (step_ == Step::kStreaming ? kKeepAlivePeriod : kAskAgain);
   switch (step_) {
     case Step::kConnecting:
       if (server_.port != 0) {
@@ -126,14 +115,14 @@ void NatNetSource::Ask() {
 }
 
 NatNetSource::Event NatNetSource::CheckTime() {
-  if (options_.now() >= limit_) {
+  if (now() >= limit_) {
     switch (step_) {
       case Step::kConnecting:
         return Lose("no answer",
                     "start Motive there, turn its streaming on (Settings > Streaming), and check "
                     "the address and the firewall");
       case Step::kModel:
-        if (has_model_) return TakeLayout();  // of a server that does not tell its rate
+        if (has_model_) return BeginStreaming();  // of a server that does not tell its rate
         return Lose("it does not describe what it streams",
                     "check the streaming settings of Motive");
       default:
@@ -143,26 +132,11 @@ NatNetSource::Event NatNetSource::CheckTime() {
                                   : "check that Motive plays or records");
     }
   }
-  if (options_.now() < ask_again_at_) return std::nullopt;
+  if (now() < ask_again_at_) return std::nullopt;
   // A rate is no longer waited for than until it is asked for again.
-  if (step_ == Step::kModel && has_model_) return TakeLayout();
+  if (step_ == Step::kModel && has_model_) return BeginStreaming();
   Ask();
   return std::nullopt;
-}
-
-NatNetSource::Event NatNetSource::Lose(const std::string& reason, const std::string& remedy) {
-  const std::string whole =
-      fmt::format("{}: {}{}{}", Server(), reason, remedy.empty() ? "" : "; ", remedy);
-  command_.reset();
-  data_.reset();
-  if (!had_layout_) throw Error(whole);
-  step_ = Step::kWaiting;
-  retry_at_ = options_.now() + retry_wait_;
-  retry_wait_ = std::min(2 * retry_wait_, kLongestRetryWait);
-  if (is_lost_) return std::nullopt;
-  is_lost_ = layout_is_due_ = true;
-  message_ = whole;
-  return StreamEvent::kLost;
 }
 
 void NatNetSource::OpenData() {

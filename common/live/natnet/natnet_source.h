@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "common/live/frame_source.h"
+#include "common/live/connected_source.h"
 #include "common/live/natnet/natnet_columns.h"
 #include "common/live/natnet/natnet_message.h"
 #include "common/live/net/udp_socket.h"
@@ -28,32 +28,28 @@ struct NatNetSourceOptions {
 };
 
 /// Labelled points of OptiTrack Motive by NatNet, unicast or multicast.
-class NatNetSource : public FrameSource {
+class NatNetSource : public ConnectedSource {
  public:
   explicit NatNetSource(NatNetSourceOptions options);
   ~NatNetSource() override;
   NatNetSource(const NatNetSource&) = delete;
   NatNetSource& operator=(const NatNetSource&) = delete;
 
-  StreamEvent Next(std::chrono::milliseconds wait, StreamFrame* frame) override;
-  const StreamLayout& layout() const override { return layout_; }
-  const std::string& message() const override { return message_; }
-  const StreamCounts& counts() const override { return counts_; }
-
  private:
-  using Event = std::optional<StreamEvent>;
   enum class Step {
-    kWaiting,     // until it is time to connect again
     kConnecting,  // for the server's description of itself
     kModel,       // for its model definition, and its rate
     kStreaming,
   };
 
-  Event Advance(StreamFrame* frame);
-  Event Connect();
+  Event Connect() override;
+  Event Advance(StreamFrame* frame) override;
+  Event FillFrame(StreamFrame* frame) override;
+  void Wait(std::chrono::nanoseconds most) override;
+  void Disconnect() override;
+  std::string Server() const override;
+
   Event CheckTime();
-  Event Lose(const std::string& reason, const std::string& remedy = "");
-  std::string Server() const;
   void Send(NatNetId id, std::string_view payload = {});
   void Ask();  // again what the step waits for
   void AskForModel();
@@ -64,16 +60,13 @@ class NatNetSource : public FrameSource {
   Event HandleModel(std::string_view payload);
   Event HandleResponse(std::string_view payload);
   Event HandleFrame(std::string_view payload, StreamFrame* frame);
-  Event TakeLayout();
-  Event FillFrame(StreamFrame* frame);
+  Event BeginStreaming();
 
   NatNetSourceOptions options_;
   std::optional<UdpSocket> command_, data_;
   UdpAddress server_;
-  Step step_ = Step::kWaiting;
-  SteadyTime limit_, ask_again_at_;  // of the step
-  SteadyTime retry_at_;              // kWaiting
-  std::chrono::milliseconds retry_wait_;
+  Step step_ = Step::kConnecting;
+  SteadyTime limit_, ask_again_at_;               // of the step
   SteadyTime model_asked_at_, version_asked_at_;  // because of frames
 
   NatNetServerInfo info_;
@@ -82,17 +75,9 @@ class NatNetSource : public FrameSource {
   NatNetColumns columns_;
   bool has_model_ = false;  // of this connection
   double rate_ = 0;
-  StreamLayout layout_;
-  bool had_layout_ = false;
-  bool layout_is_due_ = false;  // before the next frame
-  bool is_lost_ = false;        // which has been said
 
   NatNetFrame frame_;
-  bool frame_is_pending_ = false;  // kLayout was said before it
   SteadyTime received_;
-  std::int64_t last_number_ = -1;
-  std::string message_;
-  StreamCounts counts_;
 };
 
 /// natnet://HOST[:COMMAND PORT] with ?multicast=GROUP, ?data=PORT, ?local=ADDRESS, ?up=z.

@@ -17,8 +17,6 @@ using std::chrono::milliseconds;
 constexpr milliseconds kModelLimit{3000};
 constexpr milliseconds kFrameLimit{5000};
 constexpr milliseconds kAskOnceIn{1000};
-constexpr milliseconds kRetryAfterFrames{500};
-constexpr std::int64_t kMostMissedAtOnce = 1000000;  // else the numbers begin anew
 
 }  // namespace
 
@@ -42,7 +40,7 @@ NatNetSource::Event NatNetSource::Handle(std::string_view datagram, const UdpAdd
         return std::nullopt;
     }
   } catch (const BrokenMessage&) {
-    ++counts_.broken;
+    CountBroken();
     return std::nullopt;
   }
 }
@@ -66,18 +64,18 @@ NatNetSource::Event NatNetSource::HandleServerInfo(std::string_view payload,
       Send(NatNetId::kConnect, FormatNatNetConnect("MMMConverterS2KF", kNewestNatNet));
     }
     OpenData();
-    ++counts_.connections;
+    CountConnection();
   }
   has_model_ = false;
   step_ = Step::kModel;
-  limit_ = options_.now() + kModelLimit;
+  limit_ = now() + kModelLimit;
   Ask();
   return std::nullopt;
 }
 
 void NatNetSource::AskForModel() {
-  if (options_.now() < model_asked_at_ + kAskOnceIn) return;
-  model_asked_at_ = options_.now();
+  if (now() < model_asked_at_ + kAskOnceIn) return;
+  model_asked_at_ = now();
   Send(NatNetId::kRequestModel);
 }
 
@@ -91,7 +89,7 @@ NatNetSource::Event NatNetSource::HandleModel(std::string_view payload) {
   columns_ = std::move(columns);
   has_model_ = true;
   if (step_ == Step::kModel && rate_ == 0) return std::nullopt;
-  return TakeLayout();
+  return BeginStreaming();
 }
 
 NatNetSource::Event NatNetSource::HandleResponse(std::string_view payload) {
@@ -99,46 +97,35 @@ NatNetSource::Event NatNetSource::HandleResponse(std::string_view payload) {
   const auto rate = ByteReader(payload).Take<float>();
   if (!IsFrameRate(rate)) return std::nullopt;
   rate_ = rate;
-  return has_model_ ? TakeLayout() : std::nullopt;
+  return has_model_ ? BeginStreaming() : std::nullopt;
 }
 
-NatNetSource::Event NatNetSource::TakeLayout() {
-  StreamLayout layout{
-      fmt::format("{} {}.{}, NatNet {}", info_.application, info_.application_version[0],
-                  info_.application_version[1], Format(info_.version)),
-      columns_.labels(), rate_};
-  const bool is_new = !had_layout_ || layout.labels != layout_.labels ||
-                      layout.rate != layout_.rate || layout.source != layout_.source;
-  layout_ = std::move(layout);
+NatNetSource::Event NatNetSource::BeginStreaming() {
+  const Event event = TakeLayout(
+      {fmt::format("{} {}.{}, NatNet {}", info_.application, info_.application_version[0],
+                   info_.application_version[1], Format(info_.version)),
+       columns_.labels(), rate_});
   if (step_ == Step::kModel) {
     step_ = Step::kStreaming;
-    limit_ = options_.now() + kFrameLimit;
+    limit_ = now() + kFrameLimit;
     Ask();
   }
-  if (!is_new || is_lost_) return std::nullopt;
-  had_layout_ = true;
-  return StreamEvent::kLayout;
+  return event;
 }
 
 NatNetSource::Event NatNetSource::HandleFrame(std::string_view payload, StreamFrame* frame) {
   ParseNatNetFrame(payload, info_.version, &frame_);
-  limit_ = options_.now() + kFrameLimit;
-  is_lost_ = false;
-  retry_wait_ = kRetryAfterFrames;
+  limit_ = now() + kFrameLimit;
   if ((frame_.parameters & kNatNetModelChanged) != 0) AskForModel();
   if ((frame_.parameters & kNatNetVersionChanged) != 0 && info_.version >= kNatNet4 &&
-      options_.now() >= version_asked_at_ + kAskOnceIn) {
-    version_asked_at_ = options_.now();
+      now() >= version_asked_at_ + kAskOnceIn) {
+    version_asked_at_ = now();
     Send(NatNetId::kConnect, FormatNatNetConnect("MMMConverterS2KF", kNewestNatNet));
   }
-  if (!layout_is_due_) return FillFrame(frame);
-  layout_is_due_ = false;
-  frame_is_pending_ = true;
-  return StreamEvent::kLayout;
+  return FrameCame(frame);
 }
 
 NatNetSource::Event NatNetSource::FillFrame(StreamFrame* frame) {
-  frame_is_pending_ = false;
   frame->number = frame_.number;
   if (info_.version >= kNatNetWithBodyParameters) {
     frame->time = frame_.time;
@@ -153,11 +140,7 @@ NatNetSource::Event NatNetSource::FillFrame(StreamFrame* frame) {
     const Eigen::Vector3d p = frame->points.col(i);
     frame->points.col(i).noalias() = rotation_ * p;
   }
-  const std::int64_t missed = frame->number - last_number_ - 1;
-  if (last_number_ >= 0 && missed > 0 && missed < kMostMissedAtOnce) counts_.lost += missed;
-  last_number_ = frame->number;
-  ++counts_.frames;
-  return StreamEvent::kFrame;
+  return CountFrame(frame->number);
 }
 
 }  // namespace mmm_converter

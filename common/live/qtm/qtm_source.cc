@@ -20,50 +20,37 @@ constexpr milliseconds kAnswerLimit{5000};
 constexpr milliseconds kDiscoveryTime{1000};
 constexpr milliseconds kSilence{5000};       // of a stream: it is lost
 constexpr milliseconds kShortSilence{1000};  // after an event that says so
-constexpr milliseconds kFirstRetry{500};
-constexpr milliseconds kLongestRetry{8000};
 constexpr int kPacketsAtOnce = 64;
-constexpr std::int64_t kMostLostAtOnce = 1000000;  // else the numbers begin anew
-constexpr std::int64_t kMostLate = 1000;
 
 }  // namespace
 
 QtmSource::QtmSource(QtmSourceOptions options)
-    : options_(std::move(options)), retry_at_(options_.now()), retry_wait_(kFirstRetry) {}
+    : ConnectedSource(options.now), options_(std::move(options)) {}
 
-StreamEvent QtmSource::Next(milliseconds wait, StreamFrame* frame) {
-  const SteadyTime end = std::chrono::steady_clock::now() + wait;
-  while (true) {
-    if (const Event event = Advance(frame)) return *event;
-    const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
-    if (left.count() <= 0) return StreamEvent::kNothing;
-    Wait(left);
-  }
+void QtmSource::Wait(std::chrono::nanoseconds most) {
+  const std::array sockets = {connection_.Waiting(), udp_ ? udp_->Waiting() : WaitFor()};
+  if (has_more_) return;
+  const bool has_limit = is_connected() && !is_paused_;
+  WaitForSockets(sockets, has_limit ? std::min(most, limit_ - now()) : most);
 }
 
-void QtmSource::Wait(milliseconds most) {
-  const SteadyTime until = step_ == Step::kWaiting ? retry_at_ : limit_;
-  const auto left = std::chrono::ceil<milliseconds>(until - options_.now());
-  const std::array sockets = {connection_.Waiting(), udp_ ? udp_->Waiting() : WaitFor()};
-  if (has_more_) most = milliseconds(0);
-  WaitForSockets(sockets, is_paused_ ? most : std::min(most, left));
+void QtmSource::Disconnect() {
+  connection_.Close();
+  udp_.reset();
+  is_paused_ = has_more_ = false;
 }
 
 void QtmSource::Go(Step step, milliseconds limit) {
   step_ = step;
-  limit_ = options_.now() + limit;
+  limit_ = now() + limit;
 }
 
 std::string QtmSource::Server() const {
-  return fmt::format("QTM at {}:{}", options_.host, options_.port);
+  return options_.host.empty() ? "qtm://"
+                               : fmt::format("QTM at {}:{}", options_.host, options_.port);
 }
 
 QtmSource::Event QtmSource::Advance(StreamFrame* frame) {
-  if (data_is_pending_) return FillFrame(frame);
-  if (step_ == Step::kWaiting) {
-    if (options_.now() < retry_at_) return std::nullopt;
-    if (const Event event = Connect()) return event;
-  }
   if (step_ == Step::kDiscovering) return Discover();
   has_more_ = true;
   for (int i = 0; i < kPacketsAtOnce; ++i) {
@@ -80,10 +67,9 @@ QtmSource::Event QtmSource::Advance(StreamFrame* frame) {
       has_more_ = false;
       break;
     }
-    if (step_ == Step::kWaiting) break;
+    if (!is_connected()) return std::nullopt;
   }
-  has_more_ = has_more_ && step_ != Step::kWaiting;
-  return step_ == Step::kWaiting ? std::nullopt : CheckTime();
+  return CheckTime();
 }
 
 QtmSource::Event QtmSource::CheckTime() {
@@ -93,14 +79,14 @@ QtmSource::Event QtmSource::CheckTime() {
                   "start QTM there, and check the address, the port (22223 unless QTM's options of "
                   "the real-time output say otherwise) and the firewall");
     }
-    counts_.broken += connection_.tcp().failure().starts_with("what comes") ? 1 : 0;
+    if (connection_.tcp().failure().starts_with("what comes")) CountBroken();
     return Lose(connection_.tcp().failure());
   }
   if (step_ == Step::kConnecting && !connection_.tcp().is_connecting()) {
-    ++counts_.connections;
+    CountConnection();
     Go(Step::kGreeting, kAnswerLimit);
   }
-  if (options_.now() < limit_ || (is_paused_ && !awaits_parameters_)) return std::nullopt;
+  if (now() < limit_ || (is_paused_ && !awaits_parameters_)) return std::nullopt;
   if (step_ == Step::kSoftware) {  // it can be done without
     AskForParameters();
     Go(Step::kParameters, kAnswerLimit);
@@ -132,7 +118,6 @@ QtmSource::Event QtmSource::Connect() {
   minor_ = options_.newest_minor;
   is_paused_ = awaits_parameters_ = false;
   pause_reason_.clear();
-  last_number_ = -1;
   Go(Step::kConnecting, kAnswerLimit);
   connection_.Use(TcpConnection::To(options_.host, options_.port));
   return std::nullopt;
@@ -150,10 +135,10 @@ QtmSource::Event QtmSource::Discover() {
           });
       if (!is_known) announcements_.emplace_back(sender, found);
     } catch (const Error&) {
-      ++counts_.broken;
+      CountBroken();
     }
   }
-  if (options_.now() < limit_) return std::nullopt;
+  if (now() < limit_) return std::nullopt;
   if (announcements_.empty()) {
     return Lose("no QTM answers in this network",
                 "start QTM, or give its address, as in qtm://192.168.1.10");
@@ -166,22 +151,8 @@ QtmSource::Event QtmSource::Discover() {
   if (found.size() > 1) return Lose("several QTM answer", "choose " + JoinNames(found));
   options_.host = FormatIp(announcements_.front().first);
   options_.port = announcements_.front().second.base_port + 1;
-  retry_at_ = options_.now();
-  step_ = Step::kWaiting;
+  ConnectAnew();
   return std::nullopt;
-}
-
-QtmSource::Event QtmSource::Lose(const std::string& reason, const std::string& remedy) {
-  const std::string whole = fmt::format("{}: {}{}{}", options_.host.empty() ? "qtm://" : Server(),
-                                        reason, remedy.empty() ? "" : "; ", remedy);
-  connection_.Close();
-  udp_.reset();
-  if (!had_layout_) throw Error(whole);
-  step_ = Step::kWaiting;
-  is_paused_ = false;
-  retry_at_ = options_.now() + retry_wait_;
-  retry_wait_ = std::min(2 * retry_wait_, kLongestRetry);
-  return Say(whole);
 }
 
 QtmSource::Event QtmSource::Pause(const std::string& reason) {
@@ -190,25 +161,10 @@ QtmSource::Event QtmSource::Pause(const std::string& reason) {
   return Say(fmt::format("{}: {}", Server(), reason));
 }
 
-QtmSource::Event QtmSource::Say(const std::string& reason) {
-  if (is_lost_) return std::nullopt;
-  is_lost_ = layout_is_due_ = true;
-  message_ = reason;
-  return StreamEvent::kLost;
-}
-
-void QtmSource::CountLost(std::int64_t number) {
-  const std::int64_t gap = number - last_number_ - 1;
-  if (last_number_ >= 0 && gap > 0 && gap < kMostLostAtOnce) counts_.lost += gap;
-  // What comes late by UDP is not counted twice; a stream that starts anew is followed.
-  if (gap >= 0 || gap < -kMostLate) last_number_ = number;
-}
-
 QtmSource::Event QtmSource::FillFrame(StreamFrame* frame) {
-  data_is_pending_ = false;
   frame->number = data_.frame;
-  frame->time =
-      layout_.rate > 0 ? data_.frame / layout_.rate : static_cast<double>(data_.camera_time) * 1e-6;
+  frame->time = layout().rate > 0 ? data_.frame / layout().rate
+                                  : static_cast<double>(data_.camera_time) * 1e-6;
   frame->received = received_;
   frame->unnamed = static_cast<int>(data_.unlabelled.size());
   frame->points.resize(3, static_cast<Eigen::Index>(data_.labelled.size()));
@@ -221,9 +177,7 @@ QtmSource::Event QtmSource::FillFrame(StreamFrame* frame) {
       frame->points.col(i).setConstant(kNaN);
     }
   }
-  CountLost(frame->number);
-  ++counts_.frames;
-  return StreamEvent::kFrame;
+  return CountFrame(frame->number);
 }
 
 std::unique_ptr<FrameSource> OpenQtmSource(const StreamAddress& address) {

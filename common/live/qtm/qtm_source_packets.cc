@@ -43,7 +43,7 @@ QtmSource::Event QtmSource::Handle(std::string_view bytes, StreamFrame* frame) {
         return std::nullopt;
     }
   } catch (const BrokenMessage&) {
-    ++counts_.broken;
+    CountBroken();
     return std::nullopt;
   }
 }
@@ -127,7 +127,7 @@ QtmSource::Event QtmSource::HandleEvent(QtmEvent event) {
       if (step_ != Step::kStreaming || is_paused_) return std::nullopt;
       pause_reason_ = event == QtmEvent::kCaptureStopped ? "QTM has stopped the measurement"
                                                          : "QTM has stopped playing the file";
-      if (!awaits_parameters_) limit_ = options_.now() + kQuietAfterStop;
+      if (!awaits_parameters_) limit_ = now() + kQuietAfterStop;
       return std::nullopt;
     case QtmEvent::kCaptureStarted:
     case QtmEvent::kRtFromFileStarted:
@@ -146,8 +146,8 @@ QtmSource::Event QtmSource::HandleEvent(QtmEvent event) {
 void QtmSource::AskForParameters() {
   if (!awaits_parameters_) connection_.SendCommand("GetParameters General 3D");
   awaits_parameters_ = true;
-  asked_at_ = options_.now();
-  limit_ = options_.now() + kReplyLimit;
+  asked_at_ = now();
+  limit_ = now() + kReplyLimit;
 }
 
 void QtmSource::StartStream() {
@@ -165,7 +165,7 @@ QtmSource::Event QtmSource::HandleParameters(const QtmPacket& packet) {
   try {
     parameters_ = ParseQtmParameters(QtmText(packet));
   } catch (const Error& error) {
-    ++counts_.broken;
+    CountBroken();
     return Lose(fmt::format("its parameters can't be read ({})", error.what()));
   }
   if (parameters_.calibration_time && Trim(*parameters_.calibration_time).empty()) {
@@ -176,43 +176,34 @@ QtmSource::Event QtmSource::HandleParameters(const QtmPacket& packet) {
                 "label the markers in QTM, or apply an AIM model, in real time too");
   }
   rotation_ = RotationToZUp(parameters_.up_axis) / kMillimetres;
-  StreamLayout layout{fmt::format("{}, protocol 1.{}", software_, minor_), parameters_.labels,
-                      parameters_.rate};
-  const bool is_new = !had_layout_ || layout.labels != layout_.labels ||
-                      layout.rate != layout_.rate || layout.source != layout_.source;
-  layout_ = std::move(layout);
+  const Event event = TakeLayout(
+      {fmt::format("{}, protocol 1.{}", software_, minor_), parameters_.labels, parameters_.rate});
   if (is_first || restarts_stream_ || is_paused_) {
     is_paused_ = false;
     pause_reason_.clear();
     StartStream();
   } else {
-    limit_ = options_.now() + kQuietLimit;
+    limit_ = now() + kQuietLimit;
   }
-  if (!is_new || is_lost_) return std::nullopt;
-  had_layout_ = true;
-  return StreamEvent::kLayout;
+  return event;
 }
 
 QtmSource::Event QtmSource::HandleData(const QtmPacket& packet, StreamFrame* frame) {
   if (step_ != Step::kStreaming || awaits_parameters_) return std::nullopt;
   ParseQtmData(packet.body, &data_);
   if (!data_.has_labelled) return std::nullopt;
-  if (data_.labelled.size() != layout_.labels.size()) {
-    if (options_.now() < asked_at_ + kAskAgainAfter) {
-      ++counts_.broken;
+  if (data_.labelled.size() != layout().labels.size()) {
+    if (now() < asked_at_ + kAskAgainAfter) {
+      CountBroken();
     } else {
       AskForParameters();
     }
     return std::nullopt;
   }
-  limit_ = options_.now() + kQuietLimit;
-  is_paused_ = is_lost_ = false;
+  limit_ = now() + kQuietLimit;
+  is_paused_ = false;
   pause_reason_.clear();
-  retry_wait_ = milliseconds(500);
-  if (!layout_is_due_) return FillFrame(frame);
-  layout_is_due_ = false;
-  data_is_pending_ = true;
-  return StreamEvent::kLayout;
+  return FrameCame(frame);
 }
 
 }  // namespace mmm_converter
