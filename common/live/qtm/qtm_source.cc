@@ -16,10 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kAnswerLimit{5000};
 constexpr milliseconds kDiscoveryTime{1000};
-constexpr milliseconds kSilence{5000};       // of a stream: it is lost
-constexpr milliseconds kShortSilence{1000};  // after an event that says so
 constexpr int kPacketsAtOnce = 64;
 
 }  // namespace

@@ -35,6 +35,8 @@ class QtmSource : public ConnectedSource {
   explicit QtmSource(QtmSourceOptions options);
 
  private:
+  static constexpr std::chrono::milliseconds kAnswerLimit{5000};
+  static constexpr std::chrono::milliseconds kSilence{5000};  // of a stream: it is lost
   enum class Step {
     kDiscovering,  // for answers of servers
     kConnecting,

@@ -13,9 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kReplyLimit{5000};
 constexpr milliseconds kSoftwareLimit{1000};
-constexpr milliseconds kQuietLimit{5000};
 constexpr milliseconds kQuietAfterStop{1000};
 constexpr milliseconds kAskAgainAfter{1000};
 constexpr const char* kGreetingText = "QTM RT Interface connected";
@@ -63,7 +61,7 @@ QtmSource::Event QtmSource::HandleText(const QtmPacket& packet) {
                     "check the port");
       }
       connection_.SendCommand(fmt::format("Version 1.{}", minor_));
-      Go(Step::kVersion, kReplyLimit);
+      Go(Step::kVersion, kAnswerLimit);
       return std::nullopt;
     case Step::kVersion:
       return HandleVersion(packet);
@@ -74,7 +72,7 @@ QtmSource::Event QtmSource::HandleText(const QtmPacket& packet) {
                         : text;
       }
       AskForParameters();
-      Go(Step::kParameters, kReplyLimit);
+      Go(Step::kParameters, kAnswerLimit);
       return std::nullopt;
     case Step::kParameters:
       if (!is_error) return std::nullopt;
@@ -112,7 +110,7 @@ QtmSource::Event QtmSource::HandleVersion(const QtmPacket& packet) {
                 "update QTM");
   }
   connection_.SendCommand(fmt::format("Version 1.{}", minor_));
-  Go(Step::kVersion, kReplyLimit);
+  Go(Step::kVersion, kAnswerLimit);
   return std::nullopt;
 }
 
@@ -147,7 +145,7 @@ void QtmSource::AskForParameters() {
   if (!awaits_parameters_) connection_.SendCommand("GetParameters General 3D");
   awaits_parameters_ = true;
   asked_at_ = now();
-  limit_ = now() + kReplyLimit;
+  limit_ = now() + kAnswerLimit;
 }
 
 void QtmSource::StartStream() {
@@ -155,7 +153,7 @@ void QtmSource::StartStream() {
                                       udp_ ? fmt::format("UDP:{} ", udp_->port()) : "",
                                       asks_for_unlabelled_ ? " 3DNoLabels" : ""));
   restarts_stream_ = false;
-  Go(Step::kStreaming, kQuietLimit);
+  Go(Step::kStreaming, kSilence);
 }
 
 QtmSource::Event QtmSource::HandleParameters(const QtmPacket& packet) {
@@ -183,7 +181,7 @@ QtmSource::Event QtmSource::HandleParameters(const QtmPacket& packet) {
     pause_reason_.clear();
     StartStream();
   } else {
-    limit_ = now() + kQuietLimit;
+    limit_ = now() + kSilence;
   }
   return event;
 }
@@ -200,7 +198,7 @@ QtmSource::Event QtmSource::HandleData(const QtmPacket& packet, StreamFrame* fra
     }
     return std::nullopt;
   }
-  limit_ = now() + kQuietLimit;
+  limit_ = now() + kSilence;
   is_paused_ = false;
   pause_reason_.clear();
   return FrameCame(frame);

@@ -56,7 +56,8 @@ class WebClient {
 std::pair<int, std::string> Ask(const WebServer& server, const std::string& request) {
   asio::io_context context;
   tcp::socket socket = Connect(&context, server);
-  asio::write(socket, asio::buffer(request));
+  beast::error_code closed;  // by a server that has read enough
+  asio::write(socket, asio::buffer(request), closed);
   beast::flat_buffer buffer;
   http::response<http::string_body> response;
   beast::error_code failure;
