@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +15,7 @@
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
 #include "common/live/source_address.h"
 #include "common/support/atomic_file.h"
 
@@ -148,36 +146,14 @@ LiveRequest MakeRequest(const Arguments& arguments) {
   return request;
 }
 
-// One line on the terminal that is drawn over again.
-class StatusLine {
- public:
-  StatusLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
-  ~StatusLine() { Clear(); }
-  StatusLine(const StatusLine&) = delete;
-  StatusLine& operator=(const StatusLine&) = delete;
-
-  void Show(const LiveStatus& status) {
-    if (!is_terminal_) return;
-    std::string text = fmt::format("{} frames, {} dropped: {}", status.frames, status.dropped,
-                                   Describe(status.stage));
-    if (status.stage == LiveStage::kGathering || status.stage == LiveStage::kMeasuring) {
-      text += fmt::format(", {:.0f} %", 100 * status.gathered);
-    }
-    if (text == shown_) return;
-    Clear();
-    std::cerr << text << std::flush;
-    shown_ = text;
+std::string Describe(const LiveStatus& status) {
+  std::string text = fmt::format("{} frames, {} dropped: {}", status.frames, status.dropped,
+                                 Describe(status.stage));
+  if (status.stage == LiveStage::kGathering || status.stage == LiveStage::kMeasuring) {
+    text += fmt::format(", {:.0f} %", 100 * status.gathered);
   }
-
-  void Clear() {
-    if (!shown_.empty()) std::cerr << '\r' << std::string(shown_.size(), ' ') << '\r' << std::flush;
-    shown_.clear();
-  }
-
- private:
-  bool is_terminal_;
-  std::string shown_;
-};
+  return text;
+}
 
 }  // namespace
 
@@ -207,7 +183,7 @@ int RunLive(const std::vector<std::string>& words) {
       };
     };
     report = TrackLive(request, {clearing(LogInfo), clearing(LogWarning),
-                                 [&](const LiveStatus& status) { line.Show(status); },
+                                 [&](const LiveStatus& status) { line.Show(Describe(status)); },
                                  [] { return InterruptionWatch::Signal() != 0; }});
   }
   line.Clear();

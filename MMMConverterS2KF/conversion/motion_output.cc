@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "common/io/bytes/file_content.h"
-#include "common/io/mmm/mmm_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -24,29 +23,20 @@ bool AreMarkersAsInFile(const Recording& recording) {
 }
 
 // The format has no place for a subject: players see the reference, scaled by height and mass.
-std::string SubjectComment(const ConversionReport& report) {
-  if (!report.person.subject) return "";
+std::string SubjectComment(const ConversionPlan& plan) {
+  if (!plan.person.subject) return "";
   const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
   const std::string& file =
-      report.subject_output.empty() ? report.person.subject_file : report.subject_output;
+      plan.subject_output.empty() ? plan.person.subject_file : plan.subject_output;
   return fmt::format(
       "Root poses and joint angles are those of the subject {}{}, whose segment lengths and marker "
       "places differ from this model scaled by height and mass{}",
-      report.person.subject->name, file.empty() ? "" : " (" + name(file) + ")",
-      report.model_output.empty() ? "" : "; the subject's model: " + name(report.model_output));
+      plan.person.subject->name, file.empty() ? "" : " (" + name(file) + ")",
+      plan.model_output.empty() ? "" : "; the subject's model: " + name(plan.model_output));
 }
 
-MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionReport& report) {
-  MmmMotionOutput output;
-  output.recording_name = fs::path(request.input.file).stem().string();
-  output.motion_name = report.motion_name;
-  output.model_path = !request.model_path.empty()
-                          ? request.model_path
-                          : ModelPathFor(report.input.model_file, report.output);
-  output.height = report.person.height.value;
-  output.mass = report.person.mass.value;
-  output.hand_length = report.person.hand_length;
-  output.comment = SubjectComment(report);
+MmmMotionOutput MotionOf(const ConversionRequest& request, const ConversionReport& report) {
+  MmmMotionOutput output = DescribeMotion(request, report);
   output.trajectory = &report.result.trajectory;
   output.markers = &report.input.recording.markers;
   return output;
@@ -59,7 +49,7 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
     std::vector<MmmMotionOutput> outputs;
     outputs.reserve(reports.size());
     for (const ConversionReport* report : reports) {
-      MmmMotionOutput output = DescribeMotion(request, *report);
+      MmmMotionOutput output = MotionOf(request, *report);
       output.motion_name = report->input.recording.motion();
       if (AreMarkersAsInFile(report->input.recording) && !report->labels) output.markers = nullptr;
       outputs.push_back(std::move(output));
@@ -72,7 +62,7 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
                     "only (MMM 2.0 in and out keeps all)",
                     request.input.file, recording.mmm->num_motions));
   }
-  const MmmMotionOutput output = DescribeMotion(request, first);
+  const MmmMotionOutput output = MotionOf(request, first);
   return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
@@ -104,6 +94,20 @@ void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several
   }
   const std::string& wanted = is_one_of_several ? "" : request.motion_name;
   plan->motion_name = wanted.empty() ? NameOf(recording) : wanted;
+}
+
+MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionPlan& plan) {
+  MmmMotionOutput output;
+  output.recording_name = fs::path(request.input.file).stem().string();
+  output.motion_name = plan.motion_name;
+  output.model_path = !request.model_path.empty()
+                          ? request.model_path
+                          : ModelPathFor(plan.input.model_file, plan.output);
+  output.height = plan.person.height.value;
+  output.mass = plan.person.mass.value;
+  output.hand_length = plan.person.hand_length;
+  output.comment = SubjectComment(plan);
+  return output;
 }
 
 void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {

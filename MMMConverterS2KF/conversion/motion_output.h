@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
+#include "common/io/mmm/mmm_motion.h"
 
 namespace mmm_converter {
 
@@ -14,6 +15,9 @@ namespace mmm_converter {
 /// @throws Error where that would overwrite a recording that is no MMM 2.0 file.
 void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
                         ConversionPlan* plan);
+
+/// What a plan's motion is written with, but for its postures and markers.
+MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionPlan& plan);
 
 /// Writes the results of one recording to their common output; several must be motions of an
 /// MMM 2.0 file that are written as such. Of an MMM 2.0 recording, all other motions and sensors

@@ -11,7 +11,6 @@
 
 #include "MMMConverterS2KF/live/journal_lines.h"
 #include "MMMConverterS2KF/report/json.h"
-#include "common/io/mmm/mmm_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -105,13 +104,14 @@ JournalHeader ParseHeader(std::string_view line, const std::string& file) {
     }
     header.output = json.at("output");
     header.format = json.at("format");
-    header.recording_name = json.at("recording");
-    header.motion_name = json.at("motion");
-    header.model_path = json.at("model");
-    header.height = json.at("height");
-    header.mass = json.at("mass");
-    if (json.contains("hand_length")) header.hand_length = json.at("hand_length").get<double>();
-    header.comment = json.at("comment");
+    MmmMotionOutput& motion = header.motion;
+    motion.recording_name = json.at("recording");
+    motion.motion_name = json.at("motion");
+    motion.model_path = json.at("model");
+    motion.height = json.at("height");
+    motion.mass = json.at("mass");
+    if (json.contains("hand_length")) motion.hand_length = json.at("hand_length").get<double>();
+    motion.comment = json.at("comment");
     header.rate = json.at("rate");
     header.labels = json.at("labels").get<std::vector<std::string>>();
     header.joints = json.at("joints").get<std::vector<std::string>>();
@@ -207,19 +207,20 @@ std::string FreeName(const std::filesystem::path& output) {
 }  // namespace
 
 std::string FormatJournalHeader(const JournalHeader& header) {
+  const MmmMotionOutput& motion = header.motion;
   Json json = {{"journal", kKind},
                {"output", header.output},
                {"format", header.format},
-               {"recording", header.recording_name},
-               {"motion", header.motion_name},
-               {"model", header.model_path},
-               {"height", header.height},
-               {"mass", header.mass},
-               {"comment", header.comment},
+               {"recording", motion.recording_name},
+               {"motion", motion.motion_name},
+               {"model", motion.model_path},
+               {"height", motion.height},
+               {"mass", motion.mass},
+               {"comment", motion.comment},
                {"rate", header.rate},
                {"labels", header.labels},
                {"joints", header.joints}};
-  if (header.hand_length) json["hand_length"] = *header.hand_length;
+  if (motion.hand_length) json["hand_length"] = *motion.hand_length;
   return FormatJsonLine(json);
 }
 
@@ -266,15 +267,8 @@ std::string RecoverMotion(const std::string& output) {
   }
   std::string written;
   if (content.frames > 0) {
-    MmmMotionOutput motion;
     const JournalHeader& header = content.header;
-    motion.recording_name = header.recording_name;
-    motion.motion_name = header.motion_name;
-    motion.model_path = header.model_path;
-    motion.height = header.height;
-    motion.mass = header.mass;
-    motion.hand_length = header.hand_length;
-    motion.comment = header.comment;
+    MmmMotionOutput motion = header.motion;
     motion.trajectory = &content.result.trajectory;
     motion.markers = &content.markers;
     written = FreeName(output);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "MMMConverterS2KF/conversion/motion_output.h"
 #include "MMMConverterS2KF/live/motion_journal.h"
-#include "common/io/mmm/mmm_motion.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {
@@ -43,18 +43,13 @@ ConversionRequest LiveOutput::RequestOf(std::size_t motion) const {
 }
 
 std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const LiveBody& body) {
+  const std::size_t motion = plans_.size();
   plans_.push_back(plan);
+  plans_.back().output = FileOf(motion);
   JournalHeader header;
-  header.output = FileOf(plans_.size() - 1);
+  header.output = FileOf(motion);
   header.format = plan.output_format;
-  header.recording_name = std::filesystem::path(header.output).stem().string();
-  header.motion_name = plan.motion_name;
-  header.model_path = !request_.model_path.empty()
-                          ? request_.model_path
-                          : ModelPathFor(plan.input.model_file, header.output);
-  header.height = plan.person.height.value;
-  header.mass = plan.person.mass.value;
-  header.hand_length = plan.person.hand_length;
+  header.motion = DescribeMotion(RequestOf(motion), plans_.back());
   header.rate = body.rate;
   header.labels = body.labels;
   for (const int joint : body.setup.joints) {

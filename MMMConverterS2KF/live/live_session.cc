@@ -168,11 +168,7 @@ void LiveSession::TakeCalibration() {
   }
 }
 
-const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropped) {
-  if (frame.layout != layout_) {
-    layout_ = frame.layout;
-    Begin(*layout_);
-  }
+void LiveSession::TakePoints(const LaidOutFrame& frame) {
   frame_.time = frame.frame.time;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     frame_.points.col(static_cast<Eigen::Index>(i)) = frame.frame.points.col(columns_[i]);
@@ -181,8 +177,39 @@ const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropp
   pose_.time = frame.frame.time;
   pose_.received = frame.frame.received;
   pose_.points = frame_.points;
-  pose_.dropped = dropped;
   pose_.counts = frame.counts;
+}
+
+void LiveSession::Track() {
+  const FrameEstimate* estimate = tracker_->Track(frame_);
+  pose_.is_tracking = estimate != nullptr;
+  if (estimate != nullptr) pose_.estimate = *estimate;
+  const bool is_tracked = tracker_->is_tracking();
+  const bool was_waiting = stage_ <= LiveStage::kWaiting;
+  if (is_tracked && was_waiting) Say(fmt::format("frame {}: the person is seen", pose_.number));
+  if (!is_tracked && !was_waiting) {
+    Say(fmt::format("frame {}: the person is not seen any more", pose_.number));
+  }
+  stage_ = is_tracked ? LiveStage::kTracking : LiveStage::kWaiting;
+}
+
+void LiveSession::GoOnCalibrating() {
+  if (calibrated_.valid()) {
+    stage_ = LiveStage::kCalibrating;
+    return;
+  }
+  stage_ = LiveStage::kGathering;
+  Gather();
+  if (num_gathered_ == gathered_.num_frames()) Calibrate();
+}
+
+const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropped) {
+  if (frame.layout != layout_) {
+    layout_ = frame.layout;
+    Begin(*layout_);
+  }
+  TakePoints(frame);
+  pose_.dropped = dropped;
   pose_.is_tracking = false;
   if (!tracker_) {
     if (ShowsPerson(frame_)) Gather();
@@ -193,25 +220,9 @@ const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropp
     TakeCalibration();
   }
   if (tracker_) {
-    const FrameEstimate* estimate = tracker_->Track(frame_);
-    pose_.is_tracking = estimate != nullptr;
-    if (estimate != nullptr) pose_.estimate = *estimate;
-    const bool is_tracked = tracker_->is_tracking();
-    const bool was_waiting = stage_ <= LiveStage::kWaiting;
-    if (is_tracked && was_waiting) Say(fmt::format("frame {}: the person is seen", pose_.number));
-    if (!is_tracked && stage_ > LiveStage::kWaiting) {
-      Say(fmt::format("frame {}: the person is not seen any more", pose_.number));
-    }
-    stage_ = is_tracked ? LiveStage::kTracking : LiveStage::kWaiting;
-    if (calibration_time_ > 0 && !body_->is_calibrated && is_tracked) {
-      if (calibrated_.valid()) {
-        stage_ = LiveStage::kCalibrating;
-      } else {
-        stage_ = LiveStage::kGathering;
-        Gather();
-        if (num_gathered_ == gathered_.num_frames()) Calibrate();
-      }
-    }
+    Track();
+    const bool is_wanted = calibration_time_ > 0 && !body_->is_calibrated;
+    if (is_wanted && tracker_->is_tracking()) GoOnCalibrating();
   }
   pose_.stage = Describe(stage_);
   pose_.progress = stage_ == LiveStage::kGathering ? gathered() : 1;

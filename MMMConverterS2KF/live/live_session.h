@@ -52,7 +52,10 @@ class LiveSession {
   void Begin(const StreamLayout& layout);
   bool TryToPlan(bool is_last_try);
   void Use(TrackingSetup setup, bool is_calibrated, std::unique_ptr<MotionConverter> converter);
+  void TakePoints(const LaidOutFrame& frame);
+  void Track();
   void Gather();
+  void GoOnCalibrating();
   void Calibrate();
   void TakeCalibration();
   void Say(std::string text) { news_.push_back(std::move(text)); }

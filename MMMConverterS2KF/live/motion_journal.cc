@@ -43,7 +43,7 @@ void MotionJournal::Write(const std::shared_ptr<const LiveBody>& body, const Pos
   if (!lines_.empty()) lines_ += '\n';
   if (body->is_calibrated && !is_calibrated_) {
     is_calibrated_ = true;
-    header_.comment = fmt::format(
+    header_.motion.comment = fmt::format(
         "From frame {} of the stream on, root poses and joint angles are those of the subject {}, "
         "whose segment lengths and marker places differ from this model scaled by height and mass",
         frame.number, body->name);

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/convert/motion_converter.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/live/pose_frame.h"
 #include "common/live/pose_sink.h"
 #include "common/motion/marker_sequence.h"
@@ -17,13 +17,10 @@ namespace mmm_converter {
 
 /// What a motion is written with when its stream has ended, or its process was killed.
 struct JournalHeader {
-  std::string output;  ///< the motion's file
-  std::string format;  ///< "2.0" or "1.0"
-  std::string recording_name, motion_name, model_path;
-  double height = 0, mass = 0;
-  std::optional<double> hand_length;
-  std::string comment;
-  double rate = 0;  ///< [Hz]; 0: not known
+  std::string output;      ///< the motion's file
+  std::string format;      ///< "2.0" or "1.0"
+  MmmMotionOutput motion;  ///< but for postures and markers
+  double rate = 0;         ///< [Hz]; 0: not known
   std::vector<std::string> labels, joints;
 };
 

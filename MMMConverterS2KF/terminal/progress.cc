@@ -39,4 +39,18 @@ void ProgressBar::Clear() {
   percent_ = -1;
 }
 
+StatusLine::StatusLine() : is_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+void StatusLine::Show(const std::string& text) {
+  if (!is_terminal_ || text == shown_) return;
+  fmt::print(stderr, "{}{}", kEraseLine, text);
+  std::fflush(stderr);
+  shown_ = text;
+}
+
+void StatusLine::Clear() {
+  if (!shown_.empty()) std::fputs(kEraseLine, stderr);
+  shown_.clear();
+}
+
 }  // namespace mmm_converter

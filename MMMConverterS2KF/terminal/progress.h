@@ -29,4 +29,20 @@ class ProgressBar {
   std::chrono::steady_clock::time_point drawn_;
 };
 
+/// A line on stderr that is drawn over again; nothing where stderr is not a terminal.
+class StatusLine {
+ public:
+  StatusLine();
+  ~StatusLine() { Clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  void Show(const std::string& text);
+  void Clear();
+
+ private:
+  bool is_terminal_;
+  std::string shown_;
+};
+
 }  // namespace mmm_converter
