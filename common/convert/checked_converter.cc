@@ -132,6 +132,10 @@ class CheckedConverter final : public MotionConverter {
     return Checked([&]() -> const FrameEstimate& { return converter_->Track(frame, dt); });
   }
 
+  void Prepare(double dt) override {
+    Guarded(file_, [&] { converter_->Prepare(dt); });
+  }
+
   ConversionResult Convert(const MarkerSequence& recording,
                            const std::function<bool(int)>& progress) override {
     return Guarded(file_, [&] {

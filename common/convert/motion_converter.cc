@@ -128,6 +128,7 @@ class ResultWriter {
 
 MotionConverter::MotionConverter(TrackingSetup setup) : setup_(std::move(setup)) {}
 MotionConverter::~MotionConverter() = default;
+void MotionConverter::Prepare(double /*dt*/) {}
 MotionConverterFactory::~MotionConverterFactory() = default;
 
 ConversionResult MotionConverter::Convert(const MarkerSequence& recording,

@@ -17,7 +17,7 @@
 namespace mmm_converter {
 
 /// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
-inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-4";
+inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-5";
 
 /// What a converter knows of one frame. All vectors keep their size from frame to frame.
 struct FrameEstimate {
@@ -71,6 +71,10 @@ class MotionConverter {
   /// markers may be unseen. The result is valid until the next call.
   virtual const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
                                      double dt) = 0;
+
+  /// Between frames: does ahead what Track does dt seconds after the last frame and what does not
+  /// need the frame. Changes no result; Track with another dt is only slower. Allocates nothing.
+  virtual void Prepare(double dt);
 
   /// A whole recording, whose labels are those of the setup: Assemble on the first frame, Track on
   /// the others. Leading frames in which fewer than three assigned markers are seen take the first

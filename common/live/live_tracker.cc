@@ -41,6 +41,10 @@ bool LiveTracker::IsOver(double time, int seen) {
   return time - seen_time_ > kLongestGap;
 }
 
+void LiveTracker::Prepare() {
+  if (is_tracking_ && rate_ > 0) converter_->Prepare(1 / rate_);
+}
+
 const FrameEstimate* LiveTracker::Track(const StreamFrame& frame) {
   const int seen = CountSeen(frame);
   if (is_tracking_ && IsOver(frame.time, seen)) is_tracking_ = false;

@@ -27,6 +27,10 @@ class LiveTracker {
   /// until the next call; tracking allocates nothing. The frames' own times drive the motion model.
   const FrameEstimate* Track(const StreamFrame& frame);
 
+  /// After a frame has gone out: does what does not need the next one, one step of the source's
+  /// rate later. Changes no estimate.
+  void Prepare();
+
   /// The next frame starts anew.
   void Restart() { is_tracking_ = false; }
 

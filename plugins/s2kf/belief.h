@@ -24,6 +24,8 @@ struct Belief {
   Eigen::VectorXd rate;  ///< d/dt of the error state, 6 + J; size 0 without velocities
   Eigen::MatrixXd P;     ///< covariance of [error state; rate]
 
+  /// To the last bit; all numbers must be.
+  bool operator==(const Belief& other) const = default;
   int num_states() const { return 6 + static_cast<int>(parameters.size()); }
 };
 

@@ -70,7 +70,8 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
       measurement_model_(
           kinematics, JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
           settings.root, HalfSamples(settings, kinematics.num_dofs())),
-      C_sz_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
+      C_sz_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
+      prior_moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
   motion_model_ =
       MakeMotionModel(settings, measurement_model_.transform(), NaturalAngles(kinematics));
   const int n = kinematics.num_dofs();
@@ -218,13 +219,28 @@ void MarkerFilter::FactorizeCovariance(const Belief& belief) {
   }
 }
 
+void MarkerFilter::Expect(const Belief& belief, MeasurementMoments* moments) {
+  FactorizeCovariance(belief);
+  center_.setZero();
+  measurement_model_.ComputeMoments(belief, center_, {L_x(), true},
+                                    settings_.update == UpdateForm::kExact, moments);
+}
+
+void MarkerFilter::Prepare(const Belief& prior) {
+  Expect(prior, &prior_moments_);
+  prior_ = prior;
+  is_prepared_ = true;
+}
+
 void MarkerFilter::Update(const Ref<const Matrix3Xd>& z, Belief* belief, UpdateOutcome* outcome) {
-  const bool exact = settings_.update == UpdateForm::kExact;
   MeasurementMoments& moments = outcome->moments;
   GaussianUpdate& update = outcome->update;
-  FactorizeCovariance(*belief);
-  center_.setZero();
-  measurement_model_.ComputeMoments(*belief, center_, {L_x(), true}, exact, &moments);
+  is_prepared_ = is_prepared_ && *belief == prior_;
+  if (is_prepared_) {
+    moments = prior_moments_;
+  } else {
+    Expect(*belief, &moments);
+  }
   expected_ = moments.mean;
   Weigh(z, outcome);
   update.Compute(moments, z_, noise_, settings_.update);

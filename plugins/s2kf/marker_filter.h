@@ -35,6 +35,10 @@ class MarkerFilter {
   /// What Update writes into, of the right sizes.
   UpdateOutcome MakeOutcome() const { return {kinematics_.num_dofs(), kinematics_.num_markers()}; }
 
+  /// What Update of this belief does whatever the markers: kept until one of another belief, or
+  /// Prepare. Changes no result.
+  void Prepare(const Belief& prior);
+
   /// z: 3 x markers [m], NaN = not seen; such a marker is left out. Nothing seen: the belief stays.
   void Update(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief, UpdateOutcome* outcome);
 
@@ -51,6 +55,8 @@ class MarkerFilter {
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, UpdateOutcome* outcome);
   void FactorizeCovariance(const Belief& belief);
+  /// L_, and the moments about the belief.
+  void Expect(const Belief& belief, MeasurementMoments* moments);
   /// The part of L_ for the states that h depends on, n x n.
   const PaddedMatrix& L_x() const { return motion_model_.velocity ? L_states_ : L_; }
   bool IsFarFromLinear(const MeasurementMoments& moments) const;
@@ -74,6 +80,9 @@ class MarkerFilter {
   PaddedMatrix posterior_x_;  // L_x T
   Eigen::VectorXd center_;
   Eigen::VectorXd dx_;
+  bool is_prepared_ = false;
+  Belief prior_;
+  MeasurementMoments prior_moments_;
 };
 
 }  // namespace mmm_converter::s2kf

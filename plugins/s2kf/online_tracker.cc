@@ -55,6 +55,12 @@ void OnlineTracker::Step(const Ref<const Matrix3Xd>& points, double dt, TrackSta
   Update(state, frame);
 }
 
+void OnlineTracker::Prepare(double dt, const TrackState& state) {
+  prepared_ = state.belief;
+  filter_.Predict(dt, &prepared_);
+  filter_.Prepare(prepared_);
+}
+
 void OnlineTracker::TakeUp(const Posture& posture, TrackState* state, TrackedFrame* frame) {
   filter_.StartAt(posture, &state->belief);
   state->gate.Loosen();

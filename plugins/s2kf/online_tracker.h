@@ -32,6 +32,9 @@ class OnlineTracker {
   void Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt, TrackState* state,
              TrackedFrame* frame);
 
+  /// What Track from `state` by dt [s] does before it looks at the points. Changes no result.
+  void Prepare(double dt, const TrackState& state);
+
   /// As Track, without looking for another posture.
   void Step(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt, TrackState* state,
             TrackedFrame* frame);
@@ -67,6 +70,7 @@ class OnlineTracker {
   TrackWatch watch_;
   PostureRecovery recovery_;
   Posture candidate_;
+  Belief prepared_;
 };
 
 }  // namespace mmm_converter::s2kf

@@ -17,6 +17,7 @@ class S2kfConverter : public MotionConverter {
   S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings);
 
   const FrameEstimate& Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) override;
+  void Prepare(double dt) override { tracker_.Prepare(dt, track_); }
   const FrameEstimate& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, double dt) override;
 
   /// With smoothing, postures, deviations and residuals are the smoothed ones; what a frame's

@@ -89,7 +89,7 @@ TEST(Info, ConfigurationAndPlugin) {
   const auto plugin = InfoOf(testing::TestPlugin("test_converter"));
   EXPECT_EQ(plugin["kind"], "plugin");
   EXPECT_EQ(plugin["name"], "TestConverter");
-  EXPECT_EQ(plugin["version"], "MMMConverterS2KF-4");
+  EXPECT_EQ(plugin["version"], "MMMConverterS2KF-5");
 }
 
 TEST(Info, RealFiles) {

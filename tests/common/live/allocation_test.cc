@@ -71,6 +71,7 @@ TEST(LiveAllocation, TheTrackingThreadAllocatesNothing) {
     pose.points = frame->frame.points;
     pose.estimate = *estimate;
     sink.Offer(body, pose, false);
+    tracker.Prepare();
     // Each of the ring's frames gets its size once.
     if (k > 100) counted += allocations - before;
   }

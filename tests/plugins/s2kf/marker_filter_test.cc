@@ -81,6 +81,29 @@ TEST_P(MarkerFilterTest, AMissingMarkerIsAFilterWithoutIt) {
   EXPECT_LT((a.position - b.position).norm(), 1e-11);
 }
 
+TEST_P(MarkerFilterTest, WhatIsPreparedChangesNoResult) {
+  MarkerFilter plain(kinematics_, settings_, scale_);
+  MarkerFilter prepared(kinematics_, settings_, scale_);
+  Belief a;
+  plain.StartAt(testing::RandomPosture(kinematics_, 0.1, &random_), &a);
+  Belief b = a;
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::Matrix3Xd z = Markers(testing::RandomPosture(kinematics_, 0.1, &random_));
+    Belief expected = b;
+    prepared.Predict(0.01, &expected);
+    prepared.Prepare(expected);
+    // Of every third frame another time is prepared for; one is updated twice.
+    for (Belief* belief : {&a, &b}) plain.Predict(k % 3 == 2 ? 0.02 : 0.01, belief);
+    const Belief prior = b;
+    Update(z, &a, &plain);
+    for (int i = 0; i < (k == 1 ? 2 : 1); ++i) {
+      b = prior;
+      Update(z, &b, &prepared);
+    }
+    EXPECT_TRUE(a == b) << k;
+  }
+}
+
 TEST_P(MarkerFilterTest, NothingSeenLeavesThePrediction) {
   MarkerFilter filter(kinematics_, settings_, scale_);
   Belief belief;
