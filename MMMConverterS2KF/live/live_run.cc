@@ -6,6 +6,7 @@
 #include <sched.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstring>
 #include <exception>
 #include <mutex>
@@ -24,12 +25,15 @@ namespace mmm_converter {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kWait(100);
 constexpr int kFileCapacity = 4096;  // frames: 20 s of 200 Hz, while a disk stands
 constexpr int kNetworkCapacity = 64;
-constexpr int kRealtimePriority = 20;
+constexpr int kTrackingPriority = 20;  // the reader's is one above, those of networks one below
+constexpr int kMostMadeUp = 2 * FrameMailbox::kRoom;
+constexpr std::chrono::microseconds kPolled(200);  // before and after a frame is due
 
 // What threads have to say, until the caller's thread says it.
 class NewsBox {
@@ -55,6 +59,30 @@ class NewsBox {
   std::vector<std::pair<bool, std::string>> news_;
 };
 
+// Of this thread, as long as it exists.
+class RealtimePriority {
+ public:
+  // priority: 0: as it is. for_children: threads that it starts have it, too.
+  RealtimePriority(int priority, bool for_children) {
+    if (priority == 0) return;
+    sched_param wanted{};
+    wanted.sched_priority = priority;
+    const int policy = SCHED_FIFO | (for_children ? 0 : SCHED_RESET_ON_FORK);
+    is_given_ = ::sched_setscheduler(0, policy, &wanted) == 0;
+  }
+  ~RealtimePriority() {
+    const sched_param usual{};
+    if (is_given_) ::sched_setscheduler(0, SCHED_OTHER, &usual);
+  }
+  RealtimePriority(const RealtimePriority&) = delete;
+  RealtimePriority& operator=(const RealtimePriority&) = delete;
+
+  bool is_given() const { return is_given_; }
+
+ private:
+  bool is_given_ = false;
+};
+
 class LiveRun {
  public:
   LiveRun(const LiveRequest& request, const LiveObserver& observer)
@@ -64,8 +92,12 @@ class LiveRun {
         output_(request),
         session_(request, live_.head, live_.selects_labels),
         mailbox_(live_.source->waits_for_reader()) {
-    for (const std::string& address : request.sinks) {
-      AddSink(OpenSink(address), kNetworkCapacity);
+    {
+      // Threads of sinks begin with it.
+      const RealtimePriority priority(request.realtime ? kTrackingPriority - 1 : 0, true);
+      for (const std::string& address : request.sinks) {
+        AddSink(OpenSink(address), kNetworkCapacity);
+      }
     }
     if (!request.view) return;
     LivePage page = OpenLivePage(request.view_address, "Live: " + request.input.file);
@@ -129,6 +161,7 @@ class LiveRun {
   }
 
   void Read() {
+    const RealtimePriority priority(request_.realtime ? kTrackingPriority + 1 : 0, false);
     struct Closed {
       FrameMailbox& box;
       ~Closed() { box.Close(); }
@@ -162,22 +195,54 @@ class LiveRun {
   }
 
   void Track() {
-    ChooseScheduling();
+    ChooseProcessor();
+    const RealtimePriority priority(request_.realtime ? kTrackingPriority : 0, false);
+    polls_ = priority.is_given();
+    if (request_.realtime && !polls_) {
+      news_.Add(true,
+                fmt::format("no real-time priority: {}; the user needs the right to it (rtprio "
+                            "in /etc/security/limits.conf)",
+                            std::strerror(errno)));
+    }
     while (!is_ending_) {
-      const LaidOutFrame* frame = mailbox_.Take(kWait);
+      const LaidOutFrame* frame = NextFrame();
       if (frame == nullptr) {
-        if (mailbox_.is_closed()) return;
+        if (mailbox_.is_closed() && mailbox_.is_empty()) return;
         continue;
       }
+      const int starts = session_.starts();
       const PoseFrame& pose = session_.Take(*frame, mailbox_.dropped());
       for (std::string& text : session_.TakeNews()) news_.Add(false, std::move(text));
       report_.source = frame->layout->source;
+      rate_ = frame->layout->rate;
+      received_ = frame->frame.received;
       ++report_.frames;
       if (session_.body()) Give(pose);
       status_frames_ = report_.frames;
       status_stage_ = session_.stage();
       status_gathered_ = session_.gathered();
+      if (session_.starts() != starts) to_make_up_ = kMostMadeUp;
+      if (mailbox_.is_empty()) {
+        to_make_up_ = 0;
+        session_.Prepare();
+      }
     }
+  }
+
+  // Those that came while a first posture was searched for are tracked in order; of others the
+  // newest counts.
+  const LaidOutFrame* NextFrame() {
+    if (to_make_up_ > 0) {
+      --to_make_up_;
+      return mailbox_.Take(kWait, FrameChoice::kOldest);
+    }
+    if (!polls_ || rate_ <= 0) return mailbox_.Take(kWait);
+    const auto expected = received_ + nanoseconds(static_cast<std::int64_t>(1e9 / rate_));
+    const LaidOutFrame* frame = mailbox_.Take(expected - kPolled - steady_clock::now());
+    while (frame == nullptr && steady_clock::now() < expected + kPolled) {
+      frame = mailbox_.Take(nanoseconds(0));
+    }
+    return frame != nullptr ? frame : mailbox_.Take(kWait);
   }
 
   void Give(const PoseFrame& pose) {
@@ -207,27 +272,14 @@ class LiveRun {
     AddSink(output_.Begin(session_.plan(), *body), kFileCapacity);
   }
 
-  void ChooseScheduling() {
-    if (request_.processor >= 0) {
-      cpu_set_t set;
-      CPU_ZERO(&set);
-      CPU_SET(static_cast<std::size_t>(request_.processor), &set);
-      const int failure = pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
-      if (failure != 0) {
-        news_.Add(true,
-                  fmt::format("processor {}: {}", request_.processor, std::strerror(failure)));
-      }
-    }
-    if (!request_.realtime) return;
-    sched_param priority{};
-    priority.sched_priority = kRealtimePriority;
-    const int failure = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
-    if (failure != 0) {
-      news_.Add(true,
-                fmt::format("no real-time priority: {}; the user needs the right to it (rtprio "
-                            "in /etc/security/limits.conf)",
-                            std::strerror(failure)));
-    }
+  void ChooseProcessor() {
+    if (request_.processor < 0) return;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(static_cast<std::size_t>(request_.processor), &set);
+    const int failure = pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
+    if (failure == 0) return;
+    news_.Add(true, fmt::format("processor {}: {}", request_.processor, std::strerror(failure)));
   }
 
   LiveStatus Status() const {
@@ -258,7 +310,11 @@ class LiveRun {
   FrameMailbox mailbox_;
   std::vector<std::unique_ptr<SinkRunner>> sinks_;
   std::shared_ptr<const LiveBody> body_;
-  int journal_ = -1;  // of the sinks the motion that is being written
+  int to_make_up_ = 0;   // frames
+  bool polls_ = false;   // for a frame that is due
+  double rate_ = 0;      // of the last frame's source
+  SteadyTime received_;  // the last frame
+  int journal_ = -1;     // of the sinks the motion that is being written
   LiveReport report_;
   std::mutex failures_mutex_;
   std::vector<std::string> failures_;  // of the sinks

@@ -203,6 +203,10 @@ void LiveSession::GoOnCalibrating() {
   if (num_gathered_ == gathered_.num_frames()) Calibrate();
 }
 
+void LiveSession::Prepare() {
+  if (tracker_) tracker_->Prepare();
+}
+
 const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropped) {
   if (frame.layout != layout_) {
     layout_ = frame.layout;

@@ -36,6 +36,9 @@ class LiveSession {
   /// @throws Error where the labels or the person are not known; ends the session.
   const PoseFrame& Take(const LaidOutFrame& frame, std::int64_t dropped);
 
+  /// While no frame waits: what the next one can do without. Changes no posture.
+  void Prepare();
+
   /// Null: not known yet.
   const std::shared_ptr<const LiveBody>& body() const { return body_; }
   /// With the calibrated person, once there is one. Only where there is a body.

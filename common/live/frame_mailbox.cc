@@ -1,44 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "common/live/frame_mailbox.h"
 
+#include <algorithm>
+
 namespace mmm_converter {
 
+FrameMailbox::FrameMailbox(bool keeps_all) : keeps_all_(keeps_all) {
+  for (int i = 0; i < kRoom; ++i) waiting_[static_cast<std::size_t>(i)] = i;
+}
+
 void FrameMailbox::Put() {
-  const int before = waiting_.exchange(writing_ + kFresh, std::memory_order_acq_rel);
-  writing_ = before % kFresh;
-  if (before >= kFresh) {
-    dropped_.fetch_add(1, std::memory_order_relaxed);
-  } else {
-    filled_.release();
-  }
+  const std::int64_t order = written_.load(std::memory_order_relaxed);
+  std::atomic<int>& place = waiting_[static_cast<std::size_t>(order % kRoom)];
+  slots_[static_cast<std::size_t>(writing_)].order = order;
+  writing_ = place.exchange(writing_, std::memory_order_acq_rel);
+  written_.store(order + 1, std::memory_order_release);
+  filled_.Give();
   if (!keeps_all_) return;
   while (!stopped_.load(std::memory_order_acquire) &&
-         waiting_.load(std::memory_order_acquire) >= kFresh) {
-    (void)taken_.try_acquire_for(std::chrono::milliseconds(100));
+         next_.load(std::memory_order_acquire) <= order) {
+    (void)emptied_.Take(std::chrono::milliseconds(100));
   }
 }
 
 void FrameMailbox::Close() {
   closed_.store(true, std::memory_order_release);
-  filled_.release();
+  filled_.Give();
 }
 
-const LaidOutFrame* FrameMailbox::Take(std::chrono::milliseconds wait) {
-  if (waiting_.load(std::memory_order_acquire) < kFresh) {
-    if (is_closed()) return nullptr;
-    (void)filled_.try_acquire_for(wait);
-    if (waiting_.load(std::memory_order_acquire) < kFresh) return nullptr;
-  } else {
-    (void)filled_.try_acquire();
+const LaidOutFrame* FrameMailbox::Take(std::chrono::nanoseconds wait, FrameChoice choice) {
+  const SteadyTime end = std::chrono::steady_clock::now() + wait;
+  while (true) {
+    const bool is_last_look = is_closed();
+    if (!is_empty()) break;
+    const std::chrono::nanoseconds left = end - std::chrono::steady_clock::now();
+    if (is_last_look || left.count() <= 0 || !filled_.Take(left)) return nullptr;
   }
-  reading_ = waiting_.exchange(reading_, std::memory_order_acq_rel) % kFresh;
-  if (keeps_all_) taken_.release();
-  return &slots_[reading_];
+  const std::int64_t written = written_.load(std::memory_order_acquire);
+  const std::int64_t expected = next_.load(std::memory_order_relaxed);
+  std::int64_t next = std::max(expected, written - kRoom);
+  do {
+    std::atomic<int>& place = waiting_[static_cast<std::size_t>(next % kRoom)];
+    reading_ = place.exchange(reading_, std::memory_order_acq_rel);
+    // A later one than `next`, where the writer has just come round.
+    next = slots_[static_cast<std::size_t>(reading_)].order + 1;
+  } while (choice == FrameChoice::kNewest && next < written);
+  dropped_.fetch_add(next - expected - 1, std::memory_order_relaxed);
+  next_.store(next, std::memory_order_release);
+  if (keeps_all_) emptied_.Give();
+  return &slots_[static_cast<std::size_t>(reading_)].frame;
 }
 
 void FrameMailbox::StopWaiting() {
   stopped_.store(true, std::memory_order_release);
-  taken_.release();
+  emptied_.Give();
 }
 
 }  // namespace mmm_converter

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <semaphore>
 
 #include "common/live/frame_source.h"
+#include "common/live/thread_signal.h"
 
 namespace mmm_converter {
 
@@ -19,42 +19,60 @@ struct LaidOutFrame {
   StreamCounts counts;  ///< of the source, until this frame
 };
 
-/// Between the thread that reads a source and the one that tracks: a queue of one in which the
-/// newest frame wins. Neither waits for a lock of the other.
+/// Which of several frames that wait.
+enum class FrameChoice {
+  kNewest,  ///< the others are dropped
+  kOldest,
+};
+
+/// Between the thread that reads a source and the one that tracks: usually a queue of one in which
+/// the newest frame wins. It keeps some frames, so that the tracker can make up for a search in
+/// which they came. Neither thread waits for a lock of the other.
 class FrameMailbox {
  public:
+  static constexpr int kRoom = 64;  ///< frames that may wait; the oldest gives way
+
   /// keeps_all: Put waits until the last frame is taken, so that none is dropped.
-  explicit FrameMailbox(bool keeps_all) : keeps_all_(keeps_all) {}
+  explicit FrameMailbox(bool keeps_all);
 
   // For the reading thread.
-  LaidOutFrame& next() { return slots_[writing_]; }  ///< to be filled before Put
-  void Put();                                        ///< next() is there to be taken
-  void Close();                                      ///< nothing will come any more
+  LaidOutFrame& next() { return slots_[writing_].frame; }  ///< to be filled before Put
+  void Put();                                              ///< next() is there to be taken
+  void Close();                                            ///< nothing will come any more
 
   // For the tracking thread.
-  /// The newest frame that was not taken yet, valid until the next call; null: none came in time,
-  /// or the box is closed and empty.
-  const LaidOutFrame* Take(std::chrono::milliseconds wait);
+  /// A frame that was not taken yet, valid until the next call; null: none came in time, or the box
+  /// is closed and empty.
+  const LaidOutFrame* Take(std::chrono::nanoseconds wait,
+                           FrameChoice choice = FrameChoice::kNewest);
+  bool is_empty() const {
+    return next_.load(std::memory_order_relaxed) >= written_.load(std::memory_order_acquire);
+  }
   bool is_closed() const { return closed_.load(std::memory_order_acquire); }
-  /// Puts that would wait go on, and are lost.
+  /// Puts that would wait go on.
   void StopWaiting();
 
   /// Frames that a newer one took the place of.
   std::int64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  static constexpr int kFresh = 4;  // added to the index of a slot that nobody has taken yet
+  struct Slot {
+    LaidOutFrame frame;
+    std::int64_t order = 0;  // of Put
+  };
 
   bool keeps_all_;
-  std::array<LaidOutFrame, 3> slots_;
-  int writing_ = 0;
-  int reading_ = 1;
-  std::atomic<int> waiting_ = 2;
+  std::array<Slot, kRoom + 2> slots_;
+  // Each thread has a slot of its own, and exchanges it for one of these.
+  std::array<std::atomic<int>, kRoom> waiting_;
+  int writing_ = kRoom;
+  int reading_ = kRoom + 1;
+  std::atomic<std::int64_t> next_ = 0;  // to be taken
+  std::atomic<std::int64_t> written_ = 0;
   std::atomic<bool> closed_ = false;
   std::atomic<bool> stopped_ = false;
   std::atomic<std::int64_t> dropped_ = 0;
-  std::counting_semaphore<1 << 20> filled_{0};
-  std::counting_semaphore<1 << 20> taken_{0};
+  ThreadSignal filled_, emptied_;
 };
 
 }  // namespace mmm_converter

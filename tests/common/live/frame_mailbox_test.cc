@@ -71,7 +71,54 @@ TEST(FrameMailbox, AWriterThatWaitsCanBeSentOn) {
   box.StopWaiting();
   Put(1, &box);
   Put(2, &box);
+  EXPECT_EQ(box.Take(milliseconds(0))->frame.number, 2);
   EXPECT_EQ(box.dropped(), 1);
+}
+
+TEST(FrameMailbox, FramesThatCameMeanwhileCanBeTakenInOrder) {
+  FrameMailbox box(false);
+  for (int k = 1; k <= 4; ++k) Put(k, &box);
+  EXPECT_EQ(box.Take(milliseconds(0), FrameChoice::kOldest)->frame.number, 1);
+  EXPECT_EQ(box.Take(milliseconds(0), FrameChoice::kOldest)->frame.number, 2);
+  EXPECT_EQ(box.dropped(), 0);
+  EXPECT_FALSE(box.is_empty());
+  EXPECT_EQ(box.Take(milliseconds(0))->frame.number, 4);
+  EXPECT_TRUE(box.is_empty());
+  EXPECT_EQ(box.dropped(), 1);
+}
+
+TEST(FrameMailbox, OfMoreThanThereIsRoomForTheOldestGiveWay) {
+  FrameMailbox box(false);
+  constexpr int kFrames = 3 * FrameMailbox::kRoom + 5;
+  for (int k = 1; k <= kFrames; ++k) Put(k, &box);
+  EXPECT_EQ(box.Take(milliseconds(0), FrameChoice::kOldest)->frame.number,
+            kFrames - FrameMailbox::kRoom + 1);
+  EXPECT_EQ(box.dropped(), kFrames - FrameMailbox::kRoom);
+  EXPECT_EQ(box.Take(milliseconds(0))->frame.number, kFrames);
+  EXPECT_EQ(box.dropped(), kFrames - 2);
+}
+
+TEST(FrameMailbox, EveryFrameIsTakenOrCounted) {
+  FrameMailbox box(false);
+  constexpr int kFrames = 200000;
+  std::thread reader([&] {
+    for (int k = 1; k <= kFrames; ++k) Put(k, &box);
+    box.Close();
+  });
+  std::int64_t last = 0, taken = 0;
+  bool is_in_order = true;
+  while (!box.is_closed() || !box.is_empty()) {
+    const LaidOutFrame* frame =
+        box.Take(milliseconds(1), taken % 3 == 0 ? FrameChoice::kNewest : FrameChoice::kOldest);
+    if (frame == nullptr) continue;
+    is_in_order = is_in_order && frame->frame.number > last;
+    last = frame->frame.number;
+    ++taken;
+  }
+  reader.join();
+  EXPECT_TRUE(is_in_order);
+  EXPECT_EQ(last, kFrames);
+  EXPECT_EQ(taken + box.dropped(), kFrames);
 }
 
 }  // namespace
