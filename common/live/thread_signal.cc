@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "common/live/thread_signal.h"
 
+#include <semaphore.h>
+
 #include <cerrno>
 #include <cstdint>
 #include <ctime>
 
 namespace mmm_converter {
 
-ThreadSignal::ThreadSignal() { ::sem_init(&semaphore_, 0, 0); }
-ThreadSignal::~ThreadSignal() { ::sem_destroy(&semaphore_); }
+struct ThreadSignal::Semaphore {
+  Semaphore() { ::sem_init(&value, 0, 0); }
+  ~Semaphore() { ::sem_destroy(&value); }
+  Semaphore(const Semaphore&) = delete;
+  Semaphore& operator=(const Semaphore&) = delete;
+
+  sem_t value{};
+};
+
+ThreadSignal::ThreadSignal() : semaphore_(std::make_unique<Semaphore>()) {}
+ThreadSignal::~ThreadSignal() = default;
 
 void ThreadSignal::Give() {
-  if (!is_given_.exchange(true, std::memory_order_acq_rel)) ::sem_post(&semaphore_);
+  if (!is_given_.exchange(true, std::memory_order_acq_rel)) ::sem_post(&semaphore_->value);
 }
 
 bool ThreadSignal::Take(std::chrono::nanoseconds wait) {
@@ -21,7 +32,7 @@ bool ThreadSignal::Take(std::chrono::nanoseconds wait) {
   const std::int64_t end = until.tv_nsec + wait.count();
   until.tv_sec += end / kSecond;
   until.tv_nsec = end % kSecond;
-  while (::sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until) != 0) {
+  while (::sem_clockwait(&semaphore_->value, CLOCK_MONOTONIC, &until) != 0) {
     if (errno != EINTR) return false;
   }
   is_given_.exchange(false, std::memory_order_acq_rel);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <semaphore.h>
-
 #include <atomic>
 #include <chrono>
+#include <memory>
 
 namespace mmm_converter {
 
@@ -23,7 +22,8 @@ class ThreadSignal {
   bool Take(std::chrono::nanoseconds wait);
 
  private:
-  sem_t semaphore_;
+  struct Semaphore;
+  std::unique_ptr<Semaphore> semaphore_;
   std::atomic<bool> is_given_ = false;
 };
 
