@@ -25,55 +25,19 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kMisused = 2;
 
-constexpr std::array kCommands = {
-    Command{"convert", "convert a recording into an MMM motion", RunConvert},
-    Command{"batch", "convert many recordings on all cores", RunBatch},
-    Command{"calibrate", "estimate segment lengths and marker places of a person", RunCalibrate},
-    Command{"check-dynamics", "check whether a body can move like a motion", RunCheckDynamics},
-    Command{"compare", "compare converters on recordings", RunCompare},
-    Command{"evaluate", "repeat the evaluation of the paper", RunEvaluate},
-    Command{"export-poses", "write where the segments of a motion are, as CSV or for NumPy",
-            RunExportPoses},
-    Command{"export-urdf", "write the model of a person as a URDF", RunExportUrdf},
-    Command{"info", "describe a file that this program reads or writes", RunInfo},
-    Command{"label", "name the points of a recording, or repair its labels", RunLabel},
-    Command{"learn-markers", "learn where a laboratory's labels are worn", RunLearnMarkers},
-    Command{"live", "track while a motion capture system streams", RunLive},
-    Command{"print-config", "print the configuration of a converter with every setting",
-            RunPrintConfig},
-    Command{"report", "show finished motions and their recording on a page", RunReport},
-    Command{"serve", "play a recording as a motion capture system streams", RunServe}};
-
-constexpr const char* kUsage = R"(MMMConverterS2KF {}: motion capture markers to MMM motions
-
-Commands (each has --help)
-{}
-Examples
-  MMMConverterS2KF info walk.c3d
-  MMMConverterS2KF convert walk.c3d --height 1.75 -o walk_mmm.xml
-  MMMConverterS2KF print-config S2KFConverter > my.xml
-
-Environment
-  MMM_CONVERTER_PLUGIN_PATH  folders of additional converter plugins, separated by colons
-  MMM_CONVERTER_DATA         folder of models, marker sets and configurations that replaces the
-                             installed one
-  MMM_CONVERTER_INSTRUCTION_SET  baseline, avx2 or avx512, instead of the best available
-
-Exit codes: 0 done, 1 input or conversion failed, 2 the command line is invalid
-)";
-
-void PrintHelp() {
-  std::string commands;
-  for (const Command& command : kCommands) {
-    commands += fmt::format("  {:<15} {}\n", command.name, command.summary);
-  }
-  std::cout << fmt::format(kUsage, MMM_CONVERTER_VERSION, commands);
+int RunCommand(const Command& command, const std::vector<std::string>& words) {
+  const Manual manual = command.manual();
+  const Arguments arguments =
+      ParseArguments(command.name, manual.options, words, manual.several_inputs);
+  if (!arguments.Has("help")) return command.run(arguments);
+  std::cout << FormatHelp(manual);
+  return 0;
 }
 
 int Run(const std::vector<std::string>& words) {
   const std::string first = words.empty() ? "--help" : words.front();
-  if (first == "--help" || first == "-h" || first == "help") {
-    PrintHelp();
+  if (first == "--help" || first == "-h") {
+    std::cout << ProgramText();
     return 0;
   }
   if (first == "--version") {
@@ -83,11 +47,11 @@ int Run(const std::vector<std::string>& words) {
   ActiveInstructionSet();  // an impossible wish ends here, not in the middle of the work
   // A script that calls MMMMotionConverter names no command.
   if (std::find(words.begin(), words.end(), "--inputMotion") != words.end() && first[0] == '-') {
-    return RunConvert(words);
+    return RunCommand(Commands().front(), words);
   }
   std::vector<std::string> names;
-  for (const Command& command : kCommands) {
-    if (first == command.name) return command.run({words.begin() + 1, words.end()});
+  for (const Command& command : Commands()) {
+    if (first == command.name) return RunCommand(command, {words.begin() + 1, words.end()});
     names.emplace_back(command.name);
   }
   const std::string closest = ClosestName(first, names);

@@ -209,12 +209,9 @@ int PrintScan(const Arguments& arguments) {
 
 }  // namespace
 
-int RunBatch(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("batch", kOptions, words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-    return 0;
-  }
+Manual BatchManual() { return {kUsage, kOptions}; }
+
+int RunBatch(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   if (arguments.Has("scan")) return PrintScan(arguments);
   if (!arguments.positional()) {

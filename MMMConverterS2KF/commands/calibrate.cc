@@ -131,12 +131,9 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
 
 }  // namespace
 
-int RunCalibrate(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("calibrate", Options(), words, true);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual CalibrateManual() { return {kUsage, Options(), true}; }
+
+int RunCalibrate(const Arguments& arguments) {
   if (arguments.positionals().empty()) {
     throw UsageError(
         "calibrate: which recordings? For instance: MMMConverterS2KF calibrate walk.c3d --height "

@@ -80,10 +80,10 @@ Examples
 
 std::vector<OptionGroup> Options() { return {kFiles, kMotion, kPerson, kGeneral}; }
 
-std::string Help() {
-  return fmt::format(kUsage, FormatOptions(Options()), kMostKinematicsError, kMostMeanForceError,
-                     kForceTolerance, kMostFriction, 1000 * kMostOutsideSupport,
-                     100 * kMostBadFrames, 1000 * kMostUneven, kGravity, 100 * kMostFallError,
+std::string Text() {
+  return fmt::format(kUsage, "{}", kMostKinematicsError, kMostMeanForceError, kForceTolerance,
+                     kMostFriction, 1000 * kMostOutsideSupport, 100 * kMostBadFrames,
+                     1000 * kMostUneven, kGravity, 100 * kMostFallError,
                      100 * kMostMomentumVariation, kMostTorque, kMostNoise, kNoiseForce,
                      kLeastOnGround);
 }
@@ -110,12 +110,9 @@ void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
 
 }  // namespace
 
-int RunCheckDynamics(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("check-dynamics", Options(), words);
-  if (arguments.Has("help")) {
-    std::cout << Help();
-    return 0;
-  }
+Manual CheckDynamicsManual() { return {Text(), Options()}; }
+
+int RunCheckDynamics(const Arguments& arguments) {
   if (!arguments.positional()) {
     throw UsageError(
         "check-dynamics: which motion? For instance: MMMConverterS2KF check-dynamics walk_mmm.xml");

@@ -4,29 +4,57 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/manual.h"
+
 namespace mmm_converter {
 
-/// A sub-command. Results go to stdout, everything else to stderr. Returns the exit code.
+/// A sub-command. Results go to stdout, everything else to stderr.
 struct Command {
   const char* name;
   const char* summary;  ///< one line
-  int (*run)(const std::vector<std::string>& words);
+  Manual (*manual)();
+  int (*run)(const Arguments& arguments);  ///< Returns the exit code.
 };
 
-int RunBatch(const std::vector<std::string>& words);
-int RunCalibrate(const std::vector<std::string>& words);
-int RunCheckDynamics(const std::vector<std::string>& words);
-int RunCompare(const std::vector<std::string>& words);
-int RunConvert(const std::vector<std::string>& words);
-int RunEvaluate(const std::vector<std::string>& words);
-int RunExportPoses(const std::vector<std::string>& words);
-int RunExportUrdf(const std::vector<std::string>& words);
-int RunInfo(const std::vector<std::string>& words);
-int RunLabel(const std::vector<std::string>& words);
-int RunLearnMarkers(const std::vector<std::string>& words);
-int RunLive(const std::vector<std::string>& words);
-int RunPrintConfig(const std::vector<std::string>& words);
-int RunReport(const std::vector<std::string>& words);
-int RunServe(const std::vector<std::string>& words);
+/// All commands, in the order in which the help names them.
+const std::vector<Command>& Commands();
+
+/// The help of the program: its commands, environment and exit codes.
+std::string ProgramText();
+
+Manual BatchManual();
+Manual CalibrateManual();
+Manual CheckDynamicsManual();
+Manual CompareManual();
+Manual ConvertManual();
+Manual EvaluateManual();
+Manual ExportPosesManual();
+Manual ExportUrdfManual();
+Manual HelpManual();
+Manual InfoManual();
+Manual LabelManual();
+Manual LearnMarkersManual();
+Manual LiveManual();
+Manual PrintConfigManual();
+Manual ReportManual();
+Manual ServeManual();
+
+int RunBatch(const Arguments& arguments);
+int RunCalibrate(const Arguments& arguments);
+int RunCheckDynamics(const Arguments& arguments);
+int RunCompare(const Arguments& arguments);
+int RunConvert(const Arguments& arguments);
+int RunEvaluate(const Arguments& arguments);
+int RunExportPoses(const Arguments& arguments);
+int RunExportUrdf(const Arguments& arguments);
+int RunHelp(const Arguments& arguments);
+int RunInfo(const Arguments& arguments);
+int RunLabel(const Arguments& arguments);
+int RunLearnMarkers(const Arguments& arguments);
+int RunLive(const Arguments& arguments);
+int RunPrintConfig(const Arguments& arguments);
+int RunReport(const Arguments& arguments);
+int RunServe(const Arguments& arguments);
 
 }  // namespace mmm_converter

@@ -130,12 +130,9 @@ std::vector<Trial> MakeTrials(const Arguments& arguments, const ConverterConfig&
 
 }  // namespace
 
-int RunCompare(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("compare", Options(), words, true);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual CompareManual() { return {kUsage, Options(), true}; }
+
+int RunCompare(const Arguments& arguments) {
   if (arguments.positionals().empty()) {
     throw UsageError(
         "compare: which recordings? For instance: MMMConverterS2KF compare walk.c3d --height 1.75");

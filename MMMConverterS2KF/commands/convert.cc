@@ -193,14 +193,13 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
 
 }  // namespace
 
-int RunConvert(const std::vector<std::string>& words) {
+Manual ConvertManual() {
   std::vector<OptionGroup> options = Options();
   options.push_back({"", {{"inputMotion", "FILE", "", ""}}});
-  const Arguments arguments = ParseArguments("convert", options, words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+  return {kUsage, std::move(options)};
+}
+
+int RunConvert(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const ConversionRequest request = MakeRequest(arguments);
   if (request.motion_name == kAllMotions) return ConvertAllMotions(arguments, request);

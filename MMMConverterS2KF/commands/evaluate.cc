@@ -95,12 +95,9 @@ void WriteFiles(const std::string& folder, const std::vector<Experiment>& experi
 
 }  // namespace
 
-int RunEvaluate(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("evaluate", Options(), words, true);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual EvaluateManual() { return {kUsage, Options(), true}; }
+
+int RunEvaluate(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const std::string folder = arguments.Get("output").value_or("evaluation");
   CheckOutputs(arguments, folder);

@@ -26,15 +26,16 @@ const std::vector<OptionGroup> kOptions = {
     {"Files",
      {{"output,o", "FILE",
        "the table: .npz (NumPy) or .csv; of several motions a folder, with a file of each", ""},
-      {"format", "FORMAT", "of files in a folder: npz or csv; default: npz", ""}}},
+      {"format", "npz|csv", "of files in a folder; default: npz", ""}}},
     {"Poses",
      {{"segments", "NAME,...", "of the model, or none; default: all", ""},
-      {"points", "SET",
+      {"points", "kit21|all|none",
        "kit21: the 21 points of the KIT Motion-Language data set; all: where every joint turns; "
        "none; default: kit21",
        ""},
-      {"relative-to", "FRAME", "world, or root: the model's root; default: world", ""},
-      {"rotation", "FORM", "quaternion (w, x, y, z), vector or matrix; default: quaternion", ""},
+      {"relative-to", "world|root", "the world, or the model's root; default: world", ""},
+      {"rotation", "quaternion|vector|matrix", "a quaternion is w, x, y, z; default: quaternion",
+       ""},
       {"velocities", "",
        "also velocities: central differences, for motions that are smooth (s2kf_offline)", ""}}},
     {"Motion",
@@ -155,12 +156,9 @@ void ExportMotion(const InputRequest& input, const PoseRequest& request, const s
 
 }  // namespace
 
-int RunExportPoses(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("export-poses", kOptions, words, true);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-    return 0;
-  }
+Manual ExportPosesManual() { return {kUsage, kOptions, true}; }
+
+int RunExportPoses(const Arguments& arguments) {
   if (arguments.positionals().empty() || !arguments.Get("output")) {
     throw UsageError(
         "export-poses: which motion, and which file is to be written? For instance: "

@@ -48,12 +48,9 @@ std::string Describe(const std::string& model_file, const Person& person) {
 
 }  // namespace
 
-int RunExportUrdf(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("export-urdf", kOptions, words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-    return 0;
-  }
+Manual ExportUrdfManual() { return {kUsage, kOptions}; }
+
+int RunExportUrdf(const Arguments& arguments) {
   const auto output = arguments.Get("output");
   if (!output || arguments.positional()) {
     throw UsageError(

@@ -37,12 +37,9 @@ events and parameters; it need not have markers.
 
 }  // namespace
 
-int RunInfo(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("info", kOptions, words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-    return 0;
-  }
+Manual InfoManual() { return {kUsage, kOptions}; }
+
+int RunInfo(const Arguments& arguments) {
   if (arguments.Has("version")) {
     std::cout << VersionText();
     return 0;

@@ -86,12 +86,9 @@ LabelRequest MakeRequest(const Arguments& arguments) {
 
 }  // namespace
 
-int RunLabel(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("label", Options(), words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual LabelManual() { return {kUsage, Options()}; }
+
+int RunLabel(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const LabelRequest request = MakeRequest(arguments);
   ProgressBar bar("frames");

@@ -87,12 +87,9 @@ LearnRequest MakeRequest(const Arguments& arguments) {
 
 }  // namespace
 
-int RunLearnMarkers(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("learn-markers", Options(), words, true);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual LearnMarkersManual() { return {kUsage, Options(), true}; }
+
+int RunLearnMarkers(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const LearnRequest request = MakeRequest(arguments);
   ProgressBar bar("steps");

@@ -158,12 +158,9 @@ std::string Describe(const LiveStatus& status) {
 
 }  // namespace
 
-int RunLive(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("live", Options(), words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, DescribeSources(), FormatOptions(Options()));
-    return 0;
-  }
+Manual LiveManual() { return {fmt::format(kUsage, DescribeSources(), "{}"), Options()}; }
+
+int RunLive(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const LiveRequest request = MakeRequest(arguments);
   if (!request.output.empty()) {

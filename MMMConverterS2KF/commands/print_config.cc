@@ -28,11 +28,10 @@ Prints the configuration of a converter: every setting with its default and a de
 
 }  // namespace
 
-int RunPrintConfig(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("print-config", kOptions, words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(kOptions));
-  } else if (const auto file = arguments.Get("plugin")) {
+Manual PrintConfigManual() { return {kUsage, kOptions}; }
+
+int RunPrintConfig(const Arguments& arguments) {
+  if (const auto file = arguments.Get("plugin")) {
     std::cout << LoadedPlugin(*file).factory().config_template();
   } else if (arguments.positional() == "batch") {
     std::cout << ManifestTemplate();

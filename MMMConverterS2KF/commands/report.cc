@@ -102,12 +102,9 @@ std::string OutputFile(const Arguments& arguments) {
 
 }  // namespace
 
-int RunReport(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("report", Options(), words, true);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual ReportManual() { return {kUsage, Options(), true}; }
+
+int RunReport(const Arguments& arguments) {
   if (arguments.positionals().size() < 2) {
     throw UsageError(
         "report: which recording and which motion? For instance: MMMConverterS2KF report walk.c3d "

@@ -19,7 +19,7 @@ namespace {
 
 const std::vector<OptionGroup> kOwnOptions = {
     {"System",
-     {{"as", "SYSTEM", "qtm (Qualisys QTM) or natnet (OptiTrack Motive); needed", ""},
+     {{"as", "qtm|natnet", "qtm (Qualisys QTM) or natnet (OptiTrack Motive); needed", ""},
       {"protocol", "VERSION",
        "qtm: the newest version that is accepted, 1.8 to 1.28, default 1.28; natnet: the version "
        "that is spoken, 2.5 to 4.2, default 4.1",
@@ -48,7 +48,7 @@ const std::vector<OptionGroup> kOwnOptions = {
      {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
       {"help,h", "", "print this help", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF serve RECORDING --as SYSTEM [options]
+constexpr const char* kUsage = R"(MMMConverterS2KF serve RECORDING --as qtm|natnet [options]
 Plays a recording as a motion capture system streams what its cameras see, for programs that take
 such a stream and have no cameras. It begins with the first client that asks for frames (multicast:
 at once) and, where it has ended, with the next one; Ctrl-C ends it. Missing markers are missing in
@@ -172,12 +172,9 @@ int Run(Server* server, const std::string& what, const std::string& address) {
 
 }  // namespace
 
-int RunServe(const std::vector<std::string>& words) {
-  const Arguments arguments = ParseArguments("serve", Options(), words);
-  if (arguments.Has("help")) {
-    std::cout << fmt::format(kUsage, FormatOptions(Options()));
-    return 0;
-  }
+Manual ServeManual() { return {kUsage, Options()}; }
+
+int RunServe(const Arguments& arguments) {
   if (!arguments.positional()) {
     throw UsageError(
         "serve: which recording? For instance: MMMConverterS2KF serve walk.c3d --as qtm");

@@ -168,6 +168,7 @@ Arguments ParseArguments(const std::string& command, const std::vector<OptionGro
 std::string FormatOptions(const std::vector<OptionGroup>& groups) {
   std::ostringstream text;
   for (const OptionGroup& group : groups) {
+    if (group.title.empty()) continue;
     po::options_description shown(group.title, kLineLength, kLineLength / 2);
     for (const OptionSpec& option : group.options) AddOption(&shown, option.name, option);
     text << shown << '\n';

@@ -25,7 +25,7 @@ struct OptionSpec {
 };
 
 struct OptionGroup {
-  std::string title;
+  std::string title;  ///< empty: its options are understood, but no help names them
   std::vector<OptionSpec> options;
 };
 

@@ -27,12 +27,13 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
   EXPECT_EQ(run.err, "");
   EXPECT_EQ(RunProgram({"--help"}).out, run.out);
   EXPECT_EQ(RunProgram({"help"}).out, run.out);
+  EXPECT_EQ(RunProgram({"help", "live"}).out, RunProgram({"live", "--help"}).out);
 }
 
 TEST(Help, EveryCommandHasOneWithExamples) {
   for (const char* command : {"calibrate", "check-dynamics", "compare", "convert", "evaluate",
-                              "export-poses", "export-urdf", "info", "label", "learn-markers",
-                              "live", "print-config", "report", "serve"}) {
+                              "export-poses", "export-urdf", "help", "info", "label",
+                              "learn-markers", "live", "print-config", "report", "serve"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -49,7 +50,7 @@ int Columns(const std::string& line) {
 
 TEST(Help, NoLineIsWiderThan100Columns) {
   for (const char* command : {"help", "batch", "calibrate", "check-dynamics", "compare", "convert",
-                              "evaluate", "export-poses", "export-urdf", "info", "label",
+                              "evaluate", "export-poses", "export-urdf", "help", "info", "label",
                               "learn-markers", "live", "print-config", "report", "serve"}) {
     std::istringstream help(RunProgram({command, "--help"}).out);
     for (std::string line; std::getline(help, line);) EXPECT_LE(Columns(line), 100) << line;
@@ -94,7 +95,7 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
        "unknown command \"fly\"; use convert, batch, calibrate, check-dynamics, compare, evaluate, "
-       "export-poses, export-urdf, info, label, learn-markers, live, print-config, report or "
+       "export-poses, export-urdf, help, info, label, learn-markers, live, print-config, report or "
        "serve"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
@@ -130,6 +131,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"convert", "a.c3d", "--format", "3"}, "\"3\" is not allowed; use 2.0 or 1.0"},
       {{"convert", "a.c3d", "--log", "loud"}, "\"loud\" is not a level; use off, error"},
       {{"export-urdf", "--height", "1.7"}, "export-urdf: which file is to be written?"},
+      {{"help", "covnert"}, "help: unknown command \"covnert\" (did you mean convert?)"},
+      {{"help", "--list", "colours"}, "--list: \"colours\" is not allowed; use commands,"},
       {{"info"}, "info: which file?"},
       {{"learn-markers"}, "learn-markers: which recordings?"},
       {{"learn-markers", "a.c3d"}, "learn-markers: where shall the marker set go?"},
