@@ -28,6 +28,15 @@ install(FILES ${PROJECT_BINARY_DIR}/MMMConverterS2KFConfig.cmake
               cmake/MMMConverterS2KFPlugin.cmake
         DESTINATION ${package_dir})
 
+set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH prefix_from_pc /prefix/${pc_dir} /prefix)
+string(REGEX REPLACE "/$" "" prefix_from_pc ${prefix_from_pc})
+get_target_property(definitions mmm_converter_common INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM definitions PREPEND -D)
+list(JOIN definitions " " definitions)
+configure_file(cmake/MMMConverterS2KF.pc.in ${PROJECT_BINARY_DIR}/MMMConverterS2KF.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/MMMConverterS2KF.pc DESTINATION ${pc_dir})
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME mmm-converter-s2kf)
 set(CPACK_PACKAGE_CONTACT "MMMConverterS2KF team <team@mmmconverters2kf.invalid>")

@@ -15,7 +15,10 @@ std::string VersionText() {
   for (const InstructionSet set : SupportedInstructionSets()) names.push_back(ToString(set));
   return fmt::format(
       "MMMConverterS2KF " MMM_CONVERTER_VERSION
-      "\ninstruction set {} (this processor has {}; MMM_CONVERTER_INSTRUCTION_SET chooses)\n",
+      "\ninstruction set {} (this processor has {}; MMM_CONVERTER_INSTRUCTION_SET chooses)\n"
+      "built by " MMM_CONVERTER_COMPILER ", " MMM_CONVERTER_FEATURES
+      "\n"
+      "with " MMM_CONVERTER_LIBRARIES "\n",
       ToString(ActiveInstructionSet()), JoinNames(names, " and "));
 }
 

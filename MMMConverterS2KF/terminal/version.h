@@ -5,7 +5,8 @@
 
 namespace mmm_converter {
 
-/// What `--version` prints: the version, and the instruction set that this run computes with.
+/// What `--version` prints: the version, the instruction set that this run computes with,
+/// what was built and with which versions of other libraries.
 std::string VersionText();
 
 }  // namespace mmm_converter

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include "common/math/instruction_set.h"
@@ -68,6 +69,20 @@ TEST(Help, ConvertSaysWhatItsExportsHold) {
 TEST(Help, VersionIsPrinted) {
   EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 0."));
   EXPECT_EQ(RunProgram({"info", "--version"}).out, RunProgram({"--version"}).out);
+}
+
+TEST(Help, VersionSaysWithWhatTheProgramWasBuilt) {
+  const std::string version = RunProgram({"--version"}).out;
+  EXPECT_TRUE(
+      std::regex_search(version, std::regex("\nbuilt by \\w+ [0-9.]+, with(out)? check-dyn")))
+      << version;
+  EXPECT_TRUE(std::regex_search(
+      version, std::regex("\nwith ([-\\w]+ [0-9]+\\.[0-9.]+, )*[-\\w]+ [0-9]+\\.[0-9.]+\n$")))
+      << version;
+  for (const char* library : {"Boost 1.", "Eigen 3.", "fmt ", "nlohmann-json 3.", "oneTBB 20",
+                              "spdlog ", "tinyxml2 ", "urdfdom ", "xxHash 0.", "ZeroMQ 4."}) {
+    EXPECT_THAT(version, HasSubstr(library));
+  }
 }
 
 TEST(Help, InstructionSetIsShownAndCanBeChosen) {
