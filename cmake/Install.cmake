@@ -17,9 +17,10 @@ install(DIRECTORY xml_config/ DESTINATION ${MMM_CONVERTER_DATA_DIR}
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(EXECUTABLE ${CMAKE_INSTALL_BINDIR}/MMMConverterS2KF)
+set(PYTHON_MODULES lib/python3/dist-packages)
 configure_package_config_file(cmake/MMMConverterS2KFConfig.cmake.in
   ${PROJECT_BINARY_DIR}/MMMConverterS2KFConfig.cmake INSTALL_DESTINATION ${package_dir}
-  PATH_VARS EXECUTABLE MMM_CONVERTER_DATA_DIR)
+  PATH_VARS EXECUTABLE PYTHON_MODULES MMM_CONVERTER_DATA_DIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/MMMConverterS2KFConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(EXPORT MMMConverterS2KFTargets NAMESPACE MMMConverterS2KF:: DESTINATION ${package_dir} COMPONENT development)

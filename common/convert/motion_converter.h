@@ -9,15 +9,14 @@
 #include <vector>
 
 #include "common/convert/converter_config.h"
+#include "common/convert/interface_layout.h"
 #include "common/convert/marker_incidents.h"
 #include "common/convert/tracking_setup.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
-
-/// Changed whenever a class of this header changes; a host refuses a plugin that says another one.
-inline constexpr const char* kConverterInterfaceVersion = "MMMConverterS2KF-5";
 
 /// What a converter knows of one frame. All vectors keep their size from frame to frame.
 struct FrameEstimate {
@@ -102,6 +101,20 @@ class MotionConverterFactory {
   virtual std::unique_ptr<MotionConverter> Create(const TrackingSetup& setup,
                                                   const ConverterConfig& config) const = 0;
 };
+
+/// The number grows whenever a type that crosses the border between host and plugin changes; which
+/// these are is tested (interface_layout_test.cc). Behind it stands how the compiler laid them out.
+/// Not inline: a plugin must not be given the host's when it is loaded.
+constexpr auto kConverterInterfaceText = InterfaceText(
+    "MMMConverterS2KF-5",
+    LayoutHash<MotionConverter, MotionConverterFactory, FrameEstimate, FrameDiagnostic,
+               ConversionResult, PoseTrajectory, Posture, MarkerIncident, MarkerSequence,
+               TrackingSetup, MarkerMapping, MarkerAssignment, KinematicModel, Segment, ModelMarker,
+               ConverterConfig, MarkerPair, ConfigJoint, XmlElement, Error,
+               Eigen::Ref<const Eigen::Matrix3Xd>, std::function<bool(int)>>());
+
+/// What a plugin says that it was built against; a host refuses one that says something else.
+constexpr const char* kConverterInterfaceVersion = kConverterInterfaceText.data();
 
 }  // namespace mmm_converter
 

@@ -38,6 +38,9 @@ std::string DescribeSearch(const std::vector<FoundPlugin>& plugins) {
   return text;
 }
 
+// Of an interface version: what stands before the layout.
+std::string NumberOf(const std::string& version) { return version.substr(0, version.find(':')); }
+
 }  // namespace
 
 class LoadedPlugin::Library {
@@ -80,10 +83,14 @@ LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).s
   }
   version_ = version == nullptr ? "" : version;
   if (version_ != kConverterInterfaceVersion) {
-    throw Error(
-        fmt::format("{}: was built against interface version \"{}\", this program has "
-                    "\"{}\"; rebuild the plugin",
-                    path, version_, kConverterInterfaceVersion));
+    const std::string number = NumberOf(kConverterInterfaceVersion);
+    throw Error(fmt::format(
+        "{}: was built against interface version \"{}\", this program has \"{}\"; rebuild the "
+        "plugin{}",
+        path, version_, kConverterInterfaceVersion,
+        NumberOf(version_) == number
+            ? ", without options such as -march that change how the compiler lays out its types"
+            : ""));
   }
   std::unique_ptr<MotionConverterFactory> factory;
   try {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/convert/motion_converter.h"
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
 #include "tests/support/c3d_bytes.h"
@@ -89,7 +90,7 @@ TEST(Info, ConfigurationAndPlugin) {
   const auto plugin = InfoOf(testing::TestPlugin("test_converter"));
   EXPECT_EQ(plugin["kind"], "plugin");
   EXPECT_EQ(plugin["name"], "TestConverter");
-  EXPECT_EQ(plugin["version"], "MMMConverterS2KF-5");
+  EXPECT_EQ(plugin["version"], kConverterInterfaceVersion);
 }
 
 TEST(Info, RealFiles) {
