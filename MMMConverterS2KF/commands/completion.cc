@@ -165,6 +165,7 @@ std::string FormatBashCompletion(const std::vector<Command>& commands) {
 
 std::vector<std::string> KindsOfNames() {
   std::vector<std::string> kinds;
+  kinds.reserve(kNamesOfKind.size());
   for (const auto& [kind, names] : kNamesOfKind) kinds.push_back(kind);
   return kinds;
 }

@@ -93,8 +93,8 @@ TEST(Manual, GroffHasNothingToSayOfAnyPage) {
     if (!command.empty()) arguments.push_back(command);
     WriteText(page, RunProgram(arguments).out);
     const std::string groff =
-        "groff -k -man -ww -Tutf8 -P-cbu '" + page + "' > '" + page + ".txt' 2> '";
-    EXPECT_EQ(std::system((groff + said + "'").c_str()), 0);
+        fmt::format("groff -k -man -ww -Tutf8 -P-cbu '{0}' > '{0}.txt' 2> '{1}'", page, said);
+    EXPECT_EQ(std::system(groff.c_str()), 0);
     EXPECT_EQ(ReadText(said), "");
     EXPECT_THAT(ReadText(page + ".txt"), HasSubstr("NAME\n"));
   }
@@ -110,7 +110,7 @@ class Completion : public ::testing::Test {
 
   // What bash offers for the last of the words, in the folder home.
   static std::vector<std::string> Complete(const std::vector<std::string>& words) {
-    const std::string folder = TestFolder();
+    const std::string& folder = TestFolder();
     std::string line = "'" MMM_CONVERTER_BINARY_DIR "/bin/MMMConverterS2KF'";
     for (const std::string& word : words) line += " '" + word + "'";
     WriteText(folder + "/script",
