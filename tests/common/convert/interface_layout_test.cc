@@ -181,7 +181,7 @@ std::string DescribeConfig() {
 std::string DescribeClasses() {
   return Whole<Error>("Error") + Whole<MotionConverter>("MotionConverter") +
          VIRTUAL(MotionConverter, Assemble) + VIRTUAL(MotionConverter, Track) +
-         VIRTUAL(MotionConverter, Convert) +
+         VIRTUAL(MotionConverter, Prepare) + VIRTUAL(MotionConverter, Convert) +
          Whole<MotionConverterFactory>("MotionConverterFactory") +
          VIRTUAL(MotionConverterFactory, name) + VIRTUAL(MotionConverterFactory, description) +
          VIRTUAL(MotionConverterFactory, config_template) + VIRTUAL(MotionConverterFactory, Create);
