@@ -32,8 +32,8 @@ class FrameEquations {
   FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3Xd z, Eigen::VectorXd deviation,
                  double share);
 
-  /// `share` of -log of the likelihood of z at a posture, and of the posture, where marker distances
-  /// are distributed as in FitBody. Keeps what Linearize needs.
+  /// `share` of -log of the likelihood of z at a posture, and of the posture, where marker
+  /// distances are distributed as in FitBody. Keeps what Linearize needs.
   double Cost(const BodyKinematics& kinematics, const Posture& posture);
 
   /// About the posture that Cost got last; adds to `body` what the frame says of it.
