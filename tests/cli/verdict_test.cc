@@ -145,17 +145,16 @@ TEST(Verdict, AFileThatIsCutIsToBeLookedAt) {
 
 TEST(Verdict, OfACalibration) {
   EXPECT_EQ(CalibrateOn(Sample()).level, "good");
-  const auto any = [](const std::string&) { return true; };
-  const MarkerSequence exchanged = Relabelled(WithSidesExchanged(any));
+  const MarkerSequence exchanged = Relabelled(WithSidesExchanged(IsOfLeg));
   Judged judged = CalibrateOn(exchanged);
   EXPECT_EQ(judged.level, "failed");
-  EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of all markers are exchanged"));
+  EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of the legs are exchanged"));
   // A person that was calibrated like that does not hide it.
   const std::string recording = TestFolder() + "/exchanged.c3d";
   WriteC3d(recording, exchanged);
   judged = Convert(recording, {"--subject-file", SubjectOutput()});
   EXPECT_EQ(judged.level, "failed");
-  EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of all markers are exchanged"));
+  EXPECT_THAT(judged.reasons, HasSubstr("left and right labels of the legs are exchanged"));
 }
 
 TEST(Verdict, NoCalibrationOnOthersMarkers) {
@@ -169,6 +168,11 @@ TEST(Verdict, NoCalibrationOnOthersMarkers) {
   const auto run = RunProgram({"calibrate", merged, "--height", "1.8", "-o", SubjectOutput()});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("are not of one person with these labels: 8 of 53 markers"));
+  // With both sides exchanged, hands would sit where no hand is.
+  WriteC3d(merged, Relabelled(WithSidesExchanged([](const std::string&) { return true; })));
+  const auto sides = RunProgram({"calibrate", merged, "--height", "1.8", "-o", SubjectOutput()});
+  EXPECT_EQ(sides.exit_code, 1);
+  EXPECT_THAT(sides.err, HasSubstr("look for exchanged labels"));
 }
 
 TEST(Verdict, RealRecordingsAreGood) {
