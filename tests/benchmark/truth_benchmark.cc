@@ -3,6 +3,8 @@
 //   truth_benchmark swapped-limbs|swapped-limbs-calibrated|late-markers|calibrations
 //       CONFIGURATION FIRST_SEED LAST_SEED
 // Every seed is another person, who wears every marker elsewhere.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -172,7 +174,7 @@ class Runs {
         errors[what].Add(own);
         for (const auto& [group, mean] : own.Means()) {
           const double more = mean - uncalibrated.at(group);
-          if (more > kWorse) worse[what + ": " + group].push_back(more);
+          if (more > kWorse) worse[fmt::format("{}: {}", what, group)].push_back(more);
         }
       }
     }

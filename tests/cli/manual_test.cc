@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <sstream>
+#include <string_view>
 
 #include "tests/cli/program.h"
 
@@ -36,19 +36,27 @@ std::vector<std::string> CommandNames() {
   return Lines(RunProgram({"help", "--list", "commands"}).out);
 }
 
-// Long names of the options that the help of a command describes.
+// Long names of the options that the help of a command describes: "  --name ..." or
+// "  -n [ --name ] ...".
 std::vector<std::string> OptionsOf(const std::string& command) {
-  static const std::regex option("^  (?:-\\w \\[ )?(--[a-z][-a-z]*)");
+  constexpr std::size_t kShort = std::string_view("-n [ ").size();
   std::vector<std::string> options;
-  std::smatch match;
   for (const std::string& line : Lines(RunProgram({command, "--help"}).out)) {
-    if (std::regex_search(line, match, option)) options.push_back(match[1]);
+    if (!line.starts_with("  -")) continue;
+    const std::size_t begin = line.starts_with("  --") ? 2 : 2 + kShort;
+    const std::size_t end = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", begin);
+    options.push_back(line.substr(begin, end - begin));
   }
   return options;
 }
 
 std::string WithRoffDashes(const std::string& text) {
-  return std::regex_replace(text, std::regex("-"), "\\-");
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '-') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
 }
 
 TEST(Manual, HasAPageForEveryCommandWithEveryOption) {
