@@ -38,10 +38,6 @@ constexpr double kMostDamage = 0.01;  // what an event may cost a joint's centre
 constexpr double kWorse = 0.001;      // a group's centres are worse [m]
 constexpr double kMillimetres = 1000;
 
-const std::vector<std::string> kArm = {"UPA", "AEL", "AOL", "FRA", "WTS",
-                                       "WPS", "HTS", "HPS", "IFD"};
-const std::vector<std::string> kLeg = {"THI", "KNE", "TIP", "ANK", "HEE", "TOE", "MT1", "MT5"};
-
 /// How far joint centres are from where they should be [m], by joint group; "all" is all.
 class CentreErrors {
  public:
@@ -124,17 +120,13 @@ class Runs {
       for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
         const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
         const PoseTrajectory clean = Convert(model, session.joints, seen);
-        for (const auto* limb : {&kLeg, &kArm}) {
+        for (const Limb limb : {Limb::kLeg, Limb::kArm}) {
           for (const int begin : {40, 140}) {
-            MarkerSequence swapped = seen;
-            for (const std::string& name : *limb) {
-              swapped =
-                  SwapMarkers(std::move(swapped), "L" + name, "R" + name, begin, begin + kSecond);
-            }
+            const MarkerSequence swapped = SwapSides(seen, limb, begin, begin + kSecond);
             CentreErrors errors;
             errors.Add(model, clean, model, Convert(model, session.joints, swapped),
                        session.joints);
-            damages.Add(named.name + (limb == &kLeg ? ", legs" : ", arms"), seed, begin,
+            damages.Add(named.name + (limb == Limb::kLeg ? ", legs" : ", arms"), seed, begin,
                         errors.largest());
           }
         }

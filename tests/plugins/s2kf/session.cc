@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "common/calibrate/calibration.h"
 #include "common/io/mmm/mmm_motion.h"
@@ -27,6 +29,10 @@ constexpr double kHiddenShare = 0.1;
 constexpr double kHiddenFrames = 30;  // of a block, in the mean
 constexpr double kCalibrationSeconds = 40;
 constexpr double kRangeShare = 0.7;  // of each joint
+// Without the side.
+constexpr const char* kArmMarkers[] = {"UPA", "AEL", "AOL", "FRA", "WTS",
+                                       "WPS", "HTS", "HPS", "IFD"};
+constexpr const char* kLegMarkers[] = {"THI", "KNE", "TIP", "ANK", "HEE", "TOE", "MT1", "MT5"};
 
 PoseTrajectory Recorded(const std::string& file) {
   return LowPassed(
@@ -120,7 +126,21 @@ MarkerSequence HideBlocks(const MarkerSequence& recording, std::uint64_t seed) {
 }
 
 std::vector<std::string> RightArm() {
-  return {"RUPA", "RAEL", "RAOL", "RFRA", "RWTS", "RWPS", "RHTS", "RHPS", "RIFD"};
+  std::vector<std::string> labels;
+  for (const char* name : kArmMarkers) labels.push_back(std::string("R") + name);
+  return labels;
+}
+
+MarkerSequence SwapSides(MarkerSequence recording, Limb limb, int begin, int end) {
+  const auto swap = [&](const std::string& name) {
+    recording = SwapMarkers(std::move(recording), "L" + name, "R" + name, begin, end);
+  };
+  if (limb == Limb::kArm) {
+    std::for_each(std::begin(kArmMarkers), std::end(kArmMarkers), swap);
+  } else {
+    std::for_each(std::begin(kLegMarkers), std::end(kLegMarkers), swap);
+  }
+  return recording;
 }
 
 }  // namespace mmm_converter::s2kf

@@ -48,4 +48,9 @@ MarkerSequence HideBlocks(const MarkerSequence& recording, std::uint64_t seed);
 /// All markers of the right arm.
 std::vector<std::string> RightArm();
 
+enum class Limb { kArm, kLeg };
+
+/// The limb's markers bear the other side's labels in frames [begin, end).
+MarkerSequence SwapSides(MarkerSequence recording, Limb limb, int begin, int end);
+
 }  // namespace mmm_converter::s2kf

@@ -23,21 +23,9 @@ namespace {
 constexpr int kSecond = 100;           // frames
 constexpr double kLeastError = 0.010;  // the issue's bound on a joint's centre [m]
 
-const std::vector<std::string> kArm = {"UPA", "AEL", "AOL", "FRA", "WTS",
-                                       "WPS", "HTS", "HPS", "IFD"};
-const std::vector<std::string> kLeg = {"THI", "KNE", "TIP", "ANK", "HEE", "TOE", "MT1", "MT5"};
-
 S2kfSettings Preset(const std::string& name) {
   return ReadSettings(
       ReadConverterConfig(testing::SourcePath("xml_config/converters/s2kf_" + name + ".xml")));
-}
-
-MarkerSequence SwapLimb(MarkerSequence markers, const std::vector<std::string>& limb, int begin,
-                        int end) {
-  for (const std::string& name : limb) {
-    markers = SwapMarkers(std::move(markers), "L" + name, "R" + name, begin, end);
-  }
-  return markers;
 }
 
 struct SwapScene {
@@ -89,13 +77,14 @@ TEST_P(SwappedLimbTest, CostsNothingThoughATenthIsHidden) {
   const SwapScene scene(false, 1);
   const S2kfSettings settings = Preset(GetParam());
   const ConversionResult clean = scene.Convert(settings, scene.markers);
-  for (const auto& limb : {kLeg, kArm}) {
+  for (const Limb limb : {Limb::kLeg, Limb::kArm}) {
     for (const int begin : {40, 140}) {
       const ConversionResult swapped =
-          scene.Convert(settings, SwapLimb(scene.markers, limb, begin, begin + kSecond));
-      EXPECT_LE(scene.Largest(swapped, clean, 0), kLeastError) << limb[0] << " from " << begin;
+          scene.Convert(settings, SwapSides(scene.markers, limb, begin, begin + kSecond));
+      EXPECT_LE(scene.Largest(swapped, clean, 0), kLeastError)
+          << (limb == Limb::kLeg ? "legs" : "arms") << " from " << begin;
       // Each seen marker of the limb is taken for its mirror image, and comes back.
-      EXPECT_GE(swapped.incidents.size(), limb.size());
+      EXPECT_GE(swapped.incidents.size(), limb == Limb::kLeg ? 8U : 9U);
       for (const MarkerIncident& incident : swapped.incidents) {
         EXPECT_LE(incident.last_frame, begin + kSecond + 3);
       }
@@ -108,7 +97,7 @@ TEST_P(SwappedLimbTest, FeetMayStandBesideEachOther) {
   for (const auto& [seed, begin] : {std::pair(1, 140), std::pair(4, 40), std::pair(15, 40)}) {
     const SwapScene scene("waving", seed);
     const ConversionResult swapped =
-        scene.Convert(settings, SwapLimb(scene.markers, kLeg, begin, begin + kSecond));
+        scene.Convert(settings, SwapSides(scene.markers, Limb::kLeg, begin, begin + kSecond));
     EXPECT_LE(scene.Largest(swapped, scene.Convert(settings, scene.markers), 0), kLeastError)
         << "person " << seed;
   }
@@ -121,7 +110,7 @@ TEST_P(SwappedLimbTest, LegsMayMoveFast) {
   for (const int seed : {103, 107, 113}) {
     const SwapScene scene("quick motion", seed);
     const ConversionResult swapped =
-        scene.Convert(settings, SwapLimb(scene.markers, kLeg, 140, 140 + kSecond));
+        scene.Convert(settings, SwapSides(scene.markers, Limb::kLeg, 140, 140 + kSecond));
     EXPECT_LE(scene.Largest(swapped, scene.Convert(settings, scene.markers), 0), kLeastError)
         << "person " << seed;
   }
@@ -135,7 +124,8 @@ TEST(SwappedBackTest, LabelsThatAreRightAgainDoNotStayExchanged) {
   const ConversionResult clean = scene.Convert({}, scene.markers);
   for (int begin = 40; begin < 220; begin += 20) {
     const int end = begin + 30;
-    const ConversionResult swapped = scene.Convert({}, SwapLimb(scene.markers, kLeg, begin, end));
+    const ConversionResult swapped =
+        scene.Convert({}, SwapSides(scene.markers, Limb::kLeg, begin, end));
     for (const MarkerIncident& incident : swapped.incidents) {
       EXPECT_LT(incident.last_frame, end) << "from " << begin;
     }
@@ -147,7 +137,7 @@ TEST(SwappedBackTest, TheProcessNoiseIsThatOfTheMotion) {
   const SwapScene scene(false, 1);
   const S2kfSettings settings = Preset("offline");
   const double clean = scene.Convert(settings, scene.markers).process_noise_scale.value();
-  const MarkerSequence seen = SwapLimb(scene.markers, kArm, 100, 100 + kSecond);
+  const MarkerSequence seen = SwapSides(scene.markers, Limb::kArm, 100, 100 + kSecond);
   EXPECT_NEAR(scene.Convert(settings, seen).process_noise_scale.value() / clean, 1, 0.05);
 }
 
