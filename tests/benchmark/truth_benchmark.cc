@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Figures on persons, motions and errors that were made, so that the truth is known (Session):
-//   truth_benchmark swapped-limbs|swapped-limbs-calibrated|late-markers|calibrations
-//       CONFIGURATION FIRST_SEED LAST_SEED
+//   truth_benchmark WHAT CONFIGURATION FIRST_SEED LAST_SEED
+// WHAT is a row of the table in main.
 // Every seed is another person, who wears every marker elsewhere.
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -17,12 +18,12 @@
 
 #include "common/calibrate/calibration.h"
 #include "common/convert/converter_config.h"
-#include "common/model/forward_kinematics.h"
-#include "common/motion/marker_synthesis.h"
+#include "common/math/seeded_random.h"
 #include "common/motion/occlusion.h"
+#include "common/motion/trajectory_derivatives.h"
 #include "common/support/error.h"
 #include "plugins/s2kf/s2kf_converter.h"
-#include "tests/plugins/s2kf/coverage.h"
+#include "tests/benchmark/truth_figures.h"
 #include "tests/plugins/s2kf/session.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/shared_data.h"
@@ -36,72 +37,11 @@ constexpr int kMissingFrames = 50;  // of the start
 constexpr double kMissingShare = 0.6;
 constexpr double kMostDamage = 0.01;  // what an event may cost a joint's centre [m]
 constexpr double kWorse = 0.001;      // a group's centres are worse [m]
-constexpr double kMillimetres = 1000;
-
-/// How far joint centres are from where they should be [m], by joint group; "all" is all.
-class CentreErrors {
- public:
-  /// Every third frame from `begin` on.
-  void Add(const KinematicModel& person, const PoseTrajectory& truth, const KinematicModel& model,
-           const PoseTrajectory& estimate, const std::vector<int>& joints, int begin = 0) {
-    for (int k = begin; k < std::min(truth.num_frames(), estimate.num_frames()); k += 3) {
-      const auto X_true = SegmentPoses(person, ModelPosture(person, truth, k));
-      const auto X = SegmentPoses(model, ModelPosture(model, estimate, k));
-      for (const int joint : joints) {
-        const int s = model.joint_segment(joint);
-        const double error = (X[s].translation() - X_true[s].translation()).norm();
-        for (const std::string& group : {GroupOf(model.joint(joint).name), std::string("all")}) {
-          groups_[group].first += error;
-          groups_[group].second += 1;
-        }
-        largest_ = std::max(largest_, error);
-      }
-    }
-  }
-
-  void Add(const CentreErrors& other) {
-    for (const auto& [group, sum] : other.groups_) {
-      groups_[group].first += sum.first;
-      groups_[group].second += sum.second;
-    }
-  }
-
-  std::map<std::string, double> Means() const {
-    std::map<std::string, double> means;
-    for (const auto& [group, sum] : groups_) means[group] = sum.first / sum.second;
-    return means;
-  }
-  double largest() const { return largest_; }
-
- private:
-  std::map<std::string, std::pair<double, double>> groups_;  // sum, samples
-  double largest_ = 0;
-};
-
-/// What events of a kind cost: the largest change of a joint's centre against the clean run.
-class Damages {
- public:
-  void Add(const std::string& kind, int person, int begin, double damage) {
-    damages_[kind].push_back(damage);
-    if (damage <= kMostDamage) return;
-    std::printf("  person %d, %s, from frame %d: %.0f mm\n", person, kind.c_str(), begin,
-                kMillimetres * damage);
-    std::fflush(stdout);
-  }
-
-  ~Damages() {
-    for (const auto& [kind, damages] : damages_) {
-      const auto bad =
-          std::count_if(damages.begin(), damages.end(), [](double d) { return d > kMostDamage; });
-      std::printf("%-24s beyond 10 mm in %d of %d, worst %.0f mm\n", kind.c_str(),
-                  static_cast<int>(bad), static_cast<int>(damages.size()),
-                  kMillimetres * *std::max_element(damages.begin(), damages.end()));
-    }
-  }
-
- private:
-  std::map<std::string, std::vector<double>> damages_;
-};
+constexpr int kFirstWrong = 120;
+constexpr double kWay = 0.06;              // of a wrong marker [m]
+constexpr double kMostDamageOfOne = 0.02;  // [m]
+constexpr double kLeastOff = 0.04;         // else it is hidden, or hardly moves: not wrong [m]
+constexpr int kLabelsOfAMotion = 6;
 
 class Runs {
  public:
@@ -113,7 +53,7 @@ class Runs {
 
   /// Legs or arms bear each other's labels for a second.
   void SwappedLimbs(bool is_calibrated) const {
-    Damages damages;
+    Damages damages(kMostDamage);
     for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
       const KinematicModel model = is_calibrated ? session.Calibrate() : session.model;
@@ -126,17 +66,18 @@ class Runs {
             CentreErrors errors;
             errors.Add(model, clean, model, Convert(model, session.joints, swapped),
                        session.joints);
-            damages.Add(named.name + (limb == Limb::kLeg ? ", legs" : ", arms"), seed, begin,
-                        errors.largest());
+            damages.Add(named.name + (limb == Limb::kLeg ? ", legs" : ", arms"), seed,
+                        fmt::format("from frame {}", begin), errors.largest());
           }
         }
       }
     }
+    damages.Print();
   }
 
   /// Most markers are missing in the first half second; what is left of that a second later.
   void LateMarkers() const {
-    Damages damages;
+    Damages damages(kMostDamage);
     for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
       for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
@@ -148,9 +89,63 @@ class Runs {
         errors.Add(session.model, Convert(session.model, session.joints, all), session.model,
                    Convert(session.model, session.joints, seen), session.joints,
                    kMissingFrames + kSecond);
-        damages.Add(named.name, seed, 0, errors.largest());
+        damages.Add(named.name, seed, "the start", errors.largest());
       }
     }
+    damages.Print();
+  }
+
+  /// Single markers that wander away, stand still or jump for a second.
+  void WrongMarkers(bool is_calibrated) const {
+    Damages damages(kMostDamageOfOne);
+    for (int seed = first_; seed <= last_; ++seed) {
+      const Session session(seed);
+      const KinematicModel model = is_calibrated ? session.Calibrate() : session.model;
+      SeededRandom random(seed);
+      for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+        const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
+        const ConversionResult clean = Result(model, session.joints, seen);
+        for (int i = 0; i < kLabelsOfAMotion; ++i) {
+          const int label = random.UniformIndex(seen.num_labels());
+          const Eigen::Vector3d way =
+              kWay *
+              Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()).normalized();
+          for (const char* kind : {"wanders", "frozen", "shifted"}) {
+            const MarkerSequence wrong = MakeWrong(seen, kind, label, way);
+            if (FarthestOff(seen, wrong, label) < kLeastOff) continue;
+            const ConversionResult result = Result(model, session.joints, wrong);
+            CentreErrors errors;
+            errors.Add(model, clean.trajectory, model, result.trajectory, session.joints);
+            damages.Add(kind, seed, named.name + ", " + seen.labels()[label], errors.largest());
+            damages.Named(kind, IsNamed(result, AssignAll(model, seen), label));
+          }
+        }
+      }
+    }
+    damages.Print();
+  }
+
+  /// Rates of joint angles over those of the truth.
+  void Rates() const {
+    std::map<std::string, RateRatios> ratios;
+    for (int seed = first_; seed <= last_; ++seed) {
+      const Session session(seed);
+      const KinematicModel calibrated = session.Calibrate();
+      for (NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+        const MarkerSequence all = session.Record(named.motion);
+        Differentiate(&named.motion);
+        const auto add = [&](const std::string& what, const KinematicModel& model,
+                             const MarkerSequence& seen) {
+          PoseTrajectory found = Convert(model, session.joints, seen);
+          if (found.velocities.size() == 0) Differentiate(&found);
+          ratios[named.name + what].Add(named.motion, found);
+        };
+        add("", session.model, all);
+        add(", gaps", session.model, HideBlocks(all, seed));
+        add(", calibrated, gaps", calibrated, HideBlocks(all, seed));
+      }
+    }
+    for (const auto& [what, ratio] : ratios) ratio.Print(what);
   }
 
   /// Joint centres over all motions, by what the person was calibrated on.
@@ -185,11 +180,47 @@ class Runs {
   }
 
  private:
+  ConversionResult Result(const KinematicModel& model, const std::vector<int>& joints,
+                          const MarkerSequence& seen) const {
+    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), settings_)
+        .Convert(seen, {});
+  }
+
   PoseTrajectory Convert(const KinematicModel& model, const std::vector<int>& joints,
                          const MarkerSequence& seen) const {
-    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), settings_)
-        .Convert(seen, {})
-        .trajectory;
+    return Result(model, joints, seen).trajectory;
+  }
+
+  static MarkerSequence MakeWrong(MarkerSequence seen, const std::string& kind, int label,
+                                  const Eigen::Vector3d& way) {
+    const Eigen::Vector3d frozen = seen.frame(kFirstWrong).col(label);
+    for (int k = kFirstWrong; k < kFirstWrong + kSecond && k < seen.num_frames(); ++k) {
+      auto p = seen.frame(k).col(label);
+      if (!p.allFinite()) continue;
+      if (kind == "frozen" && frozen.allFinite()) p = frozen;
+      if (kind == "shifted") p += way;
+      if (kind == "wanders") p += way * (k - kFirstWrong) / kSecond;
+    }
+    return seen;
+  }
+
+  /// Seen, from where it is right [m].
+  static double FarthestOff(const MarkerSequence& right, const MarkerSequence& wrong, int label) {
+    double farthest = 0;
+    for (int k = 0; k < right.num_frames(); ++k) {
+      const double off = (right.frame(k).col(label) - wrong.frame(k).col(label)).norm();
+      if (off > farthest) farthest = off;
+    }
+    return farthest;
+  }
+
+  /// While it is wrong.
+  static bool IsNamed(const ConversionResult& result,
+                      const std::vector<MarkerAssignment>& assignments, int label) {
+    return std::any_of(result.incidents.begin(), result.incidents.end(), [&](const auto& found) {
+      return assignments[found.assignment].label == label &&
+             found.first_frame < kFirstWrong + kSecond && found.last_frame >= kFirstWrong;
+    });
   }
 
   CentreErrors OverAllMotions(const Session& session, const KinematicModel& model) const {
@@ -229,20 +260,22 @@ int main(int argc, char** argv) try {
   using mmm_converter::s2kf::Runs;
   const std::span<char*> args(argv, static_cast<std::size_t>(argc));
   if (argc != 5) throw mmm_converter::Error("WHAT CONFIGURATION FIRST_SEED LAST_SEED");
-  const std::string what = args[1];
   const Runs runs(args[2], std::stoi(args[3]), std::stoi(args[4]));
-  if (what == "swapped-limbs") {
-    runs.SwappedLimbs(false);
-  } else if (what == "swapped-limbs-calibrated") {
-    runs.SwappedLimbs(true);
-  } else if (what == "late-markers") {
-    runs.LateMarkers();
-  } else if (what == "calibrations") {
-    runs.Calibrations();
-  } else {
-    throw mmm_converter::Error(
-        what + " is none of swapped-limbs, swapped-limbs-calibrated, late-markers, calibrations");
+  const std::map<std::string, std::function<void()>> table = {
+      {"swapped-limbs", [&] { runs.SwappedLimbs(false); }},
+      {"swapped-limbs-calibrated", [&] { runs.SwappedLimbs(true); }},
+      {"wrong-markers", [&] { runs.WrongMarkers(false); }},
+      {"wrong-markers-calibrated", [&] { runs.WrongMarkers(true); }},
+      {"late-markers", [&] { runs.LateMarkers(); }},
+      {"rates", [&] { runs.Rates(); }},
+      {"calibrations", [&] { runs.Calibrations(); }}};
+  const auto found = table.find(args[1]);
+  if (found == table.end()) {
+    std::string names;
+    for (const auto& [name, run] : table) names += " " + name;
+    throw mmm_converter::Error(std::string(args[1]) + " is none of" + names);
   }
+  found->second();
   return 0;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "truth_benchmark: %s\n", e.what());
