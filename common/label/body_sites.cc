@@ -105,6 +105,19 @@ BodySites::BodySites(const KinematicModel& model, std::vector<int> joints)
       probed_(WithProbes(model, sites_)),
       probes_(probed_, joints_, AllProbes(probed_)) {}
 
+std::vector<int> BodySites::Neighbours(int site) const {
+  const int parent = sites_[site].parent;
+  std::vector<int> neighbours;
+  for (int s = 0; s < static_cast<int>(sites_.size()); ++s) {
+    const int above = sites_[s].parent;
+    const bool is_near = s == parent || above == site ||
+                         (parent >= 0 && s == sites_[parent].parent) ||
+                         (above >= 0 && sites_[above].parent == site);
+    if (is_near && s != site) neighbours.push_back(s);
+  }
+  return neighbours;
+}
+
 std::vector<Isometry3d> BodySites::Poses(const Posture& posture) const {
   MarkerJacobian at = probes_.MakeJacobian();
   probes_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),

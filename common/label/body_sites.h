@@ -37,6 +37,9 @@ class BodySites {
   const KinematicModel& model() const { return model_; }
   const std::vector<int>& joints() const { return joints_; }
 
+  /// Sites that are one or two joints away.
+  std::vector<int> Neighbours(int site) const;
+
   /// X_WS of each site's segment. posture: tracked joints.
   std::vector<Eigen::Isometry3d> Poses(const Posture& posture) const;
 

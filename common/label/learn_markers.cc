@@ -9,10 +9,13 @@
 
 #include "common/label/body_search.h"
 #include "common/label/body_sites.h"
+#include "common/label/computed_points.h"
+#include "common/label/learn_doubts.h"
 #include "common/label/learn_frames.h"
 #include "common/label/learned_places.h"
-#include "common/label/marker_names.h"
+#include "common/label/usual_names.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -25,7 +28,6 @@ constexpr int kFewestLabels = 10;
 constexpr int kSearched = 8;         // frames that the body is looked for in
 constexpr double kAnyPlace = 0.045;  // [m] of others' markers from the model's
 constexpr double kOwnCost = 1;       // of a marker, where the set is the model's own
-constexpr double kSureOfSite = 0.9;
 constexpr double kFewFrames = 2, kMoreFrames = 5, kAllFrames = 15;  // that count each for itself
 
 /// The model's markers but for those at the ends of limbs, one of each is enough: hardly any set
@@ -91,6 +93,7 @@ class AnyBodySearch {
 std::unique_ptr<LearnedPlaces> LearnFromStarts(const BodySites& sites,
                                                const std::vector<LearnFrame>& frames,
                                                const MatrixXd& deviations,
+                                               const Eigen::MatrixXi& named,
                                                const std::function<void(int, int)>& progress) {
   AnyBodySearch search(sites);
   std::unique_ptr<LearnedPlaces> best;
@@ -98,7 +101,7 @@ std::unique_ptr<LearnedPlaces> LearnFromStarts(const BodySites& sites,
     const auto k = static_cast<int>((2 * i + 1) * frames.size() / (2 * kSearched));
     const Matrix3Xd points = SeenPoints(frames[k]);
     if (points.cols() < kFewestLabels) continue;
-    auto learned = std::make_unique<LearnedPlaces>(sites, frames, deviations);
+    auto learned = std::make_unique<LearnedPlaces>(sites, frames, deviations, named);
     learned->Start(k, search.Find(points));
     learned->Iterate(2, kFewFrames);
     learned->Iterate(2, kMoreFrames);
@@ -112,19 +115,6 @@ std::unique_ptr<LearnedPlaces> LearnFromStarts(const BodySites& sites,
   best->Iterate(20, kAllFrames);
   best->AllowForSkinAtJoints();
   return best;
-}
-
-std::vector<int> Neighbours(const BodySites& sites, int site) {
-  const int parent = sites.sites()[site].parent;
-  std::vector<int> neighbours;
-  for (int s = 0; s < static_cast<int>(sites.sites().size()); ++s) {
-    const int above = sites.sites()[s].parent;
-    const bool is_near = s == parent || above == site ||
-                         (parent >= 0 && s == sites.sites()[parent].parent) ||
-                         (above >= 0 && sites.sites()[above].parent == site);
-    if (is_near && s != site) neighbours.push_back(s);
-  }
-  return neighbours;
 }
 
 /// Moves labels to sites nearby as long as that is better, and tells how much worse the next best
@@ -170,7 +160,7 @@ class Mover {
     constexpr double kLeastGain = 0.5;
     constexpr double kHopeless = 60;  // of a label
     const int site = learned_->places()[group.front()].site;
-    for (const int other : Neighbours(sites_, site)) {
+    for (const int other : sites_.Neighbours(site)) {
       double more = 0;
       for (const int l : group) more += learned_->costs()(l, other) - learned_->costs()(l, site);
       if (more > kHopeless * static_cast<double>(group.size())) continue;
@@ -194,67 +184,25 @@ class Mover {
   double stays_ = 0, group_stays_ = 0;  // what it costs if nothing moves
 };
 
-/// Why the site of a label is not believed; empty: it is. What only moves says is not enough where
-/// both sites are near, but for markers that keep their distances from one of these far better.
-std::string DoubtOf(const BodySites& sites, const LearnedPlaces& learned,
-                    const MatrixXd& deviations, int label, double probability) {
-  constexpr double kClearly = 1, kFarBetter = 3, kRigidly = 0.004, kOutside = 0.03;
-  const auto name_of = [&sites](int site) {
-    return sites.model().segments()[sites.sites()[site].segment].name;
-  };
-  const std::vector<int> of_labels = learned.SitesOfLabels();
-  const int site = of_labels[label];
-  const double own = DeviationFrom(site, label, of_labels, deviations).value_or(kRigidly);
-  const auto prior = learned.prior_costs().row(label);
-  int usual = site;
-  for (const int other : Neighbours(sites, site)) {
-    const auto others = DeviationFrom(other, label, of_labels, deviations);
-    const bool is_far_better = others && own<kRigidly&& * others> kFarBetter * own;
-    if (!is_far_better && prior[other] < std::min(prior[site] - kClearly, prior[usual])) {
-      usual = other;
-    }
+/// Makes points that are no markers unseen.
+void LeaveOut(const std::vector<std::string>& reasons, std::vector<LearnFrame>* frames) {
+  for (std::size_t l = 0; l < reasons.size(); ++l) {
+    if (reasons[l].empty()) continue;
+    for (LearnFrame& frame : *frames) frame.z.col(static_cast<Eigen::Index>(l)).setConstant(kNaN);
   }
-  if (own > kRigidly && learned.DistanceBeyond(site, learned.places()[label].p_SM) > kOutside) {
-    return fmt::format("moves like {}, but too far from it", name_of(site));
-  }
-  if (usual != site) {
-    return fmt::format("moves like {}, but is where {} has its markers", name_of(site),
-                       name_of(usual));
-  }
-  if (probability < kSureOfSite) {
-    return fmt::format("on {} with a probability of {:.2f} only", name_of(site), probability);
-  }
-  return "";
 }
 
-/// Warns where names say another side than the body; single ones of them are left out.
-void CheckNamedSides(const BodySites& sites, const LearnedPlaces& learned,
-                     const std::vector<std::string>& names, LearnedMarkers* result) {
-  const std::vector<NamedSide> named = NamedSides(names);
-  std::vector<int> contradicted;
-  int confirmed = 0;
-  for (int l = 0; l < static_cast<int>(names.size()); ++l) {
-    const int site = learned.places()[l].site;
-    if (named[l] == NamedSide::kNone || site < 0 || sites.sites()[site].side.empty()) continue;
-    const bool is_left = sites.sites()[site].side == "left";
-    if (is_left == (named[l] == NamedSide::kLeft)) {
-      ++confirmed;
-    } else {
-      contradicted.push_back(l);
-    }
-  }
-  if (contradicted.empty()) return;
-  if (static_cast<int>(contradicted.size()) > confirmed) {
-    result->warnings.push_back(fmt::format(
-        "{} of {} labels name the other side than that on which the body has them, {} for "
-        "instance: are left and right exchanged, or is the recording mirrored?",
-        contradicted.size(), contradicted.size() + static_cast<std::size_t>(confirmed),
-        names[contradicted.front()]));
-    return;
-  }
-  for (const int l : contradicted) {
-    result->markers[l].left_out =
-        fmt::format("moves like {}, which its name contradicts", result->markers[l].segment);
+/// Of the frames that show most the one that is nearest to all angles 0.
+void ShowOneFrame(const LearnedPlaces& learned, LearnedMarkers* result) {
+  double best = -1;
+  for (const LearnFrame& frame : learned.frames()) {
+    if (frame.posture.joint_angles.size() == 0) continue;
+    const auto seen = static_cast<double>(frame.z.row(0).array().isFinite().count());
+    const double score = seen / (1 + 0.05 * frame.posture.joint_angles.norm());
+    if (score <= best) continue;
+    best = score;
+    result->posture = frame.posture;
+    result->points = frame.z;
   }
 }
 
@@ -264,25 +212,30 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
                             const std::vector<const MarkerSequence*>& recordings,
                             const std::function<void(int, int)>& progress) {
   const CommonLabels labels = FindCommonLabels(recordings);
-  if (labels.names.size() < kFewestLabels) {
-    throw Error(fmt::format("{} labels are too few to find a body; at least {} are needed",
-                            labels.names.size(), kFewestLabels));
+  std::vector<LearnFrame> frames = ChooseLearnFrames(recordings, labels);
+  const std::vector<std::string> computed = WhyNoMarkers(labels.names, frames);
+  LeaveOut(computed, &frames);
+  const auto count = std::count(computed.begin(), computed.end(), "");
+  if (count < kFewestLabels) {
+    throw Error(fmt::format("{} markers are too few to find a body; at least {} are needed", count,
+                            kFewestLabels));
   }
-  const std::vector<LearnFrame> frames = ChooseLearnFrames(recordings, labels);
   const BodySites sites(model, joints);
+  const Eigen::MatrixXi named = WhatNamesSay(labels.names, sites);
   const MatrixXd deviations = DistanceDeviations(frames);
-  Mover mover(sites, deviations, LearnFromStarts(sites, frames, deviations, progress));
+  Mover mover(sites, deviations, LearnFromStarts(sites, frames, deviations, named, progress));
   mover.Run();
   const LearnedPlaces& learned = mover.learned();
   LearnedMarkers result;
   result.mean_distance = learned.mean_distance();
   result.frames = static_cast<int>(frames.size());
-  for (int l = 0; l < static_cast<int>(labels.names.size()); ++l) {
+  for (std::size_t l = 0; l < labels.names.size(); ++l) {
     const WornPlace& worn = learned.places()[l];
     LearnedMarker& marker = result.markers.emplace_back();
     marker.label = labels.names[l];
+    marker.left_out = computed[l];
     if (worn.site < 0) {
-      marker.left_out = "hardly seen";
+      if (marker.left_out.empty()) marker.left_out = "hardly seen";
       continue;
     }
     const auto [node, p_SM] = sites.OnUsualNode(worn.site, worn.p_SM);
@@ -290,9 +243,9 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
     marker.p_SM = p_SM;
     marker.scatter = worn.scatter;
     marker.probability = 1 / (1 + std::exp(-std::min(mover.leads()[l], worn.lead)));
-    marker.left_out = DoubtOf(sites, learned, deviations, l, marker.probability);
   }
-  CheckNamedSides(sites, learned, labels.names, &result);
+  LeaveOutDoubtful({sites, learned, deviations, labels.names, named}, &result);
+  ShowOneFrame(learned, &result);
   if (progress) progress(kSearched + 1, kSearched + 1);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/model/kinematic_model.h"
+#include "common/model/posture.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
@@ -24,13 +25,16 @@ struct LearnedMarkers {
   std::vector<LearnedMarker> markers;  ///< by label, in the order in which recordings have them
   double mean_distance = 0;            ///< of those that are used from their places [m]
   int frames = 0;                      ///< that they were learnt on
+  Posture posture;                     ///< in one of these; tracked joints
+  Eigen::Matrix3Xd points;             ///< what that one shows, 3 x labels [m]; NaN: not seen
   std::vector<std::string> warnings;   ///< of names that contradict what is seen
 };
 
-/// Learns where a person wears markers whose labels mean nothing yet. model: of the person's size,
-/// with its own markers; joints: tracked. Labels are the same thing in all recordings.
-/// progress(done, all) may be empty.
-/// @throws Error where there are fewer than ten labels, or no person is found.
+/// Learns where a person wears markers whose labels mean nothing yet, or are usual ones, which
+/// count where what is seen leaves a choice. Points that are computed from others are told apart.
+/// model: of the person's size, with its own markers; joints: tracked. Labels are the same thing in
+/// all recordings. progress(done, all) may be empty.
+/// @throws Error where there are fewer than ten markers, or no person is found.
 LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>& joints,
                             const std::vector<const MarkerSequence*>& recordings,
                             const std::function<void(int, int)>& progress);

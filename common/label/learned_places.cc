@@ -26,6 +26,7 @@ constexpr double kBeyond = 0.012;  // [m] outside of where a site has its marker
 constexpr double kNear = 0.03;     // [m] of the model's own markers
 constexpr double kMostOfNear = 9;
 constexpr double kUnlikeOtherSide = 4;
+constexpr double kNamedElsewhere = 4;  // of 50 usual names one is worn elsewhere
 constexpr double kTrimmed = 0.9;
 constexpr int kFewestSeen = 5;
 
@@ -51,12 +52,13 @@ std::pair<Vector3d, double> MiddleAndScatter(const Matrix3Xd& p) {
 }  // namespace
 
 LearnedPlaces::LearnedPlaces(const BodySites& sites, std::vector<LearnFrame> frames,
-                             Eigen::MatrixXd deviations)
+                             Eigen::MatrixXd deviations, Eigen::MatrixXi named)
     : sites_(sites),
       frames_(std::move(frames)),
       places_(static_cast<std::size_t>(deviations.rows())),
       held_(places_.size(), -1),
       deviations_(std::move(deviations)),
+      named_(std::move(named)),
       skin_(VectorXd::Constant(static_cast<Eigen::Index>(places_.size()), kSkinOfLabels)),
       radii_(static_cast<Eigen::Index>(sites.sites().size())) {
   constexpr double kLeastRadius = 0.04, kMargin = 0.025;
@@ -190,6 +192,7 @@ void LearnedPlaces::ChoosePlaces() {
       double cost = weight * std::log1p(std::pow(scatter / skin_[l], 2)) + PriorCost(s, middle) +
                     strangeness(l, s);
       prior_costs_(l, s) = PriorCost(s, middle);
+      if (named_(l, s) < 0) cost += kNamedElsewhere;
       if (s == before) cost -= 0.5;
       costs_(l, s) = cost;
       if (worn.site < 0 || cost < costs_(l, worn.site)) {

@@ -23,9 +23,10 @@ struct WornPlace {
 /// the site on which each label moves least, and its place there.
 class LearnedPlaces {
  public:
-  /// sites must outlive it. deviations: labels x labels, of
-  /// their distances over the frames [m].
-  LearnedPlaces(const BodySites& sites, std::vector<LearnFrame> frames, Eigen::MatrixXd deviations);
+  /// sites must outlive it. deviations: labels x labels, of their distances over the frames [m].
+  /// named: labels x sites, what names say (WhatNamesSay).
+  LearnedPlaces(const BodySites& sites, std::vector<LearnFrame> frames, Eigen::MatrixXd deviations,
+                Eigen::MatrixXi named);
 
   /// Starts over with the body that was found in one frame.
   void Start(int frame, const Posture& posture);
@@ -51,7 +52,7 @@ class LearnedPlaces {
   /// Mean distance of the labels from their places [m].
   double mean_distance() const { return mean_distance_; }
 
-  /// The part of these that is known without any motion.
+  /// The part of these that places alone say, without any motion or name.
   const Eigen::MatrixXd& prior_costs() const { return prior_costs_; }
 
   /// How far a place is outside of where a site has its markers [m].
@@ -71,6 +72,7 @@ class LearnedPlaces {
   std::vector<int> held_;  // by label: the only site that it may be on; -1: any
   bool is_searching_ = true;
   Eigen::MatrixXd deviations_;
+  Eigen::MatrixXi named_;
   Eigen::MatrixXd costs_, prior_costs_;
   Eigen::VectorXd skin_;   // by label, each coordinate [m]
   Eigen::VectorXd radii_;  // of sites [m]
