@@ -32,8 +32,8 @@ constexpr const char* kUsage = R"(MMMConverterS2KF learn-markers RECORDING... [o
 Learns a laboratory's marker set from recordings whose labels are consistent, but whose meaning is
 not known: on which segment each marker is worn, and where on it, by how it moves. The result is a
 marker set for --marker-set of convert, calibrate and batch, and for people to read and change.
-Usual names (LASI, R.Knee.Lateral) count where the movement leaves a choice. Markers of which this is
-not sure and points that are computed from others are left out; the file says which and why. The
+Usual names (LASI, R.Knee.Lateral) count where the movement leaves a choice. Markers of which this
+is not sure and points that are computed from others are left out; the file says which and why. The
 more the joints move in the recordings, the surer it is.
 
 {}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
