@@ -37,8 +37,8 @@ std::string DescribeShortly(const EntryResult& result) {
 
 class BatchRunner {
  public:
-  BatchRunner(std::vector<BatchEntry> entries, const BatchOptions& options, BatchProgress* progress)
-      : entries_(std::move(entries)),
+  BatchRunner(const BatchManifest& manifest, const BatchOptions& options, BatchProgress* progress)
+      : entries_(ShardOf(manifest.entries, options.shard, options.shards)),
         options_(options),
         progress_(progress),
         folder_(options.output),
@@ -73,7 +73,7 @@ class BatchRunner {
       while (!IsEnding()) {
         const std::size_t i = next_++;
         if (i >= entries_.size()) return;
-        Process(entries_[i]);
+        Process(*entries_[i]);
       }
     } catch (...) {  // even what failed can't be noted
       const std::scoped_lock lock(mutex_);
@@ -195,7 +195,7 @@ class BatchRunner {
     is_ending_ = true;
   }
 
-  std::vector<BatchEntry> entries_;
+  std::vector<const BatchEntry*> entries_;
   const BatchOptions& options_;
   BatchProgress* progress_;
   BatchFolder folder_;
@@ -214,8 +214,7 @@ class BatchRunner {
 
 BatchOutcome ConvertBatch(const BatchManifest& manifest, const BatchOptions& options,
                           BatchProgress* progress) {
-  return BatchRunner(ShardOf(manifest.entries, options.shard, options.shards), options, progress)
-      .Run();
+  return BatchRunner(manifest, options, progress).Run();
 }
 
 }  // namespace mmm_converter

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/manifest_attributes.h"
+#include "MMMConverterS2KF/batch/manifest_memory.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/xml/xml_document.h"
 #include "common/support/diagnostics.h"
@@ -19,12 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 240;  // of a file or folder [bytes]; most systems take 255
-constexpr std::size_t kMaxManifestBytes = std::size_t{256} << 20;
+constexpr std::size_t kMaxManifestBytes = std::size_t{64} << 20;
 
 class ManifestReader {
  public:
-  ManifestReader(const XmlElement& root, const std::string& file)
-      : root_(root), folder_(fs::path(file).parent_path()), diagnostics_(file) {}
+  ManifestReader(const XmlElement& root, std::size_t bytes, const std::string& file)
+      : root_(root), bytes_(bytes), folder_(fs::path(file).parent_path()), diagnostics_(file) {}
 
   BatchManifest Read() {
     if (root_.name != "Batch") {
@@ -33,6 +34,7 @@ class ManifestReader {
                       "print-config batch, or with batch --scan FOLDER",
                       diagnostics_.file(), root_.line, root_.name));
     }
+    manifest_.entries.reserve(CountRecordings(root_, bytes_, diagnostics_.file()));
     manifest_.file = diagnostics_.file();
     recordings_ = folder_;
     if (const std::string* folder = root_.FindAttribute("folder")) recordings_ = folder_ / *folder;
@@ -177,6 +179,7 @@ class ManifestReader {
   }
 
   const XmlElement& root_;
+  std::size_t bytes_;    // of the file
   fs::path folder_;      // of the manifest
   fs::path recordings_;  // where their files start
   Diagnostics diagnostics_;
@@ -214,7 +217,7 @@ BatchManifest ReadManifest(const std::string& path) {
 
 BatchManifest ParseManifest(const std::string& xml, const std::string& file) {
   const XmlElement root = ParseXml(xml, file);
-  return ManifestReader(root, file).Read();
+  return ManifestReader(root, xml.size(), file).Read();
 }
 
 bool IsPlainId(const std::string& id) {
@@ -235,9 +238,10 @@ std::string ManifestTemplate() {
   return fmt::format(kTemplate, attributes);
 }
 
-std::vector<BatchEntry> ShardOf(const std::vector<BatchEntry>& entries, int shard, int shards) {
-  std::vector<BatchEntry> part;
-  for (std::size_t i = shard - 1; i < entries.size(); i += shards) part.push_back(entries[i]);
+std::vector<const BatchEntry*> ShardOf(const std::vector<BatchEntry>& entries, int shard,
+                                       int shards) {
+  std::vector<const BatchEntry*> part;
+  for (std::size_t i = shard - 1; i < entries.size(); i += shards) part.push_back(&entries[i]);
   return part;
 }
 

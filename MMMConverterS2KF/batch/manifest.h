@@ -43,6 +43,7 @@ bool IsPlainId(const std::string& id);
 std::string ManifestTemplate();
 
 /// 1-based part of `shards`: every entry is in one of them, which depends on its place only.
-std::vector<BatchEntry> ShardOf(const std::vector<BatchEntry>& entries, int shard, int shards);
+std::vector<const BatchEntry*> ShardOf(const std::vector<BatchEntry>& entries, int shard,
+                                       int shards);
 
 }  // namespace mmm_converter

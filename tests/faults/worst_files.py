@@ -135,6 +135,12 @@ def manifest(n):
     return ("<Batch>" + "".join(f"<Recording file='{i}.c3d'/>" for i in range(6000 * n)) + "</Batch>").encode()
 
 
+def manifest_of_heirs(n):
+    """What a group says holds for each of its recordings."""
+    return (f"<Batch><Metadata name='a' value='{'a' * 40000 * n}'/>" +
+            "".join(f"<Recording file='{i}.c3d'/>" for i in range(300 * n)) + "</Batch>").encode()
+
+
 def journal(n):
     state = {"bytes": 1, "modified_ns": 1, "hash": "h"}
     return "".join(json.dumps({"id": str(i), "time_ms": i, "converted": False, "fingerprint": "", "recording": state,
@@ -161,4 +167,5 @@ WORST = [("labels.c3d", c3d_labels, True, 110), ("frames.c3d", c3d_frames, True,
          ("too_short.xml", xml_too_short, False, 20), ("model.xml", model_nodes, True, 75),
          ("robot.urdf", urdf_links, True, 50), ("configuration.xml", configuration, True, 20),
          ("marker_set.xml", marker_set, True, 25), ("manifest.xml", manifest, True, 100),
+         ("heirs.xml", manifest_of_heirs, False, 20),
          ("journal.jsonl", journal, True, 20), ("summary.json", summary, True, 30), ("table.csv", table, True, 20)]
