@@ -132,7 +132,8 @@ TEST(Manifest, WhatGroupsSayIsNotMultipliedWithoutBound) {
   EXPECT_THAT(ErrorOf("<Batch config='" + text + "'>" + recordings + "</Batch>"),
               HasSubstr("say less in its groups"));
   std::string groups;
-  for (int i = 0; i < 90; ++i) groups += "<Group name='" + text + text + "'>";
+  const std::string group = "<Group name='" + text + text + "'>";
+  for (int i = 0; i < 90; ++i) groups += group;
   for (int i = 0; i < 90; ++i) recordings += "</Group>";
   EXPECT_THAT(ErrorOf("<Batch>" + groups + "<Recording file='a'/>" + recordings + "</Batch>"),
               HasSubstr("its 2001 recordings"));
