@@ -7,7 +7,10 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::string_view kTextBlanks("\0 \t\r\n\v\f", 7);
+// Blank and, as ToUtf8 makes blanks of them, every control character.
+constexpr std::string_view kTextBlanks(
+    "\0\1\2\3\4\5\6\7\10\11\12\13\14\15\16\17\20\21\22\23\24\25\26\27\30\31\32\33\34\35\36\37 ",
+    33);
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 

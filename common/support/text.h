@@ -9,7 +9,7 @@
 
 namespace mmm_converter {
 
-/// Without white space and NUL at both ends.
+/// Without blanks and control characters at both ends.
 std::string_view Trim(std::string_view text);
 
 /// ASCII letters in lower case, everything else as it is.
