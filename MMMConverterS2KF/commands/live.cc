@@ -71,9 +71,16 @@ Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is 
   MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
 )";
 
+// What frames that come one by one can be exported to.
+std::vector<Exporter> LiveExporters() {
+  std::vector<Exporter> exporters = Exporters();
+  std::erase_if(exporters, [](const Exporter& one) { return one.of_covariances; });
+  return exporters;
+}
+
 std::vector<OptionGroup> Options() {
   OptionGroup exports = {"Export, at the end", {}};
-  for (const Exporter& exporter : Exporters()) {
+  for (const Exporter& exporter : LiveExporters()) {
     exports.options.push_back({OptionOf(exporter), "FILE", exporter.help, ""});
   }
   std::vector<OptionGroup> options = {kOutputOptions};
@@ -89,7 +96,7 @@ std::vector<OptionGroup> Options() {
 void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
   if (!request.output.empty()) return;
   std::vector<std::string> options = {"report", "format", "model-path"};
-  for (const Exporter& exporter : Exporters()) options.push_back(OptionOf(exporter));
+  for (const Exporter& exporter : LiveExporters()) options.push_back(OptionOf(exporter));
   for (const std::string& option : options) {
     if (arguments.Has(option)) {
       throw UsageError(
@@ -131,7 +138,7 @@ LiveRequest MakeRequest(const Arguments& arguments) {
     request.output_format = arguments.GetChoice("format", {"2.0", "1.0"}, "");
   }
   request.model_path = arguments.Get("model-path").value_or("");
-  for (const Exporter& exporter : Exporters()) {
+  for (const Exporter& exporter : LiveExporters()) {
     if (const auto file = arguments.Get(OptionOf(exporter))) request.exports[exporter.name] = *file;
   }
   for (const char* option : {"summary", "report"}) {

@@ -95,6 +95,10 @@ ConversionResult Track(const ConversionReport& report,
   const int frames = recording.markers.num_frames();
   const auto converter =
       report.converter.plugin->factory().Create(report.setup, report.converter.config);
+  if (report.keeps_covariances && !converter->KeepCovariances()) {
+    throw Error(fmt::format("{} tells no covariances; use S2KFConverter, or do without them",
+                            report.converter.config.type));
+  }
   try {
     return converter->Convert(recording.markers,
                               [&](int done) { return !progress || progress(done, frames); });
@@ -138,6 +142,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   CheckHasSubject(request, plan);
   plan.subject_output = request.subject_output;
   plan.model_output = request.model_output;
+  plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   return plan;
 }
 

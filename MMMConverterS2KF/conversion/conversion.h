@@ -35,6 +35,7 @@ struct ConversionRequest {
   std::vector<std::string> more_outputs;  ///< that the caller writes
   bool label = false;                     ///< find the names of points that have none first
   bool is_object = false;                 ///< of a rigid object, whatever the file says
+  bool keeps_covariances = false;         ///< also where no export is of them
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
 };
@@ -49,6 +50,7 @@ struct ConversionPlan {
   TrackingSetup setup;
   std::string output, output_format, motion_name;
   std::string subject_output, model_output;  ///< empty: not written
+  bool keeps_covariances = false;
   Warnings warnings;
 };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/conversion/exporters.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/conversion/pose_output.h"
 #include "common/io/tables/bvh_writer.h"
+#include "common/io/tables/covariance_npz.h"
 #include "common/io/tables/mot_writer.h"
 #include "common/io/tables/pose_table.h"
 #include "common/io/tables/trajectory_csv.h"
@@ -55,6 +57,11 @@ void WriteBvh(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatBvh(*report.setup.model, report.result.trajectory));
 }
 
+void WriteCovariances(const std::string& file, const ConversionReport& report) {
+  const ConversionResult& result = report.result;
+  WriteFileAtomically(file, FormatCovarianceNpz(result.trajectory, result.covariances));
+}
+
 }  // namespace
 
 const std::vector<Exporter>& Exporters() {
@@ -74,11 +81,23 @@ const std::vector<Exporter>& Exporters() {
        "mass: .npz for NumPy, else CSV; see export-poses",
        WritePoses},
       {"bvh", "bvh", "the skeleton and its motion as BVH",
-       "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh}};
+       "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh},
+      {"covariance", "npz", "covariances of the postures as NumPy's .npz",
+       "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
+       "them: "
+       "some 13 a second",
+       WriteCovariances, true}};
   return exporters;
 }
 
 std::string OptionOf(const Exporter& exporter) { return std::string("export-") + exporter.name; }
+
+bool NeedCovariances(const ExportFiles& files) {
+  const std::vector<Exporter>& all = Exporters();
+  return std::any_of(all.begin(), all.end(), [&](const Exporter& one) {
+    return one.of_covariances && files.count(one.name) > 0;
+  });
+}
 
 void WriteExports(const ExportFiles& files, const ConversionReport& report) {
   for (const Exporter& exporter : Exporters()) {

@@ -20,6 +20,8 @@ struct Exporter {
   const char* help;    ///< of the option
   /// @throws Error; the file is then as it was before.
   void (*write)(const std::string& file, const ConversionReport& report);
+  /// Of covariances, which are kept where they are asked for before a whole recording is tracked.
+  bool of_covariances = false;
 };
 
 const std::vector<Exporter>& Exporters();
@@ -29,6 +31,9 @@ std::string OptionOf(const Exporter& exporter);
 
 /// Files that are asked for, by the exporter's name.
 using ExportFiles = std::map<std::string, std::string>;
+
+/// Whether one of these is made of covariances.
+bool NeedCovariances(const ExportFiles& files);
 
 /// @throws Error; each file is then as it was before, or whole.
 void WriteExports(const ExportFiles& files, const ConversionReport& report);

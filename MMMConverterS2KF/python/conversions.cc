@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -42,6 +43,7 @@ ConversionRequest ConversionRequestOf(const py::dict& options) {
   }
   request.self_calibrate = IsSet(options, "self_calibrate");
   request.label = IsSet(options, "label");
+  request.keeps_covariances = IsSet(options, "covariances");
   request.is_object = IsSet(options, "object");
   request.object_models = TextOf(options, "object_models");
   return request;
@@ -101,6 +103,23 @@ py::array_t<double> TimesOf(const PoseTrajectory& trajectory) {
   py::array_t<double> times(trajectory.num_frames());
   for (int k = 0; k < trajectory.num_frames(); ++k) times.mutable_data()[k] = trajectory.time(k);
   return times;
+}
+
+// Frames and covariances (k, n, n); None where they were not asked for.
+py::object CovariancesOf(const Conversion& conversion) {
+  if (!conversion.report.keeps_covariances) return py::none();
+  const std::vector<PoseCovariance>& all = conversion.report.result.covariances;
+  const auto count = static_cast<py::ssize_t>(all.size());
+  const auto size = static_cast<py::ssize_t>(6 + conversion.trajectory().joint_names.size());
+  py::array_t<int> frames(count);
+  py::array_t<double> covariances({count, size, size});
+  double* next = covariances.mutable_data();
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const PoseCovariance& one = all[i];
+    frames.mutable_data()[i] = one.frame;
+    next = std::copy(one.covariance.data(), one.covariance.data() + one.covariance.size(), next);
+  }
+  return py::make_tuple(frames, covariances);
 }
 
 py::list IncidentsOf(const Conversion& conversion) {
@@ -183,6 +202,7 @@ void BindConversions(py::module_* module) {
           [](const Conversion& c) { return RowsOfColumns(c.trajectory().accelerations); })
       .def_property_readonly(
           "residuals", [](const Conversion& c) { return RowsOfColumns(c.report.result.residuals); })
+      .def_property_readonly("covariances", &CovariancesOf)
       .def_property_readonly("marker_labels", &MarkerLabelsOf)
       .def_property_readonly("incidents", &IncidentsOf)
       .def_property_readonly("frames", &FramesOf)

@@ -105,6 +105,19 @@ void CheckTrajectory(const PoseTrajectory& trajectory, const TrackingSetup& setu
   }
 }
 
+void CheckCovariances(const std::vector<PoseCovariance>& covariances, Eigen::Index size,
+                      int frames) {
+  int next = 0;
+  for (const PoseCovariance& one : covariances) {
+    Require(one.frame >= next && one.frame < frames,
+            "it gave covariances of frames that there are not, or in another order");
+    next = one.frame + 1;
+    RequireSize("rows of a covariance", one.covariance.rows(), size);
+    RequireSize("columns of a covariance", one.covariance.cols(), size);
+    Require(one.covariance.allFinite(), "it gave a covariance that is not finite");
+  }
+}
+
 void CheckResult(const ConversionResult& result, const TrackingSetup& setup,
                  const MarkerSequence& recording) {
   CheckTrajectory(result.trajectory, setup, recording);
@@ -114,6 +127,8 @@ void CheckResult(const ConversionResult& result, const TrackingSetup& setup,
   CheckResiduals(result.residuals);
   RequireSize("frames", static_cast<Eigen::Index>(result.frames.size()), recording.num_frames());
   CheckIncidents(result.incidents, assignments, recording.num_frames());
+  CheckCovariances(result.covariances, 6 + static_cast<Eigen::Index>(setup.joints.size()),
+                   recording.num_frames());
   const double scale = result.process_noise_scale.value_or(1);
   Require(scale > 0 && std::isfinite(scale), "it gave a factor of {} on its noise", scale);
 }
@@ -143,6 +158,10 @@ class CheckedConverter final : public MotionConverter {
       CheckResult(result, setup(), recording);
       return result;
     });
+  }
+
+  bool KeepCovariances() override {
+    return Guarded(file_, [&] { return converter_->KeepCovariances(); });
   }
 
  private:

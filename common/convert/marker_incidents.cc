@@ -2,13 +2,21 @@
 #include "common/convert/marker_incidents.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace mmm_converter {
+namespace {
+
+constexpr double kBridgedTime = 0.1;  // [s]
+
+}  // namespace
 
 const char* Name(MarkerIncident::Kind kind) {
   return kind == MarkerIncident::Kind::kSwapped ? "swapped" : "misplaced";
 }
+
+int BridgedFrames(double rate) { return static_cast<int>(std::lround(kBridgedTime * rate)); }
 
 std::vector<MarkerIncident> FindIncidents(const Eigen::MatrixXi& verdicts, int bridged) {
   std::vector<MarkerIncident> incidents;

@@ -29,6 +29,9 @@ struct MarkerIncident {
 /// "swapped" or "misplaced".
 const char* Name(MarkerIncident::Kind kind);
 
+/// An incident goes on where it stops for no more frames than this. rate [Hz].
+int BridgedFrames(double rate);
+
 /// The incidents of a recording by first frame, then assignment. verdicts: assignments x frames.
 /// One that stops for up to `bridged` frames goes on.
 std::vector<MarkerIncident> FindIncidents(const Eigen::MatrixXi& verdicts, int bridged);

@@ -17,9 +17,6 @@
 namespace mmm_converter {
 namespace {
 
-// An incident goes on where it stops for no longer than this [s].
-constexpr double kBridgedTime = 0.1;
-
 int CountSeen(const MarkerSequence& recording, const TrackingSetup& setup, int frame) {
   const auto points = recording.frame(frame);
   const std::vector<MarkerAssignment>& assignments = setup.assignments();
@@ -112,8 +109,7 @@ class ResultWriter {
   }
 
   ConversionResult Finish() {
-    const int bridged = static_cast<int>(std::lround(kBridgedTime * recording_.rate()));
-    result_.incidents = FindIncidents(verdicts_, bridged);
+    result_.incidents = FindIncidents(verdicts_, BridgedFrames(recording_.rate()));
     return std::move(result_);
   }
 
@@ -129,6 +125,7 @@ class ResultWriter {
 MotionConverter::MotionConverter(TrackingSetup setup) : setup_(std::move(setup)) {}
 MotionConverter::~MotionConverter() = default;
 void MotionConverter::Prepare(double /*dt*/) {}
+bool MotionConverter::KeepCovariances() { return false; }
 MotionConverterFactory::~MotionConverterFactory() = default;
 
 ConversionResult MotionConverter::Convert(const MarkerSequence& recording,

@@ -51,6 +51,9 @@ struct ConversionResult {
   /// chose one.
   std::optional<double> process_noise_scale;
   std::vector<MarkerIncident> incidents;  ///< by first frame
+  /// By frame, where they were asked for; of frames in which the converter computed them anew: the
+  /// others have the deviations of the one before.
+  std::vector<PoseCovariance> covariances;
 };
 
 /// Tracks one person through one recording or live stream. Not thread-safe; use one for each.
@@ -84,6 +87,9 @@ class MotionConverter {
   virtual ConversionResult Convert(const MarkerSequence& recording,
                                    const std::function<bool(int)>& progress);
 
+  /// From now on results of Convert have covariances. False, as here: the converter knows none.
+  virtual bool KeepCovariances();
+
  private:
   TrackingSetup setup_;
 };
@@ -106,11 +112,11 @@ class MotionConverterFactory {
 /// these are is tested (interface_layout_test.cc). Behind it stands how the compiler laid them out.
 /// Not inline: a plugin must not be given the host's when it is loaded.
 constexpr auto kConverterInterfaceText = InterfaceText(
-    "MMMConverterS2KF-5",
+    "MMMConverterS2KF-6",
     LayoutHash<MotionConverter, MotionConverterFactory, FrameEstimate, FrameDiagnostic,
-               ConversionResult, PoseTrajectory, Posture, MarkerIncident, MarkerSequence,
-               TrackingSetup, MarkerMapping, MarkerAssignment, KinematicModel, Segment, ModelMarker,
-               ConverterConfig, MarkerPair, ConfigJoint, XmlElement, Error,
+               ConversionResult, PoseCovariance, PoseTrajectory, Posture, MarkerIncident,
+               MarkerSequence, TrackingSetup, MarkerMapping, MarkerAssignment, KinematicModel,
+               Segment, ModelMarker, ConverterConfig, MarkerPair, ConfigJoint, XmlElement, Error,
                Eigen::Ref<const Eigen::Matrix3Xd>, std::function<bool(int)>>());
 
 /// What a plugin says that it was built against; a host refuses one that says something else.

@@ -28,4 +28,12 @@ struct PoseTrajectory {
   double time(int k) const { return first_time + k / rate; }
 };
 
+/// How the deviations of one frame hang together.
+struct PoseCovariance {
+  int frame = 0;
+  /// Of what its trajectory's standard deviations are of, which are the roots of its diagonal
+  /// [m, rad]: symmetric, not negative.
+  Eigen::MatrixXd covariance;
+};
+
 }  // namespace mmm_converter

@@ -79,11 +79,11 @@ void OfflineTracker::KeepBelief(int i, int k, const TrackState& state) {
   verdicts_.col(k) = state.gate.verdicts.cast<std::int16_t>();
 }
 
-void OfflineTracker::Smooth(ConversionResult* result) {
+void OfflineTracker::Smooth(bool keeps_covariances, ConversionResult* result) {
   FindRetakes(*result);
   if (!retakes_.empty()) TrackFromRetakes();
   SmoothBackwards(result);
-  ReportDeviations(result);
+  ReportDeviations(keeps_covariances, result);
 }
 
 void OfflineTracker::Gather(int k) {
@@ -206,7 +206,7 @@ void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result
   result->residuals.col(k) = (frame_.measured - of_model_.p_WM).colwise().norm().transpose();
 }
 
-void OfflineTracker::ReportDeviations(ConversionResult* result) {
+void OfflineTracker::ReportDeviations(bool keeps_covariances, ConversionResult* result) {
   const int frames = recording_.num_frames();
   const Eigen::Index markers = result->residuals.rows();
   Eigen::MatrixXd& deviations = result->trajectory.standard_deviations;
@@ -236,6 +236,7 @@ void OfflineTracker::ReportDeviations(ConversionResult* result) {
     if (covariance_.IsDue()) {
       own_deviations_ = deviations.col(k);
       covariance_.Compute(q.joint_angles, own_deviations_, &of_model_, &until);
+      if (keeps_covariances) result->covariances.push_back({k, covariance_.Covariance()});
     }
     deviations.col(k) = covariance_.deviations();
     result->frames[k].seconds += SecondsSince(start);

@@ -33,7 +33,7 @@ class OfflineTracker {
   /// result: of the tracker, all frames; its postures, standard deviations and residuals are
   /// replaced by the smoothed ones, its times grow. Frames before the first tracked one take that
   /// one's posture.
-  void Smooth(ConversionResult* result);
+  void Smooth(bool keeps_covariances, ConversionResult* result);
 
  private:
   struct Checkpoint {
@@ -63,7 +63,7 @@ class OfflineTracker {
   /// Deviations as the belief has them, of white noise.
   void Write(int k, const Belief& belief, ConversionResult* result);
   /// Replaces these by what is said of the postures (ReportedCovariance).
-  void ReportDeviations(ConversionResult* result);
+  void ReportDeviations(bool keeps_covariances, ConversionResult* result);
 
   const MarkerSequence& recording_;
   const TrackedMarkers& markers_;

@@ -13,6 +13,7 @@
 namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -202,6 +203,19 @@ double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
   const double from_middle = (angles[i - 6] - middle_[i - 6]) / unit_[i];
   const double anywhere = kUniformVariance + from_middle * from_middle;
   return variance * anywhere / (variance + anywhere) * unit_[i] * unit_[i];
+}
+
+MatrixXd ReportedCovariance::Covariance() const {
+  const Eigen::Index joints = pull_.size();
+  const MatrixXd A = A_.view();
+  const VectorXd pulled =
+      pull_.array() * (1 - pull_.array() * spread_.array());  // N - N S N, of the joints
+  const auto of_joints = A.rightCols(joints);
+  MatrixXd P = A - of_joints * pulled.asDiagonal() * of_joints.transpose();
+  // What bounds a deviation leaves the correlations as they are.
+  const VectorXd scale = deviations_.array() / P.diagonal().array().sqrt();
+  P = scale.asDiagonal() * P * scale.asDiagonal();
+  return 0.5 * (P + P.transpose());
 }
 
 double ReportedCovariance::ShareOf(const VectorXd& own) const {

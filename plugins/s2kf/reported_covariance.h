@@ -44,6 +44,9 @@ class ReportedCovariance {
   /// The latest computed, of [root position; root rotation; joint angles], num_dofs [m, rad].
   const Eigen::VectorXd& deviations() const { return deviations_; }
 
+  /// The latest computed, of the same; the squares of the deviations are its diagonal.
+  Eigen::MatrixXd Covariance() const;
+
   /// Variance of a marker's place, each coordinate, at noise scale 1: what is constant or slow, and
   /// white noise [m^2].
   double slow_variance() const { return slow_; }

@@ -6,13 +6,20 @@
 
 #include "common/motion/trajectory_derivatives.h"
 #include "common/support/units.h"
-#include "plugins/s2kf/first_look.h"
+#include "plugins/s2kf/misplaced_markers.h"
 #include "plugins/s2kf/offline_tracker.h"
 
 namespace mmm_converter::s2kf {
 
 using Eigen::Matrix3Xd;
 using Eigen::Ref;
+
+namespace {
+
+// So often markers that are misplaced are looked for.
+constexpr int kMostRounds = 3;
+
+}  // namespace
 
 S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings)
     : S2kfConverter(setup, settings, TrackedMarkers(setup)) {}
@@ -53,7 +60,8 @@ void S2kfConverter::FillEstimate(double dt) {
                                        frame_.posture.joint_angles, &of_model_);
   if (!is_smoothed_) {
     covariance_.Look(frame_.z, of_model_, dt);
-    if (covariance_.IsDue()) {
+    has_new_deviations_ = covariance_.IsDue();
+    if (has_new_deviations_) {
       tracker_.filter().Deviations(track_.belief, &own_deviations_);
       covariance_.Compute(frame_.posture.joint_angles, own_deviations_, &of_model_);
     }
@@ -91,23 +99,56 @@ void S2kfConverter::FillVerdicts() {
   }
 }
 
+bool S2kfConverter::KeepCovariances() {
+  keeps_covariances_ = true;
+  return true;
+}
+
+ConversionResult S2kfConverter::TrackAll(const MarkerSequence& recording,
+                                         const std::function<bool(int)>& progress) {
+  if (!keeps_covariances_) return MotionConverter::Convert(recording, progress);
+  std::vector<PoseCovariance> covariances;
+  ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
+    if (has_new_deviations_) covariances.push_back({done - 1, covariance_.Covariance()});
+    return !progress || progress(done);
+  });
+  result.covariances = std::move(covariances);
+  return result;
+}
+
+ConversionResult S2kfConverter::ConvertBy(const FirstLook& look, const MarkerSequence& recording,
+                                          const std::function<bool(int)>& progress) const {
+  S2kfSettings settings = settings_;
+  settings.process_noise_scale *= look.process_noise_scale.value_or(1);
+  settings.choose_process_noise_scale = false;
+  settings.learn_places = false;
+  S2kfConverter converter(setup(), settings, look.places ? markers_.Worn(*look.places) : markers_);
+  converter.keeps_covariances_ = keeps_covariances_;
+  ConversionResult result = converter.Convert(recording, progress);
+  result.process_noise_scale = look.process_noise_scale;
+  return result;
+}
+
 ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
                                         const std::function<bool(int)>& progress) {
   if (settings_.choose_process_noise_scale || settings_.learn_places) {
-    const FirstLook look = LookOver(recording, markers_, settings_, progress);
-    S2kfSettings settings = settings_;
-    settings.process_noise_scale *= look.process_noise_scale.value_or(1);
-    settings.choose_process_noise_scale = false;
-    settings.learn_places = false;
-    S2kfConverter converter(setup(), settings,
-                            look.places ? markers_.Worn(*look.places) : markers_);
-    ConversionResult result = converter.Convert(recording, progress);
-    result.process_noise_scale = look.process_noise_scale;
+    FirstLook look = LookOver(recording, markers_, settings_, progress);
+    ConversionResult result = ConvertBy(look, recording, progress);
+    if (!look.places || settings_.gate_probability <= 0) return result;
+    MisplacedMarkers misplaced(recording, markers_);
+    int rounds = 0;
+    for (; rounds < kMostRounds && misplaced.Find(result); ++rounds) {
+      const std::vector<FrameDiagnostic> before = std::move(result.frames);
+      const MarkerSequence without = misplaced.Without();
+      const auto is_to_go_on = [&](int) { return !progress || progress(recording.num_frames()); };
+      look = LookOver(without, markers_, settings_, is_to_go_on);
+      result = ConvertBy(look, without, is_to_go_on);
+      for (std::size_t k = 0; k < before.size(); ++k) result.frames[k].seconds += before[k].seconds;
+    }
+    if (rounds > 0) misplaced.Tell(&result);
     return result;
   }
-  if (!settings_.smoothing) {
-    return MotionConverter::Convert(recording, progress);
-  }
+  if (!settings_.smoothing) return TrackAll(recording, progress);
   OfflineTracker offline(recording, settings_, markers_, &tracker_);
   // Also where progress cancels.
   struct Reset {
@@ -119,7 +160,7 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
     offline.Keep(done - 1, track_, frame_);
     return !progress || progress(done);
   });
-  offline.Smooth(&result);
+  offline.Smooth(keeps_covariances_, &result);
   Differentiate(&result.trajectory);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "common/convert/motion_converter.h"
+#include "plugins/s2kf/first_look.h"
 #include "plugins/s2kf/online_tracker.h"
 #include "plugins/s2kf/reported_covariance.h"
 #include "plugins/s2kf/s2kf_settings.h"
@@ -25,12 +26,19 @@ class S2kfConverter : public MotionConverter {
   ConversionResult Convert(const MarkerSequence& recording,
                            const std::function<bool(int)>& progress) override;
 
+  bool KeepCovariances() override;
+
  private:
   S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings, TrackedMarkers worn);
 
   /// dt: since the last frame [s].
   void FillEstimate(double dt);
   void FillVerdicts();
+  /// With the settings and the places that a first look tells.
+  ConversionResult ConvertBy(const FirstLook& look, const MarkerSequence& recording,
+                             const std::function<bool(int)>& progress) const;
+  ConversionResult TrackAll(const MarkerSequence& recording,
+                            const std::function<bool(int)>& progress);
 
   S2kfSettings settings_;
   TrackedMarkers markers_;  // as the model has them, which residuals are told against
@@ -39,9 +47,11 @@ class S2kfConverter : public MotionConverter {
   TrackState track_;
   TrackedFrame frame_;
   ReportedCovariance covariance_;
-  bool is_smoothed_ = false;        // the deviations come later
-  Eigen::VectorXd own_deviations_;  // of the filter, which takes all noise for white
-  MarkerJacobian of_model_;         // the estimate's, where the model has the markers
+  bool is_smoothed_ = false;  // the deviations come later
+  bool keeps_covariances_ = false;
+  bool has_new_deviations_ = false;  // of this frame
+  Eigen::VectorXd own_deviations_;   // of the filter, which takes all noise for white
+  MarkerJacobian of_model_;          // the estimate's, where the model has the markers
   FrameEstimate estimate_;
 };
 

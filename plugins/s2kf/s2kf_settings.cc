@@ -118,7 +118,8 @@ SettingTable BindSettings(S2kfSettings* v) {
   table.Add("Smoothing", "learnPlaces", &v->learn_places,
             "before it is tracked, go over the recording once and learn where each marker is worn "
             "beside the model's place, as far as the person was not calibrated: a marker that "
-            "hides or returns then moves no limb; distances are still those to the model's places");
+            "hides or returns then moves no limb; distances are still those to the model's places. "
+            "Afterwards find markers that are elsewhere for a while, and track again without them");
   return table;
 }
 

@@ -28,6 +28,8 @@ class TrackedMarkers {
   const MarkerKinematics& kinematics() const { return kinematics_; }
   /// By marker, the one at that place of the other side of the body; -1: none.
   const std::vector<int>& mirror() const { return mirror_; }
+  /// Of a frame, the column that is a marker's.
+  LabelIx label(int m) const { return labels_[m]; }
   /// Factor on a marker's standard deviation.
   const Eigen::VectorXd& noise_scale() const { return noise_scale_; }
 

@@ -65,6 +65,30 @@ class Conversions(Case):
         self.assertEqual(result.accelerations.shape, (120, 50))
         self.assertAlmostEqual(result.times[0], 1)
 
+    def test_covariances(self):
+        for config in ("s2kf_default", "s2kf_offline"):
+            with self.subTest(config=config):
+                npz = self.folder / "program.npz"
+                self.run_program("convert", SAMPLE, "-o", self.folder / "m.xml", "--height", "1.8",
+                                 "--frames", "100:160", "-c", config, "--export-covariance", npz)
+                result = mmmconverter.convert(SAMPLE, height=1.8, frames=(100, 160), config=config,
+                                              covariances=True)
+                frames, covariances = result.covariances
+                arrays = np.load(npz)
+                np.testing.assert_array_equal(arrays["covariance"], covariances)
+                np.testing.assert_array_equal(arrays["frame"], frames)
+                np.testing.assert_array_equal(arrays["time"], result.times[frames])
+                self.assertEqual(list(arrays["names"][6:]), result.joint_names)
+                self.assertEqual(covariances.shape, (len(frames), 50, 50))
+                self.assertGreater(len(frames), 5)
+                np.testing.assert_allclose(np.sqrt(np.diagonal(covariances, axis1=1, axis2=2)),
+                                           result.sd[frames], rtol=1e-9)
+                self.assertGreater(np.linalg.eigvalsh(covariances).min(), 0)
+        self.assertIsNone(mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 10)).covariances)
+        with self.assertRaisesRegex(mmmconverter.Error, "JacobianConverter tells no covariances"):
+            mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 10), config="jacobian_pull",
+                                 covariances=True)
+
     def test_calibrated_on_itself(self):
         self.expect_the_programs(
             SAMPLE, ["--height", "1.8", "--self-calibrate", "--frames", ":200", "-c", "jacobian_pull"],

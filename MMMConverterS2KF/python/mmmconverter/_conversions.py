@@ -33,6 +33,9 @@ class Conversion(Presented):
         In radians.
     sd : numpy.ndarray, shape (frames, 6 + J), or None
         Standard deviations: root position [m], its rotation about its own axes [rad], joints [rad].
+    covariances : (numpy.ndarray, shape (k,), numpy.ndarray, shape (k, 6 + J, 6 + J)), or None
+        Where they were asked for: the frames in which they were computed, some 13 a second, and
+        covariances of what `sd` is of; their diagonals are its squares.
     velocities, accelerations : numpy.ndarray, shape (frames, 6 + J), or None
         Of the root's position and its rotation in the world, and of joints, per second and per second
         squared; where postures are smooth (config="s2kf_offline").
@@ -71,6 +74,7 @@ class Conversion(Presented):
     velocities = functools.cached_property(lambda self: self._raw.velocities)
     accelerations = functools.cached_property(lambda self: self._raw.accelerations)
     residuals = functools.cached_property(lambda self: self._raw.residuals)
+    covariances = functools.cached_property(lambda self: self._raw.covariances)
     marker_labels = functools.cached_property(lambda self: self._raw.marker_labels)
     incidents = functools.cached_property(lambda self: self._raw.incidents)
     frames = functools.cached_property(lambda self: self._raw.frames)
@@ -137,6 +141,7 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
             ignore_residuals: bool = False, prefix: Optional[str] = None,
             motion: Optional[str] = None, self_calibrate: bool = False, label: bool = False,
             object: bool = False, object_models=None, format: Optional[str] = None,
+            covariances: bool = False,
             progress: Optional[Callable[[int, int], None]] = None) -> Conversion:
     """Converts a recording into a motion, as the command ``convert`` does; writes nothing.
 
@@ -174,6 +179,8 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
         Folder of the models of objects; needed where a model is built and the motion is saved.
     format : str, optional
         Of the motion that is saved: "2.0" or "1.0".
+    covariances : bool
+        Keeps the covariances of the postures.
     progress : callable, optional
         Is called with (frames done, all frames) some 20 times a second. What it raises ends the
         conversion.
@@ -202,7 +209,7 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
         model=model, marker_set=marker_set, frames=frames, unit=unit, up=up, rate=rate,
         ignore_residuals=ignore_residuals, prefix=prefix, motion=motion,
         self_calibrate=self_calibrate, label=label, object=object, object_models=object_models,
-        format=format)
+        format=format, covariances=covariances)
     raw = recording._raw if isinstance(recording, Recording) else None
     if raw is not None and recording._options is not None:
         options = {**recording._options, **options}

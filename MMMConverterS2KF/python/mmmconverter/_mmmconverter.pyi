@@ -67,6 +67,7 @@ class Conversion:
     velocities: Optional[np.ndarray]
     accelerations: Optional[np.ndarray]
     residuals: np.ndarray
+    covariances: Optional[Tuple[np.ndarray, np.ndarray]]
     marker_labels: List[str]
     incidents: List[Dict[str, Any]]
     frames: Dict[str, np.ndarray]

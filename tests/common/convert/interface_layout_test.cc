@@ -101,11 +101,18 @@ std::string DescribeResults() {
             PART(MarkerIncident, assignment) + PART(MarkerIncident, other) +
             PART(MarkerIncident, first_frame) + PART(MarkerIncident, last_frame);
   }
+  {
+    const PoseCovariance object;
+    MEMBERS(a, b);
+    text += Whole<PoseCovariance>("PoseCovariance") + PART(PoseCovariance, frame) +
+            PART(PoseCovariance, covariance);
+  }
   const ConversionResult object;
-  MEMBERS(a, b, c, d, e);
+  MEMBERS(a, b, c, d, e, f);
   return text + Whole<ConversionResult>("ConversionResult") + PART(ConversionResult, trajectory) +
          PART(ConversionResult, residuals) + PART(ConversionResult, frames) +
-         PART(ConversionResult, process_noise_scale) + PART(ConversionResult, incidents);
+         PART(ConversionResult, process_noise_scale) + PART(ConversionResult, incidents) +
+         PART(ConversionResult, covariances);
 }
 
 std::string DescribeModel() {
@@ -182,6 +189,7 @@ std::string DescribeClasses() {
   return Whole<Error>("Error") + Whole<MotionConverter>("MotionConverter") +
          VIRTUAL(MotionConverter, Assemble) + VIRTUAL(MotionConverter, Track) +
          VIRTUAL(MotionConverter, Prepare) + VIRTUAL(MotionConverter, Convert) +
+         VIRTUAL(MotionConverter, KeepCovariances) +
          Whole<MotionConverterFactory>("MotionConverterFactory") +
          VIRTUAL(MotionConverterFactory, name) + VIRTUAL(MotionConverterFactory, description) +
          VIRTUAL(MotionConverterFactory, config_template) + VIRTUAL(MotionConverterFactory, Create);

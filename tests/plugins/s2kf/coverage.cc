@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/plugins/s2kf/coverage.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
 
@@ -79,6 +80,47 @@ void Coverage::Add(const Coverage& other) {
   }
 }
 
+void Coverage::AddTogether(const KinematicModel& model, const std::vector<int>& joints,
+                           const PoseTrajectory& truth, const ConversionResult& estimate, int begin,
+                           int end) {
+  std::map<std::string, std::vector<int>> parts;  // rows of the covariance, by side and joint
+  std::map<std::string, std::string> groups;
+  const int size = 6 + static_cast<int>(joints.size());
+  for (int i = 0; i < size; ++i) {
+    parts["whole"].push_back(i);
+    if (i < 6) continue;
+    const std::string& name = model.joint(joints[i - 6]).name;
+    const std::string group = GroupOf(name);
+    const std::string part = name.substr(0, 1) + group;
+    parts[part].push_back(i);
+    groups[part] = group;
+  }
+  groups["whole"] = "whole";
+  for (const PoseCovariance& one : estimate.covariances) {
+    if (one.frame < begin || one.frame >= end) continue;
+    const Posture q_true = ModelPosture(model, truth, one.frame);
+    const Posture q = ModelPosture(model, estimate.trajectory, one.frame);
+    Eigen::VectorXd error(size);
+    error << q_true.position - q.position, Log(q.orientation.conjugate() * q_true.orientation),
+        q_true.joint_angles(joints) - q.joint_angles(joints);
+    for (const auto& [part, rows] : parts) {
+      const Eigen::VectorXd e = error(rows);
+      const Eigen::MatrixXd P = one.covariance(rows, rows);
+      Together& group = together_[groups.at(part)];
+      ++group.samples;
+      group.squares += e.dot(P.ldlt().solve(e)) / static_cast<double>(rows.size());
+    }
+  }
+}
+
+std::map<std::string, double> Coverage::NeesTogether() const {
+  std::map<std::string, double> nees;
+  for (const auto& [group, sum] : together_) {
+    nees[group] = sum.squares / static_cast<double>(sum.samples);
+  }
+  return nees;
+}
+
 void Coverage::Print(const std::string& title) const {
   std::printf("[ measured ] %s:", title.c_str());
   for (const auto& [group, counts] : groups_) {
@@ -89,6 +131,9 @@ void Coverage::Print(const std::string& title) const {
                 (is_length ? 1000 : 57.3) * std::sqrt(counts.error_squares / n),
                 (is_length ? 1000 : 57.3) * std::sqrt(counts.variances / n),
                 is_length ? "mm" : "deg");
+  }
+  for (const auto& [group, nees] : NeesTogether()) {
+    std::printf(" %s together NEES %.2f;", group.c_str(), nees);
   }
   std::printf("\n");
 }

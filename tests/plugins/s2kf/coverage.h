@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/convert/motion_converter.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
 
@@ -36,15 +37,30 @@ class Coverage {
            const PoseTrajectory& estimate, int begin, int end, const std::string& only = "");
   void Add(const Coverage& other);
 
+  /// The errors of a limb's angles in that joint (a shoulder's three) together, and of all,
+  /// "whole", in the frames of [begin, end) of which there is a covariance.
+  void AddTogether(const KinematicModel& model, const std::vector<int>& joints,
+                   const PoseTrajectory& truth, const ConversionResult& estimate, int begin,
+                   int end);
+
   const std::map<std::string, Counts>& groups() const { return groups_; }
   const Counts& Of(const std::string& group) const { return groups_.at(group); }
+  /// By group, of errors e and their covariance P: e^T P^-1 e over its degrees of freedom, the
+  /// means over frames.
+  std::map<std::string, double> NeesTogether() const;
   /// One line.
   void Print(const std::string& title) const;
 
  private:
   void Count(const std::string& group, double error, double deviation);
 
+  struct Together {
+    long samples = 0;
+    double squares = 0;
+  };
+
   std::map<std::string, Counts> groups_;
+  std::map<std::string, Together> together_;
 };
 
 /// The group of a tracked joint.

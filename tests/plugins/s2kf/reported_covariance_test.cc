@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 #include <set>
@@ -158,6 +159,32 @@ TEST(ReportedCovarianceTest, WhatTheSubjectLeavesUnknownCounts) {
   };
   const VectorXd well = deviations_with(0.001);
   EXPECT_TRUE((deviations_with(0.02).array() > 1.2 * well.array()).all());
+}
+
+// With a hidden limb, so that angles are bounded by their range.
+TEST(ReportedCovarianceTest, TheCovarianceHasTheDeviationsAndIsOne) {
+  CovarianceScene scene(testing::MakeBranchedModel());
+  scene.MoveMarkers(0.01);
+  const VectorXd deviations = scene.Look(500, 0.001, {10, 11});
+  const Eigen::MatrixXd P = scene.covariance().Covariance();
+  ASSERT_EQ(P.rows(), deviations.size());
+  EXPECT_EQ(P, P.transpose());
+  for (Eigen::Index i = 0; i < P.rows(); ++i) {
+    EXPECT_NEAR(P(i, i) / (deviations[i] * deviations[i]), 1, 1e-12) << i;
+  }
+  EXPECT_GT(P.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
+}
+
+// Both joints turn about the same axis, so that only their sum is well known.
+TEST(ReportedCovarianceTest, AnglesThatReplaceEachOtherAreCorrelated) {
+  const KinematicModel model = ScaledReferenceModel(1.8);
+  CovarianceScene scene(model);
+  scene.MoveMarkers(0.01);
+  scene.Look(50, 0.001);
+  const Eigen::MatrixXd P = scene.covariance().Covariance();
+  const int lower = 6 + model.FindJoint("BPx_joint");
+  const int upper = 6 + model.FindJoint("BTx_joint");
+  EXPECT_LT(P(lower, upper) / std::sqrt(P(lower, lower) * P(upper, upper)), -0.3);
 }
 
 // The long form, over persons and motions, is in accuracy/deviations_test.cc.

@@ -39,11 +39,19 @@ class DeviationsTest : public ::testing::TestWithParam<const char*> {
         testing::SourcePath("xml_config/converters/" + std::string(GetParam()) + ".xml")));
   }
 
-  PoseTrajectory Convert(const KinematicModel& model, const std::vector<int>& joints,
-                         const MarkerSequence& seen) const {
-    return S2kfConverter(SetupOf(model, joints, AssignAll(model, seen)), Settings())
-        .Convert(seen, {})
-        .trajectory;
+  ConversionResult Convert(const KinematicModel& model, const std::vector<int>& joints,
+                           const MarkerSequence& seen) const {
+    S2kfConverter converter(SetupOf(model, joints, AssignAll(model, seen)), Settings());
+    converter.KeepCovariances();
+    return converter.Convert(seen, {});
+  }
+
+  // Of a session's motion, after the start.
+  void Cover(const KinematicModel& model, const std::vector<int>& joints,
+             const PoseTrajectory& truth, const MarkerSequence& seen, Coverage* coverage) const {
+    const ConversionResult result = Convert(model, joints, seen);
+    coverage->Add(model, joints, truth, result.trajectory, kSettled, seen.num_frames());
+    coverage->AddTogether(model, joints, truth, result, kSettled, seen.num_frames());
   }
 
   static void ExpectHonest(const Coverage& coverage, const std::string& what, double most = 0.80,
@@ -69,8 +77,7 @@ TEST_P(DeviationsTest, Uncalibrated) {
     const Session session(seed);
     for (const NamedMotion& named : SessionMotions(session.model, kSessionFrames, seed)) {
       const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
-      coverage.Add(session.model, session.joints, named.motion,
-                   Convert(session.model, session.joints, seen), kSettled, seen.num_frames());
+      Cover(session.model, session.joints, named.motion, seen, &coverage);
     }
   }
   ExpectHonest(coverage, "uncalibrated");
@@ -87,11 +94,10 @@ TEST_P(DeviationsTest, Calibrated) {
     for (const NamedMotion& named : SessionMotions(session.model, kSessionFrames, seed)) {
       const MarkerSequence all = session.Record(named.motion);
       const MarkerSequence seen = HideBlocks(all, seed);
-      coverage.Add(known, session.joints, named.motion, Convert(known, session.joints, seen),
-                   kSettled, seen.num_frames());
+      Cover(known, session.joints, named.motion, seen, &coverage);
       if (all.num_frames() < 290) continue;
       const PoseTrajectory estimate =
-          Convert(known, session.joints, HideMarkers(all, RightArm(), 40, 240));
+          Convert(known, session.joints, HideMarkers(all, RightArm(), 40, 240)).trajectory;
       for (const char* joint : {"RS", "RE", "RW"}) {
         hidden.Add(known, session.joints, named.motion, estimate, 40, 290, joint);
       }
@@ -113,8 +119,7 @@ TEST_P(DeviationsTest, ExactBody) {
       const MarkerErrors errors = {0, 0, 0.3, S2kfSettings{}.marker_deviation};
       const MarkerSequence seen =
           HideBlocks(SynthesizeMarkers(model, named.motion, errors, seed), seed);
-      coverage.Add(model, joints, named.motion, Convert(model, joints, seen), kSettled,
-                   seen.num_frames());
+      Cover(model, joints, named.motion, seen, &coverage);
     }
   }
   ExpectHonest(coverage, "exact body");
