@@ -68,6 +68,11 @@ class DeviationsTest : public ::testing::TestWithParam<const char*> {
       if (group == "limit") continue;  // more caution there does no harm
       EXPECT_LE(counts.One(), 0.88) << group;
     }
+    // Of the limbs; bends of spine and neck, and all together, err by more than one look tells.
+    for (const auto& [group, nees] : coverage.NeesTogether()) {
+      if (group == "spine" || group == "neck" || group == "whole") continue;
+      EXPECT_LE(nees, 2.5) << group;
+    }
   }
 };
 
