@@ -10,16 +10,15 @@ namespace mmm_converter {
 struct ConversionReport;
 
 /// A format of a conversion's results for other programs. A row of Exporters() is all there is to
-/// add: the option
-/// --export-NAME, the attribute of batches, the checks of outputs and the help texts are made from
-/// it.
+/// add: the option --export-NAME, the attribute of batches, the checks of outputs and the help
+/// texts are made from it.
 struct Exporter {
-  const char* name;    ///< "csv": attribute and folder of a batch
-  const char* ending;  ///< of its files there
-  const char* what;    ///< "postures as CSV", for the help of a batch
-  const char* help;    ///< of the option
+  const char* name = "";    ///< "csv": attribute and folder of a batch
+  const char* ending = "";  ///< of its files there
+  const char* what = "";    ///< "postures as CSV", for the help of a batch
+  const char* help = "";    ///< of the option
   /// @throws Error; the file is then as it was before.
-  void (*write)(const std::string& file, const ConversionReport& report);
+  void (*write)(const std::string& file, const ConversionReport& report) = nullptr;
   /// Of covariances, which are kept where they are asked for before a whole recording is tracked.
   bool of_covariances = false;
 };
