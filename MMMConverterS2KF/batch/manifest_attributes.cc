@@ -62,7 +62,8 @@ std::string TakeParsed(Parse parse) {
 std::string FindShipped(const std::string& value, const std::string& folder) {
   const std::string file = FileIn(folder, value);
   const bool is_name = value.find('/') == std::string::npos && !value.ends_with(".xml");
-  return is_name && !fs::exists(file) ? value : file;
+  std::error_code failure;
+  return is_name && !fs::exists(file, failure) ? value : file;
 }
 
 using Value = const std::string&;

@@ -60,7 +60,8 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
   for (const std::string& file :
        {request.input.person.processor_file, request.input.person.subject_file, config.subject_file,
         own_set, request.input.marker_set}) {
-    hash.AddPart(!file.empty() && fs::is_regular_file(file) ? FileHash(file) : "");
+    std::error_code failure;
+    hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");
   }
   return hash.Hex();
 }

@@ -38,9 +38,10 @@ std::vector<std::string> ShippedConfigs() {
 
 // A file, or the shipped configuration of that name.
 std::string FindConfig(const std::string& config) {
-  if (fs::exists(config)) return config;
+  std::error_code failure;
+  if (fs::exists(config, failure)) return config;
   std::string shipped = ShippedConfig(config);
-  if (fs::exists(shipped)) return shipped;
+  if (fs::exists(shipped, failure)) return shipped;
   throw Error(fmt::format("{}: no such file, nor a shipped configuration; these are {}", config,
                           JoinNames(ShippedConfigs(), ", ")));
 }

@@ -89,7 +89,9 @@ ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore&
 void TakeMarkerSet(const InputRequest& request, ConverterConfig* config) {
   if (request.marker_set.empty()) return;
   namespace fs = std::filesystem;
-  const bool is_file = fs::exists(request.marker_set) || request.marker_set.ends_with(".xml");
+  std::error_code failure;
+  const bool is_file =
+      fs::exists(request.marker_set, failure) || request.marker_set.ends_with(".xml");
   config->marker_set = is_file ? fs::absolute(request.marker_set).string() : request.marker_set;
   config->marker_pairs.clear();
 }

@@ -109,6 +109,20 @@ TEST(Batch, OneBadEntryFailsAlone) {
   EXPECT_EQ(Contents(Out() + "/motions").size(), 3U);
 }
 
+TEST(Batch, NamesLongerThanFilesHaveFailAlone) {
+  const std::string name(300, 'a');
+  std::string entries;
+  for (const char* attribute : {"config", "markerSet", "model", "subjectFile", "plugin"}) {
+    entries += "<Recording file='handstand.c3d' id='" + std::string(attribute) + "' frames=':40' " +
+               attribute + "='" + name + "'/>";
+  }
+  entries += "<Recording file='" + name + ".c3d' id='file'/>";
+  const auto run = RunProgram({"batch", WriteManifest(1, "", entries), "-o", Out()});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, HasSubstr("7 recordings, 1 converted, 6 failed"));
+  EXPECT_THAT(run.err, Not(HasSubstr("unexpected")));
+}
+
 TEST(Batch, WhatHelpsIsAnAttribute) {
   const MarkerSequence markers = ReadRecording(testing::Handstand(), {}).markers.Slice(0, 150);
   WriteC3d(TestFolder() + "/late.c3d", HideAllMarkers(markers, 0, 120));

@@ -53,7 +53,8 @@ StreamEvent ReplaySource::Next(std::chrono::milliseconds wait, StreamFrame* fram
 
 ReplayAddress ParseReplayAddress(const std::string& text) {
   const std::size_t at = text.rfind('@');
-  if (at == std::string::npos || std::filesystem::exists(text)) return {text, 1};
+  std::error_code failure;
+  if (at == std::string::npos || std::filesystem::exists(text, failure)) return {text, 1};
   const std::string speed = text.substr(at + 1);
   const std::string file = text.substr(0, at);
   if (speed == "max") return {file, 0};
