@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -93,6 +96,16 @@ int RunAndExplain(const std::vector<std::string>& words) {
   return kFailed;
 }
 
+// A file that is opened must not take the place of a stream that the caller has closed: messages
+// would be written into it. Of these, nothing can be written to /dev/null either, as before.
+void OccupyClosedStreams() {
+  int descriptor = 0;
+  do {
+    descriptor = ::open("/dev/null", O_RDONLY);
+  } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO) ::close(descriptor);
+}
+
 constexpr const char* kNoMemory =
     "error: there is not enough memory for this; close other programs, allow this one more "
     "(ulimit -v) or take a part of the recording (--frames A:B)\n";
@@ -101,6 +114,7 @@ constexpr const char* kNoMemory =
 }  // namespace mmm_converter
 
 int main(int argc, char** argv) {
+  mmm_converter::OccupyClosedStreams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is then an error that is said
   try {
     return mmm_converter::RunAndExplain({argv + 1, argv + argc});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -81,6 +82,16 @@ void ForEachJournal(const std::string& folder,
   if (failure) throw Error(fmt::format("{}: can't be read: {}", folder, failure.message()));
 }
 
+// Lines are added to a journal, not to a file of another kind that has its name.
+void CheckIsJournal(const std::string& file) {
+  const int first = std::ifstream(file).get();
+  if (first == std::ifstream::traits_type::eof() || first == '{' || first == '[') return;
+  throw Error(
+      fmt::format("{}: is no journal of a batch, which has a JSON text in each line; move it "
+                  "away, or give another output folder",
+                  file));
+}
+
 // Each journal's last record is its latest.
 std::int64_t LatestTime(const std::string& folder) {
   std::int64_t latest = 0;
@@ -96,7 +107,9 @@ std::int64_t LatestTime(const std::string& folder) {
 }  // namespace
 
 Journal::Journal(const std::string& folder, int shard, int shards)
-    : file_(JournalFile(folder, shard, shards)), latest_(LatestTime(folder)) {}
+    : file_(JournalFile(folder, shard, shards)), latest_(LatestTime(folder)) {
+  CheckIsJournal(JournalFile(folder, shard, shards));
+}
 
 void Journal::Append(const JournalRecord& record) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -19,8 +20,11 @@ namespace mmm_converter {
 namespace {
 
 constexpr const char* kKind = "MMMConverterS2KF live 1";
-constexpr double kAssumedRate = 100;        // [Hz] of a source that states none, in one frame
-constexpr double kMostFrames = 20'000'000;  // a day at 200 Hz
+constexpr double kAssumedRate = 100;  // [Hz] of a source that states none, in one frame
+// Numbers that a motion may take in memory: several times what the journal has, and so many more.
+constexpr double kNumbersPerByte = 4;
+constexpr double kMoreNumbers = 2e7;
+constexpr double kFarthest = 1e6;  // of the root [m]; beyond is damage
 constexpr double kBridgedSeconds = 0.1;
 
 // Numbers of a line, one after the other.
@@ -91,7 +95,8 @@ bool ParseFrame(std::string_view line, const JournalHeader& header, JournalFrame
   }
   frame->points.resize(3 * labels);
   numbers.Fill(frame->points);
-  return numbers.is_at_end() && std::isfinite(frame->time) && frame->posture.position.allFinite() &&
+  return numbers.is_at_end() && std::isfinite(frame->time) &&
+         frame->posture.position.cwiseAbs().maxCoeff() < kFarthest &&
          frame->posture.orientation.coeffs().allFinite() && frame->posture.joint_angles.allFinite();
 }
 
@@ -100,7 +105,7 @@ JournalHeader ParseHeader(std::string_view line, const std::string& file) {
   try {
     const Json json = ParseJson(line);
     if (json.at("journal") != kKind) {
-      throw Error(fmt::format("is no journal of a live motion of this version of the program"));
+      throw Error(fmt::format("its first line names another kind"));
     }
     header.output = json.at("output");
     header.format = json.at("format");
@@ -116,14 +121,17 @@ JournalHeader ParseHeader(std::string_view line, const std::string& file) {
     header.labels = json.at("labels").get<std::vector<std::string>>();
     header.joints = json.at("joints").get<std::vector<std::string>>();
   } catch (const std::exception& problem) {  // ParseJson's, and what json says of a missing member
-    throw Error(fmt::format("{}: {}", file, problem.what()));
+    throw Error(
+        fmt::format("{}: is no journal of a live motion of this version of the program, which "
+                    "it keeps there until the motion is written; move it away ({})",
+                    file, problem.what()));
   }
   return header;
 }
 
 // Where on the grid each frame is. Where the source's time ran back or stood, frames follow each
 // other.
-std::vector<int> GridOf(const std::vector<JournalFrame>& frames, double rate,
+std::vector<int> GridOf(const std::vector<JournalFrame>& frames, double rate, double most_frames,
                         const std::string& file) {
   std::vector<int> grid;
   double shift = frames.front().time;
@@ -133,9 +141,11 @@ std::vector<int> GridOf(const std::vector<JournalFrame>& frames, double rate,
       index = grid.back() + 1;
       if (frame.time <= frames[grid.size() - 1].time) shift = frame.time - index / rate;
     }
-    if (index > kMostFrames) {
-      throw Error(fmt::format("{}: reaches over more than {:.0f} frames of {:g} Hz", file,
-                              kMostFrames, rate));
+    if (index >= most_frames) {
+      throw Error(
+          fmt::format("{}: reaches over more than {:.0f} frames of {:g} Hz, which a journal of "
+                      "its size can't fill; move it away",
+                      file, most_frames, rate));
     }
     grid.push_back(static_cast<int>(index));
   }
@@ -195,6 +205,21 @@ void FillResult(const std::vector<JournalFrame>& frames, const std::vector<int>&
       FindIncidents(verdicts, static_cast<int>(std::lround(kBridgedSeconds * trajectory.rate)));
 }
 
+// A journal without a whole line is one of a process that was killed in its first: a part of a
+// header.
+void CheckHasBegun(const std::string& file) {
+  const std::string begin = fmt::format(R"({{"journal":"{}")", kKind);
+  std::string found(begin.size(), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(found.data(), static_cast<std::streamsize>(found.size()));
+  found.resize(static_cast<std::size_t>(stream.gcount()));
+  if (begin.starts_with(found)) return;
+  throw Error(
+      fmt::format("{}: is no journal of a live motion, which the program keeps there until the "
+                  "motion is written; move it away",
+                  file));
+}
+
 std::string FreeName(const std::filesystem::path& output) {
   for (int i = 1;; ++i) {
     const auto name = output.parent_path() / fmt::format("{}_recovered{}{}", output.stem().string(),
@@ -242,11 +267,16 @@ JournalContent ReadJournal(const std::string& file) {
     if (frames.empty() && !frame.is_tracking) return;
     frames.push_back(std::move(frame));
   });
-  if (!has_header) throw Error(fmt::format("{}: is empty", file));
   while (!frames.empty() && !frames.back().is_tracking) frames.pop_back();
   if (frames.empty()) return content;
   const double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
-  const std::vector<int> grid = GridOf(frames, rate, file);
+  const JournalFrame& first = frames.front();
+  const double numbers_per_frame =
+      static_cast<double>(first.points.size() + 7 + first.posture.joint_angles.size() +
+                          first.deviations.size() + 2 * first.residuals.size());
+  const double numbers =
+      kMoreNumbers + kNumbersPerByte * static_cast<double>(std::filesystem::file_size(file));
+  const std::vector<int> grid = GridOf(frames, rate, numbers / numbers_per_frame, file);
   content.frames = static_cast<int>(frames.size());
   content.first_number = frames.front().number;
   content.markers =
@@ -264,6 +294,7 @@ std::string RecoverMotion(const std::string& output) {
   {
     const LineFile only_one(journal);  // no process is writing to it
     content = ReadJournal(journal);
+    if (content.frames == 0) CheckHasBegun(journal);
   }
   std::string written;
   if (content.frames > 0) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/motion_output.h"
+#include "MMMConverterS2KF/live/live_source.h"
 #include "MMMConverterS2KF/live/motion_journal.h"
 #include "common/support/output_plan.h"
 
@@ -15,9 +16,10 @@ namespace mmm_converter {
 LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
   OutputPlan outputs;
   InputRequest inputs = request.input;
-  inputs.file.clear();
+  inputs.file = ReplayedFile(request.input.file);
   NameInputs(inputs, &outputs);
   outputs.Write(request.output);
+  if (!request.output.empty()) outputs.Write(JournalOf(request.output));
   outputs.Write(request.subject_output);
   for (const auto& [unused, file] : request.exports) outputs.Write(file);
   for (const std::string& file : request.more_outputs) outputs.Write(file);

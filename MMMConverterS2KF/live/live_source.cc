@@ -27,6 +27,11 @@ LiveSource OpenRecording(const LiveRequest& request, Warnings* warnings) {
 
 }  // namespace
 
+std::string ReplayedFile(const std::string& address) {
+  return address.starts_with(kReplay) ? ParseReplayAddress(address.substr(kReplay.size())).file
+                                      : "";
+}
+
 LiveSource OpenLiveSource(const LiveRequest& request, Warnings* warnings) {
   const std::string& address = request.input.file;
   if (address.starts_with(kReplay)) return OpenRecording(request, warnings);

@@ -7,6 +7,7 @@
 #include "common/convert/converter_config.h"
 #include "common/model/kinematic_model.h"
 #include "common/model/kit_joints.h"
+#include "common/support/diagnostics.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
@@ -42,16 +43,16 @@ std::string DescribeUnknownJoint(const KinematicModel& model, const std::string&
 
 std::vector<int> ResolveList(const ConverterConfig& config, const KinematicModel& model) {
   std::vector<int> joints;
-  std::string errors;
+  Diagnostics diagnostics(config.file);
   for (const ConfigJoint& joint : config.joints) {
     const int index = model.FindJoint(joint.name);
     if (index < 0) {
-      errors += fmt::format("{}{}: {}", errors.empty() ? "" : "\n", Located(config, joint.line),
-                            DescribeUnknownJoint(model, joint.name));
+      diagnostics.AddError(joint.line,
+                           diagnostics.is_full() ? "" : DescribeUnknownJoint(model, joint.name));
     }
     joints.push_back(index);
   }
-  if (!errors.empty()) throw Error(errors);
+  diagnostics.ThrowIfErrors();
   return joints;
 }
 

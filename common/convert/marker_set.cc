@@ -120,6 +120,13 @@ std::map<std::string, double> MappedMarkers(const MarkerSet& set,
   return mapped;
 }
 
+std::vector<std::string> NamesOfSegments(const LoadedModel& model) {
+  std::vector<std::string> names;
+  for (const Segment& segment : model.model.segments()) names.push_back(segment.name);
+  for (const auto& [link, unused] : model.segment_of_link) names.push_back(link);
+  return names;
+}
+
 }  // namespace
 
 MarkerSet ReadMarkerSet(const std::string& path) {
@@ -187,10 +194,8 @@ KinematicModel PlaceMarkers(const MarkerSet& set, const LoadedModel& model) {
   for (const MarkerPlace& place : set.places) {
     const int segment = FindSegment(model, place.segment);
     if (segment < 0) {
-      std::vector<std::string> names;
-      for (const Segment& known : bare.segments()) names.push_back(known.name);
-      for (const auto& [link, unused] : model.segment_of_link) names.push_back(link);
-      const std::string closest = ClosestName(place.segment, names);
+      const std::string closest =
+          diagnostics.is_full() ? "" : ClosestName(place.segment, NamesOfSegments(model));
       diagnostics.AddError(
           place.line, fmt::format("marker {}: model {} has no segment \"{}\"{}", place.marker,
                                   bare.name(), place.segment,

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "common/convert/plugin_loader.h"
 
+#include <elf.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <boost/dll/shared_library.hpp>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "common/convert/checked_converter.h"
@@ -36,6 +40,30 @@ std::string DescribeSearch(const std::vector<FoundPlugin>& plugins) {
     if (plugin.name.empty()) text += "; could not load " + plugin.description;
   }
   return text;
+}
+
+// The system maps a library's segments without a look at the file's size, and a program that
+// touches what a half-copied file lacks is ended (SIGBUS).
+void CheckIsWhole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Elf64_Ehdr head{};
+  file.read(reinterpret_cast<char*>(&head), sizeof(head));
+  if (!file || std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 ||
+      head.e_ident[EI_CLASS] != ELFCLASS64) {
+    return;  // of another kind: the system says which
+  }
+  std::error_code failure;
+  const std::uint64_t size = fs::file_size(path, failure);
+  std::uint64_t end = head.e_shoff + std::uint64_t{head.e_shnum} * head.e_shentsize;
+  file.seekg(static_cast<std::streamoff>(head.e_phoff));
+  for (int i = 0; i < head.e_phnum; ++i) {
+    Elf64_Phdr segment{};
+    file.read(reinterpret_cast<char*>(&segment), sizeof(segment));
+    end = std::max(end, file ? segment.p_offset + segment.p_filesz : size + 1);
+  }
+  if (end <= size) return;
+  throw Error(fmt::format("{}: is a part of a shared library, {} bytes of {}; copy it again", path,
+                          size, end));
 }
 
 // Of an interface version: what stands before the layout.
@@ -72,6 +100,7 @@ LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).s
   if (!fs::is_regular_file(path_, failure)) {
     throw Error(fmt::format("{}: no such plugin file", path));
   }
+  CheckIsWhole(path_);
   library_ = std::make_unique<Library>(path_);
   auto* get_version = library_->Find<GetVersionFunction>("getVersion");
   auto* get_factory = library_->Find<GetFactoryFunction>("getFactory");

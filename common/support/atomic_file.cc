@@ -97,8 +97,13 @@ class Output {
 };
 
 void WriteDirectly(const std::string& path, const TextPieces& content) {
-  ScratchFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC), "");
+  ScratchFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK), "");
+  if (file.descriptor() < 0 && errno == ENXIO) {
+    throw Error(
+        fmt::format("{}: can't be written: nobody reads this pipe; start its reader first", path));
+  }
   if (file.descriptor() < 0) Fail(path, errno);
+  ::fcntl(file.descriptor(), F_SETFL, O_WRONLY);  // a slow reader is waited for
   Output output(path, file.descriptor());
   content([&](std::string_view piece) { output.Write(piece); });
   if (!file.Close()) Fail(path, errno);

@@ -6,8 +6,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kMostErrorsShown = 20;
-
 std::string Located(const std::string& file, int line, const std::string& message) {
   return line > 0 ? fmt::format("{}:{}: {}", file, line, message)
                   : fmt::format("{}: {}", file, message);
@@ -20,9 +18,10 @@ void Diagnostics::AddError(int line, const std::string& message, Remedy remedy) 
   if (remedy_ == Remedy::kNone) remedy_ = remedy;
 }
 
-void Diagnostics::AddWarning(int line, const std::string& message) {
+void Diagnostics::AddWarning(int line, const std::string& message, const std::string& kind) {
   const WarningContext context(warnings_, file_);
-  Warn(warnings_, Located(file_, line, message));
+  const std::string text = Located(file_, line, message);
+  kind.empty() ? Warn(warnings_, text) : WarnOfKind(warnings_, kind, text);
 }
 
 void Diagnostics::ThrowIfErrors() const {

@@ -20,15 +20,20 @@ class Diagnostics {
 
   /// remedy: shown for the file as a whole, the first that there is.
   void AddError(int line, const std::string& message, Remedy remedy = Remedy::kNone);
-  void AddWarning(int line, const std::string& message);
+  /// kind: of those that a file may have without end, in plural (Warnings::AddOfKind).
+  void AddWarning(int line, const std::string& message, const std::string& kind = "");
 
   /// @throws Error with all errors so far, if there are any.
   void ThrowIfErrors() const;
 
+  /// Whether further errors are only counted, so that what they suggest need not be looked for.
+  bool is_full() const { return errors_.size() >= kMostErrorsShown; }
   const std::string& file() const { return file_; }
   const std::vector<std::string>& errors() const { return errors_; }
 
  private:
+  static constexpr std::size_t kMostErrorsShown = 20;
+
   std::string file_;
   std::vector<std::string> errors_;
   Warnings* warnings_;

@@ -42,7 +42,11 @@ void SyncFolder(const std::string& path) {
 }  // namespace
 
 LineFile::LineFile(const std::string& path) : path_(path) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
+  descriptor_ =
+      ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW, 0666);
+  if (descriptor_ < 0 && errno == ELOOP) {
+    throw Error(fmt::format("{}: is a link; what is added here needs a file of its own", path));
+  }
   if (descriptor_ < 0) throw WriteError(path, errno);
   if (!IsRegular(descriptor_)) {
     ::close(descriptor_);
@@ -53,13 +57,13 @@ LineFile::LineFile(const std::string& path) : path_(path) {
     ::close(descriptor_);
     throw Error(fmt::format("{}: another process is writing to it; wait until it has ended", path));
   }
-  CutOffPartOfLine();
   SyncFolder(path);
 }
 
 LineFile::~LineFile() { ::close(descriptor_); }
 
 void LineFile::CutOffPartOfLine() {
+  if (size_ >= 0) return;
   size_ = ::lseek(descriptor_, 0, SEEK_END);
   char last = '\n';
   const auto read_last = [&] { return ::pread(descriptor_, &last, 1, size_ - 1) == 1; };
@@ -68,6 +72,7 @@ void LineFile::CutOffPartOfLine() {
 }
 
 void LineFile::Append(std::string_view line) {
+  CutOffPartOfLine();
   const std::string text = std::string(line) + "\n";
   std::size_t done = 0;
   while (done < text.size()) {

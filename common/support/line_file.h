@@ -12,16 +12,16 @@ namespace mmm_converter {
 /// at a time has it.
 class LineFile {
  public:
-  /// Creates or opens the file; a last line without its end, from a process that was killed in it,
-  /// is cut off.
-  /// @throws Error naming the system's reason, and where it is not a regular file or another
-  /// process has it.
+  /// Creates or opens the file, and changes nothing of what is in it.
+  /// @throws Error naming the system's reason, and where it is a link or no regular file, or
+  /// another process has it.
   explicit LineFile(const std::string& path);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Whole or not at all. Not for several threads at a time.
+  /// Whole or not at all. Before the first one a last line without its end, from a process that was
+  /// killed in it, is cut off. Not for several threads at a time.
   /// @throws WriteError; the file is then as it was.
   void Append(std::string_view line);
 
@@ -30,7 +30,7 @@ class LineFile {
 
   std::string path_;
   int descriptor_ = -1;
-  long size_ = 0;  // [bytes] of whole lines
+  long size_ = -1;  // [bytes] of whole lines; -1 before the first Append
 };
 
 /// Of a longer line ForEachLine gives that much.

@@ -92,6 +92,15 @@ TEST_F(JournalTest, LeavesOutWhatItDoesNotUnderstand) {
   EXPECT_TRUE(ReadJournals(folder_ + "/nowhere").empty());
 }
 
+TEST_F(JournalTest, AFileOfAnotherKindStaysAsItIs) {
+  const std::string text = "a list of the laboratory\nwithout an end";
+  std::ofstream(folder_ + "/journal.jsonl") << text;
+  EXPECT_THROW(Journal(folder_, 1, 1), Error);
+  std::stringstream now;
+  now << std::ifstream(folder_ + "/journal.jsonl").rdbuf();
+  EXPECT_EQ(now.str(), text);
+}
+
 TEST_F(JournalTest, LeavesOutWhatIsNestedWithoutEnd) {
   constexpr int kDepth = 200000;
   std::ofstream(folder_ + "/journal.jsonl") << std::string(kDepth, '[') + std::string(kDepth, ']') +

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -48,6 +49,20 @@ std::vector<Json> Figures(const std::string& out) {
     line.erase("ms_per_frame");
   }
   return lines;
+}
+
+// Nothing that is opened takes the place of a stream that is closed.
+TEST(Batch, WithoutStreamsTheJournalHasRecordsOnly) {
+  const std::string manifest = WriteManifest(2, QuickConverter());
+  const std::string command = std::string(MMM_CONVERTER_BINARY_DIR "/bin/MMMConverterS2KF batch ") +
+                              manifest + " -o " + Out() + " <&- 2>&- >" + TestFolder() + "/said";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::ifstream journal(Out() + "/journal.jsonl");
+  int records = 0;
+  for (std::string line; std::getline(journal, line); ++records) {
+    EXPECT_NO_THROW(Json::parse(line)) << line;
+  }
+  EXPECT_EQ(records, 2);
 }
 
 TEST(Batch, ConvertsTheSampleLikeConvert) {

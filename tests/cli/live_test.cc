@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "common/io/mmm/mmm_motion.h"
@@ -149,6 +150,36 @@ TEST(Live, ADamagedJournalIsRecoveredAsFarAsItGoes) {
                 .motions.front()
                 .trajectory.num_frames(),
             58);
+}
+
+// What is there under the journal's name is the program's own, or stays as it is.
+TEST(Live, OnlyAJournalIsTakenForOne) {
+  const std::string motion = TestFolder() + "/motion.xml";
+  const std::vector<std::string> words = {
+      "live", "replay:" + Handstand() + "@max", "--height", "1.8", "-o", motion};
+  std::string far = LeaveJournal(motion);
+  far = far.substr(0, far.find('\n', far.find('\n') + 1) + 1);
+  const std::string frame = far.substr(far.find('\n') + 1);
+  const std::size_t number_ends = frame.find(' ');
+  const std::size_t time_ends = frame.find(' ', number_ends + 1);
+  far += frame.substr(0, number_ends) + " 1e6" + frame.substr(time_ends);
+  for (const auto& [text, why] : std::map<std::string, std::string>{
+           {"a letter\nto somebody", "is no journal of a live motion"},
+           {"{\"a\": 1}", "is no journal of a live motion"},
+           {far, "can't fill"}}) {
+    WriteText(motion + ".live", text);
+    const ProgramRun run = RunProgram(words);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, HasSubstr(motion + ".live: "));
+    EXPECT_THAT(run.err, HasSubstr(why));
+    EXPECT_EQ(ReadText(motion + ".live"), text);
+  }
+  for (const std::string& begun : {"", "{\"jour"}) {
+    WriteText(motion + ".live", begun);
+    const ProgramRun run = RunProgram(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(motion + ".live"));
+  }
 }
 
 TEST(Live, InterruptedItWritesWhatItHas) {

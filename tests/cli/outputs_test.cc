@@ -75,6 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         Call{"check-dynamics {M} --summary {NEW} --report {M}", "{M}"},
         Call{"convert {R} --height 1.8 -o {NEW} --summary {R}", "{R}"},
         Call{"convert {R} --height 1.8 -o {NEW} --export-csv {R}", "{R}"},
+        Call{"live replay:{R}@max --height 1.8 -o {R}", "{R}"},
+        Call{"live replay:{R}@max --height 1.8 -o {NEW} --export-csv {R}", "{R}"},
         Call{"export-urdf --height 1.8 --mass 75 --model {M} -o {M}", "{M}"}));
 
 TEST(TwoOutputs, AreNotOneFile) {

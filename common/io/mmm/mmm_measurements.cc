@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -15,6 +16,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
+constexpr double kMostNumber = 1e9;  // mm or rad; squares of what a damaged file has overflow
 
 std::string Shown(const std::string& text) {
   constexpr std::size_t kMost = 60;
@@ -85,16 +87,22 @@ bool AppendNumbers(const XmlElement& element, std::size_t count, double unit,
   const std::size_t size = values->size();
   const bool are_numbers = AppendDoubles(element.text, values);
   const std::size_t found = values->size() - size;
-  if (are_numbers && found == count) {
+  const bool are_possible =
+      std::none_of(values->begin() + static_cast<std::ptrdiff_t>(size), values->end(),
+                   [](double number) { return std::abs(number) > kMostNumber; });
+  if (are_numbers && found == count && are_possible) {
     for (std::size_t i = size; i < values->size(); ++i) (*values)[i] *= unit;
     return true;
   }
   values->resize(size);
   diagnostics->AddError(
       element.line,
-      are_numbers ? fmt::format("<{}> has {} numbers, expected {}", element.name, found, count)
-                  : fmt::format("<{}>: found \"{}\", expected {} numbers", element.name,
-                                Shown(element.text), count));
+      found == count && !are_possible
+          ? fmt::format("<{}>: found \"{}\", expected numbers up to {:g}", element.name,
+                        Shown(element.text), kMostNumber)
+      : are_numbers ? fmt::format("<{}> has {} numbers, expected {}", element.name, found, count)
+                    : fmt::format("<{}>: found \"{}\", expected {} numbers", element.name,
+                                  Shown(element.text), count));
   return false;
 }
 

@@ -125,9 +125,11 @@ void AddJoints(const JointRows& joints, const std::vector<double>& frame_times, 
       added.push_back(i);
       trajectory->joint_names.push_back(joints.names[i]);
     } else {
-      diagnostics->AddWarning(line, fmt::format("joint {} is in two Kinematic sensors; the first "
-                                                "one counts",
-                                                joints.names[i]));
+      diagnostics->AddWarning(line,
+                              fmt::format("joint {} is in two Kinematic sensors; the first "
+                                          "one counts",
+                                          joints.names[i]),
+                              "joints that are in two Kinematic sensors");
     }
   }
   for (std::size_t k = 0; k < frame_times.size(); ++k) {
@@ -138,7 +140,8 @@ void AddJoints(const JointRows& joints, const std::vector<double>& frame_times, 
   }
   if (!values.allFinite()) {
     diagnostics->AddWarning(
-        line, "the trajectory has joint angles that are NaN, or outside of their sensor's time");
+        line, "the trajectory has joint angles that are NaN, or outside of their sensor's time",
+        "sensors whose joint angles are NaN, or outside of their time");
   }
 }
 
@@ -225,7 +228,8 @@ void ReadSensors(LongXml& xml, const XmlElement& sensors, MmmMotion* motion, Bud
       if (poses.times.empty()) {
         poses = std::move(found);
       } else {
-        diagnostics->AddWarning(sensor->line, "a second ModelPose sensor is not used");
+        diagnostics->AddWarning(sensor->line, "a second ModelPose sensor is not used",
+                                "ModelPose sensors that are not used");
       }
     } else if (EqualIgnoringCase(*type, "Kinematic")) {
       joints.push_back(ReadKinematicSensor(xml, *sensor, diagnostics));

@@ -27,20 +27,19 @@ class RpyWriter {
  public:
   const Eigen::Vector3d& Next(const Eigen::Quaterniond& orientation) {
     const Eigen::Matrix3d R = orientation.toRotationMatrix();
+    const double scale = std::pow(10.0, kRadianDecimals);
     Eigen::Vector3d rpy = RpyFromRotation(R);
-    if (!is_first_) {
-      // Nearer to gimbal lock than this, roll and yaw are not separable in the digits that are
-      // written: roll stays.
-      constexpr double kNearLock = 1e-7;
-      if (std::abs(std::cos(rpy.y())) < kNearLock) {
-        const Eigen::Matrix3d R_zy =
-            R * Eigen::AngleAxisd(-rpy_.x(), Eigen::Vector3d::UnitX()).toRotationMatrix();
-        rpy = {rpy_.x(), std::atan2(-R_zy(2, 0), R_zy(2, 2)), std::atan2(-R_zy(0, 1), R_zy(1, 1))};
-      }
-      rpy = ContinuousRpy(rpy, rpy_);
+    // Nearer to gimbal lock than this, the digits that are written do not separate roll and yaw:
+    // roll stays. What is written decides, so that it is decided alike when it is read.
+    constexpr double kNearLock = 1e-7;
+    if (std::abs(std::cos(Rounded(rpy.y(), scale))) < kNearLock) {
+      const Eigen::Matrix3d R_zy =
+          R * Eigen::AngleAxisd(-rpy_.x(), Eigen::Vector3d::UnitX()).toRotationMatrix();
+      rpy = {rpy_.x(), std::atan2(-R_zy(2, 0), R_zy(2, 2)), std::atan2(-R_zy(0, 1), R_zy(1, 1))};
     }
+    if (!is_first_) rpy = ContinuousRpy(rpy, rpy_);
     is_first_ = false;
-    for (double& angle : rpy) angle = Rounded(angle, std::pow(10.0, kRadianDecimals));
+    for (double& angle : rpy) angle = Rounded(angle, scale);
     rpy_ = rpy;
     return rpy_;
   }

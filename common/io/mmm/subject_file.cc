@@ -150,7 +150,7 @@ class SubjectReader {
       return "";
     }
     if (std::find(known.begin(), known.end(), *name) == known.end()) {
-      const std::string closest = ClosestName(*name, known);
+      const std::string closest = diagnostics_.is_full() ? "" : ClosestName(*name, known);
       Fail(element, fmt::format("the model {} has no \"{}\"{}", model_.name(), *name,
                                 closest.empty() ? "" : " (did you mean " + closest + "?)"));
     }

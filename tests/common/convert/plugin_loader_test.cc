@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <sstream>
 
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
@@ -80,6 +81,19 @@ TEST(LoadedPlugin, RefusesFaultyPlugins) {
               AllOf(HasSubstr("\"MMMConverterS2KF-0\""), HasSubstr(kConverterInterfaceVersion)));
   EXPECT_THAT(LoadError(TestPlugin("no_factory")), EndsWith("does not export getFactory"));
   EXPECT_THAT(LoadError(TestPlugin("null_factory")), EndsWith("getFactory gave no factory"));
+}
+
+// To touch what is not there of a mapped file ends a program.
+TEST(LoadedPlugin, RefusesPartsOfAFile) {
+  std::ifstream whole(TestPlugin("test_converter"), std::ios::binary);
+  std::stringstream bytes;
+  bytes << whole.rdbuf();
+  const std::string part = testing::TestFolder() + "/part.so";
+  for (const std::size_t size :
+       {std::size_t{100}, bytes.str().size() / 2, bytes.str().size() - 1}) {
+    std::ofstream(part, std::ios::binary) << bytes.str().substr(0, size);
+    EXPECT_THAT(LoadError(part), HasSubstr("is a part of a shared library")) << size;
+  }
 }
 
 TEST(LoadPluginByName, FindsPluginsInTheFoldersOfTheEnvironment) {

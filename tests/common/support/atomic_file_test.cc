@@ -82,6 +82,8 @@ TEST_F(AtomicFile, LeavesTheOldFileWhereMakingTheContentFails) {
   EXPECT_THROW(WriteFileAtomically(Path("new"), fail), Error);
   EXPECT_EQ(Content(Path("file")), "old");
   EXPECT_EQ(EntriesInFolder(), 1);
+  ASSERT_EQ(::mkfifo(Path("pipe").c_str(), 0600), 0);
+  EXPECT_THAT(MessageOfWriting(Path("pipe")), HasSubstr("nobody reads this pipe"));
 }
 
 TEST_F(AtomicFile, KeepsPermissionsAndFollowsUmask) {

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -72,6 +73,21 @@ TEST_F(LineFileTest, IsARegularFile) {
         EXPECT_THAT(error.what(), HasSubstr(path + ": is not a regular file"));
       }
     }
+  }
+}
+
+// It may be somebody else's.
+TEST_F(LineFileTest, OpeningChangesNothing) {
+  std::ofstream(path_) << "one\ntw";
+  { const LineFile file(path_); }
+  EXPECT_EQ(std::filesystem::file_size(path_), 6U);
+  const std::string link = path_ + "_link";
+  std::filesystem::create_symlink(path_, link);
+  try {
+    const LineFile file(link);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(link + ": is a link"));
   }
 }
 

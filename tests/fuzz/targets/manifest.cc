@@ -10,7 +10,8 @@ void ReadManifestBytes(std::string_view bytes) {
   std::set<std::string> ids;
   for (const BatchEntry& entry : manifest.entries) {
     Require(ids.insert(entry.id).second, "ids that are unique");
-    Require(!entry.id.empty() && entry.id.front() != '/' && entry.id.find("..") != 0,
+    Require(!entry.id.empty() && entry.id.front() != '/' && entry.id != ".." &&
+                entry.id.find("../") == std::string::npos,
             "outputs in the output folder");
   }
   Require(ShardOf(manifest.entries, 1, 2).size() + ShardOf(manifest.entries, 2, 2).size() ==

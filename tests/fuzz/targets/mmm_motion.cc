@@ -13,6 +13,35 @@ bool IsFinite(const PoseTrajectory& trajectory) {
                      [](const Posture& posture) { return posture.joint_angles.allFinite(); });
 }
 
+// Times [s], places [m] and angles [rad] beyond this are coarser in double precision than the
+// digits that are written.
+constexpr double kMostExact = 1e6;
+
+template <typename Numbers>
+bool AreExact(const Numbers& numbers) {
+  return std::none_of(numbers.data(), numbers.data() + numbers.size(),
+                      [](double number) { return std::abs(number) > kMostExact; });
+}
+
+bool AreExactTimes(double first_time, double rate, int num_frames) {
+  return num_frames == 0 || std::abs(first_time) + num_frames / rate < kMostExact;
+}
+
+// Whether a motion has no more digits than are written.
+bool IsExact(const MmmMotion& motion) {
+  const PoseTrajectory& trajectory = motion.trajectory;
+  const MarkerSequence& markers = motion.markers;
+  bool is_exact = AreExactTimes(trajectory.first_time, trajectory.rate, trajectory.num_frames()) &&
+                  AreExactTimes(markers.first_time(), markers.rate(), markers.num_frames());
+  for (const Posture& posture : trajectory.postures) {
+    is_exact = is_exact && AreExact(posture.position) && AreExact(posture.joint_angles);
+  }
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    is_exact = is_exact && AreExact(markers.frame(k));
+  }
+  return is_exact;
+}
+
 MmmMotionOutput OutputOfMotion(const MmmMotion& motion) {
   MmmMotionOutput output;
   output.motion_name = motion.name;
@@ -37,8 +66,9 @@ void ReadMmmMotionBytes(std::string_view bytes) {
     FormatMmmMotion1(output)([](std::string_view) {});
     const std::string written = Join(FormatMmmMotion2(output));
     const MmmMotionFile again = ParseMmmMotionFile(written, kInputName);
-    Require(Join(FormatMmmMotion2(OutputOfMotion(again.motions.at(0)))) == written,
-            "the same bytes when it is read and written again");
+    Require(
+        !IsExact(motion) || Join(FormatMmmMotion2(OutputOfMotion(again.motions.at(0)))) == written,
+        "the same bytes when it is read and written again");
     const bool is_alone = std::count_if(read.motions.begin(), read.motions.end(), [&](auto& other) {
                             return other.name == motion.name;
                           }) == 1;

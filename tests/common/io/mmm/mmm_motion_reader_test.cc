@@ -36,6 +36,32 @@ std::string Markers(const std::string& measurements) {
   return Motion2("<Sensor type='MoCapMarker'><Data>\n" + measurements + "</Data></Sensor>");
 }
 
+std::string Pose(const std::string& position, const std::string& rotation) {
+  return Motion2("<Sensor type='ModelPose'><Data><Measurement timestep='0'><RootPosition>" +
+                 position + "</RootPosition><RootRotation>" + rotation +
+                 "</RootRotation></Measurement></Data></Sensor>");
+}
+
+TEST(MmmMotionReader, RefusesWhatNobodyCanMeasure) {
+  EXPECT_EQ(MotionMessageOf(Pose("1 2e9 3", "0 0 0")),
+            "walk.xml:2: <RootPosition>: found \"1 2e9 3\", expected numbers up to 1e+09");
+  EXPECT_THAT(MotionMessageOf(Pose("1 2 3", "0 -1e300 0")), HasSubstr("<RootRotation>: found"));
+  EXPECT_EQ(MotionMessageOf(Pose("1 nan 3", "0 0 0")), "no error");
+}
+
+TEST(MmmMotionReader, CountsWarningsOfAKind) {
+  std::string sensors;
+  for (int i = 0; i < 30; ++i) {
+    sensors +=
+        "<Sensor type='Kinematic'><Configuration><Joint name='a'/></Configuration><Data>"
+        "<Measurement timestep='0'><JointPosition>nan</JointPosition></Measurement></Data>"
+        "</Sensor>";
+  }
+  Warnings warnings;
+  ParseMmmMotionFile(Motion2(sensors), "walk.xml", &warnings);
+  EXPECT_THAT(warnings.texts(), SizeIs(23));  // 10 and a count of two kinds, and no root pose
+}
+
 std::string Marker(const std::string& time, const std::string& name, const std::string& text) {
   return "<Measurement timestep='" + time + "'><MarkerPosition name='" + name + "'>" + text +
          "</MarkerPosition></Measurement>\n";

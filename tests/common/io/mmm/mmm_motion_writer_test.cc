@@ -130,6 +130,26 @@ TEST_P(MmmMotionWriter, ReadsItsOwn10BackAndWritesTheSameBytes) {
   EXPECT_TRUE(Join(FormatMmmMotion1(testing::OutputOf(file.motions[0]))) == text);
 }
 
+// Where roll and yaw turn about nearly the same axis, what is read has to be written alike.
+TEST(MmmMotionWriter, NearGimbalLockTheSameBytesToo) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> angle(-3, 3);
+  std::uniform_real_distribution<double> off(-9e-8, 9e-8);
+  PoseTrajectory trajectory;
+  trajectory.rate = 100;
+  for (int k = 0; k < 200; ++k) {
+    Posture q;
+    const double pitch = (k % 2 == 0 ? 1 : -1) * (kPi / 2 + off(random));
+    q.orientation = RotationFromRpy({angle(random), pitch, angle(random)});
+    trajectory.postures.push_back(q);
+  }
+  const std::string text = Join(FormatMmmMotion2(Output(trajectory, nullptr)));
+  const MmmMotionFile file = ParseMmmMotionFile(text, "own.xml");
+  MmmMotionOutput again = testing::OutputOf(file.motions[0]);
+  again.recording_name = file.name;
+  EXPECT_TRUE(Join(FormatMmmMotion2(again)) == text);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rates, MmmMotionWriter,
                          ::testing::Values(10, 29.97, 100, 119.88011932373047, 120));
 
