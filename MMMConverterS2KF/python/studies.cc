@@ -163,7 +163,8 @@ void SaveLabelled(LabelledRecording* labelled, const std::string& file) {
 ReadRecordingResult RecordingOf(const LabelledRecording& labelled) {
   auto recording = std::make_shared<Recording>(labelled.report.input.recording);
   recording->markers = Relabelled(labelled.report.found.points, recording->markers);
-  return {std::move(recording), labelled.report.warnings};
+  const std::string path = std::filesystem::absolute(recording->file).string();
+  return {std::move(recording), labelled.report.warnings, path};
 }
 
 struct CheckedDynamics {
