@@ -175,10 +175,11 @@ struct CheckedDynamics {
 CheckedDynamics CheckMotion(const py::dict& input, double cutoff, const py::object& progress) {
   InputRequest request = InputRequestOf(input);
   if (!(cutoff >= 0)) throw Error("low_pass: must be hertz, or 0 for none");
-  return InBackground(progress, [&](const Progress&) {
+  return InBackground(progress, [&](const Progress& on_progress) {
     DynamicsOptions options;
     options.cutoff = cutoff;
-    return CheckedDynamics{request, CheckDynamics(ReadCheckedMotion(request), options)};
+    return CheckedDynamics{
+        request, CheckDynamics(ReadCheckedMotion(request), options, OrThrow(on_progress))};
   });
 }
 
