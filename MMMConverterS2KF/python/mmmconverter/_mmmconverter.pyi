@@ -38,6 +38,7 @@ class Model:
     file: str
     name: str
     segments: List[str]
+    parents: List[int]
     markers: List[str]
     joint_names: List[str]
     limits: np.ndarray
