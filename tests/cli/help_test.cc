@@ -67,7 +67,7 @@ TEST(Help, ConvertSaysWhatItsExportsHold) {
 }
 
 TEST(Help, VersionIsPrinted) {
-  EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 0."));
+  EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 1."));
   EXPECT_EQ(RunProgram({"info", "--version"}).out, RunProgram({"--version"}).out);
 }
 
