@@ -29,9 +29,10 @@ const std::vector<OptionGroup> kOptions = {
       {"format", "npz|csv", "of files in a folder; default: npz", ""}}},
     {"Poses",
      {{"segments", "NAME,...", "of the model, or none; default: all", ""},
-      {"points", "kit21|all|none",
-       "kit21: the 21 points of the KIT Motion-Language data set; all: where every joint turns; "
-       "none; default: kit21",
+      {"points", "kit21|kit44|all|none",
+       "kit21: the 21 points of the KIT Motion-Language data set; kit44: where each of its 44 "
+       "joint "
+       "angles turns; all: where every joint turns; none; default: kit21",
        ""},
       {"relative-to", "world|root", "the world, or the model's root; default: world", ""},
       {"rotation", "quaternion|vector|matrix", "a quaternion is w, x, y, z; default: quaternion",

@@ -16,14 +16,18 @@
 namespace mmm_converter {
 namespace {
 
-// The person as the recording itself shows them.
-void SelfCalibrate(ConversionReport* report) {
+// The person as the recording itself shows them. No frame is done meanwhile.
+void SelfCalibrate(const std::function<bool(int, int)>& progress, ConversionReport* report) {
   const Recording& recording = report->input.recording;
   const std::string file = std::filesystem::path(recording.file).filename().string();
   TrackingSetup& setup = report->setup;
   report->calibration =
       CalibratePerson(*setup.model, setup.joints, {{file, &recording.markers, setup.assignments()}},
-                      report->person, SubjectName(report->input), &report->warnings);
+                      report->person, SubjectName(report->input), &report->warnings, [&] {
+                        if (progress && !progress(0, recording.markers.num_frames())) {
+                          throw Error(file + ": cancelled");
+                        }
+                      });
   report->person.subject = std::make_shared<Subject>(report->calibration->subject);
   setup.model =
       std::make_shared<KinematicModel>(FitToSubject(*setup.model, report->calibration->subject));
@@ -172,7 +176,7 @@ ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
   ConversionReport report{std::move(plan), {}, {}, {}, {}};
   const WarningContext context(&report.warnings, report.input.recording.file,
                                report.input.recording.motion());
-  if (self_calibrate && !report.object) SelfCalibrate(&report);
+  if (self_calibrate && !report.object) SelfCalibrate(progress, &report);
   report.result = Track(report, progress);
   if (report.object) {
     WarnOfUnknownTurns(report.input, report.setup.mapping, report.result.residuals,

@@ -57,6 +57,11 @@ void WriteBvh(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatBvh(*report.setup.model, report.result.trajectory));
 }
 
+void WriteBvhInMetres(const std::string& file, const ConversionReport& report) {
+  WriteFileAtomically(file,
+                      FormatBvh(*report.setup.model, report.result.trajectory, BvhUnit::kMetres));
+}
+
 void WriteCovariances(const std::string& file, const ConversionReport& report) {
   const ConversionResult& result = report.result;
   WriteFileAtomically(file, FormatCovarianceNpz(result.trajectory, result.covariances));
@@ -82,6 +87,7 @@ const std::vector<Exporter>& Exporters() {
        WritePoses},
       {"bvh", "bvh", "the skeleton and its motion as BVH",
        "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh},
+      {"bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres},
       {"covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "

@@ -94,10 +94,11 @@ std::string SubjectName(const Input& input) {
 
 CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
                                   const std::vector<CalibrationRecording>& recordings,
-                                  const Person& person, const std::string& name,
-                                  Warnings* warnings) {
-  CalibrationResult result =
-      CalibrateSubject(scaled, joints, recordings, CalibrationOptions(), warnings);
+                                  const Person& person, const std::string& name, Warnings* warnings,
+                                  const std::function<void()>& between_steps) {
+  CalibrationOptions options;
+  options.between_steps = between_steps;
+  CalibrationResult result = CalibrateSubject(scaled, joints, recordings, options, warnings);
   result.subject.name = name;
   result.subject.model = scaled.name();
   result.subject.height = person.height.value;
@@ -139,7 +140,9 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   Warnings warnings;
   report.result =
       CalibratePerson(*setup.model, setup.joints, recordings, report.person,
-                      request.name.empty() ? SubjectName(first) : request.name, &warnings);
+                      request.name.empty() ? SubjectName(first) : request.name, &warnings, [&] {
+                        if (progress) progress(num_inputs, num_inputs);
+                      });
   report.warnings.AppendNew(warnings);
   report.person.subject = std::make_shared<Subject>(report.result.subject);
   report.model =

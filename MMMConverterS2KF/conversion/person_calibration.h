@@ -40,7 +40,8 @@ struct CalibrationReport {
 };
 
 /// Reads the recordings, matches their markers, scales the model and estimates what is left.
-/// configuration: names markers and joints. progress(done, all): recordings read.
+/// configuration: names markers and joints. progress(done, all): recordings read; also, all of
+/// them, often during the estimate, which ends by what it throws.
 /// @throws Error; where recordings tell too little, with what is missing.
 CalibrationReport RunCalibration(const CalibrationRequest& request,
                                  WithWarnings<ConverterConfig> configuration,
@@ -48,11 +49,11 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
 
 /// CalibrateSubject for a person whose height and mass are known: the result's subject is complete,
 /// and as its file says it, so that a file gives what the calibration itself gave.
-/// scaled: by the person's height and mass, of `reference`.
+/// scaled: by the person's height and mass, of `reference`. between_steps: as CalibrationOptions.
 CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
                                   const std::vector<CalibrationRecording>& recordings,
-                                  const Person& person, const std::string& name,
-                                  Warnings* warnings);
+                                  const Person& person, const std::string& name, Warnings* warnings,
+                                  const std::function<void()>& between_steps = {});
 
 /// What a subject file says of the program.
 std::string SubjectProgram();

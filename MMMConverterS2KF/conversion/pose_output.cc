@@ -37,7 +37,7 @@ std::vector<int> FindSegments(const KinematicModel& model, const std::vector<std
 }  // namespace
 
 const std::vector<std::string>& PointSets() {
-  static const std::vector<std::string> sets = {"kit21", "all", "none"};
+  static const std::vector<std::string> sets = {"kit21", "kit44", "all", "none"};
   return sets;
 }
 
@@ -45,6 +45,7 @@ BodySelection SelectBodies(const KinematicModel& model, const PoseChoice& choice
   BodySelection selection;
   selection.segments = FindSegments(model, choice.segments);
   if (choice.points == "kit21") selection.points = KitPoints(model);
+  if (choice.points == "kit44") selection.points = KitJointPoints(model);
   if (choice.points == "all") selection.points = JointPoints(model);
   selection.relative_to_root = choice.relative_to_root;
   return selection;

@@ -18,7 +18,8 @@ struct PoseChoice {
   RotationForm rotation = RotationForm::kQuaternion;
 };
 
-/// Of "kit21" (KitPoints; of a model without these joints nothing), "all" (JointPoints) and "none".
+/// Of "kit21" (KitPoints), "kit44" (KitJointPoints; of a model without these joints both are
+/// nothing), "all" (JointPoints) and "none".
 const std::vector<std::string>& PointSets();
 
 /// The segments and points of a model; no objects.

@@ -2,19 +2,17 @@
 // Models, forward kinematics, and tracking frame by frame.
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
+#include "MMMConverterS2KF/python/forward.h"
 #include "MMMConverterS2KF/python/module.h"
 #include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/convert/motion_converter.h"
 #include "common/io/mmm/subject_file.h"
-#include "common/model/forward_kinematics.h"
-#include "common/model/marker_kinematics.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -51,35 +49,6 @@ std::vector<int> JointIndices(const KinematicModel& model, const std::vector<std
   return indices;
 }
 
-// What ComputeForward reads and writes: arrays as Forward has them, in C order.
-struct ForwardArrays {
-  const double *positions, *quaternions, *angles;
-  double *p_WS, *R_WS, *p_WM;
-};
-
-// Of all postures. The interpreter's lock is not needed.
-void ComputeForward(const KinematicModel& model, const std::vector<int>& joints, py::ssize_t frames,
-                    ForwardArrays arrays) {
-  Posture posture = ZeroPosture(model);
-  for (py::ssize_t k = 0; k < frames; ++k) {
-    posture.position = Eigen::Map<const Eigen::Vector3d>(arrays.positions + 3 * k);
-    const double* q = arrays.quaternions + 4 * k;
-    posture.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-    for (const int joint : joints) posture.joint_angles[joint] = *arrays.angles++;
-    const std::vector<Eigen::Isometry3d> X_WS = SegmentPoses(model, posture);
-    for (const Eigen::Isometry3d& X : X_WS) {
-      for (int i = 0; i < 3; ++i) {
-        *arrays.p_WS++ = X(i, 3);
-        for (int j = 0; j < 3; ++j) *arrays.R_WS++ = X(i, j);
-      }
-    }
-    for (const ModelMarker& marker : model.markers()) {
-      const Eigen::Vector3d p = X_WS[marker.segment] * marker.p_SM;
-      arrays.p_WM = std::copy(p.data(), p.data() + 3, arrays.p_WM);
-    }
-  }
-}
-
 // The model's joints of these names. @throws Error where the arrays are not postures.
 std::vector<int> CheckPostures(const KinematicModel& model, const Numbers& positions,
                                const Numbers& quaternions, const Numbers& angles,
@@ -110,48 +79,6 @@ py::tuple Forward(const PersonModel& person, const Numbers& positions, const Num
     ComputeForward(model, joints, frames, arrays);
   }
   return py::make_tuple(p_WS, R_WS, p_WM);
-}
-
-// Fills a batch with the postures [begin, begin + samples).
-void FillBatch(const KinematicModel& model, const std::vector<int>& joints,
-               const ForwardArrays& arrays, py::ssize_t begin, int samples, MarkerBatch* batch) {
-  const Posture rest = ZeroPosture(model);
-  const auto count = static_cast<py::ssize_t>(joints.size());
-  for (int j = 0; j < model.num_joints(); ++j) {
-    std::fill_n(batch->angles.col(j), samples, rest.joint_angles[j]);
-  }
-  for (int i = 0; i < samples; ++i) {
-    const py::ssize_t k = begin + i;
-    const double* q = arrays.quaternions + 4 * k;
-    const Eigen::Matrix3d R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-    for (int e = 0; e < 9; ++e) batch->rotation.col(e)[i] = R(e / 3, e % 3);
-    for (int e = 0; e < 3; ++e) batch->position.col(e)[i] = arrays.positions[3 * k + e];
-    for (py::ssize_t j = 0; j < count; ++j) {
-      batch->angles.col(joints[j])[i] = arrays.angles[count * k + j];
-    }
-  }
-}
-
-void ComputeMarkerPlaces(const KinematicModel& model, const std::vector<int>& joints,
-                         py::ssize_t frames, const ForwardArrays& arrays) {
-  constexpr py::ssize_t kSamples = 256;  // what stays in the cache
-  std::vector<int> all(model.num_joints());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<MarkerIx> markers;
-  markers.reserve(model.markers().size());
-  for (std::size_t i = 0; i < model.markers().size(); ++i) {
-    markers.emplace_back(static_cast<int>(i));
-  }
-  const MarkerKinematics kinematics(model, all, markers);
-  MarkerBatch batch = kinematics.MakeBatch(kSamples);
-  const int columns = 3 * kinematics.num_markers();
-  for (py::ssize_t begin = 0; begin < frames; begin += kSamples) {
-    const int samples = static_cast<int>(std::min(kSamples, frames - begin));
-    FillBatch(model, joints, arrays, begin, samples, &batch);
-    kinematics.ComputeBatch(&batch);
-    Eigen::Map<Eigen::MatrixXd>(arrays.p_WM + columns * begin, columns, samples) =
-        batch.markers.view().topLeftCorner(samples, columns).transpose();
-  }
 }
 
 // (frames, markers, 3).
@@ -292,6 +219,13 @@ std::vector<std::string> Names(const Items& items) {
   return names;
 }
 
+std::vector<int> Parents(const PersonModel& person) {
+  std::vector<int> parents;
+  parents.reserve(person.model->segments().size());
+  for (const Segment& segment : person.model->segments()) parents.push_back(segment.parent);
+  return parents;
+}
+
 py::object ReadSubjectFile(const std::string& file, const PersonModel& person) {
   return PythonOf(ToJson(ReadSubject(file, person.loaded->model)));
 }
@@ -304,6 +238,7 @@ void BindModels(py::module_* module) {
       .def_property_readonly("name", [](const PersonModel& p) { return p.model->name(); })
       .def_property_readonly("segments",
                              [](const PersonModel& p) { return Names(p.model->segments()); })
+      .def_property_readonly("parents", &Parents)
       .def_property_readonly("markers",
                              [](const PersonModel& p) { return Names(p.model->markers()); })
       .def_property_readonly("joint_names",

@@ -17,6 +17,7 @@ namespace mmm_converter::python {
 struct ReadRecordingResult {
   std::shared_ptr<const Recording> recording;
   Warnings warnings;
+  std::string path = {};  ///< absolute, of the file; empty: of arrays
 };
 
 /// A model scaled to a person.

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
@@ -11,8 +12,8 @@
 #include "common/io/c3d/c3d_events.h"
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/mmm/subject_file.h"
 #include "common/io/recording/recording.h"
+#include "common/io/recording/recording_axes.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -41,6 +42,7 @@ ReadRecordingResult Read(const py::dict& options) {
   ReadRecordingResult result;
   result.recording =
       std::make_shared<Recording>(ReadRecording(request.file, reading, &result.warnings));
+  result.path = std::filesystem::absolute(request.file).string();
   return result;
 }
 
@@ -59,13 +61,13 @@ ReadRecordingResult FromArrays(const std::vector<std::string>& labels, const Num
   std::copy(positions.data(), positions.data() + positions.size(),
             recording->markers.frame(0).data());
   for (int i = 0; i < recording->markers.num_labels(); ++i) recording->points.push_back(i);
-  return {std::move(recording), {}};
+  return {std::move(recording), {}, ""};
 }
 
 py::list EventsOf(const ReadRecordingResult& read) {
   py::list events;
   if (read.recording->format != kC3d) return events;
-  const C3dFile file(read.recording->file);
+  const C3dFile file(read.path);
   for (const C3dEvent& event : ReadC3dEvents(file, nullptr)) {
     py::dict one;
     one["time"] = event.time;
@@ -77,10 +79,22 @@ py::list EventsOf(const ReadRecordingResult& read) {
   return events;
 }
 
+// A row for each moment.
+py::array_t<double> SamplesOf(C3dFile* file, const C3dAnalog& analog) {
+  Eigen::MatrixXd samples;
+  {
+    const py::gil_scoped_release release;
+    samples = ReadC3dAnalogSamples(file, analog);
+  }
+  py::array_t<double> rows({samples.cols(), samples.rows()});
+  std::copy(samples.data(), samples.data() + samples.size(), rows.mutable_data());
+  return rows;
+}
+
 py::dict AnalogOf(const ReadRecordingResult& read) {
   py::dict result;
   if (read.recording->format != kC3d) return result;
-  const C3dFile file(read.recording->file);
+  C3dFile file(read.path);
   const C3dAnalog analog = ReadC3dAnalog(file, nullptr);
   py::list labels;
   py::list units;
@@ -91,7 +105,34 @@ py::dict AnalogOf(const ReadRecordingResult& read) {
   result["rate"] = analog.rate;
   result["labels"] = labels;
   result["units"] = units;
+  result["samples"] = SamplesOf(&file, analog);
   return result;
+}
+
+// Corners in metres, where the recording's markers are; channels counted from 0.
+py::list ForcePlatesOf(const ReadRecordingResult& read) {
+  py::list plates;
+  if (read.recording->format != kC3d) return plates;
+  const double metres = ParseUnit(read.recording->unit).metres;
+  const Eigen::Matrix3d R = RotationToZUp(read.recording->up_axis);
+  const C3dFile file(read.path);
+  for (const C3dForcePlate& plate : ReadC3dForcePlates(file.parameters(), nullptr)) {
+    py::dict one;
+    one["type"] = plate.type;
+    py::array_t<int> channels(static_cast<py::ssize_t>(plate.channels.size()));
+    std::transform(plate.channels.begin(), plate.channels.end(), channels.mutable_data(),
+                   [](int channel) { return channel - 1; });
+    one["channels"] = channels;
+    one["corners"] = py::none();
+    if (plate.corners) one["corners"] = RowsOfColumns(metres * (R * *plate.corners));
+    one["origin"] = py::none();
+    if (plate.origin) {
+      const Eigen::Vector3d origin = metres * *plate.origin;
+      one["origin"] = py::array_t<double>(3, origin.data());
+    }
+    plates.append(one);
+  }
+  return plates;
 }
 
 py::dict MotionOf(const MmmMotion& motion) {
@@ -165,6 +206,7 @@ void BindRecordings(py::module_* module) {
                              })
       .def_property_readonly("events", &EventsOf)
       .def_property_readonly("analog", &AnalogOf)
+      .def_property_readonly("force_plates", &ForcePlatesOf)
       .def("save_c3d", [](const ReadRecordingResult& r, const std::string& file) {
         const py::gil_scoped_release release;
         WriteC3d(file, r.recording->markers);

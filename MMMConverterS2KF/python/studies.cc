@@ -163,7 +163,8 @@ void SaveLabelled(LabelledRecording* labelled, const std::string& file) {
 ReadRecordingResult RecordingOf(const LabelledRecording& labelled) {
   auto recording = std::make_shared<Recording>(labelled.report.input.recording);
   recording->markers = Relabelled(labelled.report.found.points, recording->markers);
-  return {std::move(recording), labelled.report.warnings};
+  const std::string path = std::filesystem::absolute(recording->file).string();
+  return {std::move(recording), labelled.report.warnings, path};
 }
 
 struct CheckedDynamics {
@@ -174,10 +175,11 @@ struct CheckedDynamics {
 CheckedDynamics CheckMotion(const py::dict& input, double cutoff, const py::object& progress) {
   InputRequest request = InputRequestOf(input);
   if (!(cutoff >= 0)) throw Error("low_pass: must be hertz, or 0 for none");
-  return InBackground(progress, [&](const Progress&) {
+  return InBackground(progress, [&](const Progress& on_progress) {
     DynamicsOptions options;
     options.cutoff = cutoff;
-    return CheckedDynamics{request, CheckDynamics(ReadCheckedMotion(request), options)};
+    return CheckedDynamics{
+        request, CheckDynamics(ReadCheckedMotion(request), options, OrThrow(on_progress))};
   });
 }
 

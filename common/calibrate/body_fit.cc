@@ -241,6 +241,7 @@ BodyFitResult BodyFit::Solve() {
     Linearize();
     for (bool accepted = false; !accepted && !result.converged;) {
       ++result.iterations;
+      if (options_.between_steps) options_.between_steps();
       const double cost = TryStep(damping);
       accepted = cost < result.cost;
       if (!accepted) {

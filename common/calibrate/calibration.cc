@@ -195,7 +195,8 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
   BodyKinematics kinematics(model, joints, markers);
   Body body = kinematics.ModelBody();
   CalibrationResult result;
-  const OffsetsInTurns first = FitOffsetsInTurns(model, joints, markers, &frames);
+  const OffsetsInTurns first =
+      FitOffsetsInTurns(model, joints, markers, &frames, options.between_steps);
   CheckMovement(model, joints, frames, warnings);
   body.offsets = first.offsets;
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
@@ -218,7 +219,8 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
   }
   const KinematicModel fitted = FitToSubject(model, result.subject);
   result.distance_before = first.distance_before.mean();
-  result.distance_after = FitPostures(fitted, joints, markers, &frames).mean();
+  result.distance_after =
+      FitPostures(fitted, joints, markers, &frames, options.between_steps).mean();
   AddSkinDeviations(fitted, joints, markers, frames, &result.subject);
   WarnOfSessions(fitted, joints, markers, recordings, frames, warnings);
   result.frames = static_cast<int>(chosen.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct CalibrationOptions {
   double height_deviation = 0;     ///< of all scales together, where the height is a guess
   double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
   double skin_time = 0.3;          ///< in which the skin moves on: nearer frames repeat it [s]
+  /// Is called often while it is computed; what it throws ends the estimate. May be empty.
+  std::function<void()> between_steps = {};
 };
 
 struct CalibrationResult {

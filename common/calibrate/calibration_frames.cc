@@ -99,7 +99,8 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
 }
 
 VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
-                     const std::vector<MarkerIx>& markers, std::vector<CalibrationFrame>* frames) {
+                     const std::vector<MarkerIx>& markers, std::vector<CalibrationFrame>* frames,
+                     const std::function<void()>& between_steps) {
   const MarkerKinematics kinematics(model, joints, markers);
   const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
   PostureFitOptions options;
@@ -108,6 +109,7 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
   VectorXd distance(frames->size());
   int assembled = -1;  // recording
   for (std::size_t k = 0; k < frames->size(); ++k) {
+    if (between_steps) between_steps();
     CalibrationFrame& frame = (*frames)[k];
     PostureFit::Result fit;
     if (frame.posture.joint_angles.size() > 0) {
@@ -164,15 +166,16 @@ VectorXd SkinDeviations(const KinematicModel& model, const std::vector<int>& joi
 
 OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
                                  const std::vector<MarkerIx>& markers,
-                                 std::vector<CalibrationFrame>* frames) {
+                                 std::vector<CalibrationFrame>* frames,
+                                 const std::function<void()>& between_steps) {
   OffsetsInTurns result;
   result.offsets.setZero(3, static_cast<Eigen::Index>(markers.size()));
-  result.distance_before = FitPostures(model, joints, markers, frames);
+  result.distance_before = FitPostures(model, joints, markers, frames, between_steps);
   for (int round = 0; round < kRounds; ++round) {
     result.offsets +=
         MedianResiduals(WithOffsets(model, markers, result.offsets), joints, markers, *frames);
-    result.distance =
-        FitPostures(WithOffsets(model, markers, result.offsets), joints, markers, frames);
+    result.distance = FitPostures(WithOffsets(model, markers, result.offsets), joints, markers,
+                                  frames, between_steps);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "common/calibrate/calibration.h"
@@ -27,10 +28,11 @@ std::vector<CalibrationFrame> CandidateFrames(const std::vector<CalibrationRecor
                                               const std::vector<MarkerIx>& markers, int least_seen);
 
 /// The frames' postures by least squares; returns each frame's mean distance over the markers seen
-/// [m]. Those that have no posture yet start from the frame before.
+/// [m]. Those that have no posture yet start from the frame before. between_steps: of the options.
 Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints,
                             const std::vector<MarkerIx>& markers,
-                            std::vector<CalibrationFrame>* frames);
+                            std::vector<CalibrationFrame>* frames,
+                            const std::function<void()>& between_steps = {});
 
 /// How far each marker is from where the model's segment has it, the median of the frames by axis,
 /// 3 x markers [m], segment axes; 0 where it was not seen.
@@ -55,7 +57,8 @@ struct OffsetsInTurns {
 /// the middle (median) frame. A start for FitBody that wrong markers do not disturb.
 OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<int>& joints,
                                  const std::vector<MarkerIx>& markers,
-                                 std::vector<CalibrationFrame>* frames);
+                                 std::vector<CalibrationFrame>* frames,
+                                 const std::function<void()>& between_steps);
 
 /// At most `count` of the frames, each as far in joint angles from those chosen before as can be
 /// (Gonzalez 1985), leaving out those that fit much worse than the others.

@@ -23,15 +23,15 @@ struct ConfigJoint {
 struct ConverterConfig {
   std::string file;                        ///< for messages
   std::string type;                        ///< converter name, e.g. "S2KFConverter"
-  std::string model_processor = "Winter";  ///< Model@name: "Winter" or "None" (not scaled)
-  std::string subject_file;                ///< Model/Subject@file; empty: none
+  std::string model_processor = "Winter";  ///< `Model@name`: "Winter" or "None" (not scaled)
+  std::string subject_file;                ///< `Model/Subject@file`; empty: none
   std::vector<MarkerPair> marker_pairs;    ///< empty: see marker_set
-  std::string marker_set = "auto";         ///< MarkerMapping@set, see ResolveMarkerPairs
+  std::string marker_set = "auto";         ///< `MarkerMapping@set`, see ResolveMarkerPairs
   int marker_set_line = 0;
   std::vector<ConfigJoint> joints;  ///< in output order; empty: see joint_set
-  std::string joint_set = "auto";   ///< Joints@set, see ResolveJoints
+  std::string joint_set = "auto";   ///< `Joints@set`, see ResolveJoints
   int joint_set_line = 0;
-  std::string output_format = "2.0";  ///< Output@format: version of MMM's motion format to write
+  std::string output_format = "2.0";  ///< `Output@format`: version of MMM's motion format to write
   std::vector<XmlElement> plugin_elements;  ///< all that common code does not know
 };
 

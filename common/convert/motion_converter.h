@@ -98,7 +98,7 @@ class MotionConverter {
 class MotionConverterFactory {
  public:
   virtual ~MotionConverterFactory();
-  virtual std::string name() const = 0;         ///< ConverterConfig@type
+  virtual std::string name() const = 0;         ///< `ConverterConfig@type`
   virtual std::string description() const = 0;  ///< one line
   /// The documented configuration template, all settings at their defaults (XML).
   virtual std::string config_template() const = 0;

@@ -57,8 +57,8 @@ KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& 
 void ScaleToPerson(const PersonScaling& person, TrackingSetup* setup);
 
 /// All in one for a person who is known, or an object; no frame is needed, so that a live stream
-/// has its setup before it starts. A configuration with <Model name="None"> leaves the model as it
-/// is; what it says of a subject is the caller's to read (ReadSubject).
+/// has its setup before it starts. A configuration with `<Model name="None">` leaves the model as
+/// it is; what it says of a subject is the caller's to read (ReadSubject).
 /// @throws Error as MatchMarkers and ScaleModel.
 TrackingSetup MakeTrackingSetup(const MarkerLabels& labels,
                                 std::shared_ptr<const KinematicModel> reference,

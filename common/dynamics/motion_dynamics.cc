@@ -254,7 +254,8 @@ Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
 }  // namespace
 
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
-                                     const DynamicsOptions& options) {
+                                     const DynamicsOptions& options,
+                                     const std::function<void(int, int)>& progress) {
   const int all_frames = motion.num_frames();
   const int begin = std::clamp(options.first_frame, 0, all_frames);
   const int frames = std::clamp(options.end_frame, begin, all_frames) - begin;
@@ -286,6 +287,7 @@ MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTraj
   Matrix3Xd measured_com(3, frames);
   Resize(frames, model.num_joints(), &result);
   for (int k = 0; k < frames; ++k) {
+    if (progress) progress(k, frames);
     const WholeBodyState state = simbody.At(measured.postures[k]);
     Compare(model, state, measured.postures[k], &result.kinematics);
     measured_com.col(k) = state.center_of_mass;

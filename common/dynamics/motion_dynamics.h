@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -125,9 +126,11 @@ struct MotionDynamics {
 };
 
 /// The model is scaled, with masses. z is up. Joints that the motion does not name are 0.
+/// progress(done, all): examined frames; may be empty. What it throws ends the work.
 /// @throws Error where the model has no mass, an impossible inertia or lacks a joint of the motion,
 ///         or fewer than five frames are examined.
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
-                                     const DynamicsOptions& options = {});
+                                     const DynamicsOptions& options = {},
+                                     const std::function<void(int, int)>& progress = {});
 
 }  // namespace mmm_converter

@@ -17,8 +17,8 @@ struct LoadedModel {
   std::map<std::string, std::string> segment_of_link;  ///< of a URDF: segment names of its links
 };
 
-/// Reads an MMM or Simox model (<Robot> of <RobotNode>) or a URDF (<robot> of <link>), told by its
-/// content.
+/// Reads an MMM or Simox model (`<Robot>` of `<RobotNode>`) or a URDF (`<robot>` of `<link>`), told
+/// by its content.
 /// @throws Error as ReadMmmModel and ReadUrdfModel.
 LoadedModel ReadModelFile(const std::string& path, Warnings* warnings);
 

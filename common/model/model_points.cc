@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "common/model/kit_joints.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -22,6 +24,16 @@ std::vector<ModelPoint> KitPoints(const KinematicModel& model) {
     const int segment = model.FindSegment(joint);
     if (segment < 0) return {};
     points.push_back({name, segment});
+  }
+  return points;
+}
+
+std::vector<ModelPoint> KitJointPoints(const KinematicModel& model) {
+  std::vector<ModelPoint> points;
+  for (const std::string& joint : KitJointNames()) {
+    const int segment = model.FindSegment(joint);
+    if (segment < 0) return {};
+    points.push_back({joint, segment});
   }
   return points;
 }

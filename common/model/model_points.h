@@ -20,6 +20,10 @@ struct ModelPoint {
 /// the model has not all of these joints.
 std::vector<ModelPoint> KitPoints(const KinematicModel& model);
 
+/// For each of the 44 joint angles of that data set, in its order (KitJointNames), the place where
+/// the joint turns; joints about several axes of one place repeat it. Empty: as above.
+std::vector<ModelPoint> KitJointPoints(const KinematicModel& model);
+
 /// The origins of the root and of all segments with a joint that moves, under the segments' names.
 std::vector<ModelPoint> JointPoints(const KinematicModel& model);
 

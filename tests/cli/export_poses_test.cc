@@ -46,7 +46,9 @@ PoseTrajectory ConvertSample(std::vector<std::string> more) {
                                         "--export-poses",
                                         base + "csv",
                                         "--export-bvh",
-                                        base + "bvh"};
+                                        base + "bvh",
+                                        "--export-bvh-m",
+                                        base + "metres.bvh"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const auto run = RunProgram(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -195,6 +197,7 @@ TEST(ExportBvh, JointsAreWhereTheMotionHasThem) {
   const PoseTrajectory motion = ConvertSample({});
   const KinematicModel model = SamplesModel();
   const auto bvh = testing::ReadStrictBvh(ReadText(TestFolder() + "/m.bvh"));
+  const auto in_metres = testing::ReadStrictBvh(ReadText(TestFolder() + "/m.metres.bvh"));
   EXPECT_NEAR(bvh.frame_time, 0.01, 1e-12);
   ASSERT_EQ(bvh.frames.size(), 30u);
   const Eigen::Matrix3d to_z_up = RotationToZUp(UpAxis::kY);
@@ -205,6 +208,8 @@ TEST(ExportBvh, JointsAreWhereTheMotionHasThem) {
              {"Hips", "root_joint"}, {"LeftHand", "LWx_joint"}, {"RightToeBase", "RFx_joint"}}) {
       const Eigen::Vector3d place = 0.01 * to_z_up * places.at(bvh.Find(joint));
       EXPECT_LT((place - X_WS[model.FindSegment(segment)].translation()).norm(), kPoseRounding);
+      const Eigen::Vector3d same = to_z_up * in_metres.Places(k).at(in_metres.Find(joint));
+      EXPECT_LT((same - place).norm(), kPoseRounding);
     }
   }
 }

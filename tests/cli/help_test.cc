@@ -67,7 +67,7 @@ TEST(Help, ConvertSaysWhatItsExportsHold) {
 }
 
 TEST(Help, VersionIsPrinted) {
-  EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 0."));
+  EXPECT_THAT(RunProgram({"--version"}).out, StartsWith("MMMConverterS2KF 1."));
   EXPECT_EQ(RunProgram({"info", "--version"}).out, RunProgram({"--version"}).out);
 }
 
@@ -120,7 +120,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"export-poses", "a.xml"}, "export-poses: which motion, and which file"},
       {{"export-poses", "a.xml", "-o", "a.txt"}, "a name that ends with .npz or .csv"},
       {{"export-poses", "a.xml", "b.xml", "-o", "a.npz"}, "name a folder"},
-      {{"export-poses", "a.xml", "-o", "a.npz", "--points", "kit44"}, "use kit21, all or none"},
+      {{"export-poses", "a.xml", "-o", "a.npz", "--points", "kit22"},
+       "use kit21, kit44, all or none"},
       {{"check-dynamics"}, "check-dynamics: which motion?"},
       {{"check-dynamics", "a.xml", "--low-pass", "-1"}, "--low-pass: -1 is not allowed"},
       {{"compare"}, "compare: which recordings?"},

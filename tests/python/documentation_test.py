@@ -2,8 +2,10 @@
 """Every example of a docstring; the stub; the time of the import."""
 import ast
 import doctest
+import functools
 import importlib
 import inspect
+import json
 import os
 import pathlib
 import re
@@ -19,6 +21,21 @@ from support import ROOT
 
 MODULES = ("mmmconverter", "mmmconverter._recordings", "mmmconverter._models",
            "mmmconverter._conversions", "mmmconverter._studies")
+
+# Runs the cells of its standard input, one after the other.
+NOTEBOOK = """
+import ast, json, sys
+names = {}
+for source in json.load(sys.stdin):
+    tree = ast.parse(source)
+    last = tree.body[-1]
+    if not isinstance(last, ast.Expr):
+        exec(source, names)
+        continue
+    exec(compile(ast.Module(tree.body[:-1], []), "cell", "exec"), names)
+    value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
+    print(value._repr_html_() if hasattr(value, "_repr_html_") else repr(value))
+"""
 
 
 class Documentation(unittest.TestCase):
@@ -42,6 +59,39 @@ class Documentation(unittest.TestCase):
             subprocess.run([sys.executable, "-B", "-c", block], cwd=folder, check=True,
                            env={**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": folder})
             self.assertTrue((pathlib.Path(folder) / "knee.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_the_notebook_runs(self):
+        notebook = json.loads((ROOT / "examples/markers_to_motions.ipynb").read_text())
+        self.assertEqual((notebook["nbformat"], len({cell["id"] for cell in notebook["cells"]})),
+                         (4, len(notebook["cells"])))
+        code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+        for cell in code:
+            self.assertEqual((cell["outputs"], cell["execution_count"]), ([], None))
+        # As a notebook does: the value of a cell's last line is shown, as HTML where it can be.
+        with tempfile.TemporaryDirectory() as folder:
+            os.symlink(ROOT / "examples", pathlib.Path(folder) / "examples")
+            run = subprocess.run(
+                [sys.executable, "-B", "-c", NOTEBOOK], cwd=folder, capture_output=True, text=True,
+                input=json.dumps(["".join(cell["source"]) for cell in code]),
+                env={**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": folder})
+            self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+            for file in ("handstand_mmm.xml", "handstand.html"):
+                self.assertTrue((pathlib.Path(folder) / file).exists())
+        for shown in ("<svg", "<caption>Recording", "<caption>Calibration", "<caption>Dynamics",
+                      "<caption>Estimate", "<caption>LabelledRecording", "verdict"):
+            self.assertIn(shown, run.stdout)
+
+    def test_everything_public_is_used_in_a_test(self):
+        tests = "".join(file.read_text() for file in pathlib.Path(__file__).parent.glob("*_test.py"))
+        for name in mmmconverter.__all__:
+            thing = getattr(mmmconverter, name)
+            if inspect.isfunction(thing):
+                self.assertTrue(re.search(rf"mmmconverter\.{name}\b", tests), name)
+            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+                is_part = inspect.isfunction(value) or isinstance(
+                    value, (property, functools.cached_property, classmethod))
+                if is_part and not member.startswith("_"):
+                    self.assertTrue(re.search(rf"\.{member}\b", tests), f"{name}.{member}")
 
     def test_everything_public_is_explained(self):
         for name in mmmconverter.__all__:

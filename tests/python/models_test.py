@@ -59,9 +59,21 @@ class Models(Case):
         self.assertEqual(model.limits.shape, (len(model.joint_names), 2))
         self.assertTrue((model.limits[:, 0] < model.limits[:, 1]).all())
         self.assertIn("LWx_joint", model.segments)
+        self.assertEqual(len(model.parents), len(model.segments))
+        self.assertEqual(model.parents[0], -1)
+        self.assertTrue(all(parent < i for i, parent in enumerate(model.parents)))
         self.assertIn("height 1.75 m", repr(model))
         self.assertIn("<table>", model._repr_html_())
         self.assertIn("not scaled", repr(mmmconverter.read_model()))
+
+    def test_forward_is_what_the_program_exports(self):
+        self.run_program("convert", SAMPLE, "--height", "1.8", "--frames", ":40", "-o",
+                         self.folder / "m.xml", "--export-poses", self.folder / "m.npz")
+        exported = np.load(self.folder / "m.npz")
+        result = mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 40))
+        poses = result.model.forward(result)
+        self.assertEqual(list(exported["segments"]), result.model.segments)
+        np.testing.assert_array_equal(poses.positions, exported["segment_positions"])
 
     def test_markers_alone_are_the_same(self):
         model = mmmconverter.read_model(height=1.75)

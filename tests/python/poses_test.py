@@ -36,6 +36,18 @@ class Poses(Case):
         poses = self.export(motion)
         self.expect_points(poses, mmm_chain.Chain(MODEL, height), frames, 1e-9)
 
+    def test_a_point_for_each_joint_angle(self):
+        motion = ROOT / "examples/handstand_true.xml"
+        height, frames = mmm_chain.read_sensors(motion)
+        chain = mmm_chain.Chain(MODEL, height)
+        poses = self.export(motion, "--points", "kit44", "--frames", ":5")
+        # The order of the file, which has it as KIT's files have.
+        self.assertEqual(list(poses["points"]), list(frames[0][1]))
+        self.assertEqual(poses["point_positions"].shape, (5, 44, 3))
+        for i, joint in enumerate(poses["points"]):
+            expected = chain.pose(joint, *frames[4])[:3, 3]
+            np.testing.assert_allclose(poses["point_positions"][4, i], expected, atol=1e-9)
+
     @needs_shared_data
     def test_joints_of_kits_motions(self):
         model = SHARED / "mmm/models/mmm_v2.2_133nodes_53markers.xml"

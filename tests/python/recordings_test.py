@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What is read: recordings, motions and subjects."""
 import gc
+import os
 import unittest
 
 import numpy as np
@@ -68,12 +69,53 @@ class Recordings(Case):
             self.assertEqual(run.stderr.strip(), f"error: {raised.exception}")
 
     @needs_shared_data
-    def test_events_and_analog_channels_of_a_file(self):
+    def test_analog_samples_are_the_forces_that_another_program_read(self):
         recording = mmmconverter.read(SHARED / "forces/walking2.c3d")
-        self.assertGreater(len(recording.analog["labels"]), 5)
-        self.assertGreater(recording.analog["rate"], 100)
+        analog = recording.analog
+        self.assertEqual((analog["rate"], analog["labels"][2], analog["units"][2]), (2000, "Fz1", "N"))
+        self.assertEqual(analog["samples"].shape, (8 * len(recording), 12))
+        # BTK's, 20 a second, as OpenSim has them: what acts on the person, in the world's axes.
+        text = (SHARED / "forces/std_cop_walking2_grfs.sto").read_text().split("endheader")[1]
+        there = np.array([line.split() for line in text.strip().splitlines()[1:]], float)
+        here = analog["samples"][::100]
+        rows = min(len(there), len(here))
+        self.assertGreater(rows, 50)
+        for column, sign, channel in ((1, -1, "Fy1"), (2, -1, "Fx1"), (3, -1, "Fz1"),
+                                      (10, -1, "Fx2"), (11, 1, "Fy2"), (12, -1, "Fz2")):
+            # Eight decimals are written.
+            np.testing.assert_allclose(sign * here[:rows, analog["labels"].index(channel)],
+                                       there[:rows, column], atol=1e-8)
+
+    @needs_shared_data
+    def test_force_plates_lie_where_the_markers_are(self):
+        plates = mmmconverter.read(SHARED / "forces/walking2.c3d").force_plates
+        self.assertEqual([plate["type"] for plate in plates], [2, 2])
+        np.testing.assert_array_equal(plates[1]["channels"], range(6, 12))
+        # What the file says in millimetres, z up.
+        np.testing.assert_allclose(
+            plates[0]["corners"], [[0.6646, 0.37932, 0], [0.6646, 0.84287, 0],
+                                   [1.1726, 0.84287, 0], [1.1726, 0.37932, 0]], atol=1e-7)
+        np.testing.assert_allclose(plates[1]["origin"], [0, 0, 0.05715], atol=1e-7)
+
+    @needs_shared_data
+    def test_events_of_a_file(self):
+        before = os.getcwd()
+        os.chdir(SHARED)
+        try:
+            recording = mmmconverter.read("recordings/conformance/Eb015pr.c3d")
+        finally:
+            os.chdir(before)
+        self.assertEqual(len(recording.events), 3)  # wherever the program is by now
         for event in recording.events:
             self.assertGreaterEqual(event["time"], 0)
+            self.assertEqual(set(event), {"time", "label", "context", "subject"})
+
+    def test_what_has_no_analog_channels_says_so(self):
+        recording = mmmconverter.read(SAMPLE)
+        self.assertEqual(recording.analog["samples"].shape, (0, 0))
+        self.assertEqual((recording.analog["labels"], recording.force_plates), ([], []))
+        arrays = mmmconverter.Recording.from_arrays(["a"], np.zeros((2, 1, 3)), 100)
+        self.assertEqual((arrays.analog, arrays.force_plates, arrays.events), ({}, [], []))
 
     @needs_shared_data
     def test_motions_of_a_file(self):

@@ -44,12 +44,28 @@ class Studies(Case):
         np.testing.assert_array_equal(model.forward(after).markers,
                                       after.model.forward(after).markers)
         self.assertIn(calibration.verdict, ("good", "check"))
+        self.assertEqual(calibration.warnings, calibration.summary["warnings"])
         self.assertIn("anna", repr(calibration))
         self.assertIn("anna", calibration.text)
         with self.assertRaises(mmmconverter.Error):
             calibration.save(SAMPLE)
         with self.assertRaises(mmmconverter.Error):
             mmmconverter.calibrate([])
+
+    def test_what_progress_raises_ends_every_study(self):
+        def stop(done, all):
+            raise RuntimeError("enough")
+
+        for study, arguments in ((mmmconverter.calibrate, {"recordings": SAMPLE, "height": 1.8}),
+                                 (mmmconverter.check_dynamics, {"file": MOTION})):
+            with self.assertRaisesRegex(RuntimeError, "enough"):
+                study(progress=stop, **arguments)
+
+    def test_calibrate_says_when_all_is_read(self):
+        said = []
+        mmmconverter.calibrate(SAMPLE, height=1.8, frames=(0, 200),
+                               progress=lambda *now: said.append(now))
+        self.assertEqual(said[-1], (1, 1))
 
     def test_compare(self):
         self.run_program("compare", SAMPLE, "--height", "1.8", "--frames", ":40", "-c",

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import functools
 import os
-from typing import Callable, Optional, Tuple
+from typing import Callable, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _mmmconverter
 from ._models import Model
 from ._present import Presented, given, path_text
+from ._progress import shown
 from ._recordings import Recording, subject_file
+from ._stills import draw_stills, still_frames
 
 
 class Conversion(Presented):
@@ -132,6 +134,13 @@ class Conversion(Presented):
                 ("joints", len(self.joint_names)), ("markers", len(self.marker_labels)),
                 ("mean distance", f"{1e3 * mean:.1f} mm"), ("verdict", self.verdict)]
 
+    def _repr_html_(self):
+        frames = still_frames(self.root_quaternions, self.joints)
+        poses = self.model.forward(self.root_positions[frames], self.root_quaternions[frames],
+                                   self.joints[frames], self.joint_names)
+        stills = draw_stills(poses.positions, self.model.parents, self.times[frames])
+        return super()._repr_html_() + stills
+
 
 def convert(recording, *, height: Optional[float] = None, mass: Optional[float] = None,
             hand_length: Optional[float] = None, person=None, subject=None, config=None,
@@ -142,7 +151,7 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
             motion: Optional[str] = None, self_calibrate: bool = False, label: bool = False,
             object: bool = False, object_models=None, format: Optional[str] = None,
             covariances: bool = False,
-            progress: Optional[Callable[[int, int], None]] = None) -> Conversion:
+            progress: Union[Callable[[int, int], None], bool, None] = None) -> Conversion:
     """Converts a recording into a motion, as the command ``convert`` does; writes nothing.
 
     Other threads run meanwhile; Ctrl-C ends it.
@@ -181,9 +190,10 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
         Of the motion that is saved: "2.0" or "1.0".
     covariances : bool
         Keeps the covariances of the postures.
-    progress : callable, optional
+    progress : callable or False, optional
         Is called with (frames done, all frames) some 20 times a second. What it raises ends the
-        conversion.
+        conversion. Default: a bar on the standard error in a terminal or a notebook, after a second;
+        False: none.
 
     Returns
     -------
@@ -213,4 +223,5 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
     raw = recording._raw if isinstance(recording, Recording) else None
     if raw is not None and recording._options is not None:
         options = {**recording._options, **options}
-    return Conversion(_mmmconverter.convert(raw, options, progress), source)
+    with shown(progress, "frames") as callback:
+        return Conversion(_mmmconverter.convert(raw, options, callback), source)

@@ -26,6 +26,7 @@ class Recording:
     markers: np.ndarray
     events: List[Dict[str, Any]]
     analog: Dict[str, Any]
+    force_plates: List[Dict[str, Any]]
     def save_c3d(self, file: str) -> None: ...
 
 def read(options: Dict[str, Any]) -> Recording: ...
@@ -37,6 +38,7 @@ class Model:
     file: str
     name: str
     segments: List[str]
+    parents: List[int]
     markers: List[str]
     joint_names: List[str]
     limits: np.ndarray

@@ -37,6 +37,8 @@ class Model(Presented):
     Attributes
     ----------
     segments, markers, joint_names : list of str
+    parents : list of int
+        Of each segment the index of the one that carries it; -1: of the root.
     limits : numpy.ndarray, shape (joints, 2)
         In radians.
     height : float or None
@@ -49,7 +51,8 @@ class Model(Presented):
         self._raw = raw
 
     def __getattr__(self, name):
-        if name in ("file", "name", "segments", "markers", "joint_names", "limits", "mass", "height"):
+        if name in ("file", "name", "segments", "parents", "markers", "joint_names", "limits", "mass",
+                    "height"):
             return getattr(self._raw, name)
         raise AttributeError(name)
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import os
 import shutil
 import tempfile
@@ -37,9 +38,15 @@ class Recording(Presented):
     height, mass : float or None
         Of the person in metres and kilograms, as an MMM file says.
     events : list of dict
-        Of a C3D file: time [s], label, context and subject.
+        Of a C3D file: time [s] as it stands there, label, context and subject. Most systems count
+        from the capture's first frame, of which the recording may be a part.
     analog : dict
-        Of a C3D file: rate, labels and units of the channels beside the markers, not their samples.
+        Of a C3D file, what was sampled beside the markers: rate [Hz], labels, units, and samples, a
+        numpy.ndarray, shape (moments, channels), in these units, from the first frame on.
+    force_plates : list of dict
+        Of a C3D file: type, as C3D counts them; channels, a numpy.ndarray of columns of the samples;
+        corners, shape (4, 3), in metres where the markers are; origin, shape (3,), in metres in the
+        plate's own axes; None where the file has none.
     warnings : list of str
         What there was to say when it was read.
     """
@@ -50,9 +57,14 @@ class Recording(Presented):
 
     def __getattr__(self, name):
         if name in ("labels", "rate", "first_time", "markers", "file", "format", "unit", "up_axis",
-                    "motion", "subjects", "height", "mass", "events", "analog", "warnings"):
+                    "motion", "subjects", "height", "mass", "warnings"):
             return getattr(self._raw, name)
         raise AttributeError(name)
+
+    # What is read once.
+    events = functools.cached_property(lambda self: self._raw.events)
+    analog = functools.cached_property(lambda self: self._raw.analog)
+    force_plates = functools.cached_property(lambda self: self._raw.force_plates)
 
     @classmethod
     def from_arrays(cls, labels: Sequence[str], markers: Any, rate: float, first_time: float = 0.0,

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import functools
-from typing import Callable, Optional, Sequence
+from typing import Callable, Optional, Sequence, Union
 
 from . import _mmmconverter
 from ._present import Presented, given, path_text
+from ._progress import shown
 from ._recordings import Recording, Subject, input_options, subject_file
+
+Progress = Union[Callable[[int, int], None], bool, None]
 
 
 class _Study(Presented):
@@ -74,7 +77,7 @@ def _several(recordings):
 def calibrate(recordings, *, height: Optional[float] = None, mass: Optional[float] = None,
               hand_length: Optional[float] = None, person=None, name: Optional[str] = None,
               config=None, model=None, marker_set=None, frames=None,
-              progress: Optional[Callable[[int, int], None]] = None) -> Calibration:
+              progress: Progress = None) -> Calibration:
     """Estimates segment lengths and marker places of a person, as the command does.
 
     Parameters
@@ -97,7 +100,8 @@ def calibrate(recordings, *, height: Optional[float] = None, mass: Optional[floa
         inputs.append(dict(input_options(one, "calibrate"), **given(
             height=height, mass=mass, hand_length=hand_length, person=person, model=model,
             marker_set=marker_set, frames=frames)))
-    return Calibration(_mmmconverter.calibrate(inputs, given(config=config, name=name), progress))
+    with shown(progress, "recordings read") as callback:
+        return Calibration(_mmmconverter.calibrate(inputs, given(config=config, name=name), callback))
 
 
 class Comparison(_Study):
@@ -120,7 +124,7 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
             height: Optional[float] = None, mass: Optional[float] = None, subject=None,
             truths: Optional[Sequence] = None, hide: float = 0.0, repeat: int = 1, seed: int = 1,
             jobs: int = 0, model=None, marker_set=None, frames=None,
-            progress: Optional[Callable[[int, int], None]] = None) -> Comparison:
+            progress: Progress = None) -> Comparison:
     """Compares configurations on recordings, as the command does.
 
     Parameters
@@ -153,7 +157,8 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
         raise _mmmconverter.Error(f"truths: {len(truths)} for {len(inputs)} recordings")
     options = {"hide": hide, "repeat": repeat, "seed": seed, "jobs": jobs, "truths": truths}
     configs = [path_text(one) for one in configs]
-    return Comparison(_mmmconverter.compare(inputs, configs, options, progress))
+    with shown(progress, "runs") as callback:
+        return Comparison(_mmmconverter.compare(inputs, configs, options, callback))
 
 
 class LabelledRecording(_Study):
@@ -178,7 +183,7 @@ class LabelledRecording(_Study):
 
 def label(recording, *, height: Optional[float] = None, mass: Optional[float] = None, subject=None,
           like=None, repair: bool = False, config=None, model=None, marker_set=None,
-          progress: Optional[Callable[[int, int], None]] = None) -> LabelledRecording:
+          progress: Progress = None) -> LabelledRecording:
     """Names the points of a recording by the body that wears them, as the command does.
 
     Parameters
@@ -196,7 +201,8 @@ def label(recording, *, height: Optional[float] = None, mass: Optional[float] = 
         height=height, mass=mass, subject_file=subject_file(subject), model=model,
         marker_set=marker_set))
     hints = given(like=like, repair=repair, config=config)
-    return LabelledRecording(_mmmconverter.label(options, hints, progress))
+    with shown(progress, "frames") as callback:
+        return LabelledRecording(_mmmconverter.label(options, hints, callback))
 
 
 class Dynamics(_Study):
@@ -223,7 +229,7 @@ class Dynamics(_Study):
 def check_dynamics(file, *, motion: Optional[str] = None, height: Optional[float] = None,
                    mass: Optional[float] = None, subject=None, model=None, frames=None,
                    low_pass: float = 6.0,
-                   progress: Optional[Callable[[int, int], None]] = None) -> Dynamics:
+                   progress: Progress = None) -> Dynamics:
     """Whether a human body can move like an MMM motion, as the command says.
 
     Parameters
@@ -244,4 +250,5 @@ def check_dynamics(file, *, motion: Optional[str] = None, height: Optional[float
     """
     options = given(file=path_text(file), motion=motion, height=height, mass=mass,
                     subject_file=subject_file(subject), model=model, frames=frames)
-    return Dynamics(_mmmconverter.check_dynamics(options, low_pass, progress))
+    with shown(progress, "frames") as callback:
+        return Dynamics(_mmmconverter.check_dynamics(options, low_pass, callback))

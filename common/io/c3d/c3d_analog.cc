@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 namespace mmm_converter {
 namespace {
 
 constexpr std::size_t kMostPlates = 255;  // a dimension of a parameter
 constexpr std::size_t kCornerNumbers = 12;
+constexpr std::size_t kOriginNumbers = 3;
 
 double AnalogRate(const C3dFile& file, int samples_per_frame) {
   const double stated = file.parameters().Number("ANALOG", "RATE").value_or(0);
@@ -28,6 +31,45 @@ std::vector<double> NumbersOf(const C3dParameter* parameter, std::size_t plate,
     numbers.push_back(*number);
   }
   return numbers;
+}
+
+/// Words that are stored, and offsets, count from 0 on.
+bool IsUnsigned(const C3dParameters& parameters) {
+  return parameters.Text("ANALOG", "FORMAT") == "UNSIGNED";
+}
+
+/// A number for each channel from ANALOG:NAME, NAME2, ...; `usual` where the file says nothing.
+Eigen::VectorXd NumberOfEach(const C3dParameters& parameters, const std::string& name,
+                             Eigen::Index channels, double usual) {
+  Eigen::VectorXd numbers = Eigen::VectorXd::Constant(channels, usual);
+  Eigen::Index channel = 0;
+  for (int i = 1; channel < channels; ++i) {
+    const C3dParameter* const parameter =
+        parameters.Find("ANALOG", i == 1 ? name : fmt::format("{}{}", name, i));
+    if (parameter == nullptr) break;
+    const bool is_signed = parameter->type == 2 && !IsUnsigned(parameters);
+    for (std::size_t k = 0; k < parameter->size() && channel < channels; ++k, ++channel) {
+      double number = *parameter->Number(k);
+      if (is_signed && number > INT16_MAX) number -= UINT16_MAX + 1;
+      if (std::isfinite(number)) numbers[channel] = number;
+    }
+  }
+  return numbers;
+}
+
+/// As they are stored.
+void DecodeSamples(const unsigned char* stored, const C3dLayout& layout, bool is_unsigned,
+                   std::span<double> samples) {
+  for (double& sample : samples) {
+    if (layout.floats) {
+      sample = C3dFloat(stored, layout.processor);
+      stored += 4;
+    } else {
+      const std::uint16_t word = C3dWord(stored, layout.processor);
+      sample = is_unsigned ? word : static_cast<std::int16_t>(word);
+      stored += 2;
+    }
+  }
 }
 
 }  // namespace
@@ -68,10 +110,39 @@ C3dAnalog ReadC3dAnalog(const C3dFile& file, Warnings* warnings) {
   return analog;
 }
 
+Eigen::MatrixXd ReadC3dAnalogSamples(C3dFile* file, const C3dAnalog& analog) {
+  const C3dLayout& layout = file->layout();
+  const auto channels = static_cast<Eigen::Index>(analog.channels.size());
+  const Eigen::Index words = channels * analog.samples_per_frame;
+  Eigen::MatrixXd samples(channels, Eigen::Index{layout.frames} * analog.samples_per_frame);
+  if (samples.size() == 0) return samples;
+  const C3dParameters& parameters = file->parameters();
+  const bool is_unsigned = IsUnsigned(parameters);
+  const std::size_t behind_points =
+      static_cast<std::size_t>(layout.points) * (layout.floats ? 16 : 8);
+  const int chunk = static_cast<int>(
+      std::clamp<std::uint64_t>(kBufferBytes / layout.frame_bytes, 1, layout.frames));
+  std::vector<unsigned char> bytes;
+  for (int k = 0; k < layout.frames; k += chunk) {
+    const int count = std::min(chunk, layout.frames - k);
+    file->ReadFrames(k, count, &bytes);
+    for (int i = 0; i < count; ++i) {
+      DecodeSamples(&bytes[i * layout.frame_bytes + behind_points], layout, is_unsigned,
+                    {samples.data() + (k + i) * words, static_cast<std::size_t>(words)});
+    }
+  }
+  const double scale = NumberOfEach(parameters, "GEN_SCALE", 1, 1)[0];
+  samples.colwise() -= NumberOfEach(parameters, "OFFSET", channels, 0);
+  const Eigen::VectorXd scales = scale * NumberOfEach(parameters, "SCALE", channels, 1);
+  samples.array().colwise() *= scales.array();
+  return samples;
+}
+
 std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, Warnings* warnings) {
   const C3dParameter* types = parameters.Find("FORCE_PLATFORM", "TYPE");
   const C3dParameter* corners = parameters.Find("FORCE_PLATFORM", "CORNERS");
   const C3dParameter* channels = parameters.Find("FORCE_PLATFORM", "CHANNEL");
+  const C3dParameter* origins = parameters.Find("FORCE_PLATFORM", "ORIGIN");
   const std::size_t types_there = types == nullptr ? 0 : types->size();
   const std::size_t corners_there = corners == nullptr ? 0 : corners->size() / kCornerNumbers;
   const std::size_t stored = std::max(types_there, corners_there);
@@ -99,6 +170,8 @@ std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, W
     if (numbers.size() == kCornerNumbers) {
       plate.corners = Eigen::Map<const Eigen::Matrix<double, 3, 4>>(numbers.data());
     }
+    const std::vector<double> origin = NumbersOf(origins, i, kOriginNumbers);
+    if (origin.size() == kOriginNumbers) plate.origin = Eigen::Vector3d(origin.data());
   }
   return plates;
 }

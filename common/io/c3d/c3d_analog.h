@@ -26,11 +26,19 @@ struct C3dAnalog {
 
 C3dAnalog ReadC3dAnalog(const C3dFile& file, Warnings* warnings);
 
+/// All samples in their channels' units, (stored - OFFSET) * SCALE * GEN_SCALE: a row for each
+/// channel of `analog`, which is the file's; a column for each moment, 1 / rate apart from the
+/// first frame on. Reads the whole file.
+/// @throws Error where it has become shorter meanwhile.
+Eigen::MatrixXd ReadC3dAnalogSamples(C3dFile* file, const C3dAnalog& analog);
+
 struct C3dForcePlate {
   int type = 0;               ///< FORCE_PLATFORM:TYPE; 0: not stated
   std::vector<int> channels;  ///< counted from 1, as FORCE_PLATFORM:CHANNEL has them
   /// A column for each corner, in the file's unit and axes; nothing: not stated.
   std::optional<Eigen::Matrix<double, 3, 4>> corners;
+  /// In the file's unit and the plate's own axes; nothing: not stated.
+  std::optional<Eigen::Vector3d> origin;
 };
 
 std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, Warnings* warnings);

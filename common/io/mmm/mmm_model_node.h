@@ -10,7 +10,7 @@
 
 namespace mmm_converter {
 
-/// One <RobotNode>, not yet part of a tree: parents and marker segments are not set.
+/// One `<RobotNode>`, not yet part of a tree: parents and marker segments are not set.
 struct ModelNode {
   struct Child {
     std::string name;

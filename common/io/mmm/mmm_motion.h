@@ -16,7 +16,7 @@
 
 namespace mmm_converter {
 
-/// One <Motion> of an MMM file. Frames follow an even time grid at the file's median step: a
+/// One `<Motion>` of an MMM file. Frames follow an even time grid at the file's median step: a
 /// repeated timestamp counts once, missing frames have NaN markers and interpolated postures.
 struct MmmMotion {
   std::string name;
@@ -40,11 +40,11 @@ struct MmmMotionFile {
   const MmmMotion* Find(std::string_view motion_name) const;  ///< the first; nullptr: none
 };
 
-/// True if XML text that starts like this can be an MMM motion file (its root is <MMM>).
+/// True if XML text that starts like this can be an MMM motion file (its root is `<MMM>`).
 bool LooksLikeMmmMotion(std::string_view content);
 
 /// `file` is only named in messages.
-/// @throws Error with all problems as `file:line: ...`: not XML, no <MMM>, a malformed number, a
+/// @throws Error with all problems as `file:line: ...`: not XML, no `<MMM>`, a malformed number, a
 /// time that runs
 ///         backwards, a duplicate joint or marker, gaps that would blow up memory.
 MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& file,
@@ -54,7 +54,7 @@ MmmMotionFile ParseMmmMotionFile(std::string_view content, const std::string& fi
 MmmMotionFile ReadMmmMotionFile(const std::string& path, Warnings* warnings = nullptr,
                                 std::size_t max_bytes = kMaxFileBytes);
 
-/// What is written as one <Motion>. Lengths are written in mm with 4 decimals, angles in rad with
+/// What is written as one `<Motion>`. Lengths are written in mm with 4 decimals, angles in rad with
 /// 8, times in s with 9, without trailing zeros; reading that back and writing it again gives the
 /// same bytes.
 struct MmmMotionOutput {

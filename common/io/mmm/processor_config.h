@@ -7,8 +7,8 @@
 
 namespace mmm_converter {
 
-/// What a stand-alone `<ModelProcessorConfig type="Winter">` file (KIT: config/<subject>.xml) says
-/// of a person.
+/// What a stand-alone `<ModelProcessorConfig type="Winter">` file (KIT: `config/<subject>.xml`)
+/// says of a person.
 /// @throws Error with file and line where it is not such a file or a number is malformed.
 BodySize ReadProcessorConfig(const std::string& path);
 

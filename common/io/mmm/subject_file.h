@@ -8,10 +8,10 @@
 
 namespace mmm_converter {
 
-/// A subject as XML (<Subject>, xml_config/schema/subject.xsd): lengths in mm with 4 decimals,
+/// A subject as XML (`<Subject>`, xml_config/schema/subject.xsd): lengths in mm with 4 decimals,
 /// everything else with 6, without trailing zeros; reading that back and writing it again gives the
 /// same bytes. Observability and the program are written for people and not read. program: what
-/// estimated the subject, e.g. "MMMConverterS2KF 0.1.0".
+/// estimated the subject, e.g. "MMMConverterS2KF 1.0.0".
 std::string FormatSubject(const Subject& subject, const std::string& program);
 
 /// Reads a subject of the (unscaled) reference model, whose names it must have.

@@ -24,6 +24,7 @@ using Eigen::Vector3d;
 
 constexpr double kCentimetres = 100;  // in a metre
 constexpr int kCentimetreDecimals = 6;
+constexpr int kMetreDecimals = 8;
 constexpr int kBvhDegreeDecimals = 6;
 constexpr double kSamePlace = 1e-9;    // [m]
 constexpr double kShortestEnd = 1e-3;  // of an end that is worth showing [m]
@@ -70,7 +71,8 @@ struct BvhJoint {
 
 class BvhSkeleton {
  public:
-  BvhSkeleton(const KinematicModel& model, const PoseTrajectory& trajectory) : model_(model) {
+  BvhSkeleton(const KinematicModel& model, const PoseTrajectory& trajectory, BvhUnit unit)
+      : model_(model), unit_(unit) {
     Posture rest = ZeroPosture(model);
     rest.joint_angles.setZero();
     rest_ = SegmentPoses(model, rest);
@@ -86,6 +88,14 @@ class BvhSkeleton {
 
   const std::vector<BvhJoint>& joints() const { return joints_; }
   const std::vector<Isometry3d>& rest() const { return rest_; }
+
+  /// A vector of the world in the file's axes and unit.
+  Vector3d InFile(const Vector3d& p_W) const {
+    return (unit_ == BvhUnit::kMetres ? 1 : kCentimetres) *
+           (RotationToZUp(UpAxis::kY).transpose() * p_W);
+  }
+
+  int decimals() const { return unit_ == BvhUnit::kMetres ? kMetreDecimals : kCentimetreDecimals; }
 
   Vector3d Offset(const BvhJoint& joint) const {
     return joint.parent < 0 ? Vector3d::Zero().eval() : joint.place - joints_[joint.parent].place;
@@ -157,6 +167,7 @@ class BvhSkeleton {
   }
 
   const KinematicModel& model_;
+  BvhUnit unit_;
   std::vector<Isometry3d> rest_;  // of all segments
   std::vector<BvhJoint> joints_;  // parents first
   std::vector<int> joint_of_;     // of each segment
@@ -169,10 +180,6 @@ void AppendTriple(const Vector3d& values, int decimals, std::string* out) {
   }
 }
 
-Vector3d InFile(const Vector3d& p_W) {
-  return kCentimetres * (RotationToZUp(UpAxis::kY).transpose() * p_W);
-}
-
 // The joint with all below it, and in which order frames have them.
 void AppendHierarchy(const BvhSkeleton& skeleton, int index, int depth, std::string* out,
                      std::vector<int>* order) {
@@ -181,7 +188,7 @@ void AppendHierarchy(const BvhSkeleton& skeleton, int index, int depth, std::str
   order->push_back(index);
   *out += fmt::format("{}{} {}\n{}{{\n{}\tOFFSET", indent, depth == 0 ? "ROOT" : "JOINT",
                       joint.name, indent, indent);
-  AppendTriple(InFile(skeleton.Offset(joint)), kCentimetreDecimals, out);
+  AppendTriple(skeleton.InFile(skeleton.Offset(joint)), skeleton.decimals(), out);
   *out += fmt::format("\n{}\tCHANNELS {}Zrotation Xrotation Yrotation\n", indent,
                       depth == 0 ? "6 Xposition Yposition Zposition " : "3 ");
   for (const int child : joint.children) {
@@ -189,7 +196,7 @@ void AppendHierarchy(const BvhSkeleton& skeleton, int index, int depth, std::str
   }
   if (joint.children.empty()) {
     *out += fmt::format("{}\tEnd Site\n{}\t{{\n{}\t\tOFFSET", indent, indent, indent);
-    AppendTriple(InFile(joint.end - joint.place), kCentimetreDecimals, out);
+    AppendTriple(skeleton.InFile(joint.end - joint.place), skeleton.decimals(), out);
     *out += fmt::format("\n{}\t}}\n", indent);
   }
   *out += indent + "}\n";
@@ -211,7 +218,7 @@ void AppendFrames(const KinematicModel& model, const PoseTrajectory& trajectory,
   for (int k = 0; k < trajectory.num_frames(); ++k) {
     const std::vector<Isometry3d> X_WS = SegmentPoses(model, ModelPosture(model, trajectory, k));
     std::string frame;
-    AppendTriple(InFile(X_WS[0].translation()), kCentimetreDecimals, &frame);
+    AppendTriple(skeleton.InFile(X_WS[0].translation()), skeleton.decimals(), &frame);
     for (const int j : order) {
       const BvhJoint& joint = joints[j];
       const Eigen::Matrix3d turn =
@@ -230,8 +237,8 @@ void AppendFrames(const KinematicModel& model, const PoseTrajectory& trajectory,
 
 }  // namespace
 
-TextPieces FormatBvh(const KinematicModel& model, const PoseTrajectory& trajectory) {
-  const auto skeleton = std::make_shared<const BvhSkeleton>(model, trajectory);
+TextPieces FormatBvh(const KinematicModel& model, const PoseTrajectory& trajectory, BvhUnit unit) {
+  const auto skeleton = std::make_shared<const BvhSkeleton>(model, trajectory, unit);
   return [&model, &trajectory, skeleton](const TextSink& sink) {
     PieceWriter pieces(sink);
     std::vector<int> order;

@@ -7,9 +7,12 @@
 
 namespace mmm_converter {
 
+/// Of lengths in a BVH file, which does not say it.
+enum class BvhUnit { kCentimetres, kMetres };
+
 /// A motion as BVH (Biovision hierarchy): a skeleton and its joint rotations, for Blender and
 /// programs that transfer motions to characters. y is up, x, y, z of the file are x, z, -y of W;
-/// offsets and the root's position in centimetres, angles in degrees.
+/// offsets and the root's position are in the unit, angles in degrees.
 ///
 /// The root is Hips; joints are those of the trajectory (and the collar bones of the MMM model),
 /// successive ones at one place as one joint, with channels Zrotation Xrotation Yrotation: R = Rz
@@ -18,6 +21,7 @@ namespace mmm_converter {
 /// and all joints' axes are the world's. Ends of limbs have an End Site at what is farthest.
 /// Postures must be finite. Model and trajectory must outlive the text.
 /// @throws Error where the trajectory names a joint that the model does not have.
-TextPieces FormatBvh(const KinematicModel& model, const PoseTrajectory& trajectory);
+TextPieces FormatBvh(const KinematicModel& model, const PoseTrajectory& trajectory,
+                     BvhUnit unit = BvhUnit::kCentimetres);
 
 }  // namespace mmm_converter

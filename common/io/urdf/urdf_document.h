@@ -13,7 +13,7 @@ namespace mmm_converter {
 
 inline constexpr std::size_t kMaxUrdfLinks = 4096;  ///< the largest robots have some hundreds
 
-/// A <link> of a URDF.
+/// A `<link>` of a URDF.
 struct UrdfLink {
   std::string name;
   int line = 0;
@@ -25,7 +25,7 @@ struct UrdfLink {
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kFloating, kPlanar };
 
-/// A <joint> of a URDF. The child link's frame is the joint's.
+/// A `<joint>` of a URDF. The child link's frame is the joint's.
 struct UrdfJoint {
   std::string name;
   int line = 0;
@@ -36,7 +36,7 @@ struct UrdfJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();         ///< unit vector in F
   double lower = 0;                                        ///< [rad], prismatic [m]
   double upper = 0;                                        ///< [rad], prismatic [m]
-  std::string mimicked;                                    ///< <mimic joint="">; empty: none
+  std::string mimicked;                                    ///< `<mimic joint="">`; empty: none
   double mimic_offset = 0;                                 ///< [rad], prismatic [m]
 };
 

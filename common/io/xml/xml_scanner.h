@@ -56,7 +56,7 @@ class XmlScanner {
 struct XmlRange {
   std::string name;
   std::uint64_t begin = 0;        ///< of the start tag
-  std::uint64_t inner_begin = 0;  ///< after the start tag; inner_begin == inner_end == end in <a/>
+  std::uint64_t inner_begin = 0;  ///< after the start tag; as inner_end and end in `<a/>`
   std::uint64_t inner_end = 0;
   std::uint64_t end = 0;  ///< after the end tag
   std::vector<XmlRange> children;

@@ -281,7 +281,7 @@ void NatNetServer::SendModel(const UdpAddress& to) {
 void NatNetServer::SendServerInfo(const UdpAddress& to) {
   NatNetServerInfo info;
   info.application = "MMMConverterS2KF";
-  info.application_version = {0, 1, 0, 0};
+  info.application_version = {1, 0, 0, 0};
   info.version = VersionOf(to);
   info.clock_rate = kTicksPerSecond;
   info.data_port = static_cast<std::uint16_t>(options_.data_port);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/calibrate/frame_equations.h"
+#include "common/support/error.h"
 #include "common/support/units.h"
 #include "tests/support/all_indices.h"
 #include "tests/support/synthetic_person.h"
@@ -92,6 +93,26 @@ TEST(FitBody, IsAMinimumWithJointsInsideTheirLimits) {
   const BodyFitResult again = FitBody(&kinematics, {}, ones, &frames, &body);
   EXPECT_LE(again.cost, fit.cost);
   EXPECT_LT(fit.cost - again.cost, 0.5) << "half a unit of -2 log p: the data can't tell";
+}
+
+TEST(FitBody, EndsBetweenTwoSteps) {
+  const KinematicModel model = testing::ScaledReferenceModel(1.7);
+  const KinematicModel person = FitToSubject(model, testing::DrawPerson(model, 5));
+  std::vector<CalibrationFrame> frames = Frames(model, person, 20);
+  BodyKinematics kinematics(model, testing::TrackedJoints(model), AllMarkers(model));
+  Body body = kinematics.ModelBody();
+  CalibrationOptions options;
+  int calls = 0;
+  options.between_steps = [&calls] {
+    if (++calls == 2) throw Error("enough");
+  };
+  const Eigen::VectorXd ones =
+      Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model.markers().size()));
+  EXPECT_THROW(FitBody(&kinematics, options, ones, &frames, &body), Error);
+  EXPECT_EQ(calls, 2);
+  EXPECT_THROW(FitPostures(model, testing::TrackedJoints(model), AllMarkers(model), &frames,
+                           [] { throw Error("enough"); }),
+               Error);
 }
 
 TEST(FitBody, DeviationsFallWithFramesAndNeverExceedThePrior) {

@@ -47,6 +47,18 @@ PoseTrajectory ThrownBrick(const KinematicModel& model) {
   return motion;
 }
 
+TEST(MotionDynamics, EndsBetweenTwoFrames) {
+  const KinematicModel model = testing::Brick();
+  int last = -1;
+  const auto stop = [&last](int done, int all) {
+    EXPECT_EQ(all, 250);
+    last = done;
+    if (done == 7) throw Error("enough");
+  };
+  EXPECT_THROW(ComputeMotionDynamics(model, ThrownBrick(model), {}, stop), Error);
+  EXPECT_EQ(last, 7);
+}
+
 TEST(MotionDynamics, AThrownBodyFallsWithG) {
   const KinematicModel model = testing::Brick();
   const MotionDynamics dynamics = ComputeMotionDynamics(model, ThrownBrick(model));

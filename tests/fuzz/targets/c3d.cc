@@ -32,7 +32,10 @@ void Describe(const std::string& path) {
   Require(C3dPointNames(file, &warnings).size() == static_cast<std::size_t>(file.layout().points),
           "a name for each point");
   C3dOutputNames(file);
-  ReadC3dAnalog(file, &warnings);
+  const C3dAnalog analog = ReadC3dAnalog(file, &warnings);
+  Require(ReadC3dAnalogSamples(&file, analog).rows() ==
+              static_cast<Eigen::Index>(analog.channels.size()),
+          "samples of each channel");
   ReadC3dForcePlates(file.parameters(), &warnings);
   ReadC3dEvents(file, &warnings);
   for (const C3dPointCounts& counts : CountC3dPoints(&file)) {

@@ -148,6 +148,7 @@ TEST(C3dContents, ForcePlates) {
                                  .Word(4, "USED", {2})
                                  .Word(4, "TYPE", {2, 4})
                                  .Floats(4, "CORNERS", {3, 4, 2}, corners)
+                                 .Floats(4, "ORIGIN", {3, 1}, {1, 2, 3})
                                  .Parameter(4, "CHANNEL", 1, {2, 2}, "\x01\x02\x03\x04", -1);
   Warnings warnings;
   const C3dFile file = Open(C3dBytes{.points = 1, .frames = {{1, 2, 3, 0}}}.File(section));
@@ -158,6 +159,8 @@ TEST(C3dContents, ForcePlates) {
   EXPECT_THAT(plates[1].channels, ElementsAre(3, 4));
   ASSERT_TRUE(plates[1].corners);
   EXPECT_EQ(plates[1].corners->col(3), Eigen::Vector3d(21, 22, 23));
+  EXPECT_EQ(plates[0].origin, Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(plates[1].origin);
   EXPECT_THAT(warnings.texts(), IsEmpty());
 }
 
@@ -207,6 +210,51 @@ TEST(C3dContents, SeesWhatTheReaderSees) {
       const C3dPointCounts& c = counts[i];
       EXPECT_EQ(c.seen + c.marked_invalid + c.at_origin + c.no_position, markers.num_frames());
     }
+  }
+}
+
+TEST(C3dContents, AnalogSamples) {
+  const C3dSection section = C3dSection()
+                                 .Group(2, "ANALOG")
+                                 .Word(2, "USED", {2})
+                                 .Float(2, "GEN_SCALE", 10)
+                                 .Floats(2, "SCALE", {2}, {0.5, 2})
+                                 .Word(2, "OFFSET", {1, 65534});  // 1 and -2
+  C3dFile file =
+      Open(C3dBytes{.points = 1,
+                    .analog_words = 4,
+                    .analog_samples = 2,
+                    .frames = {{1, 2, 3, 0, 11, 21, 12, 22}, {1, 2, 3, 0, 13, 23, 14, 24}}}
+               .File(section));
+  const C3dAnalog analog = ReadC3dAnalog(file, nullptr);
+  Eigen::MatrixXd expected(2, 4);
+  expected << 50, 55, 60, 65, 460, 480, 500, 520;
+  EXPECT_EQ(ReadC3dAnalogSamples(&file, analog), expected);
+  EXPECT_EQ(analog.rate, 200);
+}
+
+TEST(C3dContents, AnalogSamplesWithoutScales) {
+  C3dFile file = Open(C3dBytes{.analog_words = 1, .frames = {{3}, {4}}}.File(C3dSection()));
+  EXPECT_EQ(ReadC3dAnalogSamples(&file, ReadC3dAnalog(file, nullptr)), Eigen::RowVector2d(3, 4));
+  C3dFile none = Open(C3dBytes{.points = 1, .frames = {{1, 2, 3, 0}}}.File(C3dSection()));
+  EXPECT_EQ(ReadC3dAnalogSamples(&none, ReadC3dAnalog(none, nullptr)).size(), 0);
+}
+
+// The same trial as its maker stored it, in floats and in words, for two processors.
+TEST(C3dContents, AnalogSamplesAreTheSameHoweverStored) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const auto read = [](const char* name) {
+    C3dFile file(SharedData(std::string("recordings/conformance/") + name));
+    return ReadC3dAnalogSamples(&file, ReadC3dAnalog(file, nullptr));
+  };
+  const Eigen::MatrixXd floats = read("Eb015pr.c3d");
+  ASSERT_GT(floats.cwiseAbs().maxCoeff(), 100);
+  for (const char* name : {"Eb015pi.c3d", "Eb015si.c3d"}) {
+    const Eigen::MatrixXd samples = read(name);
+    ASSERT_EQ(samples.cols(), floats.cols()) << name;
+    // Rounding of the scales, which are floats.
+    EXPECT_LT((samples - floats).cwiseAbs().maxCoeff(), 1e-5 * floats.cwiseAbs().maxCoeff())
+        << name;
   }
 }
 
@@ -262,7 +310,7 @@ TEST(C3dContents, FlippedBytes) {
     try {
       C3dFile file = Open(broken);
       Warnings warnings;
-      ReadC3dAnalog(file, &warnings);
+      ReadC3dAnalogSamples(&file, ReadC3dAnalog(file, &warnings));
       ReadC3dEvents(file, &warnings);
       ReadC3dForcePlates(file.parameters(), &warnings);
       CountC3dPoints(&file);

@@ -81,13 +81,13 @@ TEST(SubjectFile, IsWrittenAsRead) {
 }
 
 TEST(SubjectFile, SaysObservabilityAndProgramToPeople) {
-  const std::string text = FormatSubject(FullSubject(), "MMMConverterS2KF 0.1.0");
-  EXPECT_THAT(text, AllOf(HasSubstr("program=\"MMMConverterS2KF 0.1.0\""),
+  const std::string text = FormatSubject(FullSubject(), "MMMConverterS2KF 1.0.0");
+  EXPECT_THAT(text, AllOf(HasSubstr("program=\"MMMConverterS2KF 1.0.0\""),
                           HasSubstr("observability=\"1\""), HasSubstr("observability=\"0\"")));
   // Nothing of it is taken back.
   std::string changed = text;
   changed.replace(changed.find("observability=\"1\""), 17, "observability=\"?\"");
-  EXPECT_EQ(FormatSubject(Parse(changed), "MMMConverterS2KF 0.1.0"), text);
+  EXPECT_EQ(FormatSubject(Parse(changed), "MMMConverterS2KF 1.0.0"), text);
 }
 
 TEST(SubjectFile, HeightAndMassAreEnough) {

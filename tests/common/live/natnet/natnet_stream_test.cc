@@ -47,7 +47,7 @@ TEST(NatNetStream, EveryVersion) {
     NatNetSource source(To(server));
     StreamFrame frame;
     ASSERT_EQ(NextOf(&source, &server, &frame), StreamEvent::kLayout) << Format(version);
-    EXPECT_EQ(source.layout().source, "MMMConverterS2KF 0.1, NatNet " + Format(version));
+    EXPECT_EQ(source.layout().source, "MMMConverterS2KF 1.0, NatNet " + Format(version));
     EXPECT_EQ(source.layout().rate, 120);
     EXPECT_THAT(source.layout().labels, ElementsAre("A", "B", "C c"));
     // Frames come before the model is known, and are not taken then.
