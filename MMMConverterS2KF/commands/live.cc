@@ -45,6 +45,11 @@ const std::vector<OptionGroup> kOtherOptions = {
        ""},
       {"converter", "NAME", "default: what the configuration says, else S2KFConverter", ""},
       {"plugin", "FILE", "take the converter from this plugin file", ""}}},
+    {"Labels",
+     {{"label", "",
+       "name the points by the body that wears them, also those that the source has no label for: "
+       "by --subject-file, or by --height and --marker-set",
+       ""}}},
     {"Calibration",
      {{"self-calibrate", "",
        "estimate segment lengths and marker places while the person moves about, then use them",
@@ -68,6 +73,7 @@ Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is 
 {}Examples
   MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o anna.xml --view
   MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1
+  MMMConverterS2KF live qtm://192.168.0.10 --label --subject-file anna.xml --view
   MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
 )";
 
@@ -119,6 +125,7 @@ LiveRequest MakeRequest(const Arguments& arguments) {
                        arguments.Get("converter").value_or(""),
                        arguments.Get("plugin").value_or("")};
   request.loops = arguments.Has("loop");
+  request.label = arguments.Has("label");
   const auto calibration = arguments.GetNumber("calibrate-seconds", "seconds, e.g. 15");
   if (arguments.Has("self-calibrate")) {
     request.calibration_time = calibration.value_or(kDefaultCalibration);

@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/live/natnet/natnet_server.h"
 #include "common/live/qtm/qtm_server.h"
+#include "common/live/stream_address.h"
 #include "common/math/up_axis.h"
 #include "common/support/text.h"
 
@@ -150,7 +151,7 @@ std::string Describe(const MarkerSequence& markers) {
 
 /// What a client on this computer connects to.
 std::string HostOf(const std::string& address) {
-  return address == "0.0.0.0" ? "127.0.0.1" : address;
+  return address == "0.0.0.0" ? "127.0.0.1" : InAddress(address);
 }
 
 template <typename Server>
@@ -183,8 +184,9 @@ int RunServe(const Arguments& arguments) {
   if (!arguments.Has("as")) throw UsageError("serve: as which system? --as qtm or --as natnet");
   const bool is_qtm = arguments.GetChoice("as", {"qtm", "natnet"}, "qtm") == "qtm";
   Warnings warnings;
-  Recording recording =
-      ReadInput(MakeInputRequest(arguments, *arguments.positional()), {}, &warnings).recording;
+  InputRequest request = MakeInputRequest(arguments, *arguments.positional());
+  request.reading.with_unlabelled = true;
+  Recording recording = ReadInput(request, {}, &warnings).recording;
   LogWarnings(warnings);
   const std::string described = Describe(recording.markers);
   if (is_qtm) {

@@ -138,11 +138,10 @@ Person FindLabelledPerson(const InputRequest& request, const LabelHints& hints, 
   return FindPersonOfPoints(request.person, *input.reference, input.recording, config, warnings);
 }
 
-}  // namespace
-
-FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
-                       const ConverterConfig& config, const std::function<bool(int, int)>& progress,
-                       Warnings* warnings) {
+// What there is before the points: whose they are, and the names that they can have.
+FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hints,
+                               const Input& input, const ConverterConfig& config,
+                               LabelOptions* options, Warnings* warnings) {
   const Recording& recording = input.recording;
   FoundLabels found;
   NameList names;
@@ -169,11 +168,27 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   found.setup.joints = ResolveJoints(config, *input.reference);
   found.setup.model = std::make_shared<const KinematicModel>(
       ScaleModel(*input.reference, ScalingOf(found.person, config)));
+  names.Give(&found.setup, &found.labelling, options);
+  if (!hints.repair) options->stored.clear();
+  return found;
+}
+
+}  // namespace
+
+FoundLabels FindNames(const InputRequest& request, const Input& input,
+                      const ConverterConfig& config, Warnings* warnings) {
   LabelOptions options;
-  Labelling asked;
-  names.Give(&found.setup, &asked, &options);
-  if (!hints.repair) options.stored.clear();
-  found.labelling = LabelRecording(found.setup, asked.names, recording.markers, options, progress);
+  return FindNamesAndPerson(request, {}, input, config, &options, warnings);
+}
+
+FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
+                       const ConverterConfig& config, const std::function<bool(int, int)>& progress,
+                       Warnings* warnings) {
+  LabelOptions options;
+  FoundLabels found = FindNamesAndPerson(request, hints, input, config, &options, warnings);
+  const Recording& recording = input.recording;
+  found.labelling =
+      LabelRecording(found.setup, found.labelling.names, recording.markers, options, progress);
   const std::vector<std::string>& labels = recording.markers.labels();
   found.points = RelabelledPoints(found.labelling, labels, recording.markers.num_frames());
   found.changes = ChangesOf(found.labelling, labels);

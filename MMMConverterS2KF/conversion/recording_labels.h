@@ -42,6 +42,12 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
                        const ConverterConfig& config, const std::function<bool(int, int)>& progress,
                        Warnings* warnings);
 
+/// As FindLabels without hints, of points that are still to come: person, setup and the names
+/// (Labelling::names) alone.
+/// @throws Error
+FoundLabels FindNames(const InputRequest& request, const Input& input,
+                      const ConverterConfig& config, Warnings* warnings);
+
 /// What was asked for.
 struct LabelRequest {
   InputRequest input;

@@ -30,11 +30,17 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
   if (request.calibration_time > 0) config.subject_file.clear();
-  plan.setup =
-      MatchMarkers({head.markers.labels(), {}, head.file}, plan.input.reference, config, warnings);
+  const Recording& recording = plan.input.recording;
+  if (request.label) {
+    plan.labels = FindNames(request.input, plan.input, config, warnings);
+    plan.input.recording.markers =
+        MarkerSequence(plan.labels->labelling.names, 1, head.markers.rate(), 0);
+  }
+  plan.setup = MatchMarkers({recording.markers.labels(), {}, recording.file}, plan.input.reference,
+                            config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
-  plan.person = FindPerson(request.input.person, plan.setup, head, config, warnings);
+  plan.person = FindPerson(request.input.person, plan.setup, recording, config, warnings);
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   if (request.calibration_time > 0 && config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");

@@ -15,6 +15,7 @@ struct LiveRequest {
   InputRequest input;  ///< file: the source's address; person, model and markers as of a conversion
   ConverterRequest converter;
   bool loops = false;  ///< of a replay
+  bool label = false;  ///< points are named by the body, whatever the source calls them
   double calibration_time =
       0;  ///< seconds of moving about that the person is estimated from; 0: none
   std::string subject_output;             ///< also write the estimated subject

@@ -90,7 +90,7 @@ class LiveRun {
         observer_(observer),
         live_(Open(request, observer)),
         output_(request),
-        session_(request, live_.head, live_.selects_labels),
+        session_(request, live_.head, live_.selects_labels, live_.source->waits_for_reader()),
         mailbox_(live_.source->waits_for_reader()) {
     {
       // Threads of sinks begin with it.
@@ -167,10 +167,17 @@ class LiveRun {
       ~Closed() { box.Close(); }
     } const closed{mailbox_};
     std::shared_ptr<const StreamLayout> layout;
-    bool is_lost = false;
+    bool is_lost = false, has_broken = false;
     while (!is_ending_) {
       LaidOutFrame& slot = mailbox_.next();
-      switch (live_.source->Next(kWait, &slot.frame)) {
+      const StreamEvent event = live_.source->Next(kWait, &slot.frame);
+      if (!has_broken && live_.source->counts().broken > 0) {
+        has_broken = true;
+        news_.Add(
+            true,
+            "a message that is not as the protocol says was left out; others are only counted");
+      }
+      switch (event) {
         case StreamEvent::kFrame:
           slot.layout = layout;
           slot.counts = live_.source->counts();
@@ -211,6 +218,8 @@ class LiveRun {
         continue;
       }
       const int starts = session_.starts();
+      taken_ = steady_clock::now();
+      NameDropped(frame->frame.number);
       const PoseFrame& pose = session_.Take(*frame, mailbox_.dropped());
       for (std::string& text : session_.TakeNews()) news_.Add(false, std::move(text));
       report_.source = frame->layout->source;
@@ -245,11 +254,26 @@ class LiveRun {
     return frame != nullptr ? frame : mailbox_.Take(kWait);
   }
 
+  // Once a second at most, so that who drops many is not slowed down by saying so.
+  void NameDropped(std::int64_t number) {
+    const std::int64_t before = std::exchange(number_, number);
+    const std::int64_t dropped = mailbox_.dropped();
+    if (std::exchange(dropped_, dropped) != dropped) last_gap_ = {before, number};
+    const std::int64_t more = dropped - named_dropped_;
+    const auto now = steady_clock::now();
+    if (more == 0 || now < name_dropped_at_) return;
+    news_.Add(true, fmt::format("{} frame{} dropped for newer ones, the last between {} and {}",
+                                more, more == 1 ? "" : "s", last_gap_.first, last_gap_.second));
+    named_dropped_ = dropped;
+    name_dropped_at_ = now + std::chrono::seconds(1);
+  }
+
   void Give(const PoseFrame& pose) {
     const auto& body = session_.body();
     if (body != body_) TakeBody(body);
     if (pose.is_tracking) {
       ++report_.tracked;
+      report_.waits.Add(std::chrono::duration<double>(taken_ - pose.received).count());
       report_.delays.Add(std::chrono::duration<double>(pose.tracked - pose.received).count());
     }
     const bool may_wait = live_.source->waits_for_reader();
@@ -310,11 +334,15 @@ class LiveRun {
   FrameMailbox mailbox_;
   std::vector<std::unique_ptr<SinkRunner>> sinks_;
   std::shared_ptr<const LiveBody> body_;
-  int to_make_up_ = 0;   // frames
-  bool polls_ = false;   // for a frame that is due
-  double rate_ = 0;      // of the last frame's source
-  SteadyTime received_;  // the last frame
-  int journal_ = -1;     // of the sinks the motion that is being written
+  int to_make_up_ = 0;                              // frames
+  bool polls_ = false;                              // for a frame that is due
+  double rate_ = 0;                                 // of the last frame's source
+  SteadyTime received_, taken_;                     // the last frame
+  std::int64_t number_ = 0;                         // the last frame's
+  std::int64_t dropped_ = 0, named_dropped_ = 0;    // frames
+  std::pair<std::int64_t, std::int64_t> last_gap_;  // numbers before and after what was dropped
+  SteadyTime name_dropped_at_;                      // not before
+  int journal_ = -1;                                // of the sinks the motion that is being written
   LiveReport report_;
   std::mutex failures_mutex_;
   std::vector<std::string> failures_;  // of the sinks

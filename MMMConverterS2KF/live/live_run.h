@@ -33,6 +33,7 @@ struct LiveReport {
   std::int64_t tracked = 0;  ///< of them with a posture
   int starts = 0;            ///< how often a track began
   double seconds = 0;
+  LatencyHistogram waits;   ///< from received to taken by the tracking thread, of those tracked
   LatencyHistogram delays;  ///< from received to tracked
   std::vector<SinkReport> sinks;
   std::vector<ConversionReport> motions;  ///< that were written

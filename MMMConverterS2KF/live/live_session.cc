@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/io/recording/marker_labels.h"
+#include "common/live/any_processor.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 
@@ -48,10 +49,12 @@ const char* Describe(LiveStage stage) {
   return "";
 }
 
-LiveSession::LiveSession(const LiveRequest& request, Recording head, bool selects_labels)
+LiveSession::LiveSession(const LiveRequest& request, Recording head, bool selects_labels,
+                         bool waits)
     : request_(request),
       head_(std::move(head)),
       selects_labels_(selects_labels),
+      waits_(waits),
       calibration_time_(request.calibration_time) {}
 
 double LiveSession::gathered() const {
@@ -61,10 +64,11 @@ double LiveSession::gathered() const {
 std::vector<std::string> LiveSession::TakeNews() { return std::exchange(news_, {}); }
 
 void LiveSession::Begin(const StreamLayout& layout) {
-  std::vector<std::string> labels = layout.labels;
+  std::vector<std::string> labels;
+  if (!request_.label) labels = layout.labels;
   columns_.resize(labels.size());
   std::iota(columns_.begin(), columns_.end(), 0);
-  if (selects_labels_) {
+  if (selects_labels_ && !request_.label) {
     Warnings warnings;
     LabelSelection selection = SelectLabels(layout.labels, {}, {}, request_.input.reading.subject,
                                             layout.source, &warnings);
@@ -73,13 +77,16 @@ void LiveSession::Begin(const StreamLayout& layout) {
     labels = std::move(selection.labels);
     head_.subject = selection.subject;
   }
-  const bool is_same = body_ && labels == body_->labels && layout.rate == body_->rate;
+  const bool is_same =
+      body_ && (request_.label || labels == body_->labels) && layout.rate == body_->rate;
   if (is_same) {
     tracker_->Restart();
     return;
   }
-  Say(fmt::format("{}: {} labels{}", layout.source, labels.size(),
-                  layout.rate > 0 ? fmt::format(", {:g} Hz", layout.rate) : ""));
+  Say(fmt::format(
+      "{}: {}{}", layout.source,
+      request_.label ? "points are named by the body" : fmt::format("{} labels", labels.size()),
+      layout.rate > 0 ? fmt::format(", {:g} Hz", layout.rate) : ""));
   if (tracker_) starts_ += tracker_->starts();
   tracker_.reset();
   body_.reset();
@@ -90,7 +97,16 @@ void LiveSession::Begin(const StreamLayout& layout) {
   const auto count = static_cast<Eigen::Index>(labels.size());
   frame_.points.setConstant(3, count, kNaN);
   stage_ = LiveStage::kMeasuring;
-  TryToPlan(false);
+  TryToPlan(request_.label);
+}
+
+void LiveSession::NamePoints() {
+  // Summaries tell what was found in a whole recording.
+  labels_ = std::exchange(plan_->labels, std::nullopt);
+  const std::vector<std::string>& names = labels_->labelling.names;
+  gathered_ = MarkerSequence(names, 1, gathered_.rate(), 0);
+  frame_.points.setConstant(3, static_cast<Eigen::Index>(names.size()), kNaN);
+  labeller_ = std::make_unique<LiveLabeller>(labels_->setup, waits_);
 }
 
 bool LiveSession::TryToPlan(bool is_last_try) {
@@ -105,6 +121,7 @@ bool LiveSession::TryToPlan(bool is_last_try) {
   if (plan_->person.height_deviation > 0) {
     Say(fmt::format("height: {}", DescribeHeight(plan_->person)));
   }
+  if (plan_->labels) NamePoints();
   auto converter = MakeConverter(*plan_, plan_->setup);
   Use(plan_->setup, plan_->person.subject != nullptr, std::move(converter));
   if (calibration_time_ > 0 && !plan_->person.subject) {
@@ -136,6 +153,7 @@ void LiveSession::Calibrate() {
   stage_ = LiveStage::kCalibrating;
   Say(fmt::format("calibrating on {:.0f} s of movement", num_gathered_ / gathered_.rate()));
   calibrated_ = std::async(std::launch::async, [plan = *plan_, frames = gathered_] {
+    UseAnyProcessor();
     Calibrated calibrated{CalibrateLive(plan, frames), nullptr};
     calibrated.converter = MakeConverter(plan, calibrated.person.setup);
     return calibrated;
@@ -148,6 +166,10 @@ void LiveSession::TakeCalibration() {
     calibration_ = std::move(calibrated.person.result);
     plan_->person = std::move(calibrated.person.person);
     plan_->setup = calibrated.person.setup;
+    if (labeller_) {
+      labels_->setup.model = plan_->setup.model;
+      labeller_->Use(labels_->setup);
+    }
     for (const std::string& text : calibrated.person.warnings.texts()) Say(text);
     Say(fmt::format("calibrated: mean marker distance {:.1f} mm, before {:.1f} mm",
                     kMillimetres * calibration_->distance_after,
@@ -170,6 +192,7 @@ void LiveSession::TakeCalibration() {
 
 void LiveSession::TakePoints(const LaidOutFrame& frame) {
   frame_.time = frame.frame.time;
+  if (labeller_) labeller_->Name(frame.frame, &frame_.points);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     frame_.points.col(static_cast<Eigen::Index>(i)) = frame.frame.points.col(columns_[i]);
   }

@@ -10,6 +10,7 @@
 #include "MMMConverterS2KF/live/live_plan.h"
 #include "MMMConverterS2KF/live/live_request.h"
 #include "common/live/frame_mailbox.h"
+#include "common/live/live_labeller.h"
 #include "common/live/live_tracker.h"
 #include "common/live/pose_frame.h"
 
@@ -30,8 +31,9 @@ const char* Describe(LiveStage stage);
 class LiveSession {
  public:
   /// head: what is known of the stream beyond its frames. selects_labels: subject prefixes and
-  /// points without a label are to be taken off, as of a recording that is read.
-  LiveSession(const LiveRequest& request, Recording head, bool selects_labels);
+  /// points without a label are to be taken off, as of a recording that is read. waits: as of
+  /// LiveLabeller.
+  LiveSession(const LiveRequest& request, Recording head, bool selects_labels, bool waits);
 
   /// @throws Error where the labels or the person are not known; ends the session.
   const PoseFrame& Take(const LaidOutFrame& frame, std::int64_t dropped);
@@ -54,6 +56,7 @@ class LiveSession {
  private:
   void Begin(const StreamLayout& layout);
   bool TryToPlan(bool is_last_try);
+  void NamePoints();
   void Use(TrackingSetup setup, bool is_calibrated, std::unique_ptr<MotionConverter> converter);
   void TakePoints(const LaidOutFrame& frame);
   void Track();
@@ -65,13 +68,15 @@ class LiveSession {
 
   LiveRequest request_;
   Recording head_;
-  bool selects_labels_;
+  bool selects_labels_, waits_;
   std::shared_ptr<const StreamLayout> layout_;
   std::vector<int> columns_;  // of the layout's labels those that count
   std::optional<ConversionPlan> plan_;
   std::shared_ptr<const LiveBody> body_;
   std::unique_ptr<LiveTracker> tracker_;
-  StreamFrame frame_;  // the columns that count
+  std::optional<FoundLabels> labels_;       // the plan's; nothing: labels are the source's
+  std::unique_ptr<LiveLabeller> labeller_;  // of these
+  StreamFrame frame_;                       // the columns that count
   PoseFrame pose_;
   LiveStage stage_ = LiveStage::kMeasuring;
   int starts_ = 0;  // of trackers before

@@ -15,7 +15,9 @@ constexpr std::string_view kReplay = "replay:";
 LiveSource OpenRecording(const LiveRequest& request, Warnings* warnings) {
   const ReplayAddress address = ParseReplayAddress(request.input.file.substr(kReplay.size()));
   LiveSource live;
-  live.head = ReadRecording(address.file, request.input.reading, warnings);
+  ReadRecordingOptions reading = request.input.reading;
+  reading.with_unlabelled = request.label;
+  live.head = ReadRecording(address.file, reading, warnings);
   live.head.format = "replay";
   if (live.head.mmm) live.head.mmm->num_motions = 1;
   MarkerSequence markers = std::move(live.head.markers);
@@ -39,7 +41,7 @@ LiveSource OpenLiveSource(const LiveRequest& request, Warnings* warnings) {
   live.head.file = address;
   live.head.format = "live stream";
   live.head.unit = "m";
-  live.source = OpenSource(address);
+  live.source = OpenSource(address, !request.label);
   live.selects_labels = true;
   return live;
 }

@@ -36,7 +36,8 @@ std::string FormatSummary(const LiveReport& report) {
       "part{}\n",
       report.frames, report.seconds, report.dropped, report.tracked, report.starts,
       report.starts == 1 ? "" : "s");
-  text += fmt::format("delay      received to tracked: {}\n", DescribeDelays(report.delays));
+  text += fmt::format("delay      received to taken: {}\n", DescribeDelays(report.waits));
+  text += fmt::format("           received to tracked: {}\n", DescribeDelays(report.delays));
   for (const SinkReport& sink : report.sinks) {
     text += fmt::format("sent       {}: {} frames, {} lost; received to sent: {}{}\n", sink.name,
                         sink.written, sink.lost, DescribeDelays(sink.delays),
@@ -66,6 +67,7 @@ Json ToJson(const LiveReport& report) {
           {"tracked", report.tracked},
           {"parts", report.starts},
           {"seconds", Number(report.seconds, 3)},
+          {"received_to_taken", DelaysJson(report.waits)},
           {"received_to_tracked", DelaysJson(report.delays)},
           {"sinks", sinks},
           {"motions", motions}};

@@ -76,9 +76,7 @@ LivePage OpenLivePage(const std::string& at, const std::string& title) {
   const std::string path = "/" + MakeToken() + "/";
   auto sink = std::make_unique<WebSink>(
       "--view", WebServerOptions{host, address.port.value_or(0), path, MakePage(title)}, false);
-  const bool is_v6 = host.find(':') != std::string::npos;
-  const std::string where =
-      fmt::format("http://{}:{}{}", is_v6 ? "[" + host + "]" : host, sink->port(), path);
+  const std::string where = fmt::format("http://{}:{}{}", InAddress(host), sink->port(), path);
   return {std::move(sink), where};
 }
 

@@ -19,12 +19,19 @@ struct StreamLayout {
 };
 
 struct StreamFrame {
-  std::int64_t number = 0;  ///< the source's own
-  double time = 0;          ///< by the source's clock [s]
-  SteadyTime received;      ///< when its last byte was there
-  Eigen::Matrix3Xd points;  ///< 3 x labels [m], z up; NaN: not seen
-  int unnamed = 0;          ///< points that the source has no name for
+  std::int64_t number = 0;          ///< the source's own
+  double time = 0;                  ///< by the source's clock [s]
+  SteadyTime received;              ///< when its last byte was there
+  Eigen::Matrix3Xd points;          ///< 3 x labels [m], z up; NaN: not seen
+  int unnamed = 0;                  ///< points that the source has no name for
+  Eigen::Matrix3Xd unnamed_points;  ///< 3 x at least as many [m], z up: these come first
 };
+
+/// Of a frame; there may be noise of a hall full of reflections, and hostile servers.
+inline constexpr int kMostUnnamed = 1000;
+
+/// Makes room for so many points without a name, at most kMostUnnamed; memory is used again.
+void SetUnnamed(std::size_t count, StreamFrame* frame);
 
 /// What a source counts while it runs.
 struct StreamCounts {
@@ -51,7 +58,7 @@ class FrameSource {
   /// with growing waits between), and reads. *frame is filled with kFrame only; once it has its
   /// size nothing is allocated.
   /// @throws Error for what waiting does not mend: an address without a server at the first
-  /// attempt, a refused version or password, a stream without labelled points.
+  /// attempt, a refused version or password, a stream without labels where these are needed.
   virtual StreamEvent Next(std::chrono::milliseconds wait, StreamFrame* frame) = 0;
 
   /// Valid from the first kLayout on.

@@ -20,7 +20,7 @@ struct SourceKind {
   const char* scheme;
   const char* form;
   const char* description;
-  std::unique_ptr<FrameSource> (*open)(const StreamAddress& address);
+  std::unique_ptr<FrameSource> (*open)(const StreamAddress& address, bool needs_labels);
 };
 
 constexpr std::string_view kReplay = "replay:";
@@ -35,7 +35,7 @@ constexpr std::array kSourceKinds = {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> OpenSource(const std::string& address) {
+std::unique_ptr<FrameSource> OpenSource(const std::string& address, bool needs_labels) {
   if (address.starts_with(kReplay)) return OpenReplay(address.substr(kReplay.size()));
   std::vector<std::string> forms = {kReplayForm};
   for (const SourceKind& kind : kSourceKinds) forms.emplace_back(kind.form);
@@ -44,7 +44,7 @@ std::unique_ptr<FrameSource> OpenSource(const std::string& address) {
   }
   const StreamAddress parsed = ParseStreamAddress(address);
   for (const SourceKind& kind : kSourceKinds) {
-    if (parsed.scheme == kind.scheme) return kind.open(parsed);
+    if (parsed.scheme == kind.scheme) return kind.open(parsed, needs_labels);
   }
   throw Error(fmt::format("{}: there is no source of the kind \"{}\"; use {}", address,
                           parsed.scheme, JoinNames(forms)));

@@ -88,4 +88,8 @@ StreamAddress ParseStreamAddress(const std::string& text) {
   return address;
 }
 
+std::string InAddress(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
 }  // namespace mmm_converter

@@ -28,4 +28,7 @@ struct StreamAddress {
 /// @throws Error naming the address and what is wrong; also what StreamAddress throws.
 StreamAddress ParseStreamAddress(const std::string& text);
 
+/// A host as it stands in an address: IPv6 in brackets.
+std::string InAddress(const std::string& host);
+
 }  // namespace mmm_converter

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "common/io/c3d/c3d_writer.h"
 #include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 
@@ -108,6 +112,48 @@ TEST(Live, CalibratesWhileThePersonMoves) {
   ASSERT_EQ(program.Wait(), 0) << program.Said();
   EXPECT_THAT(ReadText(folder + "/anna.xml"), HasSubstr("<Subject"));
   EXPECT_THAT(ReadText(folder + "/a.xml"), HasSubstr("those of the subject"));
+}
+
+// The sample's points in the opposite order, without their labels.
+std::string UnlabelledHandstand() {
+  const MarkerSequence labelled = ReadRecording(Handstand(), {}).markers;
+  std::vector<std::string> labels;
+  for (int i = 0; i < labelled.num_labels(); ++i) labels.push_back(fmt::format("*{}", i + 1));
+  MarkerSequence points(labels, labelled.num_frames(), labelled.rate(), labelled.first_time());
+  for (int k = 0; k < points.num_frames(); ++k) {
+    points.frame(k) = labelled.frame(k).rowwise().reverse();
+  }
+  std::string file = TestFolder() + "/unlabelled.c3d";
+  WriteC3d(file, points, {});
+  return file;
+}
+
+TEST(Live, PointsWithoutLabelsAreNamedByTheBody) {
+  const std::string folder = TestFolder();
+  const std::string source = "replay:" + UnlabelledHandstand() + "@max";
+  const std::string motion = folder + "/a.xml";
+  EXPECT_EQ(RunProgram({"live", source, "--height", "1.8", "-o", motion}).exit_code, 1);
+  std::vector<std::string> texts;
+  for (int i = 0; i < 2; ++i) {
+    const auto run = RunProgram({"live", source, "--label", "--height", "1.8", "-o", motion});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("points are named by the body"));
+    texts.push_back(ReadText(motion));
+  }
+  EXPECT_TRUE(texts[0] == texts[1]);
+  const auto convert =
+      RunProgram({"convert", Handstand(), "--height", "1.8", "-o", folder + "/c.xml"});
+  ASSERT_EQ(convert.exit_code, 0) << convert.err;
+  const PoseTrajectory found = ReadMmmMotionFile(motion).motions.front().trajectory;
+  const PoseTrajectory known = ReadMmmMotionFile(folder + "/c.xml").motions.front().trajectory;
+  // The first frame is searched, what follows has names.
+  ASSERT_EQ(found.num_frames(), known.num_frames() - 1);
+  std::vector<double> distances;
+  for (int k = 0; k < found.num_frames(); ++k) {
+    distances.push_back((found.postures[k].position - known.postures[k + 1].position).norm());
+  }
+  std::sort(distances.begin(), distances.end());
+  EXPECT_LT(distances[distances.size() * 95 / 100], 0.02);
 }
 
 // The journal of a stream that a killed process left.

@@ -42,11 +42,12 @@ class MvnSink : public PoseSink {
     if (body != body_) {
       mvn_body_.emplace(*body->setup.model);
       body_ = body;
-      if (sample_ == 0) first_time_ = frame.time;
+      if (!first_time_) first_time_ = frame.time;
     }
-    const double milliseconds = std::fmod(1000 * (frame.time - first_time_), 4294967296.0);
+    const double milliseconds = std::fmod(1000 * (frame.time - *first_time_), 4294967296.0);
     const std::string packet =
-        FormatMvnPacket(sample_++, static_cast<std::uint32_t>(std::max(0.0, milliseconds)),
+        FormatMvnPacket(static_cast<std::uint32_t>(frame.number),
+                        static_cast<std::uint32_t>(std::max(0.0, milliseconds)),
                         mvn_body_->Poses(*body->setup.model, frame.estimate.posture));
     // Nobody has to listen: what can't be sent now is lost, as UDP is.
     boost::system::error_code lost;
@@ -60,8 +61,7 @@ class MvnSink : public PoseSink {
   udp::endpoint target_;
   std::shared_ptr<const LiveBody> body_;
   std::optional<MvnBody> mvn_body_;
-  std::uint32_t sample_ = 0;
-  double first_time_ = 0;
+  std::optional<double> first_time_;
 };
 
 }  // namespace

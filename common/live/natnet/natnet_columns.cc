@@ -124,13 +124,19 @@ void NatNetColumns::FillSets(const NatNetFrame& frame, Eigen::Matrix3Xd* points)
   }
 }
 
-NatNetColumns::Rest NatNetColumns::Fill(const NatNetFrame& frame, Eigen::Matrix3Xd* points) const {
+NatNetColumns::Rest NatNetColumns::Fill(const NatNetFrame& frame, Eigen::Matrix3Xd* points,
+                                        std::vector<Eigen::Vector3d>* unnamed) const {
   Rest rest;
+  if (unnamed != nullptr) unnamed->clear();
+  const auto leave = [&](const std::array<float, 3>& position, bool is_missing) {
+    ++rest.unnamed;
+    if (unnamed != nullptr && !is_missing) unnamed->push_back(ToVector(position));
+  };
   points->resize(3, static_cast<Eigen::Index>(labels_.size()));
   points->setConstant(kNaN);
   FillSets(frame, points);
   if (!has_member_ids_) {
-    rest.unnamed = static_cast<int>(frame.other_markers.size());
+    for (const auto& position : frame.other_markers) leave(position, false);
     return rest;
   }
   const auto fill = [&](std::int32_t asset, const NatNetMarker& marker) {
@@ -147,9 +153,9 @@ NatNetColumns::Rest NatNetColumns::Fill(const NatNetFrame& frame, Eigen::Matrix3
   for (const NatNetMarker& marker : frame.markers) {
     const std::int32_t asset = (marker.id >> 16) & kLowWord;
     if (asset == 0 || (marker.parameters & kNatNetUnlabelled) != 0) {
-      ++rest.unnamed;
+      leave(marker.position, IsMissing(marker));
     } else if (!fill(asset, marker)) {
-      ++rest.unnamed;
+      leave(marker.position, IsMissing(marker));
       rest.has_new_asset = true;
     }
   }

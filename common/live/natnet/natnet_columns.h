@@ -28,8 +28,10 @@ class NatNetColumns {
     bool has_new_asset = false;  ///< some are of an asset that the model does not have
   };
   /// *points: 3 x labels [m], in the axes of the stream; NaN where a marker is not seen, also where
-  /// the server has filled it from its model of the asset.
-  Rest Fill(const NatNetFrame& frame, Eigen::Matrix3Xd* points) const;
+  /// the server has filled it from its model of the asset. *unnamed: the points without a column
+  /// that are measured; may be null.
+  Rest Fill(const NatNetFrame& frame, Eigen::Matrix3Xd* points,
+            std::vector<Eigen::Vector3d>* unnamed = nullptr) const;
 
  private:
   struct Group {

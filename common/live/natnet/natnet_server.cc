@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::int32_t kAssetId = 1;
 constexpr std::uint64_t kTicksPerSecond = 10000000;
-constexpr float kMarkerSize = 0.014F;  // [m]
+constexpr float kMarkerSize = 0.014F;          // [m]
+constexpr std::int32_t kFirstCloudId = 50001;  // as Motive counts points without a label
 constexpr std::chrono::seconds kForgetAfter{10};
 constexpr const char* kAllMarkers = "all";
 
@@ -49,12 +50,29 @@ void AddAsset(const NatNetVersion& version, NatNetModel* model) {
   model->assets = {std::move(asset)};
 }
 
+std::array<float, 3> ToFloats(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+}
+
+/// Points without a label stand among the labelled ones as well, where these tell what they are.
+void AddOthers(const NatNetVersion& version, NatNetFrame* frame) {
+  if (version < kNatNetWithMemberIds) return;
+  std::int32_t id = kFirstCloudId;
+  for (const auto& position : frame->other_markers) {
+    const bool can_be_told = version >= kNatNet3;
+    frame->markers.push_back(
+        {id++, position, kMarkerSize,
+         static_cast<std::int16_t>(kNatNetSolved | (can_be_told ? kNatNetUnlabelled : 0)), 0});
+  }
+}
+
 }  // namespace
 
 NatNetServer::NatNetServer(MarkerSequence recording, NatNetServerOptions options)
     : options_(std::move(options)),
       recording_(std::move(recording)),
-      model_(MakeModel(options_.asset, recording_.labels())),
+      columns_(recording_.labels()),
+      model_(MakeModel(options_.asset, columns_.labels)),
       rotation_(RotationToZUp(options_.up_axis).transpose()),
       playback_(recording_.num_frames(), recording_.rate(), options_.playback),
       command_(options_.address, options_.command_port) {
@@ -72,7 +90,14 @@ NatNetServer::NatNetServer(MarkerSequence recording, NatNetServerOptions options
 NatNetServer::~NatNetServer() { Shutdown(); }
 
 void NatNetServer::CheckSize() {
-  if (recording_.num_frames() > 0) MakeFrame(0);
+  Eigen::Index most_seen = -1;
+  int fullest = 0;
+  for (int k = 0; k < recording_.num_frames(); ++k) {
+    const Eigen::Index seen = recording_.frame(k).row(0).array().isFinite().count();
+    if (seen > most_seen) fullest = k;
+    most_seen = std::max(most_seen, seen);
+  }
+  if (recording_.num_frames() > 0) MakeFrame(fullest);
   const std::string& bytes = FrameMessage(kNewestNatNet);
   NatNetModel model = model_;
   AddAsset(kNewestNatNet, &model);
@@ -126,16 +151,18 @@ void NatNetServer::MakeFrame(std::int64_t number) {
   frame_.markers.clear();
   NatNetFrameMarkerSet& set = frame_.marker_sets[0];
   set.name = options_.asset;
-  set.positions.assign(static_cast<std::size_t>(points.cols()), {});
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3d p = rotation_ * points.col(i);
+  set.positions.assign(columns_.labelled.size(), {});
+  for (std::size_t i = 0; i < columns_.labelled.size(); ++i) {
+    const Eigen::Vector3d p = rotation_ * points.col(columns_.labelled[i]);
     if (!IsSeen(p)) continue;
-    auto& position = set.positions[static_cast<std::size_t>(i)];
-    for (int axis = 0; axis < 3; ++axis) {
-      position[static_cast<std::size_t>(axis)] = static_cast<float>(p[axis]);
-    }
-    frame_.markers.push_back({kAssetId << 16 | static_cast<std::int32_t>(i + 1), position,
+    set.positions[i] = ToFloats(p);
+    frame_.markers.push_back({kAssetId << 16 | static_cast<std::int32_t>(i + 1), set.positions[i],
                               kMarkerSize, kNatNetSolved | kNatNetHasModel, 0});
+  }
+  frame_.other_markers.clear();
+  for (const Eigen::Index column : columns_.unlabelled) {
+    const Eigen::Vector3d p = rotation_ * points.col(column);
+    if (IsSeen(p)) frame_.other_markers.push_back(ToFloats(p));
   }
   frame_.marker_sets[1] = {kAllMarkers, set.positions};
   frame_.exposed = frame_.received = frame_.sent = Ticks();
@@ -157,6 +184,7 @@ const std::string& NatNetServer::FrameMessage(const NatNetVersion& version) {
   if (version < kNatNetWithMemberIds) {
     for (NatNetMarker& marker : frame.markers) marker.id &= 0xFFFF;
   }
+  AddOthers(version, &frame);
   std::string payload;
   AppendNatNetFrame(frame, version, &payload);
   return text = FormatNatNetMessage(NatNetId::kFrame, payload);
@@ -293,7 +321,8 @@ void NatNetServer::SendServerInfo(const UdpAddress& to) {
 void NatNetServer::Replace(MarkerSequence recording) {
   const bool was_running = playback_.is_running();
   recording_ = std::move(recording);
-  model_ = MakeModel(options_.asset, recording_.labels());
+  columns_ = PlayedColumns(recording_.labels());
+  model_ = MakeModel(options_.asset, columns_.labels);
   playback_ = Playback(recording_.num_frames(), recording_.rate(), options_.playback);
   CheckSize();
   if (was_running) playback_.Start();

@@ -14,6 +14,7 @@
 #include "common/live/natnet/natnet_model.h"
 #include "common/live/net/udp_socket.h"
 #include "common/live/playback/playback.h"
+#include "common/live/playback/played_columns.h"
 #include "common/math/up_axis.h"
 #include "common/motion/marker_sequence.h"
 
@@ -82,6 +83,7 @@ class NatNetServer {
 
   NatNetServerOptions options_;
   MarkerSequence recording_;
+  PlayedColumns columns_;  // of it
   NatNetModel model_;
   Eigen::Matrix3d rotation_;  // z up to the stream's axes
   Playback playback_;

@@ -165,9 +165,10 @@ void NatNetSource::OpenData() {
   }
 }
 
-std::unique_ptr<FrameSource> OpenNatNetSource(const StreamAddress& address) {
+std::unique_ptr<FrameSource> OpenNatNetSource(const StreamAddress& address, bool needs_labels) {
   address.AllowOnly({"multicast", "data", "local", "up"});
   NatNetSourceOptions options;
+  options.needs_labels = needs_labels;
   options.host = address.host;
   options.command_port = address.port.value_or(options.command_port);
   options.data_port = address.GetPort("data");

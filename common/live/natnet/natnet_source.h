@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/live/connected_source.h"
 #include "common/live/natnet/natnet_columns.h"
@@ -24,6 +25,7 @@ struct NatNetSourceOptions {
   std::optional<int> data_port;  ///< nothing: as the server says (from 3.0 on), or 1511
   std::string local_address;     ///< of the interface; empty: the one towards the server
   UpAxis up_axis = UpAxis::kY;   ///< in the stream, which does not say it
+  bool needs_labels = true;      ///< a system that has none is an error
   std::function<SteadyTime()> now = [] { return std::chrono::steady_clock::now(); };
 };
 
@@ -77,11 +79,13 @@ class NatNetSource : public ConnectedSource {
   double rate_ = 0;
 
   NatNetFrame frame_;
+  std::vector<Eigen::Vector3d> unnamed_;  // points of it
   SteadyTime received_;
 };
 
 /// natnet://HOST[:COMMAND PORT] with ?multicast=GROUP, ?data=PORT, ?local=ADDRESS, ?up=z.
 /// @throws Error
-std::unique_ptr<FrameSource> OpenNatNetSource(const StreamAddress& address);
+std::unique_ptr<FrameSource> OpenNatNetSource(const StreamAddress& address,
+                                              bool needs_labels = true);
 
 }  // namespace mmm_converter

@@ -81,10 +81,10 @@ void NatNetSource::AskForModel() {
 
 NatNetSource::Event NatNetSource::HandleModel(std::string_view payload) {
   NatNetColumns columns(ParseNatNetModel(payload, info_.version), info_.version);
-  if (columns.labels().empty()) {
+  if (columns.labels().empty() && options_.needs_labels) {
     return Lose("it streams no named markers",
                 "in Motive, make or enable an asset of the markers, and turn on that labeled "
-                "markers and marker sets are streamed");
+                "markers and marker sets are streamed; or have the points named by the body");
   }
   columns_ = std::move(columns);
   has_model_ = true;
@@ -133,12 +133,15 @@ NatNetSource::Event NatNetSource::FillFrame(StreamFrame* frame) {
     frame->time = rate_ > 0 ? frame_.number / rate_ : frame_.latency;
   }
   frame->received = received_;
-  const NatNetColumns::Rest rest = columns_.Fill(frame_, &frame->points);
-  frame->unnamed = rest.unnamed;
+  const NatNetColumns::Rest rest = columns_.Fill(frame_, &frame->points, &unnamed_);
   if (rest.has_new_asset) AskForModel();
   for (Eigen::Index i = 0; i < frame->points.cols(); ++i) {
     const Eigen::Vector3d p = frame->points.col(i);
     frame->points.col(i).noalias() = rotation_ * p;
+  }
+  SetUnnamed(unnamed_.size(), frame);
+  for (int i = 0; i < frame->unnamed; ++i) {
+    frame->unnamed_points.col(i).noalias() = rotation_ * unnamed_[static_cast<std::size_t>(i)];
   }
   return CountFrame(frame->number);
 }

@@ -25,6 +25,7 @@ constexpr std::size_t kMostDatagramBytes = 65507;
 QtmServer::QtmServer(MarkerSequence recording, QtmServerOptions options)
     : options_(std::move(options)),
       recording_(std::move(recording)),
+      columns_(recording_.labels()),
       rotation_(RotationToZUp(options_.up_axis).transpose() * kMillimetres),
       playback_(recording_.num_frames(), recording_.rate(), options_.playback),
       listener_(options_.address, options_.port) {
@@ -143,14 +144,25 @@ void QtmServer::MakeData(std::int64_t number) {
   data_.camera_time = static_cast<std::uint64_t>(
       std::llround(static_cast<double>(number) / recording_.rate() * 1e6));
   const auto points = recording_.frame(playback_.FrameOf(number));
-  data_.labelled.resize(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    QtmPoint& point = data_.labelled[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d p = rotation_ * points.col(i);
-    for (int axis = 0; axis < 3; ++axis) {
-      point.position[axis] = static_cast<float>(IsSeen(p) ? p[axis] : kNaN);
-    }
+  data_.labelled.clear();
+  for (const Eigen::Index column : columns_.labelled) {
+    data_.labelled.push_back(ToPoint(points.col(column)));
   }
+  data_.unlabelled.clear();
+  for (const Eigen::Index column : columns_.unlabelled) {
+    if (!IsSeen(points.col(column))) continue;
+    data_.unlabelled.push_back(ToPoint(points.col(column)));
+    data_.unlabelled.back().id = static_cast<std::uint32_t>(column + 1);
+  }
+}
+
+QtmPoint QtmServer::ToPoint(const Eigen::Vector3d& p_WM) const {
+  QtmPoint point;
+  const Eigen::Vector3d p = rotation_ * p_WM;
+  for (int axis = 0; axis < 3; ++axis) {
+    point.position[axis] = static_cast<float>(IsSeen(p) ? p[axis] : kNaN);
+  }
+  return point;
 }
 
 void QtmServer::SendFrame(Session* session, const std::vector<QtmComponent>& components) {
@@ -179,6 +191,7 @@ void QtmServer::Tell(QtmEvent event) {
 void QtmServer::Replace(MarkerSequence recording) {
   const bool was_running = playback_.is_running();
   recording_ = std::move(recording);
+  columns_ = PlayedColumns(recording_.labels());
   playback_ = Playback(recording_.num_frames(), recording_.rate(), options_.playback);
   current_.reset();
   if (was_running) playback_.Start();

@@ -12,6 +12,7 @@
 #include "common/live/net/tcp_connection.h"
 #include "common/live/net/udp_socket.h"
 #include "common/live/playback/playback.h"
+#include "common/live/playback/played_columns.h"
 #include "common/live/qtm/qtm_commands.h"
 #include "common/live/qtm/qtm_connection.h"
 #include "common/live/qtm/qtm_data.h"
@@ -78,11 +79,13 @@ class QtmServer {
   void Play();
   void SendFrame(Session* session, const std::vector<QtmComponent>& components);
   void MakeData(std::int64_t number);
+  QtmPoint ToPoint(const Eigen::Vector3d& p_WM) const;
   void Tell(QtmEvent event);
   void Flush();
 
   QtmServerOptions options_;
   MarkerSequence recording_;
+  PlayedColumns columns_;     // of it
   Eigen::Matrix3d rotation_;  // m, z up to mm in the lab's axes
   Playback playback_;
   TcpListener listener_;

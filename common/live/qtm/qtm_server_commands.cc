@@ -112,7 +112,7 @@ void QtmServer::SendParameters(Session* session, const std::vector<std::string>&
   parameters.capture_time = recording_.num_frames() / recording_.rate();
   parameters.up_axis = options_.up_axis;
   parameters.calibration_time = "2000-01-01 00:00:00";
-  parameters.labels = recording_.labels();
+  parameters.labels = columns_.labels;
   AppendQtmText(QtmPacketType::kXml, FormatQtmParameters(parameters, *choice, session->minor),
                 session->connection.out());
 }

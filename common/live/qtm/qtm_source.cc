@@ -43,8 +43,9 @@ void QtmSource::Go(Step step, milliseconds limit) {
 }
 
 std::string QtmSource::Server() const {
-  return options_.host.empty() ? "qtm://"
-                               : fmt::format("QTM at {}:{}", options_.host, options_.port);
+  return options_.host.empty()
+             ? "qtm://"
+             : fmt::format("QTM at {}:{}", InAddress(options_.host), options_.port);
 }
 
 QtmSource::Event QtmSource::Advance(StreamFrame* frame) {
@@ -80,7 +81,6 @@ QtmSource::Event QtmSource::CheckTime() {
     return Lose(connection_.tcp().failure());
   }
   if (step_ == Step::kConnecting && !connection_.tcp().is_connecting()) {
-    CountConnection();
     Go(Step::kGreeting, kAnswerLimit);
   }
   if (now() < limit_ || (is_paused_ && !awaits_parameters_)) return std::nullopt;
@@ -163,23 +163,30 @@ QtmSource::Event QtmSource::FillFrame(StreamFrame* frame) {
   frame->time = layout().rate > 0 ? data_.frame / layout().rate
                                   : static_cast<double>(data_.camera_time) * 1e-6;
   frame->received = received_;
-  frame->unnamed = static_cast<int>(data_.unlabelled.size());
   frame->points.resize(3, static_cast<Eigen::Index>(data_.labelled.size()));
-  for (Eigen::Index i = 0; i < frame->points.cols(); ++i) {
-    const float* p = data_.labelled[static_cast<std::size_t>(i)].position;
-    const Eigen::Vector3d lab(p[0], p[1], p[2]);
-    if (lab.allFinite()) {
-      frame->points.col(i).noalias() = rotation_ * lab;
-    } else {
-      frame->points.col(i).setConstant(kNaN);
-    }
-  }
+  FillPoints(data_.labelled, frame->points);
+  SetUnnamed(data_.unlabelled.size(), frame);
+  FillPoints(data_.unlabelled, frame->unnamed_points.leftCols(frame->unnamed));
   return CountFrame(frame->number);
 }
 
-std::unique_ptr<FrameSource> OpenQtmSource(const StreamAddress& address) {
+void QtmSource::FillPoints(const std::vector<QtmPoint>& from,
+                           Eigen::Ref<Eigen::Matrix3Xd> to) const {
+  for (Eigen::Index i = 0; i < to.cols(); ++i) {
+    const float* p = from[static_cast<std::size_t>(i)].position;
+    const Eigen::Vector3d lab(p[0], p[1], p[2]);
+    if (lab.allFinite()) {
+      to.col(i).noalias() = rotation_ * lab;
+    } else {
+      to.col(i).setConstant(kNaN);
+    }
+  }
+}
+
+std::unique_ptr<FrameSource> OpenQtmSource(const StreamAddress& address, bool needs_labels) {
   address.AllowOnly({"version", "udp", "discovery"});
   QtmSourceOptions options;
+  options.needs_labels = needs_labels;
   options.host = address.host;
   options.port = address.port.value_or(options.port);
   options.udp = address.GetSwitch("udp");

@@ -26,6 +26,7 @@ struct QtmSourceOptions {
   int newest_minor = 25;
   bool udp = false;  ///< data by UDP, which may lose some, instead of TCP
   int discovery_port = kQtmDiscoveryPort;
+  bool needs_labels = true;  ///< a system that has none is an error
   std::function<SteadyTime()> now = [] { return std::chrono::steady_clock::now(); };
 };
 
@@ -50,6 +51,7 @@ class QtmSource : public ConnectedSource {
   Event Connect() override;
   Event Advance(StreamFrame* frame) override;
   Event FillFrame(StreamFrame* frame) override;
+  void FillPoints(const std::vector<QtmPoint>& from, Eigen::Ref<Eigen::Matrix3Xd> to) const;
   void Wait(std::chrono::nanoseconds most) override;
   void Disconnect() override;
   std::string Server() const override;
@@ -93,6 +95,6 @@ class QtmSource : public ConnectedSource {
 };
 
 /// qtm://HOST[:PORT] with ?version=1.19, ?udp=yes, ?discovery=PORT. @throws Error
-std::unique_ptr<FrameSource> OpenQtmSource(const StreamAddress& address);
+std::unique_ptr<FrameSource> OpenQtmSource(const StreamAddress& address, bool needs_labels = true);
 
 }  // namespace mmm_converter

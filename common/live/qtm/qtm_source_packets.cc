@@ -60,6 +60,7 @@ QtmSource::Event QtmSource::HandleText(const QtmPacket& packet) {
         return Lose(fmt::format("it says \"{}\", which QTM does not", text.substr(0, 60)),
                     "check the port");
       }
+      CountConnection();
       connection_.SendCommand(fmt::format("Version 1.{}", minor_));
       Go(Step::kVersion, kAnswerLimit);
       return std::nullopt;
@@ -169,9 +170,11 @@ QtmSource::Event QtmSource::HandleParameters(const QtmPacket& packet) {
   if (parameters_.calibration_time && Trim(*parameters_.calibration_time).empty()) {
     return Lose("it is not calibrated, so that it knows no positions", "calibrate it in QTM");
   }
-  if (parameters_.labels.empty()) {
-    return Lose("it has no labelled markers",
-                "label the markers in QTM, or apply an AIM model, in real time too");
+  if (parameters_.labels.empty() && options_.needs_labels) {
+    return Lose(
+        "it has no labelled markers",
+        "label the markers in QTM, or apply an AIM model, in real time too; or have the points "
+        "named by the body");
   }
   rotation_ = RotationToZUp(parameters_.up_axis) / kMillimetres;
   const Event event = TakeLayout(

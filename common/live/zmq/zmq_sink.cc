@@ -24,15 +24,15 @@ class ZmqSink : public PoseSink {
     const StreamAddress at = ParseStreamAddress(address);
     at.AllowOnly({});
     const std::string host = at.HostOr("127.0.0.1");
-    const bool is_v6 = host.find(':') != std::string::npos;
     try {
       socket_.set(zmq::sockopt::sndhwm, kMostWaiting);
       socket_.set(zmq::sockopt::linger, 0);
-      if (is_v6) socket_.set(zmq::sockopt::ipv6, true);
-      socket_.bind(
-          fmt::format("tcp://{}:{}", is_v6 ? "[" + host + "]" : host, at.port.value_or(kZmqPort)));
+      socket_.set(zmq::sockopt::ipv6, host.find(':') != std::string::npos);
+      socket_.bind(fmt::format("tcp://{}:{}", InAddress(host), at.port.value_or(kZmqPort)));
     } catch (const zmq::error_t& error) {
-      throw Error(fmt::format("{}: can't publish there: {}", address, error.what()));
+      throw Error(fmt::format(
+          "{}: can't publish there: {}; choose another port or an address of this computer",
+          address, error.what()));
     }
   }
 

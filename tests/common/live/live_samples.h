@@ -65,6 +65,30 @@ StreamEvent NextOf(FrameSource* source, Server* server, StreamFrame* frame) {
   return event;
 }
 
+/// The recording has points without a label; takes its layout and frames, and expects them.
+template <typename Server>
+void ExpectUnlabelled(FrameSource* source, Server* server, const MarkerSequence& recording,
+                      const std::vector<std::string>& labels) {
+  StreamFrame frame;
+  ASSERT_EQ(NextOf(source, server, &frame), StreamEvent::kLayout);
+  EXPECT_EQ(source->layout().labels, labels);
+  int frames = 0;
+  for (; NextOf(source, server, &frame) == StreamEvent::kFrame; ++frames) {
+    const auto expected = recording.frame(static_cast<int>(frame.number - 1));
+    int column = 0, unlabelled = 0;
+    for (Eigen::Index i = 0; i < expected.cols(); ++i) {
+      const bool has_label = recording.labels()[static_cast<std::size_t>(i)][0] != '*';
+      if (!has_label && !IsSeen(expected.col(i))) continue;
+      if (!has_label) ASSERT_LT(unlabelled, frame.unnamed) << frame.number;
+      const Eigen::Vector3d p =
+          has_label ? frame.points.col(column++) : frame.unnamed_points.col(unlabelled++);
+      EXPECT_LT((p - expected.col(i)).norm(), 1e-6) << frame.number << " " << i;  // floats
+    }
+    EXPECT_EQ(frame.unnamed, unlabelled);
+  }
+  EXPECT_GT(frames, 0);
+}
+
 /// Takes the layout and all frames of the recording.
 template <typename Server>
 void ExpectRecording(FrameSource* source, Server* server, const MarkerSequence& recording) {

@@ -64,6 +64,31 @@ TEST(NatNetStream, EveryVersion) {
   }
 }
 
+TEST(NatNetStream, PointsWithoutLabels) {
+  const MarkerSequence recording = SampleRecording({"A", "*7", "C", "*9"});
+  for (const NatNetVersion& version : kNatNetVersions) {
+    SCOPED_TRACE(Format(version));
+    NatNetServer server(recording, FastNatNet(version));
+    NatNetSource source(To(server));
+    ExpectUnlabelled(&source, &server, recording, {"A", "C"});
+  }
+}
+
+TEST(NatNetStream, NoLabelsAtAll) {
+  const MarkerSequence recording = SampleRecording({"*1", "*2", "*3"});
+  {
+    NatNetServer server(recording, FastNatNet());
+    NatNetSource source(To(server));
+    StreamFrame frame;
+    EXPECT_THAT([&] { NextOf(&source, &server, &frame); },
+                ThrowsMessage<Error>(HasSubstr("named by the body")));
+  }
+  NatNetServer server(recording, FastNatNet());
+  const auto source = OpenSource(
+      fmt::format("natnet://127.0.0.1:{}?data={}", server.command_port(), FreeUdpPort()), false);
+  ExpectUnlabelled(source.get(), &server, recording, {});
+}
+
 TEST(NatNetStream, ZUpWhereItIsSaid) {
   NatNetServerOptions options = FastNatNet();
   options.up_axis = UpAxis::kZ;

@@ -75,6 +75,28 @@ TEST(QtmStream, ByUdp) {
   EXPECT_THAT(source->layout().source, HasSubstr("protocol 1.22"));
 }
 
+TEST(QtmStream, PointsWithoutLabels) {
+  // The second point is not seen in a frame.
+  const MarkerSequence recording = SampleRecording({"A", "*7", "C", "*9"});
+  QtmServer server(recording, FastQtm());
+  QtmSource source(To(server));
+  ExpectUnlabelled(&source, &server, recording, {"A", "C"});
+}
+
+TEST(QtmStream, NoLabelsAtAll) {
+  const MarkerSequence recording = SampleRecording({"*1", "*2", "*3"});
+  {
+    QtmServer server(recording, FastQtm());
+    QtmSource source(To(server));
+    StreamFrame frame;
+    EXPECT_THAT([&] { NextOf(&source, &server, &frame); },
+                ThrowsMessage<Error>(HasSubstr("named by the body")));
+  }
+  QtmServer server(recording, FastQtm());
+  const auto source = OpenSource(fmt::format("qtm://127.0.0.1:{}", server.port()), false);
+  ExpectUnlabelled(source.get(), &server, recording, {});
+}
+
 TEST(QtmStream, TimesAreOfTheFrameNumbers) {
   QtmServer server(SampleRecording(), FastQtm());
   QtmSource source(To(server));
