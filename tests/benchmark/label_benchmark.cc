@@ -47,13 +47,14 @@ double ProcessorSeconds() {
 /// Of points.
 struct Counts {
   double right = 0, wrong = 0, left = 0, ghosts = 0;
+  double changed = 0;  // right ones that a repair changes
   double frames = 0, seconds = 0;
-  std::map<std::pair<int, int>, int> confusions;  // label that is right, -1: ghost; label given
+  std::map<std::pair<int, int>, int> confusions;  // label that is right, label given; -1: none
 
   void Count(int truth, int given) {
     if (truth < 0 && given < 0) return;
     (truth < 0 ? ghosts : given == truth ? right : given < 0 ? left : wrong) += 1;
-    if (given >= 0 && given != truth) ++confusions[{truth, given}];
+    if (given != truth) ++confusions[{truth, given}];
   }
   double markers() const { return right + wrong + left; }
 };
@@ -153,8 +154,8 @@ class Labels {
                           Break(one, static_cast<LabelEvent>(e), begin, random.UniformIndex(1000)));
           },
           &all);
-      std::printf("%s (right: of the broken points; ghosts: of the others, changed)\n", kEvents[e]);
-      Print(all);
+      std::printf("%s\n", kEvents[e]);
+      PrintRepair(all);
     }
     std::map<std::string, std::vector<Counts>> all;
     ForEachCase(
@@ -162,8 +163,8 @@ class Labels {
           return Mended(one, Break(one, LabelEvent::kPair, one.recording.num_frames(), seed));
         },
         &all);
-    std::printf("none broken (ghosts: changed without need)\n");
-    Print(all);
+    std::printf("none broken\n");
+    PrintRepair(all);
   }
 
  private:
@@ -223,7 +224,9 @@ class Labels {
         const int own = broken.own[k][piece.point];
         if (own < 0 || markers[own] < 0) continue;
         if (own == piece.point) {
-          if (piece.name != own) ++counts.ghosts;
+          if (piece.name == own) continue;
+          ++counts.changed;
+          ++counts.confusions[{own, piece.name}];
         } else {
           counts.Count(own, piece.name);
         }
@@ -237,7 +240,7 @@ class Labels {
     std::vector<std::pair<int, std::string>> lines;
     for (const auto& [labels, count] : counts.confusions) {
       const auto name = [&](int label) {
-        return label < 0 ? std::string("ghost") : one.recording.labels()[label];
+        return label < 0 ? std::string("nothing") : one.recording.labels()[label];
       };
       lines.emplace_back(count, fmt::format("{} as {}", name(labels.first), name(labels.second)));
     }
@@ -245,6 +248,20 @@ class Labels {
     lines.resize(std::min(lines.size(), kMost));
     for (const auto& [count, line] : lines) {
       std::printf("  %s, %d: %s, %d\n", one.name.c_str(), seed, line.c_str(), count);
+    }
+  }
+
+  static void PrintRepair(const std::map<std::string, std::vector<Counts>>& all) {
+    for (const auto& [name, runs] : all) {
+      Counts sum;
+      for (const Counts& c : runs) {
+        sum.right += c.right;
+        sum.wrong += c.wrong + c.left;
+        sum.changed += c.changed;
+        sum.frames += c.frames;
+      }
+      std::printf("%-8s mended %.0f of %.0f points; changed without need %.0f in %.0f frames\n",
+                  name.c_str(), sum.right, sum.right + sum.wrong, sum.changed, sum.frames);
     }
   }
 
