@@ -214,7 +214,7 @@ TEST(Live, OnlyAJournalIsTakenForOne) {
            {"{\"a\": 1}", "is no journal of a live motion"},
            {far, "can't fill"}}) {
     WriteText(motion + ".live", text);
-    const ProgramRun run = RunProgram(words);
+    const auto run = RunProgram(words);
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_THAT(run.err, HasSubstr(motion + ".live: "));
     EXPECT_THAT(run.err, HasSubstr(why));
@@ -222,7 +222,7 @@ TEST(Live, OnlyAJournalIsTakenForOne) {
   }
   for (const std::string& begun : {"", "{\"jour"}) {
     WriteText(motion + ".live", begun);
-    const ProgramRun run = RunProgram(words);
+    const auto run = RunProgram(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_FALSE(std::filesystem::exists(motion + ".live"));
   }

@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kRateOfASingleTime = 100;
 constexpr double kMostTimelineFrames = 1e15;
-constexpr double kNanoseconds = 1e9;  // in a second: nine decimals are written here
-constexpr double kHalfNanosecond = 0.5e-9;
+constexpr double kHalfNanosecond = 0.5e-9;  // of the nine decimals that are written here
 
 double MedianStep(const std::vector<double>& times) {
   std::vector<double> steps(times.size() - 1);
@@ -40,23 +39,10 @@ double HalfUnitOfSixDigits(double time) {
   return 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(time))) - 5);
 }
 
-/// Whether frames at this rate are written with the digits that these times have.
-bool AreWrittenAs(const std::vector<double>& times, const std::vector<std::int64_t>& frames,
-                  double rate) {
-  const auto written = [](double time) { return std::round(time * kNanoseconds); };
-  const double first = written(times[0]) / kNanoseconds;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double time = first + static_cast<double>(frames[i]) / rate;
-    if (written(time) != written(times[i])) return false;
-  }
-  return true;
-}
-
-/// The plainest rate at which every time lies within half_unit of its frame, and that is_preferred
-/// if there is such a one; 0: there is none.
-template <typename HalfUnit, typename IsPreferred>
+/// The plainest rate at which every time lies within half_unit of its frame; 0: there is none.
+template <typename HalfUnit>
 double PlainestRate(const std::vector<double>& times, const std::vector<std::int64_t>& frames,
-                    HalfUnit half_unit, IsPreferred is_preferred) {
+                    HalfUnit half_unit) {
   double low = 0;
   double high = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < times.size(); ++i) {
@@ -68,15 +54,12 @@ double PlainestRate(const std::vector<double>& times, const std::vector<std::int
   }
   if (!(low <= high) || std::isinf(high)) return 0;
   const double middle = 0.5 * (low + high);
-  double plainest = 0;
   for (int decimals = 0; decimals <= 12; ++decimals) {
     const double scale = std::pow(10.0, decimals);
     const double rate = std::round(middle * scale) / scale;
-    if (rate <= 0 || rate < low || rate > high) continue;
-    if (is_preferred(rate)) return rate;
-    if (plainest == 0) plainest = rate;
+    if (rate > 0 && low <= rate && rate <= high) return rate;
   }
-  return plainest > 0 ? plainest : middle;
+  return middle;
 }
 
 }  // namespace
@@ -90,14 +73,12 @@ TimeGrid FitTimeGrid(const std::vector<double>& times) {
   if (times.size() == 1) return grid;
   grid.frames = FramesOf(times, MedianStep(times));
   // The last term is what double precision loses in a time.
-  grid.rate = PlainestRate(
-      times, grid.frames, [](double time) { return kHalfNanosecond + 4e-16 * std::abs(time); },
-      [&](double rate) { return AreWrittenAs(times, grid.frames, rate); });
+  grid.rate = PlainestRate(times, grid.frames,
+                           [](double time) { return kHalfNanosecond + 4e-16 * std::abs(time); });
   if (grid.rate > 0) return grid;
-  const auto half_unit = [&](double time) {
+  grid.rate = PlainestRate(times, grid.frames, [&](double time) {
     return std::max(kHalfNanosecond, HalfUnitOfSixDigits(time)) + HalfUnitOfSixDigits(times[0]);
-  };
-  grid.rate = PlainestRate(times, grid.frames, half_unit, [](double) { return true; });
+  });
   if (grid.rate > 0) return grid;
   grid.rate = static_cast<double>(grid.frames.back()) / (times.back() - times[0]);
   for (std::size_t i = 0; i < times.size(); ++i) {

@@ -72,18 +72,5 @@ TEST(MotionTimeline, ResamplesBetweenRowsAndHoldsAtTheEnds) {
   EXPECT_TRUE(Resample({2, {}, {}}, {1, 2}, 0.1).hasNaN());
 }
 
-// A rate may lie within half of the last digit of every time, and yet be written with another
-// digit.
-TEST(FitTimeGrid, IsWrittenWithTheDigitsThatWereRead) {
-  constexpr double kRate = 144.0057585022712;
-  const auto written = [](double rate, int k) {
-    return std::round((0.605967154 + k / rate) * 1e9) / 1e9;
-  };
-  std::vector<double> times;
-  for (int k = 0; k < 13; ++k) times.push_back(written(kRate, k));
-  const TimeGrid grid = FitTimeGrid(times);
-  for (int k = 0; k < 13; ++k) EXPECT_EQ(written(grid.rate, k), times[k]) << k;
-}
-
 }  // namespace
 }  // namespace mmm_converter
