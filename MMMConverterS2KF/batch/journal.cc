@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -84,8 +83,8 @@ void ForEachJournal(const std::string& folder,
 
 // Lines are added to a journal, not to a file of another kind that has its name.
 void CheckIsJournal(const std::string& file) {
-  const int first = std::ifstream(file).get();
-  if (first == std::ifstream::traits_type::eof() || first == '{' || first == '[') return;
+  const std::string first = FirstBytes(file, 1);
+  if (first.empty() || first == "{" || first == "[") return;
   throw Error(
       fmt::format("{}: is no journal of a batch, which has a JSON text in each line; move it "
                   "away, or give another output folder",

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -209,11 +208,7 @@ void FillResult(const std::vector<JournalFrame>& frames, const std::vector<int>&
 // header.
 void CheckHasBegun(const std::string& file) {
   const std::string begin = fmt::format(R"({{"journal":"{}")", kKind);
-  std::string found(begin.size(), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(found.data(), static_cast<std::streamsize>(found.size()));
-  found.resize(static_cast<std::size_t>(stream.gcount()));
-  if (begin.starts_with(found)) return;
+  if (begin.starts_with(FirstBytes(file, begin.size()))) return;
   throw Error(
       fmt::format("{}: is no journal of a live motion, which the program keeps there until the "
                   "motion is written; move it away",

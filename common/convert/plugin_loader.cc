@@ -10,12 +10,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "common/convert/checked_converter.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
+#include "common/support/line_file.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 
@@ -45,21 +45,24 @@ std::string DescribeSearch(const std::vector<FoundPlugin>& plugins) {
 // The system maps a library's segments without a look at the file's size, and a program that
 // touches what a half-copied file lacks is ended (SIGBUS).
 void CheckIsWhole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  constexpr std::size_t kHeads = 1 << 16;  // of the file and its segments
+  const std::string bytes = FirstBytes(path, kHeads);
   Elf64_Ehdr head{};
-  file.read(reinterpret_cast<char*>(&head), sizeof(head));
-  if (!file || std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 ||
-      head.e_ident[EI_CLASS] != ELFCLASS64) {
+  std::memcpy(&head, bytes.data(), std::min(bytes.size(), sizeof(head)));
+  if (std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_ident[EI_CLASS] != ELFCLASS64) {
     return;  // of another kind: the system says which
   }
   std::error_code failure;
   const std::uint64_t size = fs::file_size(path, failure);
   std::uint64_t end = head.e_shoff + std::uint64_t{head.e_shnum} * head.e_shentsize;
-  file.seekg(static_cast<std::streamoff>(head.e_phoff));
-  for (int i = 0; i < head.e_phnum; ++i) {
+  for (std::uint64_t i = 0; i < head.e_phnum; ++i) {
+    const std::uint64_t at = head.e_phoff + i * sizeof(Elf64_Phdr);
+    if (at > kHeads - sizeof(Elf64_Phdr)) break;
     Elf64_Phdr segment{};
-    file.read(reinterpret_cast<char*>(&segment), sizeof(segment));
-    end = std::max(end, file ? segment.p_offset + segment.p_filesz : size + 1);
+    if (at + sizeof(segment) <= bytes.size()) {
+      std::memcpy(&segment, bytes.data() + at, sizeof(segment));
+    }
+    end = std::max({end, at + sizeof(segment), segment.p_offset + segment.p_filesz});
   }
   if (end <= size) return;
   throw Error(fmt::format("{}: is a part of a shared library, {} bytes of {}; copy it again", path,

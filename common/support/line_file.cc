@@ -115,4 +115,20 @@ void ForEachLine(const std::string& path, const std::function<void(std::string_v
   }
 }
 
+std::string FirstBytes(const std::string& path, std::size_t most) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor < 0) return "";
+  std::string bytes(most, '\0');
+  std::size_t done = 0;
+  while (done < most) {
+    const ssize_t count = ::read(descriptor, bytes.data() + done, most - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  ::close(descriptor);
+  bytes.resize(done);
+  return bytes;
+}
+
 }  // namespace mmm_converter

@@ -40,4 +40,7 @@ inline constexpr std::size_t kMostLineBytes = std::size_t{64} << 20;
 /// @throws Error where it can't be read or is not a regular file.
 void ForEachLine(const std::string& path, const std::function<void(std::string_view)>& visit);
 
+/// The first bytes of a file, at most so many; none where it can't be read.
+std::string FirstBytes(const std::string& path, std::size_t most);
+
 }  // namespace mmm_converter

@@ -91,6 +91,13 @@ TEST_F(LineFileTest, OpeningChangesNothing) {
   }
 }
 
+TEST_F(LineFileTest, BeginsWithItsFirstBytes) {
+  EXPECT_EQ(FirstBytes(path_, 3), "");
+  std::ofstream(path_) << "one\ntwo";
+  EXPECT_EQ(FirstBytes(path_, 3), "one");
+  EXPECT_EQ(FirstBytes(path_, 30), "one\ntwo");
+}
+
 TEST_F(LineFileTest, LinesMayBeLongerThanABlock) {
   const std::string line(200000, 'x');
   LineFile(path_).Append(line);
