@@ -21,9 +21,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kUnmatched = 9;          // cost of a marker without point: three deviations
-constexpr double kSettled = 0.015;        // [m] what a posture may still be off when it is judged
-constexpr double kNaturalWeight = 0.3;    // [1/rad^2]
+constexpr double kUnmatched = MatchCosts::kUnmatched;
+constexpr double kSettled = MatchCosts::kSettled;
+constexpr double kNaturalWeight = MatchCosts::kNaturalWeight;
 constexpr double kDamping = 0.01;         // relative
 constexpr double kLeastCurvature = 1e-3;  // [1/m^2], [1/rad^2]
 constexpr double kLongestStep = 0.6;      // [rad]
@@ -39,9 +39,15 @@ constexpr std::size_t kFirstKept = 72;
 constexpr std::array<Stage, 3> kStages = {
     {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 4}}};
 
-constexpr Stage kThrown = {0.12, 0.03, 8, 1};
-constexpr int kThrows = 40;
-constexpr int kMoreThrows = 120;
+constexpr double kDrawnTo = 0.03;  // [m]
+
+// Of limbs: from each of the last postures, from the best of them, and from that as long as it is
+// not good.
+struct Throws {
+  int first, once, more;
+};
+constexpr Throws kThrowsAlone = {40, 100, 300};
+constexpr Throws kThrowsWithWholeBody = {0, 40, 120};
 constexpr double kGoodShare = 0.1;  // of the cost that no match at all would have
 
 /// Distance from the nearest of some points, cut off, on a grid.
@@ -132,8 +138,8 @@ const std::vector<Matrix3d>& Tilts() {
 
 }  // namespace
 
-BodySearch::BodySearch(const LabelBody& body)
-    : body_(body), equations_(body.kinematics), random_(1) {}
+BodySearch::BodySearch(const LabelBody& body, LimbThrows throws)
+    : body_(body), throws_(throws), equations_(body.kinematics), limbs_(body), random_(1) {}
 
 std::vector<BodySearch::Candidate> BodySearch::Candidates(const Ref<const Matrix3Xd>& points) {
   const Vector3d middle = MiddleOf(points);
@@ -284,23 +290,37 @@ bool BodySearch::ThrowLimb(const BodyMatch& match, Posture* posture) {
   return true;
 }
 
-void BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, BodyMatch* match) {
+void BodySearch::ImproveWithWholeBody(const Ref<const Matrix3Xd>& points, int attempts,
+                                      BodyMatch* match) {
+  constexpr double kThrownFrom = 0.12;  // [m]
+  constexpr int kSteps = 8;
   constexpr double kLeastGain = 1;
   for (int i = 0; i < attempts; ++i) {
     *match = Match(points, match->posture);
     Posture posture = match->posture;
     if (!ThrowLimb(*match, &posture)) continue;
-    Draw(points, kThrown.from, kThrown.to, kThrown.steps, &posture);
+    Draw(points, kThrownFrom, kDrawnTo, kSteps, &posture);
     BodyMatch trial = Settle(points, posture);
     if (trial.cost < match->cost - kLeastGain) *match = std::move(trial);
   }
+}
+
+void BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, BodyMatch* match) {
+  if (throws_ == LimbThrows::kWithWholeBody) {
+    ImproveWithWholeBody(points, attempts, match);
+    return;
+  }
+  BodyMatch better = *match;
+  if (!limbs_.Improve(points, attempts, &random_, &better)) return;
+  better = Settle(points, better.posture);
+  if (better.cost < match->cost) *match = std::move(better);
 }
 
 BodyMatch BodySearch::FindNear(const Ref<const Matrix3Xd>& points, const Posture& posture,
                                double spread) {
   constexpr int kSteps = 10;
   Posture drawn = posture;
-  Draw(points, spread, kThrown.to, kSteps, &drawn);
+  Draw(points, spread, kDrawnTo, kSteps, &drawn);
   return Settle(points, drawn);
 }
 
@@ -320,15 +340,18 @@ BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
     }
     keep(stage.kept);
   }
+  const Throws& throws =
+      throws_ == LimbThrows::kWithWholeBody ? kThrowsWithWholeBody : kThrowsAlone;
   BodyMatch best;
   for (const Candidate& candidate : candidates) {
     BodyMatch match = Settle(points, candidate.posture);
+    ImproveLimbs(points, throws.first, &match);
     if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
   }
-  ImproveLimbs(points, kThrows, &best);
+  ImproveLimbs(points, throws.once, &best);
   const double good = kGoodShare * kUnmatched * body_.num_markers();
-  for (int i = 0; i < kMoreThrows && best.cost > good; i += kThrows) {
-    ImproveLimbs(points, kThrows, &best);
+  for (int i = 0; i < throws.more && best.cost > good; i += throws.once) {
+    ImproveLimbs(points, throws.once, &best);
   }
   return best;
 }

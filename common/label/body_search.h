@@ -6,6 +6,7 @@
 
 #include "common/fit/normal_equations.h"
 #include "common/label/label_body.h"
+#include "common/label/limb_search.h"
 #include "common/label/linear_assignment.h"
 #include "common/label/soft_assignment.h"
 #include "common/math/seeded_random.h"
@@ -13,14 +14,11 @@
 
 namespace mmm_converter {
 
-/// A posture, and which point is which marker in it.
-struct BodyMatch {
-  Posture posture;                   ///< tracked joints
-  std::vector<int> point_of_marker;  ///< -1: none
-  /// Of each marker min(d^2 / v, 9), v its place's and the posture's variance; of angles their
-  /// distance from the natural ones.
-  double cost = 0;
-  int matched = 0;
+/// How limbs that do not match are thrown anew.
+enum class LimbThrows {
+  kAlone,         ///< the rest of the body stays, with its points (LimbSearch): fast
+  kWithWholeBody  ///< all of the body is drawn to all points again: where it is hardly known where
+                  ///< markers are worn, the rest may have points of the limb
 };
 
 /// Finds the body among points without names, in one frame and from nothing: many postures in many
@@ -29,7 +27,7 @@ struct BodyMatch {
 class BodySearch {
  public:
   /// body must outlive the search.
-  explicit BodySearch(const LabelBody& body);
+  explicit BodySearch(const LabelBody& body, LimbThrows throws = LimbThrows::kAlone);
 
   BodyMatch Find(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
 
@@ -37,9 +35,14 @@ class BodySearch {
   BodyMatch FindNear(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
                      double spread);
 
-  /// Throws the joints of a badly matching marker anew, so often, and keeps what is cheaper.
+  /// Throws badly matching limbs anew, so often, and keeps what is cheaper.
   void ImproveLimbs(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts,
                     BodyMatch* match);
+
+  /// No limb can make a match cheaper by more.
+  double MostGain(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const BodyMatch& match) {
+    return limbs_.MostGain(points, match);
+  }
 
   /// The cheapest match at this posture.
   BodyMatch Match(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
@@ -59,13 +62,18 @@ class BodySearch {
                   double spread);
   /// Assignment and fit in turns.
   BodyMatch Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
+
+  void ImproveWithWholeBody(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts,
+                            BodyMatch* match);
   /// False: the marker that was drawn moves with the root.
   bool ThrowLimb(const BodyMatch& match, Posture* posture);
 
   const LabelBody& body_;
+  LimbThrows throws_;
   NormalEquations equations_;
   SoftAssignment soft_;
   LinearAssignment assignment_;
+  LimbSearch limbs_;
   SeededRandom random_;
   Eigen::VectorXd variances_, noise_;
   Eigen::MatrixXd cost_;  // markers x points

@@ -2,6 +2,7 @@
 #include "common/label/label_body.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -66,6 +67,7 @@ LabelBody::LabelBody(const TrackingSetup& setup)
       if (kinematics.Moves(j, m)) joints_of_marker[m].push_back(j);
     }
   }
+  FindLimbs();
   for (const Angles& arms : ArmTemplates()) {
     for (const Angles& legs : LegTemplates()) {
       Posture posture;
@@ -75,6 +77,29 @@ LabelBody::LabelBody(const TrackingSetup& setup)
       templates.push_back(std::move(posture));
     }
   }
+}
+
+void LabelBody::FindLimbs() {
+  limb_of_marker.assign(static_cast<std::size_t>(num_markers()), -1);
+  std::vector<std::vector<int>> moved(kinematics.num_joints());
+  for (int m = 0; m < num_markers(); ++m) {
+    for (const int j : joints_of_marker[m]) moved[j].push_back(m);
+  }
+  std::vector<int> order(moved.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&moved](int a, int b) { return moved[a].size() > moved[b].size(); });
+  for (const int j : order) {
+    if (moved[j].empty() || 3 * static_cast<int>(moved[j].size()) > num_markers()) continue;
+    int& limb = limb_of_marker[moved[j].front()];
+    if (limb < 0) {
+      limb = static_cast<int>(limbs.size());
+      limbs.push_back({{}, moved[j]});
+      for (const int m : moved[j]) limb_of_marker[m] = limb;
+    }
+    limbs[limb].joints.push_back(j);
+  }
+  for (Limb& limb : limbs) std::sort(limb.joints.begin(), limb.joints.end());
 }
 
 }  // namespace mmm_converter

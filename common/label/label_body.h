@@ -25,9 +25,19 @@ struct LabelBody {
   /// The limb of a marker: markers that the same joints move, but for those that move less than a
   /// third of all. Limbs restart together.
   std::vector<std::vector<int>> joints_of_marker;
+  /// What hangs on the trunk: joints that move at most a third of the markers, and the markers that
+  /// they move.
+  struct Limb {
+    std::vector<int> joints, markers;
+  };
+  std::vector<Limb> limbs;
+  std::vector<int> limb_of_marker;  ///< -1: the trunk
   /// Postures to start from, with the root at the origin and upright: arms and legs in several
   /// ways.
   std::vector<Posture> templates;
+
+ private:
+  void FindLimbs();
 };
 
 }  // namespace mmm_converter

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/label/label_tracker.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,7 @@
 
 namespace mmm_converter {
 
+using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::Ref;
@@ -31,7 +33,8 @@ constexpr double kVelocityMemory = 0.25;  // [s]
 constexpr double kOffsetMemory = 1.0;     // [s] in which a hidden marker's place is forgotten
 constexpr double kOffsetDrift = 0.004;    // [m / sqrt(s)] of a seen one
 
-constexpr double kUnassigned = 21.1;   // chi-square of three, exceeded once in 10,000
+constexpr double kUnassigned = 21.1;  // chi-square of three, exceeded once in 10,000
+constexpr double kGate = 2 * kUnassigned;
 constexpr double kFarthestPlace = 12;  // most that the distance from the model's place costs
 constexpr double kVague = 0.012;       // [m]: beyond, soft assignment comes first
 constexpr double kLost = 0.05;         // [m]: beyond, a limb is not taken up by one point
@@ -56,6 +59,7 @@ LabelTracker::LabelTracker(const LabelBody& body)
   point_of_marker_.assign(body.num_markers(), -1);
   offset_W_.setZero(3, body.num_markers());
   deviations_.setZero(body.num_markers());
+  covariances_.resize(body.num_markers());
 }
 
 void LabelTracker::Start(const BodyMatch& match) {
@@ -131,8 +135,8 @@ void LabelTracker::Expect(const Posture& posture, const MatrixXd& P) {
   const auto J = at_.J_transposed.view();
   const auto PJ = moved_.view();
   for (int m = 0; m < body_.num_markers(); ++m) {
-    const double trace = J.middleCols<3>(3 * m).cwiseProduct(PJ.middleCols<3>(3 * m)).sum();
-    deviations_[m] = std::sqrt(std::max(trace, 0.0) / 3);
+    covariances_[m].noalias() = J.middleCols<3>(3 * m).transpose() * PJ.middleCols<3>(3 * m);
+    deviations_[m] = std::sqrt(std::max(covariances_[m].trace(), 0.0) / 3);
   }
 }
 
@@ -158,14 +162,14 @@ void LabelTracker::Update(const Ref<const Matrix3Xd>& targets, const VectorXd& n
                               .cwiseMin(body_.kinematics.upper());
 }
 
-void LabelTracker::DrawSoftly(const Ref<const Matrix3Xd>& points, Posture* posture) {
+bool LabelTracker::DrawSoftly(const Ref<const Matrix3Xd>& points, Posture* posture) {
   constexpr int kSteps = 6;
   constexpr double kWidest = 0.2;
   constexpr double kNarrowest = 0.02;
   VectorXd sorted = deviations_;
   std::sort(sorted.begin(), sorted.end());
   const double vague = sorted[sorted.size() * 9 / 10];
-  if (vague < kVague) return;
+  if (vague < kVague) return false;
   const double from = std::min(vague, kWidest);
   for (int i = 0; i < kSteps; ++i) {
     const double spread = from * std::pow(std::min(kNarrowest / from, 1.0), i / (kSteps - 1.0));
@@ -177,27 +181,36 @@ void LabelTracker::DrawSoftly(const Ref<const Matrix3Xd>& points, Posture* postu
     noise_ = (variances.array() / soft_.weights().array().max(1e-9)).sqrt();
     Update(targets_, noise_, posture);
   }
+  return true;
+}
+
+void LabelTracker::AssignMarker(int m, const Ref<const Matrix3Xd>& points) {
+  const double skin2 = Squared(body_.skin[m]);
+  Matrix3d S = covariances_[m];
+  S.diagonal().array() += belief_.offset_variance[m] + skin2;
+  Matrix3d S_place = covariances_[m];
+  S_place.diagonal().array() += Squared(body_.place[m]) + skin2;
+  const Matrix3d inverse = S.inverse();
+  const Matrix3d inverse_place = S_place.inverse();
+  const double size = std::log(S.determinant() / (8 * skin2 * skin2 * skin2));
+  const double farthest2 = kGate * 3 * S.trace();
+  const Vector3d expected = expected_.col(m);
+  const Vector3d model = expected - offset_W_.col(m);
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    const Vector3d r = points.col(p) - expected;
+    costs_(m, p) = std::numeric_limits<double>::infinity();
+    if (r.squaredNorm() > farthest2) continue;
+    const double d2 = r.dot(inverse * r);
+    if (d2 > kGate) continue;
+    const Vector3d from_model = points.col(p) - model;
+    const double from_place = from_model.dot(inverse_place * from_model);
+    costs_(m, p) = d2 + size + std::min(kFarthestPlace, from_place);
+  }
 }
 
 void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
   costs_.resize(body_.num_markers(), points.cols());
-  for (int m = 0; m < body_.num_markers(); ++m) {
-    const double skin2 = Squared(body_.skin[m]);
-    const double s2 = Squared(deviations_[m]);
-    const double v = s2 + belief_.offset_variance[m] + skin2;
-    const double place = Squared(body_.place[m]) + s2 + skin2;
-    const double size = 3 * std::log(v / (2 * skin2));
-    const Vector3d model = expected_.col(m) - offset_W_.col(m);
-    for (Eigen::Index p = 0; p < points.cols(); ++p) {
-      const double d2 = (points.col(p) - expected_.col(m)).squaredNorm();
-      if (d2 > kUnassigned * 2 * v) {
-        costs_(m, p) = std::numeric_limits<double>::infinity();
-        continue;
-      }
-      const double from_place = (points.col(p) - model).squaredNorm() / place;
-      costs_(m, p) = d2 / v + size + std::min(kFarthestPlace, from_place);
-    }
-  }
+  for (int m = 0; m < body_.num_markers(); ++m) AssignMarker(m, points);
   if (hints_ != nullptr) {
     for (std::size_t p = 0; p < hints_->markers.size(); ++p) {
       if (hints_->markers[p] >= 0) {
@@ -205,7 +218,7 @@ void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
       }
     }
   }
-  point_of_marker_ = assignment_.Solve(costs_, kUnassigned);
+  point_of_marker_ = assignment_.Solve(costs_, kUnassigned + free_points_.Surplus());
 }
 
 bool LabelTracker::IsOnlyChoice(int marker) const {
@@ -241,11 +254,17 @@ void LabelTracker::DropLonely() {
 }
 
 void LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P, Posture* posture) {
+  constexpr double kClose = 0.02;  // [m]: a step so short is as good as linear
   P_ = P;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    Expect(*posture, P_);
+  for (int turn = 0;; ++turn) {
+    if (turn > 0) Expect(*posture, P_);
     Assign(points);
-    if (turn + 1 == kTurns) DropLonely();
+    const bool is_near = turn > 0 && (expected_ - last_expected_).cwiseAbs().maxCoeff() < kClose;
+    const bool is_last = turn + 1 == kTurns || (is_near && point_of_marker_ == used_);
+    if (is_last) DropLonely();
+    if (is_last && is_near && point_of_marker_ == used_) return;
+    used_ = point_of_marker_;
+    last_expected_ = expected_;
     targets_.setConstant(3, body_.num_markers(), kNaN);
     for (int m = 0; m < body_.num_markers(); ++m) {
       const int point = point_of_marker_[m];
@@ -254,6 +273,10 @@ void LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P,
     noise_ = (belief_.offset_variance.array() + body_.skin.array().square()).sqrt();
     Update(targets_, noise_, posture);
     Invert(equations_.H(), &P_);
+    if (is_last) {
+      Expect(*posture, P_);
+      return;
+    }
   }
 }
 
@@ -261,7 +284,12 @@ void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   constexpr int kAttempts = 6;
   constexpr double kGain = 10;
   constexpr int kRunning = 2;
-  const double cost = search_.Match(points, *posture).cost;
+  const BodyMatch now = search_.Match(points, *posture);
+  if (search_.MostGain(points, now) < kGain) {
+    doubts_ = 0;
+    return;
+  }
+  const double cost = now.cost;
   BodyMatch other = search_.FindNear(points, *posture, 0.06);
   if (other.cost > cost) other.posture = *posture;
   search_.ImproveLimbs(points, kAttempts, &other);
@@ -275,6 +303,7 @@ void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   predicted_ = other.posture;
   Invert(belief_.P_qq, &prior_);
   *posture = other.posture;
+  Expect(*posture, belief_.P_qq);
   Settle(points, belief_.P_qq, posture);
 }
 
@@ -287,7 +316,7 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
   Invert(belief_.P_qq, &prior_);
   Expect(predicted_, belief_.P_qq);
   first_deviations_ = deviations_;
-  DrawSoftly(points, &posture);
+  if (DrawSoftly(points, &posture)) Expect(posture, belief_.P_qq);
   Settle(points, belief_.P_qq, &posture);
   since_doubt_ += dt;
   if (since_doubt_ >= kDoubtEvery) {
@@ -295,8 +324,8 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
     Doubt(points, &posture);
   }
   Correct(posture);
-  Expect(posture, P_);
   Learn(points, dt);
+  free_points_.Count(static_cast<int>(points.cols()), point_of_marker_, dt);
   return point_of_marker_;
 }
 
@@ -329,7 +358,7 @@ const std::vector<int>& LabelTracker::Between(const Ref<const Matrix3Xd>& points
   Posture posture = predicted_;
   Expect(posture, P);
   first_deviations_ = deviations_;
-  DrawSoftly(points, &posture);
+  if (DrawSoftly(points, &posture)) Expect(posture, P);
   Settle(points, P, &posture);
   belief_ = belief;
   return point_of_marker_;

@@ -6,6 +6,7 @@
 
 #include "common/fit/normal_equations.h"
 #include "common/label/body_search.h"
+#include "common/label/free_points.h"
 #include "common/label/label_body.h"
 #include "common/label/linear_assignment.h"
 #include "common/label/soft_assignment.h"
@@ -74,10 +75,12 @@ class LabelTracker {
   /// Of a symmetric, positive definite matrix, by its lower triangle.
   void Invert(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::MatrixXd* inverse);
   void Predict(double dt);
-  /// Expected places, and their deviations by P, at a posture.
+  /// Expected places, and their covariances by P, at a posture.
   void Expect(const Posture& posture, const Eigen::MatrixXd& P);
-  void DrawSoftly(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
+  /// False: the posture is clear enough without.
+  bool DrawSoftly(const Eigen::Ref<const Eigen::Matrix3Xd>& points, Posture* posture);
   void Assign(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+  void AssignMarker(int marker, const Eigen::Ref<const Eigen::Matrix3Xd>& points);
   /// A limb that could be anywhere is not taken up by a single point.
   void DropLonely();
   /// No free point could be the marker about as well.
@@ -88,7 +91,8 @@ class LabelTracker {
   void Correct(const Posture& posture);
   void Learn(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
 
-  /// Assignment and update in turns; leaves both behind. P: of the prediction.
+  /// Assignment and update in turns; leaves both behind, and what is expected after them. P: of the
+  /// prediction, for which Expect was called at the posture.
   void Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Eigen::MatrixXd& P,
               Posture* posture);
   /// Whether another posture nearby explains the points much better by the markers' places alone.
@@ -99,6 +103,7 @@ class LabelTracker {
   BodySearch search_;
   double since_doubt_ = 0;  // [s]
   int doubts_ = 0;          // running
+  FreePoints free_points_;
   MarkerJacobian at_;
   NormalEquations equations_;
   SoftAssignment soft_;
@@ -111,9 +116,12 @@ class LabelTracker {
   Eigen::Matrix3Xd offset_W_;  // in W
   Eigen::Matrix3Xd expected_;
   Eigen::VectorXd deviations_;
-  Eigen::VectorXd first_deviations_;  // before any point was used
+  std::vector<Eigen::Matrix3d> covariances_;  // of the expected places, by P
+  Eigen::VectorXd first_deviations_;          // before any point was used
   Eigen::MatrixXd costs_;
   std::vector<int> point_of_marker_;
+  std::vector<int> used_;  // points of the last update, by marker
+  Eigen::Matrix3Xd last_expected_;
   Eigen::Matrix3Xd targets_;
   Eigen::VectorXd noise_;
   PaddedMatrix padded_P_, moved_;

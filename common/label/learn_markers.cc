@@ -71,8 +71,9 @@ class AnyBodySearch {
   explicit AnyBodySearch(const BodySites& sites)
       : own_body_(MakeBody(sites, AllMarkers(sites.model()))),
         other_body_(MakeBody(sites, UsualMarkers(sites))),
-        own_(own_body_),
-        other_((other_body_.place.setConstant(kAnyPlace), other_body_)) {}
+        own_(own_body_, LimbThrows::kWithWholeBody),
+        other_((other_body_.place.setConstant(kAnyPlace), other_body_),
+               LimbThrows::kWithWholeBody) {}
 
   Posture Find(const Matrix3Xd& points) {
     if (points.cols() >= own_body_.num_markers()) {

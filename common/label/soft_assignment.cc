@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kRounds = 4;
 constexpr double kSlack = 0.011108996538242306;  // exp(-3^2 / 2): of a point three deviations off
+constexpr double kLeastExponent = -14;           // a ten-thousandth of the slack
 constexpr double kLeastWeight = 1e-3;
 
 }  // namespace
@@ -23,9 +24,12 @@ void SoftAssignment::Compute(const Eigen::Ref<const Eigen::Matrix3Xd>& places,
   for (Eigen::Index m = 0; m < markers; ++m) {
     const Eigen::Vector3d place = places.col(m);
     shares_.col(m) = (points.colwise() - place).colwise().squaredNorm().transpose();
-    shares_.col(m) *= -0.5 / variances[m];
+    const double scale = -0.5 / variances[m];
+    for (double& share : shares_.col(m)) {
+      const double exponent = scale * share;
+      share = exponent < kLeastExponent ? 0 : std::exp(exponent);
+    }
   }
-  shares_ = shares_.array().exp();
   for (int round = 0; round < kRounds; ++round) {
     for (Eigen::Index m = 0; m < markers; ++m) shares_.col(m) /= kSlack + shares_.col(m).sum();
     points_sum_ = shares_.rowwise().sum().array() + kSlack;

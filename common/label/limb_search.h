@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/label/label_body.h"
+#include "common/label/linear_assignment.h"
+#include "common/label/soft_assignment.h"
+#include "common/math/seeded_random.h"
+#include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
+
+namespace mmm_converter {
+
+/// A posture, and which point is which marker in it.
+struct BodyMatch {
+  Posture posture;                   ///< tracked joints
+  std::vector<int> point_of_marker;  ///< -1: none
+  /// Of each marker min(d^2 / v, 9), v its place's and the posture's variance; of angles their
+  /// distance from the natural ones.
+  double cost = 0;
+  int matched = 0;
+};
+
+/// What a match costs.
+struct MatchCosts {
+  static constexpr double kUnmatched = 9;        ///< of a marker without point: three deviations
+  static constexpr double kSettled = 0.015;      ///< [m] what a posture may still be off
+  static constexpr double kNaturalWeight = 0.3;  ///< [1/rad^2]
+};
+
+/// Looks for single limbs while the rest of the body stays where it is: their joints are thrown
+/// anew and drawn to the points that the rest leaves by soft assignment.
+class LimbSearch {
+ public:
+  /// body must outlive the search.
+  explicit LimbSearch(const LabelBody& body);
+
+  /// So many throws of limbs that match badly; keeps what is cheaper. match: of these points; the
+  /// posture, points and costs of its limbs change. True: something got better.
+  bool Improve(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts, SeededRandom* random,
+               BodyMatch* match);
+
+  /// What the markers cost more than good ones, as far as a point could be another's.
+  double MostGain(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const BodyMatch& match) {
+    Excess(points, match);
+    return excess_.sum();
+  }
+
+ private:
+  /// Of each marker, what it costs more than a good one and can be spared.
+  void Excess(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const BodyMatch& match);
+  const LabelBody::Limb* DrawLimb(SeededRandom* random) const;
+  void Throw(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) const;
+  void Place(const LabelBody::Limb& limb, const Posture& posture);
+  void Draw(const LabelBody::Limb& limb, Posture* posture);
+  /// Towards targets_ with the noise of noise_, about the posture placed last.
+  void Step(const LabelBody::Limb& limb, Posture* posture);
+  /// Assignment and fit in turns; the cost of the limb.
+  double Settle(const LabelBody::Limb& limb, int turns, Posture* posture);
+
+  const LabelBody& body_;
+  MarkerJacobian at_;
+  SoftAssignment soft_;
+  LinearAssignment assignment_;
+  std::vector<int> allowed_;  // points that the limb may have
+  Eigen::Matrix3Xd points_;   // these
+  Eigen::Matrix3Xd places_;   // of the limb's markers
+  Eigen::VectorXd variances_, noise_, excess_;
+  Eigen::Matrix3Xd targets_;
+  Eigen::MatrixXd cost_;       // the limb's markers x allowed points
+  std::vector<int> assigned_;  // into allowed_, by the limb's marker
+  Eigen::MatrixXd H_;
+  Eigen::MatrixX3d J_;
+  Eigen::VectorXd g_;
+};
+
+}  // namespace mmm_converter
