@@ -220,7 +220,7 @@ TEST(Live, OnlyAJournalIsTakenForOne) {
     EXPECT_THAT(run.err, HasSubstr(why));
     EXPECT_EQ(ReadText(motion + ".live"), text);
   }
-  for (const std::string& begun : {"", "{\"jour"}) {
+  for (const char* begun : {"", "{\"jour"}) {
     WriteText(motion + ".live", begun);
     const auto run = RunProgram(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;

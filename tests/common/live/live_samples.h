@@ -79,7 +79,9 @@ void ExpectUnlabelled(FrameSource* source, Server* server, const MarkerSequence&
     for (Eigen::Index i = 0; i < expected.cols(); ++i) {
       const bool has_label = recording.labels()[static_cast<std::size_t>(i)][0] != '*';
       if (!has_label && !IsSeen(expected.col(i))) continue;
-      if (!has_label) ASSERT_LT(unlabelled, frame.unnamed) << frame.number;
+      if (!has_label) {
+        ASSERT_LT(unlabelled, frame.unnamed) << frame.number;
+      }
       const Eigen::Vector3d p =
           has_label ? frame.points.col(column++) : frame.unnamed_points.col(unlabelled++);
       EXPECT_LT((p - expected.col(i)).norm(), 1e-6) << frame.number << " " << i;  // floats
