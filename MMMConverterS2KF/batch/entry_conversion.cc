@@ -24,13 +24,14 @@ ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder) 
 
 ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore& read_before,
                               const std::function<bool()>& goes_on) {
-  ConversionPlan plan = PlanConversion(request, read_before);
+  const auto progress = [&](int, int) { return goes_on(); };
+  ConversionPlan plan = PlanConversion(request, read_before, progress);
   // Several recordings of an object need the same model.
   if (plan.object && plan.object->is_built()) {
     throw Error(WhyNoModel(request.input.file, plan.motion_name));
   }
   CheckOutputs(request, {&plan});
-  return CarryOut(std::move(plan), request.self_calibrate, [&](int, int) { return goes_on(); });
+  return CarryOut(std::move(plan), request.self_calibrate, progress);
 }
 
 std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {

@@ -36,6 +36,12 @@ std::string TakeBoolean(const std::string& value, bool* flag) {
   return *flag || value == "false" ? "" : "use true or false";
 }
 
+std::string TakeLabel(const std::string& value, ConversionRequest* request) {
+  request->label_hints.repair = value == "repair";
+  request->label = value == "true" || value == "repair";
+  return request->label || value == "false" ? "" : "use true, repair or false";
+}
+
 std::string TakeExport(const std::string& format, const std::string& value, BatchEntry* entry) {
   bool is_wanted = false;
   std::string expected = TakeBoolean(value, &is_wanted);
@@ -123,6 +129,13 @@ std::vector<ManifestAttribute> MakeAttributes() {
        }},
       {"selfCalibrate", "true: estimate the person from each recording itself",
        [](Value v, Value, Settings s) { return TakeBoolean(v, &s->request.self_calibrate); }},
+      {"label", "true: find the names of points without labels first; repair: correct wrong labels",
+       [](Value v, Value, Settings s) { return TakeLabel(v, &s->request); }},
+      {"labelLike", "with label: a labelled recording of the person with these markers",
+       [](Value v, Value folder, Settings s) {
+         s->request.label_hints.like = FileIn(folder, v);
+         return std::string();
+       }},
       {"subject", "label prefix to take where a recording has several subjects",
        [](Value v, Value, Settings s) {
          s->request.input.reading.subject = v;

@@ -59,7 +59,7 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
   const std::string own_set = (fs::path(config.file).parent_path() / config.marker_set).string();
   for (const std::string& file :
        {request.input.person.processor_file, request.input.person.subject_file, config.subject_file,
-        own_set, request.input.marker_set}) {
+        own_set, request.input.marker_set, request.label_hints.like}) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");
   }

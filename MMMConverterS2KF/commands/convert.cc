@@ -39,6 +39,12 @@ const std::vector<OptionGroup> kOtherOptions = {
      {{"label", "",
        "find the names of points that have none first, as label does: by --subject-file, or by "
        "--height and --marker-set",
+       ""},
+      {"like", "RECORDING",
+       "with --label: by the labels of another recording of the person with these markers, too",
+       ""},
+      {"repair", "",
+       "correct wrong labels first, as label --repair does; nothing is written but the motion",
        ""}}},
     {"Calibration",
      {{"self-calibrate", "",
@@ -76,6 +82,7 @@ Examples
   MMMConverterS2KF convert walk.c3d --height 1.75 --self-calibrate --subject-out anna.xml
   MMMConverterS2KF convert run.c3d --subject-file anna.xml
   MMMConverterS2KF convert unlabelled.c3d --label --subject-file anna.xml
+  MMMConverterS2KF convert unlabelled.c3d --label --like standing.c3d --height 1.68
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
   MMMConverterS2KF convert cup.c3d --object --object-models objects
@@ -108,6 +115,17 @@ std::string ChooseInput(const Arguments& arguments) {
       "--height 1.75");
 }
 
+void TakeLabels(const Arguments& arguments, ConversionRequest* request) {
+  request->label_hints = {arguments.Get("like").value_or(""), arguments.Has("repair")};
+  request->label = arguments.Has("label") || request->label_hints.repair;
+  if (request->label && request->is_object) {
+    throw UsageError("convert: --label names the markers of a person, not those of an --object");
+  }
+  if (!request->label && !request->label_hints.like.empty()) {
+    throw UsageError("convert: --like says by which recording --label or --repair finds names");
+  }
+}
+
 ConversionRequest MakeRequest(const Arguments& arguments) {
   ConversionRequest request;
   request.input = MakeInputRequest(arguments, ChooseInput(arguments));
@@ -120,10 +138,7 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.model_output = arguments.Get("model-out").value_or("");
   request.is_object = arguments.Has("object");
-  request.label = arguments.Has("label");
-  if (request.label && request.is_object) {
-    throw UsageError("convert: --label names the markers of a person, not those of an --object");
-  }
+  TakeLabels(arguments, &request);
   request.object_models = arguments.Get("object-models").value_or("");
   if (request.self_calibrate && !request.input.person.subject_file.empty()) {
     throw UsageError(
@@ -146,7 +161,8 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
 
 // What has a place for one motion only.
 void CheckFitsAllMotions(const Arguments& arguments) {
-  std::vector<std::string> options = {"object", "label", "model-path", "subject-out", "model-out"};
+  std::vector<std::string> options = {"object",     "label",       "repair",
+                                      "model-path", "subject-out", "model-out"};
   for (const Exporter& exporter : Exporters()) options.push_back(OptionOf(exporter));
   for (const std::string& option : options) {
     if (!arguments.Has(option)) continue;

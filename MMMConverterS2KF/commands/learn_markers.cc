@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
 #include "MMMConverterS2KF/conversion/marker_learning.h"
 #include "MMMConverterS2KF/report/learn_summary.h"
+#include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
@@ -20,6 +22,9 @@ const std::vector<OptionGroup> kOwnOptions = {
     {"Files",
      {{"output,o", "FILE", "the marker set (.xml); needed", ""},
       {"name", "NAME", "of the marker set; default: the name of its file", ""},
+      {"report", "FILE",
+       "write a page (HTML): the recordings converted with the set, markers where they were learnt",
+       ""},
       {"summary", "FILE", "write a summary as JSON", ""}}},
     {"Converter",
      {{"config,c", "FILE",
@@ -41,7 +46,7 @@ for each recording in the same order.
 
 Examples
   MMMConverterS2KF learn-markers range_of_motion.c3d --height 1.75 -o our_set.xml
-  MMMConverterS2KF learn-markers walk.c3d jump.c3d --height 1.75 -o our_set.xml
+  MMMConverterS2KF learn-markers walk.c3d jump.c3d --height 1.75 -o our_set.xml --report set.html
   MMMConverterS2KF calibrate walk.c3d --height 1.75 --marker-set our_set.xml -o anna.xml
 )";
 
@@ -82,8 +87,27 @@ LearnRequest MakeRequest(const Arguments& arguments) {
   request.converter.config = arguments.Get("config").value_or("");
   request.name = arguments.Get("name").value_or("");
   request.output = arguments.Get("output").value_or("");
-  request.more_outputs = {arguments.Get("summary").value_or("")};
+  request.more_outputs = {arguments.Get("summary").value_or(""),
+                          arguments.Get("report").value_or("")};
   return request;
+}
+
+// Each recording converted with the set, which is written.
+std::string FormatLearnedReport(const LearnRequest& request, const LearnReport& learnt) {
+  std::vector<Contender> contenders = {MakeContender(request.converter.config)};
+  std::vector<Trial> trials;
+  Warnings known;
+  for (InputRequest input : request.inputs) {
+    input.marker_set = learnt.output;
+    TakeMarkerSet(input, &contenders.front().config);
+    trials.push_back(MakeTrial(std::move(input), "", contenders.front().config, &known));
+  }
+  MakeNamesUnique(&trials, &contenders);
+  ProgressBar bar("runs");
+  const Comparison comparison = Compare(std::move(trials), std::move(contenders), {},
+                                        [&](int done, int all) { bar.Show(done, all); });
+  const std::string title = "Marker set " + learnt.name;
+  return FormatReport(title, {{title, DescribeLearntSet(learnt), &comparison}});
 }
 
 }  // namespace
@@ -101,6 +125,9 @@ int RunLearnMarkers(const Arguments& arguments) {
   WriteFileAtomically(report.output, FormatLearnedSet(report));
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatLearnedReport(request, report));
   }
   std::cout << FormatLearnSummary(report);
   return 0;

@@ -71,9 +71,11 @@ ObjectRequest ObjectRequestOf(const ConversionRequest& request, const Conversion
 }
 
 // The input's points under the names that are found for them; the others are left out.
-void LabelInput(const InputRequest& request, const ConverterConfig& config, ConversionPlan* plan) {
+void LabelInput(const ConversionRequest& request, const ConverterConfig& config,
+                const std::function<bool(int, int)>& progress, ConversionPlan* plan) {
   MarkerSequence& markers = plan->input.recording.markers;
-  plan->labels = FindLabels(request, {}, plan->input, config, {}, &plan->warnings);
+  plan->labels = FindLabels(request.input, request.label_hints, plan->input, config, progress,
+                            &plan->warnings);
   std::vector<RelabelledPoint> named;
   for (const RelabelledPoint& point : plan->labels->points) {
     if (!point.label.starts_with('*')) named.push_back(point);
@@ -113,7 +115,8 @@ ConversionResult Track(const ConversionReport& report,
 
 }  // namespace
 
-ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before,
+                              const std::function<bool(int, int)>& progress) {
   ConversionPlan plan;
   Warnings* warnings = &plan.warnings;
   InputRequest input = request.input;
@@ -125,7 +128,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
   if (request.self_calibrate) config.subject_file.clear();
-  if (request.label) LabelInput(request.input, config, &plan);
+  if (request.label) LabelInput(request, config, progress, &plan);
   const bool is_one_of_several = read_before.motion.value != nullptr;
   ChooseMotionOutput(request, is_one_of_several, &plan);
   plan.object =
@@ -154,6 +157,7 @@ void CheckOutputs(const ConversionRequest& request,
                   const std::vector<const ConversionPlan*>& plans) {
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
+  if (request.label) outputs.Read(request.label_hints.like);
   for (const ConversionPlan* plan : plans) {
     NameInputs(plan->converter, &outputs);
     outputs.Read(plan->person.subject_file);
@@ -189,7 +193,7 @@ ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
 
 ConversionReport RunConversion(const ConversionRequest& request,
                                const std::function<bool(int, int)>& progress) {
-  ConversionPlan plan = PlanConversion(request, {});
+  ConversionPlan plan = PlanConversion(request, {}, progress);
   CheckOutputs(request, {&plan});
   return CarryOut(std::move(plan), request.self_calibrate, progress);
 }

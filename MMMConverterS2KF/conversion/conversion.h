@@ -33,7 +33,8 @@ struct ConversionRequest {
   std::string model_output;               ///< also write the subject's model
   ExportFiles exports;                    ///< for other programs
   std::vector<std::string> more_outputs;  ///< that the caller writes
-  bool label = false;                     ///< find the names of points that have none first
+  bool label = false;                     ///< find the names of points first
+  LabelHints label_hints;                 ///< of these
   bool is_object = false;                 ///< of a rigid object, whatever the file says
   bool keeps_covariances = false;         ///< also where no export is of them
   /// Folder of the models of objects; those that it lacks are written there.
@@ -62,9 +63,11 @@ struct ConversionReport : ConversionPlan {
   Verdict verdict;
 };
 
-/// Reads the recording, the model and the configuration, matches the markers and finds the person.
+/// Reads the recording, the model and the configuration, finds labels where asked to, matches the
+/// markers and finds the person. progress: of the labels, as of CarryOut.
 /// @throws Error
-ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before);
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before,
+                              const std::function<bool(int, int)>& progress = {});
 
 /// Before any further work, of one motion or of all of a file.
 /// @throws Error where an output is a file that is read, two are the same, or one can't be written.

@@ -32,6 +32,12 @@ std::string DescribeSegments(const LearnedMarkers& learned) {
   return text;
 }
 
+std::size_t CountLeftOut(const LearnedMarkers& learned) {
+  return static_cast<std::size_t>(
+      std::count_if(learned.markers.begin(), learned.markers.end(),
+                    [](const LearnedMarker& marker) { return !marker.left_out.empty(); }));
+}
+
 }  // namespace
 
 std::string FormatLearnSummary(const LearnReport& report) {
@@ -43,15 +49,12 @@ std::string FormatLearnSummary(const LearnReport& report) {
                         markers.rate(), markers.num_labels());
   }
   const LearnedMarkers& learned = report.learned;
-  const auto left_out =
-      std::count_if(learned.markers.begin(), learned.markers.end(),
-                    [](const LearnedMarker& marker) { return !marker.left_out.empty(); });
   text += fmt::format("person     {:.3g} m ({})\n", report.person.height.value,
                       report.person.height.source);
   text += fmt::format(
       "learnt     {} of {} labels, on {} frames; these are {:.1f} mm from their places\n",
-      learned.markers.size() - static_cast<std::size_t>(left_out), learned.markers.size(),
-      learned.frames, kMillimetres * learned.mean_distance);
+      learned.markers.size() - CountLeftOut(learned), learned.markers.size(), learned.frames,
+      kMillimetres * learned.mean_distance);
   text += DescribeSegments(learned);
   bool is_first = true;
   for (const LearnedMarker& marker : learned.markers) {
@@ -61,6 +64,24 @@ std::string FormatLearnSummary(const LearnReport& report) {
     is_first = false;
   }
   return text + fmt::format("written    {}; use it with --marker-set\n", report.output);
+}
+
+std::string DescribeLearntSet(const LearnReport& report) {
+  const LearnedMarkers& learned = report.learned;
+  std::string left_out;
+  for (const LearnedMarker& marker : learned.markers) {
+    if (marker.left_out.empty()) continue;
+    left_out += fmt::format("{}{} ({})", left_out.empty() ? "Left out: " : "; ", marker.label,
+                            marker.left_out);
+  }
+  return fmt::format(
+             "Of {} labels, {} were learnt on {} frames; there they are {:.1f} mm from their "
+             "places "
+             "in the mean. Below, the recordings are converted with the set: the body wears the "
+             "markers where they were learnt.\n\n",
+             learned.markers.size(), learned.markers.size() - CountLeftOut(learned), learned.frames,
+             kMillimetres * learned.mean_distance) +
+         left_out;
 }
 
 Json ToJson(const LearnReport& report) {

@@ -11,7 +11,10 @@ namespace mmm_converter {
 /// What was learnt in a few lines, for people: the markers of each segment, and what was left out.
 std::string FormatLearnSummary(const LearnReport& report);
 
-/// The same as JSON, with every place; README.md says what is in it.
+/// The same in two paragraphs for a page, on which the recordings are converted with the set.
+std::string DescribeLearntSet(const LearnReport& report);
+
+/// What was learnt as JSON, with every place; README.md says what is in it.
 Json ToJson(const LearnReport& report);
 
 }  // namespace mmm_converter

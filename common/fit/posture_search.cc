@@ -66,8 +66,12 @@ void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* postur
   double draw = Uniform(&random_) * total;
   int marker = 0;
   while (marker + 1 < kinematics_.num_markers() && (draw -= distance_[marker]) > 0) ++marker;
+  // From one of its joints on: what is nearer to the root may be right already.
+  int joints = 0;
+  for (int j = 0; j < kinematics_.num_joints(); ++j) joints += kinematics_.Moves(j, marker);
+  int kept = static_cast<int>(Uniform(&random_) * joints);
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    if (!kinematics_.Moves(j, marker)) continue;
+    if (!kinematics_.Moves(j, marker) || kept-- > 0) continue;
     const bool is_endless = kinematics_.IsEndless(j);
     const double lower = is_endless ? -0.5 * kTurn : kinematics_.lower()[j];
     const double upper = is_endless ? 0.5 * kTurn : kinematics_.upper()[j];

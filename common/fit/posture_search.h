@@ -24,9 +24,9 @@ class PostureSearch {
                               const Eigen::VectorXd& noise_scale, const PostureFitOptions& options,
                               int attempts, Posture* posture);
 
-  /// One attempt to do better than `posture`: every other one restarts from the rigid fit, the
-  /// others restart the joints that move one badly fitting marker. True, and posture replaced,
-  /// where the cost is lower by more than a hundredth of it.
+  /// One attempt to do better than `posture`: joints that move one badly fitting marker are
+  /// thrown anew, from one of them on to the limb's end; every fourth time all others start from
+  /// the rigid fit. True, and posture replaced, where the cost is lower by more than a hundredth.
   bool Improve(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                const PostureFitOptions& options, Posture* posture);
 

@@ -100,6 +100,21 @@ TEST(Manifest, OfAGivenAndAnEstimatedPersonTheInnermostHolds) {
   EXPECT_EQ(manifest.entries[2].request.input.person.subject_file, "");
 }
 
+TEST(Manifest, LabelsAreFoundWhereTheInnermostSaysSo) {
+  const BatchManifest manifest = Parse(R"(
+    <Batch labelLike="standing.c3d"><Recording file="a.c3d"/>
+      <Group label="true"><Recording file="b.c3d"/><Recording file="c.c3d" label="false"/>
+        <Recording file="d.c3d" label="repair" labelLike="/other.c3d"/></Group></Batch>)");
+  EXPECT_FALSE(manifest.entries[0].request.label);
+  EXPECT_TRUE(manifest.entries[1].request.label);
+  EXPECT_FALSE(manifest.entries[1].request.label_hints.repair);
+  EXPECT_EQ(manifest.entries[1].request.label_hints.like, "/data/standing.c3d");
+  EXPECT_FALSE(manifest.entries[2].request.label);
+  EXPECT_TRUE(manifest.entries[3].request.label);
+  EXPECT_TRUE(manifest.entries[3].request.label_hints.repair);
+  EXPECT_EQ(manifest.entries[3].request.label_hints.like, "/other.c3d");
+}
+
 TEST(Manifest, SaysAllThatIsWrongWithItsLine) {
   EXPECT_THAT(
       ErrorOf("<Batch height_m='175'>\n<Recording file='a.c3d' hieght_m='1.7'/>\n<Recording/>\n"

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/fit/posture_search.h"
 #include "common/label/body_search.h"
 #include "common/label/label_body.h"
 #include "common/label/label_recording.h"
@@ -35,6 +36,7 @@ namespace {
 
 constexpr int kStarts = 10;          // of each recording
 constexpr double kStartRight = 0.9;  // of the points, where a start is right
+constexpr double kNear = 0.03;       // [m] of a posture that is known
 constexpr int kEventFrames = 400;    // of a recording at most, where events are mended
 constexpr std::array<const char*, 5> kEvents = {"pair", "nearest pair", "limb", "renamed", "split"};
 
@@ -94,6 +96,29 @@ class Labels {
     Print(all);
   }
 
+  /// The points of a frame that are seen.
+  struct Seen {
+    Seen(const testing::UnnamedPoints& made, int k) {
+      for (int c = 0; c < made.points.num_labels(); ++c) {
+        if (IsSeen(made.points.frame(k).col(c))) {
+          columns.push_back(c);
+          truth.push_back(made.truth[k][c]);
+        }
+      }
+      points = made.points.frame(k)(Eigen::all, columns);
+    }
+    void Count(const TrackingSetup& setup, const std::vector<int>& point_of_marker,
+               Counts* counts) const {
+      std::vector<int> given(truth.size(), -1);
+      for (std::size_t m = 0; m < point_of_marker.size(); ++m) {
+        if (point_of_marker[m] >= 0) given[point_of_marker[m]] = setup.assignments()[m].label;
+      }
+      for (std::size_t p = 0; p < given.size(); ++p) counts->Count(truth[p], given[p]);
+    }
+    std::vector<int> columns, truth;
+    Eigen::Matrix3Xd points;
+  };
+
   /// A whole recording.
   static void Offline(const LabelCase& one, const TrackingSetup& setup,
                       const testing::UnnamedPoints& made, Counts* counts) {
@@ -122,21 +147,47 @@ class Labels {
     }
   }
 
-  /// From nothing, single frames: shares of the starts.
-  static void Starts(const LabelCase& /*one*/, const TrackingSetup& setup,
-                     const testing::UnnamedPoints& made, Counts* counts) {
-    const LabelBody body(setup);
+  /// Single frames: shares of the starts.
+  using Find = std::function<BodyMatch(BodySearch*, const Seen&, int k)>;
+  static void Starts(const LabelBody& body, const TrackingSetup& setup,
+                     const testing::UnnamedPoints& made, const Find& find, Counts* counts) {
     BodySearch search(body);
     counts->frames = 0;
     for (int i = 0; i < kStarts; ++i) {
       const int k = (2 * i + 1) * made.points.num_frames() / (2 * kStarts);
       const Seen seen(made, k);
       Counts own;
-      seen.Count(setup, search.Find(seen.points).point_of_marker, &own);
+      seen.Count(setup, find(&search, seen, k).point_of_marker, &own);
       const bool is_right = own.right >= kStartRight * own.markers();
       counts->Count(0, is_right ? 0 : 1);
       counts->frames += 1;
     }
+  }
+
+  static void FromNothing(const LabelCase& /*one*/, const TrackingSetup& setup,
+                          const testing::UnnamedPoints& made, Counts* counts) {
+    const LabelBody body(setup);
+    const auto find = [](BodySearch* search, const Seen& seen, int) {
+      return search->Find(seen.points);
+    };
+    Starts(body, setup, made, find, counts);
+  }
+
+  /// From the posture of all labels, those that are hidden too: what a search could find at best.
+  static void FromTheLabels(const LabelCase& one, const TrackingSetup& setup,
+                            const testing::UnnamedPoints& made, Counts* counts) {
+    constexpr int kAttempts = 16;
+    const LabelBody body(setup);
+    PostureSearch postures(body.kinematics);
+    const Eigen::VectorXd scale = Eigen::VectorXd::Ones(body.num_markers());
+    const auto find = [&](BodySearch* search, const Seen& seen, int k) {
+      const Eigen::Matrix3Xd z =
+          one.recording.frame(k)(Eigen::all, LabelIndices(setup.assignments()));
+      Posture posture;
+      postures.Assemble(z, scale, {}, kAttempts, &posture);
+      return search->FindNear(seen.points, posture, kNear);
+    };
+    Starts(body, setup, made, find, counts);
   }
 
   /// Events of a second mended, and labels that are changed without need.
@@ -168,29 +219,6 @@ class Labels {
   }
 
  private:
-  /// The points of a frame that are seen.
-  struct Seen {
-    Seen(const testing::UnnamedPoints& made, int k) {
-      for (int c = 0; c < made.points.num_labels(); ++c) {
-        if (IsSeen(made.points.frame(k).col(c))) {
-          columns.push_back(c);
-          truth.push_back(made.truth[k][c]);
-        }
-      }
-      points = made.points.frame(k)(Eigen::all, columns);
-    }
-    void Count(const TrackingSetup& setup, const std::vector<int>& point_of_marker,
-               Counts* counts) const {
-      std::vector<int> given(truth.size(), -1);
-      for (std::size_t m = 0; m < point_of_marker.size(); ++m) {
-        if (point_of_marker[m] >= 0) given[point_of_marker[m]] = setup.assignments()[m].label;
-      }
-      for (std::size_t p = 0; p < given.size(); ++p) counts->Count(truth[p], given[p]);
-    }
-    std::vector<int> columns, truth;
-    Eigen::Matrix3Xd points;
-  };
-
   void ForEachCase(const std::function<Counts(const LabelCase&, int)>& run,
                    std::map<std::string, std::vector<Counts>>* all) const {
     std::vector<std::pair<const LabelCase*, int>> runs;  // with seed
@@ -320,8 +348,10 @@ int main(int argc, char** argv) try {
       {"offline-height-hard", [&] { labels.Names(Labels::Offline, false, true); }},
       {"online", [&] { labels.Names(Labels::Online, true, false); }},
       {"online-hard", [&] { labels.Names(Labels::Online, true, true); }},
-      {"starts", [&] { labels.Names(Labels::Starts, true, false); }},
-      {"starts-hard", [&] { labels.Names(Labels::Starts, true, true); }},
+      {"starts", [&] { labels.Names(Labels::FromNothing, true, false); }},
+      {"starts-hard", [&] { labels.Names(Labels::FromNothing, true, true); }},
+      {"starts-near", [&] { labels.Names(Labels::FromTheLabels, true, false); }},
+      {"starts-near-hard", [&] { labels.Names(Labels::FromTheLabels, true, true); }},
       {"repair", [&] { labels.Repair(); }}};
   std::stringstream whats(args[1]);
   for (std::string what; std::getline(whats, what, ',');) {

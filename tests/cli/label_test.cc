@@ -11,6 +11,7 @@
 #include "common/io/c3d/c3d_file.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/io/recording/recording.h"
+#include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/strict_c3d.h"
@@ -148,6 +149,26 @@ TEST(Label, ConvertLabelsInOneStep) {
   EXPECT_EQ(nlohmann::json::parse(ReadText(summary)).at("labels").at("names").size(), 53);
 }
 
+TEST(Label, ConvertTakesTheNamesOfAnotherRecording) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string output = InFolder("motion.xml");
+  const ProgramRun run = RunProgram(
+      {"convert", Unlabelled(), "--label", "--like", Labelled(), "--height", "1.76", "-o", output});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ExpectLabelled(output);
+}
+
+TEST(Label, BatchesLabelToo) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string manifest =
+      WriteManifest(0, "label='true' labelLike='" + Labelled() + "'",
+                    "<Recording id='pour' height_m='1.76' file='" +
+                        std::filesystem::absolute(Unlabelled()).string() + "'/>");
+  const ProgramRun run = RunProgram({"batch", manifest, "-o", InFolder("converted")});
+  ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
+  ExpectLabelled(InFolder("converted/motions/pour.xml"));
+}
+
 TEST(Label, WhatIsMissingIsSaid) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string input = Unlabelled();
@@ -170,6 +191,9 @@ TEST(Label, WhatIsMissingIsSaid) {
          "is read, and would be lost");
   expect({"convert", input, "--height", "1.76"}, 1, "the command label finds the names");
   expect({"convert", input, "--label", "--object"}, 2, "--label names the markers of a person");
+  expect({"convert", input, "--like", Labelled(), "--height", "1.76"}, 2, "--label or --repair");
+  expect({"convert", input, "--label", "--like", Labelled(), "--height", "1.76", "-o", Labelled()},
+         1, "is read, and would be lost");
   const std::string trc = InFolder("same.trc");
   std::filesystem::copy_file(input, trc);
   expect({"label", trc, "--height", "1.76", "-o", trc}, 1, "is the recording itself");

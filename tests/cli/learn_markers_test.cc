@@ -16,6 +16,7 @@
 namespace mmm_converter::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string OfThisTest(const std::string& name) { return TestFolder() + "/" + name; }
@@ -41,10 +42,13 @@ TEST(LearnMarkers, ASetThatCalibrateTakes) {
   const std::string recording = Meaningless();
   const std::string set = OfThisTest("our_set.xml");
   const std::string summary = OfThisTest("learnt.json");
-  const auto learnt =
-      RunProgram({"learn-markers", recording, "--height", "1.75", "-o", set, "--summary", summary});
+  const std::string page = OfThisTest("our_set.html");
+  const auto learnt = RunProgram({"learn-markers", recording, "--height", "1.75", "-o", set,
+                                  "--summary", summary, "--report", page});
   ASSERT_EQ(learnt.exit_code, 0) << learnt.err;
   EXPECT_THAT(learnt.out, HasSubstr("labels, on"));
+  EXPECT_THAT(ReadText(page), AllOf(HasSubstr("Marker set our_set"), HasSubstr("were learnt on"),
+                                    HasSubstr("meaningless.trc"), HasSubstr("</html>")));
   const auto json = nlohmann::json::parse(ReadText(summary));
   EXPECT_EQ(json["markers"].size(), 53U);
   EXPECT_EQ(json["output"], set);

@@ -42,7 +42,8 @@ TEST(BatchSchema, AgreesWithTheReader) {
         recording("csv='yes'"), recording("unit='ft'"), recording("up='w'"),
         recording("frames='5'"), recording("format='3'"), recording("rate_hz='0.5'"),
         recording("selfCalibrate='1'"), recording("ignoreResiduals=''"), recording("what='1'"),
-        recording("id=''"), std::string("<Batch><Group file='a.c3d'/></Batch>"),
+        recording("label='1'"), recording("id=''"),
+        std::string("<Batch><Group file='a.c3d'/></Batch>"),
         std::string("<Batch><Recording/></Batch>"),
         std::string("<Batch><Metadata value='1'/><Recording file='a'/></Batch>")}) {
     EXPECT_FALSE(testing::IsValidText(kBatchSchema, xml)) << xml;

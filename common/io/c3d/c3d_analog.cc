@@ -120,17 +120,12 @@ Eigen::MatrixXd ReadC3dAnalogSamples(C3dFile* file, const C3dAnalog& analog) {
   const bool is_unsigned = IsUnsigned(parameters);
   const std::size_t behind_points =
       static_cast<std::size_t>(layout.points) * (layout.floats ? 16 : 8);
-  const int chunk = static_cast<int>(
-      std::clamp<std::uint64_t>(kBufferBytes / layout.frame_bytes, 1, layout.frames));
-  std::vector<unsigned char> bytes;
-  for (int k = 0; k < layout.frames; k += chunk) {
-    const int count = std::min(chunk, layout.frames - k);
-    file->ReadFrames(k, count, &bytes);
+  file->ReadAllFrames([&](int first, int count, const unsigned char* stored) {
     for (int i = 0; i < count; ++i) {
-      DecodeSamples(&bytes[i * layout.frame_bytes + behind_points], layout, is_unsigned,
-                    {samples.data() + (k + i) * words, static_cast<std::size_t>(words)});
+      DecodeSamples(stored + i * layout.frame_bytes + behind_points, layout, is_unsigned,
+                    {samples.data() + (first + i) * words, static_cast<std::size_t>(words)});
     }
-  }
+  });
   const double scale = NumberOfEach(parameters, "GEN_SCALE", 1, 1)[0];
   samples.colwise() -= NumberOfEach(parameters, "OFFSET", channels, 0);
   const Eigen::VectorXd scales = scale * NumberOfEach(parameters, "SCALE", channels, 1);

@@ -103,6 +103,18 @@ void C3dFile::ReadFrames(int first, int count, std::vector<unsigned char>* bytes
   }
 }
 
+void C3dFile::ReadAllFrames(const TakeFrames& take) {
+  if (layout_.frames == 0 || layout_.frame_bytes == 0) return;
+  const int most = static_cast<int>(std::clamp<std::uint64_t>(
+      kBufferBytes / layout_.frame_bytes, 1, static_cast<std::uint64_t>(layout_.frames)));
+  std::vector<unsigned char> bytes;
+  for (int k = 0; k < layout_.frames; k += most) {
+    const int count = std::min(most, layout_.frames - k);
+    ReadFrames(k, count, &bytes);
+    take(k, count, bytes.data());
+  }
+}
+
 std::vector<std::string> C3dPointNames(const C3dFile& file, Warnings* warnings) {
   const std::size_t points = file.layout().points;
   std::size_t there = 0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <fstream>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ class C3dFile {
   /// The stored bytes of whole frames, which must be there.
   /// @throws Error where the file has become shorter meanwhile.
   void ReadFrames(int first, int count, std::vector<unsigned char>* bytes);
+
+  /// The same of all frames, as many at a time as a buffer holds.
+  using TakeFrames = std::function<void(int first, int count, const unsigned char* stored)>;
+  void ReadAllFrames(const TakeFrames& take);
 
  private:
   std::string path_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/io/c3d/c3d_points.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/io/c3d/c3d_data.h"
@@ -35,21 +34,16 @@ void Count(const unsigned char* stored, const C3dLayout& layout, C3dPointCounts*
 std::vector<C3dPointCounts> CountC3dPoints(C3dFile* file) {
   const C3dLayout& layout = file->layout();
   std::vector<C3dPointCounts> points(layout.points);
-  if (layout.points == 0 || layout.frames == 0) return points;
+  if (points.empty()) return points;
   const std::size_t point_bytes = layout.floats ? 16 : 8;
-  const int chunk = static_cast<int>(
-      std::clamp<std::uint64_t>(kBufferBytes / layout.frame_bytes, 1, layout.frames));
-  std::vector<unsigned char> bytes;
-  for (int k = 0; k < layout.frames; k += chunk) {
-    const int count = std::min(chunk, layout.frames - k);
-    file->ReadFrames(k, count, &bytes);
+  file->ReadAllFrames([&](int, int count, const unsigned char* stored) {
     for (int i = 0; i < count; ++i) {
-      const unsigned char* const frame = &bytes[i * layout.frame_bytes];
+      const unsigned char* const frame = stored + i * layout.frame_bytes;
       for (std::size_t p = 0; p < points.size(); ++p) {
         Count(frame + p * point_bytes, layout, &points[p]);
       }
     }
-  }
+  });
   for (C3dPointCounts& counts : points) {
     if (counts.measured > 0) counts.residual /= static_cast<double>(counts.measured);
   }

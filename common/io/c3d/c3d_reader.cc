@@ -3,8 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "common/io/c3d/c3d_data.h"
 #include "common/io/c3d/c3d_numbers.h"
 #include "common/support/error.h"
@@ -36,15 +34,9 @@ MarkerSequence C3dReader::ReadPoints(const std::vector<int>& points,
   const C3dLayout& layout = info_.layout;
   MarkerSequence sequence(labels, layout.frames, rate, 0);
   if (points.empty()) return sequence;
-  const int chunk = static_cast<int>(
-      std::clamp<std::uint64_t>(kBufferBytes / layout.frame_bytes, 1, layout.frames));
-  std::vector<unsigned char> bytes;
-  for (int k = 0; k < layout.frames; k += chunk) {
-    const int count = std::min(chunk, layout.frames - k);
-    file_.ReadFrames(k, count, &bytes);
-    DecodeC3dFrames(bytes.data(), count, points, layout, ignore_residuals,
-                    sequence.frame(k).data());
-  }
+  file_.ReadAllFrames([&](int first, int count, const unsigned char* stored) {
+    DecodeC3dFrames(stored, count, points, layout, ignore_residuals, sequence.frame(first).data());
+  });
   return sequence;
 }
 

@@ -231,18 +231,13 @@ void CopyRest(C3dFile* file, const Frame& frame, PieceWriter* pieces) {
 void WriteFrames(C3dFile* file, const Points& points, PieceWriter* pieces) {
   const C3dLayout& layout = file->layout();
   FrameMaker maker(layout, points);
-  const int chunk = static_cast<int>(std::clamp<std::uint64_t>(
-      kBufferBytes / layout.frame_bytes, 1, static_cast<std::uint64_t>(layout.frames)));
-  FileBytes stored;
-  for (int k = 0; k < layout.frames; k += chunk) {
-    const int count = std::min(chunk, layout.frames - k);
-    file->ReadFrames(k, count, &stored);
+  file->ReadAllFrames([&](int first, int count, const unsigned char* stored) {
     for (int i = 0; i < count; ++i) {
-      maker.Append(k + i, &stored[layout.frame_bytes * static_cast<std::uint64_t>(i)],
+      maker.Append(first + i, stored + layout.frame_bytes * static_cast<std::uint64_t>(i),
                    pieces->text());
       pieces->EndPart();
     }
-  }
+  });
 }
 
 }  // namespace
