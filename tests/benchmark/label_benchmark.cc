@@ -158,9 +158,13 @@ class Labels {
       const Seen seen(made, k);
       Counts own;
       seen.Count(setup, find(&search, seen, k).point_of_marker, &own);
-      const bool is_right = own.right >= kStartRight * own.markers();
-      counts->Count(0, is_right ? 0 : 1);
       counts->frames += 1;
+      if (own.right >= kStartRight * own.markers()) {
+        counts->right += 1;
+        continue;
+      }
+      counts->wrong += 1;
+      for (const auto& [labels, count] : own.confusions) counts->confusions[labels] += count;
     }
   }
 
