@@ -37,7 +37,8 @@ struct Stage {
 };
 constexpr std::size_t kFirstKept = 72;
 constexpr std::array<Stage, 3> kStages = {
-    {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 4}}};
+    {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 9}}};
+constexpr std::size_t kSettledFirst = 4;  // of the last, the others where none of these is near
 
 constexpr double kDrawnTo = 0.03;  // [m]
 
@@ -49,6 +50,7 @@ struct Throws {
 constexpr Throws kThrowsAlone = {40, 100, 300};
 constexpr Throws kThrowsWithWholeBody = {0, 40, 120};
 constexpr double kGoodShare = 0.1;  // of the cost that no match at all would have
+constexpr double kBadShare = 0.2;   // then the postures that were left last are tried, too
 
 /// Distance from the nearest of some points, cut off, on a grid.
 class DistanceGrid {
@@ -340,16 +342,20 @@ BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
     }
     keep(stage.kept);
   }
+  // What markers without points cost at least.
+  const auto markers = static_cast<double>(body_.num_markers());
+  const double least = kUnmatched * std::max(markers - static_cast<double>(points.cols()), 0.0);
+  const double good = least + kGoodShare * kUnmatched * markers;
+  const double bad = least + kBadShare * kUnmatched * markers;
   const Throws& throws =
       throws_ == LimbThrows::kWithWholeBody ? kThrowsWithWholeBody : kThrowsAlone;
   BodyMatch best;
-  for (const Candidate& candidate : candidates) {
-    BodyMatch match = Settle(points, candidate.posture);
+  for (std::size_t i = 0; i < candidates.size() && (i < kSettledFirst || best.cost > bad); ++i) {
+    BodyMatch match = Settle(points, candidates[i].posture);
     ImproveLimbs(points, throws.first, &match);
     if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
   }
   ImproveLimbs(points, throws.once, &best);
-  const double good = kGoodShare * kUnmatched * body_.num_markers();
   for (int i = 0; i < throws.more && best.cost > good; i += throws.once) {
     ImproveLimbs(points, throws.once, &best);
   }

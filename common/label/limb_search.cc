@@ -23,6 +23,8 @@ constexpr double kThrownTo = 0.03;
 constexpr int kThrownSteps = 8;
 constexpr double kNearThrow = 0.5;  // [rad]
 constexpr double kReach = 0.5;      // [m]: free points farther off are not a marker's
+constexpr double kBeside = 0.25;  // [m] between markers of limbs that may have each other's points
+constexpr double kPairShare = 0.4;  // of the throws, where limbs are beside each other
 constexpr double kLimbStep = 0.6;   // longest [rad]
 constexpr double kLimbDamping = 0.01;
 constexpr double kLimbGain = 1;
@@ -41,6 +43,7 @@ void LimbSearch::Excess(const Ref<const Matrix3Xd>& points, const BodyMatch& mat
   body_.kinematics.ComputeMarkers(match.posture.position,
                                   match.posture.orientation.toRotationMatrix(),
                                   match.posture.joint_angles, &at_);
+  found_ = at_.p_WM;
   for (int m = 0; m < body_.num_markers(); ++m) {
     const int point = match.point_of_marker[m];
     if (point >= 0) {
@@ -64,6 +67,22 @@ const LabelBody::Limb* LimbSearch::DrawLimb(SeededRandom* random) const {
   while (marker + 1 < excess_.size() && (draw -= excess_[marker]) > 0) ++marker;
   const int limb = body_.limb_of_marker[marker];
   return limb < 0 ? nullptr : &body_.limbs[limb];
+}
+
+const LabelBody::Limb* LimbSearch::LimbBeside(const LabelBody::Limb& limb) const {
+  const LabelBody::Limb* beside = nullptr;
+  double nearest = kBeside;
+  for (const LabelBody::Limb& other : body_.limbs) {
+    if (&other == &limb) continue;
+    for (const int m : other.markers) {
+      const double distance =
+          (found_(Eigen::all, limb.markers).colwise() - found_.col(m)).colwise().norm().minCoeff();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      beside = &other;
+    }
+  }
+  return beside;
 }
 
 void LimbSearch::Throw(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) const {
@@ -181,8 +200,17 @@ bool LimbSearch::Improve(const Ref<const Matrix3Xd>& points, int attempts, Seede
   Excess(points, *match);
   Posture trial;
   for (int i = 0; i < attempts && excess_.sum() > kLimbGain; ++i) {
-    const LabelBody::Limb* const limb = DrawLimb(random);
-    if (limb == nullptr) continue;
+    const LabelBody::Limb* const first = DrawLimb(random);
+    if (first == nullptr) continue;
+    const LabelBody::Limb* limb = first;
+    const LabelBody::Limb* const second =
+        random->Uniform() < kPairShare ? LimbBeside(*first) : nullptr;
+    if (second != nullptr) {
+      pair_ = *first;
+      pair_.joints.insert(pair_.joints.end(), second->joints.begin(), second->joints.end());
+      pair_.markers.insert(pair_.markers.end(), second->markers.begin(), second->markers.end());
+      limb = &pair_;
+    }
     std::vector<char> is_taken(static_cast<std::size_t>(points.cols()), 0);
     for (const int point : match->point_of_marker) {
       if (point >= 0) is_taken[point] = 1;
@@ -197,7 +225,8 @@ bool LimbSearch::Improve(const Ref<const Matrix3Xd>& points, int attempts, Seede
     points_ = points(Eigen::all, allowed_);
     trial = match->posture;
     const double before = Settle(*limb, 0, &trial);
-    Throw(*limb, random, &trial);
+    Throw(*first, random, &trial);
+    if (second != nullptr) Throw(*second, random, &trial);
     Draw(*limb, &trial);
     const double after = Settle(*limb, kTurns, &trial);
     if (after > before - kLimbGain) continue;

@@ -30,8 +30,9 @@ struct MatchCosts {
   static constexpr double kNaturalWeight = 0.3;  ///< [1/rad^2]
 };
 
-/// Looks for single limbs while the rest of the body stays where it is: their joints are thrown
-/// anew and drawn to the points that the rest leaves by soft assignment.
+/// Looks for single limbs, and for two that are beside each other, while the rest of the body stays
+/// where it is: their joints are thrown anew and drawn to the points that the rest leaves by soft
+/// assignment. Feet that stand together may have each other's points: then neither is found alone.
 class LimbSearch {
  public:
   /// body must outlive the search.
@@ -52,6 +53,8 @@ class LimbSearch {
   /// Of each marker, what it costs more than a good one and can be spared.
   void Excess(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const BodyMatch& match);
   const LabelBody::Limb* DrawLimb(SeededRandom* random) const;
+  /// The one with a marker nearest to the limb's in the best match; null: none is near.
+  const LabelBody::Limb* LimbBeside(const LabelBody::Limb& limb) const;
   void Throw(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) const;
   void Place(const LabelBody::Limb& limb, const Posture& posture);
   void Draw(const LabelBody::Limb& limb, Posture* posture);
@@ -64,8 +67,10 @@ class LimbSearch {
   MarkerJacobian at_;
   SoftAssignment soft_;
   LinearAssignment assignment_;
+  LabelBody::Limb pair_;      // both of two limbs
   std::vector<int> allowed_;  // points that the limb may have
   Eigen::Matrix3Xd points_;   // these
+  Eigen::Matrix3Xd found_;    // all markers of the best match
   Eigen::Matrix3Xd places_;   // of the limb's markers
   Eigen::VectorXd variances_, noise_, excess_;
   Eigen::Matrix3Xd targets_;
