@@ -56,10 +56,10 @@ void PostureSearch::Unwind(const VectorXd& reference, Posture* posture) const {
 void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* posture) {
   kinematics_.ComputeMarkers(posture->position, posture->orientation.toRotationMatrix(),
                              posture->joint_angles, &at_);
-  // Drawn with a probability proportional to its distance.
+  // Drawn with a probability proportional to its squared distance.
   double total = 0;
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    const double r = (z.col(m) - at_.p_WM.col(m)).norm();
+    const double r = (z.col(m) - at_.p_WM.col(m)).squaredNorm();
     distance_[m] = std::isfinite(r) ? r : 0;
     total += distance_[m];
   }
