@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/comparison_output.h"
 #include "MMMConverterS2KF/comparison/comparison_setup.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
-#include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
@@ -110,14 +110,10 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
     trial.subject = report.person.subject;
     trials.push_back(std::move(trial));
   }
-  std::vector<Contender> contenders = {MakeContender(arguments.Get("config").value_or(""))};
+  Contender contender = MakeContender(arguments.Get("config").value_or(""));
   InputRequest request;
   request.marker_set = arguments.Get("marker-set").value_or("");
-  TakeMarkerSet(request, &contenders.front().config);
-  MakeNamesUnique(&trials, &contenders);
-  ProgressBar bar("runs");
-  const Comparison comparison = Compare(std::move(trials), std::move(contenders), {},
-                                        [&](int done, int all) { bar.Show(done, all); });
+  TakeMarkerSet(request, &contender.config);
   const std::string text = fmt::format(
       "The person \"{}\", calibrated on {} frames: the best postures leave {:.1f} mm to the "
       "markers "
@@ -125,8 +121,8 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
       "it.",
       report.result.subject.name, report.result.frames, 1e3 * report.result.distance_after,
       1e3 * report.result.distance_before);
-  const std::string title = "Calibration of " + report.result.subject.name;
-  return FormatReport(title, {{title, text, &comparison}});
+  return FormatPageOfRuns("Calibration of " + report.result.subject.name, text, std::move(trials),
+                          std::move(contender));
 }
 
 }  // namespace

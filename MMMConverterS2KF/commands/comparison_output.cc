@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "MMMConverterS2KF/comparison/comparison_setup.h"
 #include "MMMConverterS2KF/report/comparison_json.h"
 #include "MMMConverterS2KF/report/comparison_plot.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
+#include "MMMConverterS2KF/terminal/progress.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {
@@ -40,6 +42,16 @@ void WriteComparison(const Arguments& arguments, const std::string& title,
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatReport(title, {{title, "", &comparison}}));
   }
+}
+
+std::string FormatPageOfRuns(const std::string& title, const std::string& text,
+                             std::vector<Trial> trials, Contender contender) {
+  std::vector<Contender> contenders = {std::move(contender)};
+  MakeNamesUnique(&trials, &contenders);
+  ProgressBar bar("runs");
+  const Comparison comparison = Compare(std::move(trials), std::move(contenders), {},
+                                        [&bar](int done, int all) { bar.Show(done, all); });
+  return FormatReport(title, {{title, text, &comparison}});
 }
 
 }  // namespace mmm_converter

@@ -22,4 +22,9 @@ void NameOutputs(const Arguments& arguments, OutputPlan* plan);
 void WriteComparison(const Arguments& arguments, const std::string& title,
                      const Comparison& comparison);
 
+/// A page with recordings as one contender converts them, which happens here, with progress. text:
+/// what stands above them.
+std::string FormatPageOfRuns(const std::string& title, const std::string& text,
+                             std::vector<Trial> trials, Contender contender);
+
 }  // namespace mmm_converter

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/comparison_output.h"
 #include "MMMConverterS2KF/comparison/comparison_setup.h"
 #include "MMMConverterS2KF/conversion/marker_learning.h"
 #include "MMMConverterS2KF/report/learn_summary.h"
-#include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
@@ -51,7 +51,8 @@ Examples
 )";
 
 // Given once for all recordings, or once for each in their order.
-const std::vector<std::string> kPerLearned = {"frames", "subject", "motion", "unit", "rate", "up"};
+const std::vector<std::string> kPerRecording = {"frames", "subject", "motion",
+                                                "unit",   "rate",    "up"};
 
 std::vector<OptionGroup> Options() {
   std::vector<OptionGroup> options = {kOwnOptions.front()};
@@ -62,7 +63,7 @@ std::vector<OptionGroup> Options() {
       return o.name == "subject-file" || o.name == "marker-set";
     });
     for (OptionSpec& option : group.options) {
-      option.repeatable |= std::count(kPerLearned.begin(), kPerLearned.end(), option.name) > 0;
+      option.repeatable |= std::count(kPerRecording.begin(), kPerRecording.end(), option.name) > 0;
     }
   }
   return options;
@@ -81,7 +82,7 @@ LearnRequest MakeRequest(const Arguments& arguments) {
   }
   LearnRequest request;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerLearned);
+    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
     request.inputs.push_back(MakeInputRequest(own, files[i]));
   }
   request.converter.config = arguments.Get("config").value_or("");
@@ -94,20 +95,16 @@ LearnRequest MakeRequest(const Arguments& arguments) {
 
 // Each recording converted with the set, which is written.
 std::string FormatLearnedReport(const LearnRequest& request, const LearnReport& learnt) {
-  std::vector<Contender> contenders = {MakeContender(request.converter.config)};
+  Contender contender = MakeContender(request.converter.config);
   std::vector<Trial> trials;
-  Warnings known;
+  Warnings told_when_learnt;
   for (InputRequest input : request.inputs) {
     input.marker_set = learnt.output;
-    TakeMarkerSet(input, &contenders.front().config);
-    trials.push_back(MakeTrial(std::move(input), "", contenders.front().config, &known));
+    TakeMarkerSet(input, &contender.config);
+    trials.push_back(MakeTrial(std::move(input), "", contender.config, &told_when_learnt));
   }
-  MakeNamesUnique(&trials, &contenders);
-  ProgressBar bar("runs");
-  const Comparison comparison = Compare(std::move(trials), std::move(contenders), {},
-                                        [&](int done, int all) { bar.Show(done, all); });
-  const std::string title = "Marker set " + learnt.name;
-  return FormatReport(title, {{title, DescribeLearntSet(learnt), &comparison}});
+  return FormatPageOfRuns("Marker set " + learnt.name, DescribeLearntSet(learnt), std::move(trials),
+                          std::move(contender));
 }
 
 }  // namespace

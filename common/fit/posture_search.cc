@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/fit/rigid_shape.h"
+#include "common/math/seeded_random.h"
 
 namespace mmm_converter {
 
@@ -29,7 +30,7 @@ PostureSearch::PostureSearch(const MarkerKinematics& kinematics)
       fit_(kinematics),
       at_(kinematics.MakeJacobian()),
       rigidity_(kinematics.num_markers()),
-      distance_(kinematics.num_markers()) {
+      squared_distances_(kinematics.num_markers()) {
   for (int m = 0; m < kinematics.num_markers(); ++m) {
     int joints = 0;
     for (int j = 0; j < kinematics.num_joints(); ++j) joints += kinematics.Moves(j, m);
@@ -57,24 +58,18 @@ void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* postur
   kinematics_.ComputeMarkers(posture->position, posture->orientation.toRotationMatrix(),
                              posture->joint_angles, &at_);
   // Drawn with a probability proportional to its squared distance.
-  double total = 0;
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
-    const double r = (z.col(m) - at_.p_WM.col(m)).squaredNorm();
-    distance_[m] = std::isfinite(r) ? r : 0;
-    total += distance_[m];
+    const double squared = (z.col(m) - at_.p_WM.col(m)).squaredNorm();
+    squared_distances_[m] = std::isfinite(squared) ? squared : 0;
   }
-  double draw = Uniform(&random_) * total;
-  int marker = 0;
-  while (marker + 1 < kinematics_.num_markers() && (draw -= distance_[marker]) > 0) ++marker;
+  const int marker = IndexAtShare(Uniform(&random_), squared_distances_);
   // From one of its joints on: what is nearer to the root may be right already.
   int joints = 0;
   for (int j = 0; j < kinematics_.num_joints(); ++j) joints += kinematics_.Moves(j, marker);
   int kept = static_cast<int>(Uniform(&random_) * joints);
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
     if (!kinematics_.Moves(j, marker) || kept-- > 0) continue;
-    const bool is_endless = kinematics_.IsEndless(j);
-    const double lower = is_endless ? -0.5 * kTurn : kinematics_.lower()[j];
-    const double upper = is_endless ? 0.5 * kTurn : kinematics_.upper()[j];
+    const auto [lower, upper] = kinematics_.Range(j);
     posture->joint_angles[j] =
         0.5 * (lower + upper) + (Uniform(&random_) - 0.5) * kRandomShare * (upper - lower);
   }

@@ -48,8 +48,8 @@ class PostureSearch {
   const MarkerKinematics& kinematics_;
   PostureFit fit_;
   MarkerJacobian at_;
-  Eigen::VectorXd rigidity_;  // per marker
-  Eigen::VectorXd distance_;
+  Eigen::VectorXd rigidity_;           // per marker
+  Eigen::VectorXd squared_distances_;  // [m^2] of each marker from its measurement
   Posture trial_;
   std::mt19937 random_;
 };

@@ -21,9 +21,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kUnmatched = MatchCosts::kUnmatched;
-constexpr double kSettled = MatchCosts::kSettled;
-constexpr double kNaturalWeight = MatchCosts::kNaturalWeight;
 constexpr double kDamping = 0.01;         // relative
 constexpr double kLeastCurvature = 1e-3;  // [1/m^2], [1/rad^2]
 constexpr double kLongestStep = 0.6;      // [rad]
@@ -38,7 +35,8 @@ struct Stage {
 constexpr std::size_t kFirstKept = 72;
 constexpr std::array<Stage, 3> kStages = {
     {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 9}}};
-constexpr std::size_t kSettledFirst = 4;  // of the last, the others where none of these is near
+// Of the last postures, settled in any case; the others only where the best of these is bad.
+constexpr std::size_t kSettledFirst = 4;
 
 constexpr double kDrawnTo = 0.03;  // [m]
 
@@ -186,8 +184,9 @@ void BodySearch::Step(const MatrixXd& targets, const VectorXd& noise, Posture* p
   constexpr int kSolves = 3;
   const int joints = body_.kinematics.num_joints();
   equations_.Linearize(targets, noise, kNoLimit);
-  equations_.H().diagonal().tail(joints).array() += kNaturalWeight;
-  equations_.g().tail(joints) += kNaturalWeight * (body_.natural_angles - posture->joint_angles);
+  equations_.H().diagonal().tail(joints).array() += MatchCosts::kNaturalWeight;
+  equations_.g().tail(joints) +=
+      MatchCosts::kNaturalWeight * (body_.natural_angles - posture->joint_angles);
   equations_.HoldPressingJoints(posture->joint_angles);
   equations_.Solve(kDamping, kLeastCurvature);
   for (int i = 1; i < kSolves && equations_.HoldOversteppingJoints(posture->joint_angles); ++i) {
@@ -217,13 +216,15 @@ void BodySearch::Draw(const Ref<const Matrix3Xd>& points, double from, double to
 double BodySearch::SoftCost(const Ref<const Matrix3Xd>& points, const Posture& posture,
                             double spread) {
   const Matrix3Xd& places = equations_.Place(posture);
-  double cost = kNaturalWeight * (posture.joint_angles - body_.natural_angles).squaredNorm();
-  VectorXd nearest = VectorXd::Constant(points.cols(), kUnmatched);  // marker of each point
+  double cost =
+      MatchCosts::kNaturalWeight * (posture.joint_angles - body_.natural_angles).squaredNorm();
+  VectorXd nearest =
+      VectorXd::Constant(points.cols(), MatchCosts::kUnmatched);  // marker of each point
   for (int m = 0; m < body_.num_markers(); ++m) {
     const double variance = body_.place[m] * body_.place[m] + spread * spread;
     const Eigen::RowVectorXd d2 =
         (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
-    cost += std::min(d2.minCoeff(), kUnmatched);
+    cost += std::min(d2.minCoeff(), MatchCosts::kUnmatched);
     nearest = nearest.cwiseMin(d2.transpose());
   }
   return cost + nearest.sum();
@@ -233,14 +234,15 @@ BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& p
   const Matrix3Xd& places = equations_.Place(posture);
   cost_.resize(body_.num_markers(), points.cols());
   for (int m = 0; m < body_.num_markers(); ++m) {
-    const double variance = body_.place[m] * body_.place[m] + kSettled * kSettled;
+    const double variance =
+        body_.place[m] * body_.place[m] + MatchCosts::kSettled * MatchCosts::kSettled;
     cost_.row(m) = (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
   }
   BodyMatch match;
-  match.point_of_marker = assignment_.Solve(cost_, kUnmatched);
+  match.point_of_marker = assignment_.Solve(cost_, MatchCosts::kUnmatched);
   match.posture = posture;
-  match.cost = assignment_.cost() +
-               kNaturalWeight * (posture.joint_angles - body_.natural_angles).squaredNorm();
+  match.cost = assignment_.cost() + MatchCosts::kNaturalWeight *
+                                        (posture.joint_angles - body_.natural_angles).squaredNorm();
   match.matched =
       static_cast<int>(std::count_if(match.point_of_marker.begin(), match.point_of_marker.end(),
                                      [](int point) { return point >= 0; }));
@@ -257,7 +259,7 @@ BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& 
       if (best.point_of_marker[m] >= 0) targets_.col(m) = points.col(best.point_of_marker[m]);
     }
     Posture next = best.posture;
-    noise_ = (body_.place.array().square() + kSettled * kSettled).sqrt();
+    noise_ = (body_.place.array().square() + MatchCosts::kSettled * MatchCosts::kSettled).sqrt();
     equations_.Place(next);
     Step(targets_, noise_, &next);
     BodyMatch match = Match(points, next);
@@ -273,20 +275,15 @@ bool BodySearch::ThrowLimb(const BodyMatch& match, Posture* posture) {
   VectorXd costs(body_.num_markers());
   for (int m = 0; m < costs.size(); ++m) {
     const int point = match.point_of_marker[m];
-    costs[m] = point < 0 ? kUnmatched : std::max(cost_(m, point) - 3, 0.0);
+    costs[m] = point < 0 ? MatchCosts::kUnmatched : std::max(cost_(m, point) - 3, 0.0);
   }
-  double draw = random_.Uniform() * costs.sum();
-  int marker = 0;
-  while (marker + 1 < costs.size() && (draw -= costs[marker]) > 0) ++marker;
-  const std::vector<int>& joints = body_.joints_of_marker[marker];
+  const std::vector<int>& joints = body_.joints_of_marker[IndexAtShare(random_.Uniform(), costs)];
   if (joints.empty()) return false;
   // The outer half of the chain, or all of it.
   const std::size_t first = random_.Uniform() < 0.5 ? 0 : joints.size() / 2;
   for (std::size_t i = first; i < joints.size(); ++i) {
     const int j = joints[i];
-    const bool is_endless = body_.kinematics.IsEndless(j);
-    const double lower = is_endless ? -EIGEN_PI : body_.kinematics.lower()[j];
-    const double upper = is_endless ? EIGEN_PI : body_.kinematics.upper()[j];
+    const auto [lower, upper] = body_.kinematics.Range(j);
     posture->joint_angles[j] = lower + random_.Uniform() * (upper - lower);
   }
   return true;
@@ -344,9 +341,10 @@ BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
   }
   // What markers without points cost at least.
   const auto markers = static_cast<double>(body_.num_markers());
-  const double least = kUnmatched * std::max(markers - static_cast<double>(points.cols()), 0.0);
-  const double good = least + kGoodShare * kUnmatched * markers;
-  const double bad = least + kBadShare * kUnmatched * markers;
+  const double least =
+      MatchCosts::kUnmatched * std::max(markers - static_cast<double>(points.cols()), 0.0);
+  const double good = least + kGoodShare * MatchCosts::kUnmatched * markers;
+  const double bad = least + kBadShare * MatchCosts::kUnmatched * markers;
   const Throws& throws =
       throws_ == LimbThrows::kWithWholeBody ? kThrowsWithWholeBody : kThrowsAlone;
   BodyMatch best;

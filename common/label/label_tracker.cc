@@ -110,10 +110,8 @@ void LabelTracker::Predict(double dt) {
   // A joint is within its limits, whatever was not seen.
   for (int j = 0; j < body_.kinematics.num_joints(); ++j) {
     const int i = 6 + j;
-    const double range = body_.kinematics.IsEndless(j)
-                             ? 2 * EIGEN_PI
-                             : body_.kinematics.upper()[j] - body_.kinematics.lower()[j];
-    const double most = range * range / 12;
+    const auto [lower, upper] = body_.kinematics.Range(j);
+    const double most = Squared(upper - lower) / 12;
     if (P_qq(i, i) <= most) continue;
     const double share = std::sqrt(most / P_qq(i, i));
     P_qq.row(i) *= share;

@@ -62,10 +62,7 @@ void LimbSearch::Excess(const Ref<const Matrix3Xd>& points, const BodyMatch& mat
 }
 
 const LabelBody::Limb* LimbSearch::DrawLimb(SeededRandom* random) const {
-  double draw = random->Uniform() * excess_.sum();
-  int marker = 0;
-  while (marker + 1 < excess_.size() && (draw -= excess_[marker]) > 0) ++marker;
-  const int limb = body_.limb_of_marker[marker];
+  const int limb = body_.limb_of_marker[IndexAtShare(random->Uniform(), excess_)];
   return limb < 0 ? nullptr : &body_.limbs[limb];
 }
 
@@ -91,9 +88,7 @@ void LimbSearch::Throw(const LabelBody::Limb& limb, SeededRandom* random, Postur
   const bool is_near = random->Uniform() < 0.5;
   for (std::size_t i = first; i < limb.joints.size(); ++i) {
     const int j = limb.joints[i];
-    const bool is_endless = body_.kinematics.IsEndless(j);
-    const double lower = is_endless ? -EIGEN_PI : body_.kinematics.lower()[j];
-    const double upper = is_endless ? EIGEN_PI : body_.kinematics.upper()[j];
+    const auto [lower, upper] = body_.kinematics.Range(j);
     double& angle = posture->joint_angles[j];
     angle = is_near ? angle + kNearThrow * random->Normal()
                     : lower + random->Uniform() * (upper - lower);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/label/body_match.h"
 #include "common/label/label_body.h"
 #include "common/label/linear_assignment.h"
 #include "common/label/soft_assignment.h"
@@ -12,23 +13,6 @@
 #include "common/model/posture.h"
 
 namespace mmm_converter {
-
-/// A posture, and which point is which marker in it.
-struct BodyMatch {
-  Posture posture;                   ///< tracked joints
-  std::vector<int> point_of_marker;  ///< -1: none
-  /// Of each marker min(d^2 / v, 9), v its place's and the posture's variance; of angles their
-  /// distance from the natural ones.
-  double cost = 0;
-  int matched = 0;
-};
-
-/// What a match costs.
-struct MatchCosts {
-  static constexpr double kUnmatched = 9;        ///< of a marker without point: three deviations
-  static constexpr double kSettled = 0.015;      ///< [m] what a posture may still be off
-  static constexpr double kNaturalWeight = 0.3;  ///< [1/rad^2]
-};
 
 /// Looks for single limbs, and for two that are beside each other, while the rest of the body stays
 /// where it is: their joints are thrown anew and drawn to the points that the rest leaves by soft

@@ -44,4 +44,11 @@ int SeededRandom::Poisson(double mean) {
   return count;
 }
 
+int IndexAtShare(double share, const Eigen::Ref<const Eigen::VectorXd>& weights) {
+  double left = share * weights.sum();
+  int index = 0;
+  while (index + 1 < weights.size() && (left -= weights[index]) > 0) ++index;
+  return index;
+}
+
 }  // namespace mmm_converter

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <random>
 
@@ -22,5 +23,9 @@ class SeededRandom {
   double spare_normal_ = 0;
   bool has_spare_normal_ = false;
 };
+
+/// Draws an index with a probability proportional to its weight: the one at which the sum of the
+/// weights so far reaches this share, in [0, 1), of all. weights: at least one, none negative.
+int IndexAtShare(double share, const Eigen::Ref<const Eigen::VectorXd>& weights);
 
 }  // namespace mmm_converter

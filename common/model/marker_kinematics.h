@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/math/instruction_set.h"
@@ -54,6 +55,11 @@ class MarkerKinematics {
   const Eigen::VectorXd& upper() const { return upper_; }  ///< [rad], tracked joints
   /// Of a tracked joint: turns as far as it likes.
   bool IsEndless(int joint) const { return std::isinf(upper_[joint]); }
+  /// Of a tracked joint, all angles that differ [rad]: between its limits, or one turn about zero.
+  std::pair<double, double> Range(int joint) const {
+    if (IsEndless(joint)) return {-EIGEN_PI, EIGEN_PI};
+    return {lower_[joint], upper_[joint]};
+  }
 
   MarkerBatch MakeBatch(int num_samples) const;
   MarkerJacobian MakeJacobian() const;

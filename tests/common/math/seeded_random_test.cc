@@ -57,5 +57,18 @@ TEST(SeededRandomTest, IndexCoversItsRange) {
   for (const int count : counts) EXPECT_NEAR(count, 200, 38);  // three times sqrt(1000 * 0.16)
 }
 
+TEST(SeededRandomTest, IndexAtShareIsWhereTheSumReachesIt) {
+  const Eigen::Vector4d weights(1, 0, 2, 1);
+  EXPECT_EQ(IndexAtShare(0, weights), 0);
+  EXPECT_EQ(IndexAtShare(0.25, weights), 0);
+  EXPECT_EQ(IndexAtShare(0.26, weights), 2);
+  EXPECT_EQ(IndexAtShare(0.75, weights), 2);
+  EXPECT_EQ(IndexAtShare(0.76, weights), 3);
+  EXPECT_EQ(IndexAtShare(std::nextafter(1.0, 0.0), weights), 3);
+  // Without any weight, and with none but one.
+  EXPECT_EQ(IndexAtShare(0.5, Eigen::Vector3d::Zero()), 0);
+  EXPECT_EQ(IndexAtShare(0.5, Eigen::VectorXd::Ones(1)), 0);
+}
+
 }  // namespace
 }  // namespace mmm_converter
