@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -34,6 +35,7 @@ constexpr int kNetworkCapacity = 64;
 constexpr int kTrackingPriority = 20;  // the reader's is one above, those of networks one below
 constexpr int kMostMadeUp = 2 * FrameMailbox::kRoom;
 constexpr std::chrono::microseconds kPolled(200);  // before and after a frame is due
+constexpr double kBusyShare = 0.05;                // of a frame in the mean of how long one takes
 
 // What threads have to say, until the caller's thread says it.
 class NewsBox {
@@ -235,23 +237,32 @@ class LiveRun {
         to_make_up_ = 0;
         session_.Prepare();
       }
+      const std::chrono::duration<double> busy = steady_clock::now() - taken_;
+      busy_ += kBusyShare * (busy.count() - busy_);
     }
   }
 
-  // Those that came while a first posture was searched for are tracked in order; of others the
-  // newest counts.
-  const LaidOutFrame* NextFrame() {
+  // Those that came while a first posture was searched for. Later, as many as are tracked before
+  // the next frame is due: of a stream that halted they come all at once, and the newest is hardly
+  // later for it.
+  int MostInOrder() {
     if (to_make_up_ > 0) {
       --to_make_up_;
-      return mailbox_.Take(kWait, FrameChoice::kOldest);
+      return FrameMailbox::kRoom;
     }
-    if (!polls_ || rate_ <= 0) return mailbox_.Take(kWait);
+    if (rate_ <= 0) return 1;
+    return static_cast<int>(std::clamp(1 / (rate_ * busy_), 1.0, 1.0 * FrameMailbox::kRoom));
+  }
+
+  const LaidOutFrame* NextFrame() {
+    const int most = MostInOrder();
+    if (!polls_ || rate_ <= 0) return mailbox_.Take(kWait, most);
     const auto expected = received_ + nanoseconds(static_cast<std::int64_t>(1e9 / rate_));
-    const LaidOutFrame* frame = mailbox_.Take(expected - kPolled - steady_clock::now());
+    const LaidOutFrame* frame = mailbox_.Take(expected - kPolled - steady_clock::now(), most);
     while (frame == nullptr && steady_clock::now() < expected + kPolled) {
-      frame = mailbox_.Take(nanoseconds(0));
+      frame = mailbox_.Take(nanoseconds(0), most);
     }
-    return frame != nullptr ? frame : mailbox_.Take(kWait);
+    return frame != nullptr ? frame : mailbox_.Take(kWait, most);
   }
 
   // Once a second at most, so that who drops many is not slowed down by saying so.
@@ -337,6 +348,7 @@ class LiveRun {
   int to_make_up_ = 0;                              // frames
   bool polls_ = false;                              // for a frame that is due
   double rate_ = 0;                                 // of the last frame's source
+  double busy_ = 1e-3;                              // with a frame [s], in the mean of some
   SteadyTime received_, taken_;                     // the last frame
   std::int64_t number_ = 0;                         // the last frame's
   std::int64_t dropped_ = 0, named_dropped_ = 0;    // frames

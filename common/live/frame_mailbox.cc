@@ -28,7 +28,7 @@ void FrameMailbox::Close() {
   filled_.Give();
 }
 
-const LaidOutFrame* FrameMailbox::Take(std::chrono::nanoseconds wait, FrameChoice choice) {
+const LaidOutFrame* FrameMailbox::Take(std::chrono::nanoseconds wait, int most) {
   const SteadyTime end = std::chrono::steady_clock::now() + wait;
   while (true) {
     const bool is_last_look = is_closed();
@@ -39,12 +39,13 @@ const LaidOutFrame* FrameMailbox::Take(std::chrono::nanoseconds wait, FrameChoic
   const std::int64_t written = written_.load(std::memory_order_acquire);
   const std::int64_t expected = next_.load(std::memory_order_relaxed);
   std::int64_t next = std::max(expected, written - kRoom);
+  const bool takes_newest = written - next > most;
   do {
     std::atomic<int>& place = waiting_[static_cast<std::size_t>(next % kRoom)];
     reading_ = place.exchange(reading_, std::memory_order_acq_rel);
     // A later one than `next`, where the writer has just come round.
     next = slots_[static_cast<std::size_t>(reading_)].order + 1;
-  } while (choice == FrameChoice::kNewest && next < written);
+  } while (takes_newest && next < written);
   dropped_.fetch_add(next - expected - 1, std::memory_order_relaxed);
   next_.store(next, std::memory_order_release);
   if (keeps_all_) emptied_.Give();

@@ -19,15 +19,9 @@ struct LaidOutFrame {
   StreamCounts counts;  ///< of the source, until this frame
 };
 
-/// Which of several frames that wait.
-enum class FrameChoice {
-  kNewest,  ///< the others are dropped
-  kOldest,
-};
-
-/// Between the thread that reads a source and the one that tracks: usually a queue of one in which
-/// the newest frame wins. It keeps some frames, so that the tracker can make up for a search in
-/// which they came. Neither thread waits for a lock of the other.
+/// Between the thread that reads a source and the one that tracks. Where more frames wait than the
+/// tracker can afford to take in order, the newest wins. Neither thread waits for a lock of the
+/// other.
 class FrameMailbox {
  public:
   static constexpr int kRoom = 64;  ///< frames that may wait; the oldest gives way
@@ -41,10 +35,10 @@ class FrameMailbox {
   void Close();                                            ///< nothing will come any more
 
   // For the tracking thread.
-  /// A frame that was not taken yet, valid until the next call; null: none came in time, or the box
-  /// is closed and empty.
-  const LaidOutFrame* Take(std::chrono::nanoseconds wait,
-                           FrameChoice choice = FrameChoice::kNewest);
+  /// Of the frames that wait the oldest, where they are no more than `most`, otherwise the newest:
+  /// then the others are dropped. It is valid until the next call; null: none came in time, or the
+  /// box is closed and empty.
+  const LaidOutFrame* Take(std::chrono::nanoseconds wait, int most);
   bool is_empty() const {
     return next_.load(std::memory_order_relaxed) >= written_.load(std::memory_order_acquire);
   }

@@ -62,7 +62,7 @@ TEST(LiveAllocation, TheTrackingThreadAllocatesNothing) {
       continue;
     const long before = allocations;
     box.Put();
-    const LaidOutFrame* frame = box.Take(std::chrono::milliseconds(0));
+    const LaidOutFrame* frame = box.Take(std::chrono::milliseconds(0), 1);
     ASSERT_NE(frame, nullptr);
     const FrameEstimate* estimate = tracker.Track(frame->frame);
     ASSERT_NE(estimate, nullptr);
