@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/support/error.h"
+#include "common/support/folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -73,10 +74,9 @@ void ForEachJournal(const std::string& folder,
                     const std::function<void(const std::string&)>& visit) {
   std::error_code failure;
   if (!fs::exists(folder, failure)) return;
-  for (fs::directory_iterator file(folder, failure), end; !failure && file != end;
-       file.increment(failure)) {
-    const std::string name = file->path().filename().string();
-    if (name.starts_with(kBegin) && name.ends_with(kEnd)) visit(file->path().string());
+  const std::vector<std::string> names = NamesIn(folder, &failure);
+  for (const std::string& name : names) {
+    if (name.starts_with(kBegin) && name.ends_with(kEnd)) visit((fs::path(folder) / name).string());
   }
   if (failure) throw Error(fmt::format("{}: can't be read: {}", folder, failure.message()));
 }

@@ -18,6 +18,7 @@
 #include "common/io/recording/recording_formats.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
+#include "common/support/folder.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -122,40 +123,40 @@ class Scanner {
 
  private:
   // Names in a folder, sorted; what can't be read is a warning.
-  std::vector<fs::directory_entry> List(const fs::path& folder) {
-    std::vector<fs::directory_entry> entries;
+  std::vector<fs::path> List(const fs::path& folder) {
+    std::vector<fs::path> entries;
     std::error_code failure;
-    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
-         entry.increment(failure)) {
-      entries.push_back(*entry);
+    for (const std::string& name : NamesIn(folder.string(), &failure)) {
+      entries.push_back(folder / name);
     }
     if (failure) {
       scan_.warnings.Add(fmt::format("{}: can't be read: {}", folder.string(), failure.message()));
     }
-    std::sort(entries.begin(), entries.end());
     return entries;
   }
 
   void Visit(const fs::path& folder) {
-    const std::vector<fs::directory_entry> entries = List(folder);
+    const std::vector<fs::path> entries = List(folder);
     std::vector<FoundRecording> recordings;
     std::set<std::string> measured;  // stems of files that are recordings only
     std::error_code failure;
-    for (const fs::directory_entry& entry : entries) {
-      const RecordingFormat* format = FindFormatOfName(entry.path().string());
-      if (!entry.is_regular_file(failure) || format == nullptr || format->holds_motions) continue;
-      if (!HasNameForManifest(entry.path())) continue;
-      recordings.push_back({entry.path().filename().string(), {}, {}});
-      measured.insert(entry.path().stem().string());
+    for (const fs::path& entry : entries) {
+      const RecordingFormat* format = FindFormatOfName(entry.string());
+      if (!fs::is_regular_file(entry, failure) || format == nullptr || format->holds_motions)
+        continue;
+      if (!HasNameForManifest(entry)) continue;
+      recordings.push_back({entry.filename().string(), {}, {}});
+      measured.insert(entry.stem().string());
     }
-    for (const fs::directory_entry& entry : entries) {
-      const RecordingFormat* format = FindFormatOfName(entry.path().string());
-      if (!entry.is_regular_file(failure) || format == nullptr || !format->holds_motions) continue;
-      TakeMotion(entry.path(), measured, &recordings);
+    for (const fs::path& entry : entries) {
+      const RecordingFormat* format = FindFormatOfName(entry.string());
+      if (!fs::is_regular_file(entry, failure) || format == nullptr || !format->holds_motions)
+        continue;
+      TakeMotion(entry, measured, &recordings);
     }
     Add(folder, std::move(recordings));
-    for (const fs::directory_entry& entry : entries) {
-      if (entry.is_directory(failure) && !entry.is_symlink(failure)) Visit(entry.path());
+    for (const fs::path& entry : entries) {
+      if (fs::is_directory(entry, failure) && !fs::is_symlink(entry, failure)) Visit(entry);
     }
   }
 

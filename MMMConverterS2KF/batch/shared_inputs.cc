@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/batch/shared_inputs.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <vector>
 
 #include "common/support/content_hash.h"
 #include "common/support/data_directory.h"
+#include "common/support/folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -15,11 +15,7 @@ namespace fs = std::filesystem;
 
 std::string HashProgram() {
   std::vector<std::string> files = {"/proc/self/exe", LibraryFile()};
-  std::vector<std::string> sets;
-  for (const auto& file : fs::directory_iterator(fs::path(DataDirectory()) / "marker_sets")) {
-    sets.push_back(file.path().string());
-  }
-  std::sort(sets.begin(), sets.end());
+  const std::vector<std::string> sets = FilesIn(DataDirectory() + "/marker_sets", ".xml");
   files.insert(files.end(), sets.begin(), sets.end());
   ContentHash hash;
   hash.AddPart(MMM_CONVERTER_VERSION);

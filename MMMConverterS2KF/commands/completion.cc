@@ -3,19 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <map>
 
 #include "common/convert/plugin_loader.h"
 #include "common/support/data_directory.h"
+#include "common/support/folder.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
-
-namespace fs = std::filesystem;
 
 // What an option's argument of this name takes: these words, else what a function of the script
 // offers.
@@ -114,15 +111,6 @@ std::string FormatCommand(const Command& command) {
       command.name, values, options, kind.empty() ? "" : " kind=" + kind);
 }
 
-std::vector<std::string> StemsIn(const std::string& folder) {
-  std::vector<std::string> stems;
-  for (const auto& file : fs::directory_iterator(DataFile(folder))) {
-    if (file.path().extension() == ".xml") stems.push_back(file.path().stem().string());
-  }
-  std::sort(stems.begin(), stems.end());
-  return stems;
-}
-
 std::vector<std::string> CommandNames() {
   std::vector<std::string> names;
   for (const Command& command : Commands()) names.emplace_back(command.name);
@@ -145,10 +133,10 @@ std::vector<std::string> TemplateNames() {
 
 const std::map<std::string, std::function<std::vector<std::string>()>> kNamesOfKind = {
     {"commands", CommandNames},
-    {"configurations", [] { return StemsIn("converters"); }},
+    {"configurations", [] { return StemsIn(DataFile("converters"), ".xml"); }},
     {"converters", ConverterNames},
     {"kinds", KindsOfNames},
-    {"marker-sets", [] { return StemsIn("marker_sets"); }},
+    {"marker-sets", [] { return StemsIn(DataFile("marker_sets"), ".xml"); }},
     {"templates", TemplateNames}};
 
 }  // namespace

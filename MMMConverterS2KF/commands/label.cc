@@ -30,6 +30,9 @@ const std::vector<OptionGroup> kOwnOptions = {
        "the recording has labels: keep them except where the body says that they are wrong", ""},
       {"like", "RECORDING",
        "another recording of the person with these markers, whose labels are right", ""},
+      {"and-subject-file", "FILE", "another person who is there too, calibrated; for each of them",
+       "", true},
+      {"object-models", "DIR", "folder with the models of rigid objects that may be there", ""},
       {"config,c", "FILE",
        "configuration that names markers and joints, or a shipped one; default: s2kf_default",
        ""}}},
@@ -48,10 +51,16 @@ The names are, of a repair, the recording's own; else those of the markers that 
 knows or that the recording --like has; else, with --height alone, all of the --marker-set, which by
 default is KIT's. A calibrated person is labelled most surely.
 
+Several persons and rigid objects may be in one cloud of points: each point belongs to one of them
+or to nobody. Labels then begin with the name of the person or of the object's model, and convert
+--subject NAME takes one of them. Persons need a frame in which they stand apart.
+
 {}Examples
   MMMConverterS2KF label walk.c3d --subject-file anna.xml -o walk_labelled.c3d
   MMMConverterS2KF label walk.c3d --like standing.c3d --height 1.68 -o walk_labelled.c3d
   MMMConverterS2KF label walk.c3d --height 1.68 --marker-set kit53 -o walk.trc
+  MMMConverterS2KF label both.c3d --subject-file anna.xml --and-subject-file ben.xml -o named.c3d
+  MMMConverterS2KF label cup.c3d --subject-file anna.xml --object-models objects -o named.c3d
   MMMConverterS2KF label walk.c3d --repair --height 1.68 --report walk_labels.html
   MMMConverterS2KF label walk.c3d --repair --subject-file anna.xml -o walk_repaired.c3d
 )";
@@ -78,6 +87,8 @@ LabelRequest MakeRequest(const Arguments& arguments) {
   request.converter.config = arguments.Get("config").value_or("");
   request.hints.like = arguments.Get("like").value_or("");
   request.hints.repair = arguments.Has("repair");
+  request.hints.other_persons = arguments.GetAll("and-subject-file");
+  request.hints.object_models = arguments.Get("object-models").value_or("");
   request.output = arguments.Get("output").value_or("");
   request.more_outputs = {arguments.Get("summary").value_or(""),
                           arguments.Get("report").value_or("")};

@@ -38,7 +38,8 @@ C3dRelabelledPoint ToC3d(const RelabelledPoint& point, const Recording& recordin
   C3dRelabelledPoint out;
   out.like = recording.points[point.place];
   const bool is_as_before = point.label == recording.markers.labels()[point.place];
-  out.label = is_as_before ? file_labels[out.like] : (point.is_named ? prefix : "") + point.label;
+  const bool needs_prefix = point.is_named && point.label.find(':') == std::string::npos;
+  out.label = is_as_before ? file_labels[out.like] : (needs_prefix ? prefix : "") + point.label;
   for (const PointStretch& one : point.stretches) {
     out.stretches.push_back({one.begin, one.end, recording.points[one.from]});
   }
@@ -54,24 +55,23 @@ std::vector<C3dRelabelledPoint> PointsOfFile(const LabelReport& report) {
   std::vector<bool> is_of_recording(labels.size(), false);
   for (const int point : recording.points) is_of_recording[point] = true;
   std::vector<C3dRelabelledPoint> points;
-  std::set<std::string> others;
   auto next = report.found.points.begin();
   for (std::size_t p = 0; p < labels.size(); ++p) {
     const int point = static_cast<int>(p);
     if (!is_of_recording[p]) {
-      others.insert(labels[p]);
       points.push_back({labels[p], point, {{0, recording.markers.num_frames(), point}}});
     }
     for (; next != report.found.points.end() && recording.points[next->place] == point; ++next) {
       points.push_back(ToC3d(*next, recording, labels, prefix));
     }
   }
-  for (const RelabelledPoint& point : report.found.points) {
-    if (!point.is_named || !others.contains(prefix + point.label)) continue;
-    throw Error(
-        fmt::format("{}: has another point {}, which is computed or another subject's; "
-                    "leave that name out of the marker set",
-                    recording.file, prefix + point.label));
+  std::set<std::string> given;
+  for (const C3dRelabelledPoint& point : points) {
+    if (point.label.empty() || given.insert(point.label).second) continue;
+    throw Error(fmt::format(
+        "{}: has another point {}, which is computed or another subject's; leave that name out of "
+        "the marker set, or give the person another name",
+        recording.file, point.label));
   }
   return points;
 }
@@ -113,8 +113,16 @@ std::string FormatOf(const std::string& file) {
 
 }  // namespace
 
-void CheckLabelledOutput(const std::string& file) {
-  if (!FormatOf(file).empty()) return;
+void CheckLabelledOutput(const std::string& file, bool of_several) {
+  const std::string format = FormatOf(file);
+  if (of_several && !format.empty() && format != "C3D" && format != "TRC") {
+    throw Error(
+        fmt::format("{}: labels of several persons or objects go to a .c3d or .trc; each is then a "
+                    "--subject of "
+                    "it",
+                    file));
+  }
+  if (!format.empty()) return;
   throw Error(fmt::format(
       "{}: the name must end as that of a recording: .c3d, .trc or .xml (an MMM motion)", file));
 }

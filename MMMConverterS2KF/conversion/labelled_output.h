@@ -7,8 +7,9 @@
 
 namespace mmm_converter {
 
-/// @throws Error where the name of the output is none of a C3D, TRC or MMM file.
-void CheckLabelledOutput(const std::string& file);
+/// of_several: bodies, whose labels have their names in front: an MMM motion is of one.
+/// @throws Error where the name of the output is none of a C3D, TRC or MMM file that can have them.
+void CheckLabelledOutput(const std::string& file, bool of_several);
 
 /// @throws Error where the output is the recording itself and would not keep all that is in it.
 void CheckKeepsRecording(const std::string& file, const Recording& recording);

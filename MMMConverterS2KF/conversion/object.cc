@@ -16,10 +16,12 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_object_model.h"
+#include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
+#include "common/support/folder.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -74,11 +76,10 @@ bool IsFile(const std::string& path) {
 
 // Labels are the names of the model's markers, with or without MMM's prefix.
 std::vector<MarkerPair> OwnPairs(const KinematicModel& model) {
-  constexpr std::string_view kPrefix = "MARKER_";
   std::vector<MarkerPair> pairs = OwnMarkerSet(model).pairs;
   for (const ModelMarker& marker : model.markers()) {
-    if (!marker.name.starts_with(kPrefix)) continue;
-    pairs.push_back({marker.name.substr(kPrefix.size()), marker.name});
+    const std::string label = LabelOfMarker(marker.name);
+    if (label != marker.name) pairs.push_back({label, marker.name});
   }
   return pairs;
 }
@@ -263,6 +264,49 @@ std::optional<ObjectModel> FindObject(const ObjectRequest& request, const Input&
   const bool is_person = request.is_person || IsPersonsRecording(input, config);
   if (!request.is_object && is_person) return std::nullopt;
   return FindModel(request, config, input, warnings);
+}
+
+std::string LabelOfMarker(const std::string& name) {
+  constexpr std::string_view kPrefix = "MARKER_";
+  return name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name;
+}
+
+Eigen::Matrix3Xd PlacesOfMarkers(const KinematicModel& model) {
+  std::vector<MarkerIx> all;
+  for (std::size_t m = 0; m < model.markers().size(); ++m) all.emplace_back(static_cast<int>(m));
+  const MarkerKinematics kinematics(model, {}, all);
+  MarkerJacobian at = kinematics.MakeJacobian();
+  kinematics.ComputeMarkers(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), Eigen::VectorXd(),
+                            &at);
+  return at.p_WM;
+}
+
+std::vector<ObjectModel> ReadObjectModels(const std::string& folder, Warnings* warnings) {
+  constexpr double kOffLine = 0.01;  // [m]
+  std::error_code failure;
+  (void)NamesIn(folder, &failure);
+  if (failure) throw Error(fmt::format("{}: can't be read: {}", folder, failure.message()));
+  std::vector<ObjectModel> models;
+  for (const std::string& file : FilesIn(folder, ".xml")) {
+    if (!IsFile(file)) continue;
+    try {
+      Warnings of_model;
+      auto model = std::make_shared<const LoadedModel>(ReadModelFile(file, &of_model));
+      if (model->model.num_joints() > 0 || model->model.markers().size() < kFewestMarkers ||
+          DistanceFromLine(PlacesOfMarkers(model->model)) < kOffLine) {
+        throw Error(fmt::format(
+            "{}: an object that is found among points has no joints, and three markers or more "
+            "that are no line",
+            file));
+      }
+      warnings->Append(of_model);
+      models.push_back({"in " + folder, "", 0, true, file, std::move(model)});
+    } catch (const Error& error) {
+      warnings->Add(fmt::format("left out: {}", error.what()));
+    }
+  }
+  if (!models.empty()) return models;
+  throw Error(fmt::format("{}: there is no model of a rigid object (*.xml) here", folder));
 }
 
 void UseModel(const ObjectModel& object, Input* input) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,16 @@ struct ObjectModel {
 /// @throws Error
 std::optional<ObjectModel> FindObject(const ObjectRequest& request, const Input& input,
                                       const ConverterConfig& config, Warnings* warnings);
+
+/// All models of rigid objects in a folder, by name; others are left out with a warning.
+/// @throws Error where there is none.
+std::vector<ObjectModel> ReadObjectModels(const std::string& folder, Warnings* warnings);
+
+/// Where the markers of a model without joints are, 3 x markers [m].
+Eigen::Matrix3Xd PlacesOfMarkers(const KinematicModel& model);
+
+/// The label of an object's marker: its name, without MMM's prefix.
+std::string LabelOfMarker(const std::string& name);
 
 /// Makes the object's model the input's.
 void UseModel(const ObjectModel& object, Input* input);

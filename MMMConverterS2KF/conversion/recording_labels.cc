@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "MMMConverterS2KF/conversion/labelled_output.h"
+#include "MMMConverterS2KF/conversion/object.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "common/convert/marker_set.h"
 #include "common/label/label_recording.h"
 #include "common/support/error.h"
+#include "common/support/folder.h"
 #include "common/support/output_plan.h"
 #include "common/support/text.h"
 
@@ -36,8 +38,9 @@ class NameList {
   }
   bool empty() const { return names_.empty(); }
 
-  /// The setup's assignments, and what LabelRecording asks for.
-  void Give(TrackingSetup* setup, Labelling* labelling, LabelOptions* options) {
+  /// The setup's assignments, and what LabelRecording asks for. prefix: of the names.
+  void Give(const std::string& prefix, TrackingSetup* setup, Labelling* labelling,
+            LabelOptions* options) {
     std::sort(names_.begin(), names_.end(), [](const PossibleName& a, const PossibleName& b) {
       return a.marker.marker < b.marker.marker;
     });
@@ -46,7 +49,7 @@ class NameList {
       MarkerAssignment assignment = name.marker;
       assignment.label = LabelIx(static_cast<int>(labelling->names.size()));
       setup->mapping.assignments.push_back(assignment);
-      labelling->names.push_back(name.text);
+      labelling->names.push_back(prefix + name.text);
       options->stored.push_back(name.stored);
     }
   }
@@ -138,9 +141,75 @@ Person FindLabelledPerson(const InputRequest& request, const LabelHints& hints, 
   return FindPersonOfPoints(request.person, *input.reference, input.recording, config, warnings);
 }
 
+// Names of bodies are read back as subjects, whose case does not count.
+void CheckName(const OtherBody& body, const std::string& first, const FoundLabels& found) {
+  if (body.name.empty() || body.name.starts_with('*')) {
+    throw Error(fmt::format("{}: the name \"{}\" can't stand before labels; give it another one",
+                            body.file, body.name));
+  }
+  std::string same = EqualIgnoringCase(first, body.name) ? "the first person" : "";
+  for (const OtherBody& other : found.others) {
+    if (EqualIgnoringCase(other.name, body.name)) same = other.file;
+  }
+  if (same.empty()) return;
+  throw Error(
+      fmt::format("{}: {} is called {}, too, and so would be its labels; give it another "
+                  "name",
+                  body.file, same, body.name));
+}
+
+void AddPerson(const std::string& file, const std::string& first, const Input& input,
+               const ConverterConfig& config, FoundLabels* found, LabelScene* scene,
+               LabelOptions* options, Warnings* warnings) {
+  if (file.empty()) throw Error("the file of another person has no name");
+  PersonRequest request;
+  request.subject_file = file;
+  const Person person =
+      FindPersonOfPoints(request, *input.reference, input.recording, config, warnings);
+  OtherBody other;
+  other.name = person.subject->name;
+  other.file = file;
+  CheckName(other, first, *found);
+  TrackingSetup setup;
+  NameList names;
+  AddMarkerSet(input, config, person.subject.get(), &setup, &names);
+  setup.joints = found->setup.joints;
+  setup.model = std::make_shared<const KinematicModel>(
+      ScaleModel(*input.reference, ScalingOf(person, config)));
+  other.first_name = static_cast<int>(found->labelling.names.size());
+  names.Give(other.name + ":", &setup, &found->labelling, options);
+  other.end_name = static_cast<int>(found->labelling.names.size());
+  found->others.push_back(std::move(other));
+  scene->persons.push_back(std::move(setup));
+}
+
+void AddObject(const ObjectModel& model, const std::string& first, FoundLabels* found,
+               LabelScene* scene) {
+  OtherBody other;
+  other.name = std::filesystem::path(model.file).stem().string();
+  other.file = model.file;
+  other.is_object = true;
+  CheckName(other, first, *found);
+  LabelObject object;
+  object.p_OM = PlacesOfMarkers(model.model->model);
+  other.first_name = static_cast<int>(found->labelling.names.size());
+  std::set<std::string> labels;
+  for (const ModelMarker& marker : model.model->model.markers()) {
+    const std::string label = LabelOfMarker(marker.name);
+    if (!labels.insert(label).second) {
+      throw Error(fmt::format("{}: two markers would have the label {}", model.file, label));
+    }
+    object.names.push_back(static_cast<int>(found->labelling.names.size()));
+    found->labelling.names.push_back(other.name + ":" + label);
+  }
+  other.end_name = static_cast<int>(found->labelling.names.size());
+  found->others.push_back(std::move(other));
+  scene->objects.push_back(std::move(object));
+}
+
 // What there is before the points: whose they are, and the names that they can have.
 FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hints,
-                               const Input& input, const ConverterConfig& config,
+                               const Input& input, const ConverterConfig& config, LabelScene* scene,
                                LabelOptions* options, Warnings* warnings) {
   const Recording& recording = input.recording;
   FoundLabels found;
@@ -168,7 +237,18 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
   found.setup.joints = ResolveJoints(config, *input.reference);
   found.setup.model = std::make_shared<const KinematicModel>(
       ScaleModel(*input.reference, ScalingOf(found.person, config)));
-  names.Give(&found.setup, &found.labelling, options);
+  const std::string name = found.person.subject ? found.person.subject->name : SubjectName(input);
+  names.Give(hints.other_persons.empty() ? "" : name + ":", &found.setup, &found.labelling,
+             options);
+  scene->persons.push_back(found.setup);
+  for (const std::string& file : hints.other_persons) {
+    AddPerson(file, name, input, config, &found, scene, options, warnings);
+  }
+  if (!hints.object_models.empty()) {
+    for (const ObjectModel& model : ReadObjectModels(hints.object_models, warnings)) {
+      AddObject(model, name, &found, scene);
+    }
+  }
   if (!hints.repair) options->stored.clear();
   return found;
 }
@@ -177,18 +257,20 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
 
 FoundLabels FindNames(const InputRequest& request, const Input& input,
                       const ConverterConfig& config, Warnings* warnings) {
+  LabelScene scene;
   LabelOptions options;
-  return FindNamesAndPerson(request, {}, input, config, &options, warnings);
+  return FindNamesAndPerson(request, {}, input, config, &scene, &options, warnings);
 }
 
 FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
                        const ConverterConfig& config, const std::function<bool(int, int)>& progress,
                        Warnings* warnings) {
+  LabelScene scene;
   LabelOptions options;
-  FoundLabels found = FindNamesAndPerson(request, hints, input, config, &options, warnings);
+  FoundLabels found = FindNamesAndPerson(request, hints, input, config, &scene, &options, warnings);
   const Recording& recording = input.recording;
   found.labelling =
-      LabelRecording(found.setup, found.labelling.names, recording.markers, options, progress);
+      LabelRecording(scene, found.labelling.names, recording.markers, options, progress);
   const std::vector<std::string>& labels = recording.markers.labels();
   found.points = RelabelledPoints(found.labelling, labels, recording.markers.num_frames());
   found.changes = ChangesOf(found.labelling, labels);
@@ -199,12 +281,19 @@ LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int
   LabelReport report;
   report.output = request.output;
   Warnings* const warnings = &report.warnings;
-  if (!request.output.empty()) CheckLabelledOutput(request.output);
+  if (!request.output.empty()) CheckLabelledOutput(request.output, request.hints.has_others());
+  if (request.hints.repair && request.hints.has_others()) {
+    throw Error("labels can be repaired for one person at a time, without objects");
+  }
   ConverterChoice choice = ChooseConverter(request.converter, warnings);
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
   NameInputs(choice, &outputs);
   outputs.Read(request.hints.like);
+  for (const std::string& file : request.hints.other_persons) outputs.Read(file);
+  if (!request.hints.object_models.empty()) {
+    for (const std::string& file : FilesIn(request.hints.object_models, ".xml")) outputs.Read(file);
+  }
   outputs.Rewrite(request.output, request.input.file);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   outputs.Check();

@@ -19,12 +19,24 @@ namespace mmm_converter {
 struct LabelHints {
   std::string like;     ///< a labelled recording of the person; empty: none
   bool repair = false;  ///< the recording's own labels are right unless the body says otherwise
+  std::vector<std::string> other_persons;  ///< their subject files
+  std::string object_models;               ///< folder with models of rigid objects; empty: none
+  bool has_others() const { return !other_persons.empty() || !object_models.empty(); }
+};
+
+/// A person beside the first, or a rigid object.
+struct OtherBody {
+  std::string name;
+  std::string file;  ///< subject, or model
+  bool is_object = false;
+  int first_name = 0, end_name = 0;  ///< its names of the labelling
 };
 
 /// Whose markers the points of a recording are.
 struct FoundLabels {
   Person person;
-  TrackingSetup setup;  ///< of the labelling's names; its model is the person's
+  TrackingSetup setup;            ///< of the labelling's names; its model is the person's
+  std::vector<OtherBody> others;  ///< whose names come after those of the setup
   Labelling labelling;
   std::vector<RelabelledPoint> points;
   std::vector<LabelChange> changes;
@@ -35,7 +47,9 @@ struct FoundLabels {
 /// knows; else those of `like`; and those of the markers that the subject has offsets for, by the
 /// marker set's labels. Where there is none of these, all of the marker set, which is KIT's where
 /// nothing says otherwise. The person is the subject, or else calibrated on `like`, or of the
-/// height that is known. request: how the input was asked for; `like` has its person and model.
+/// height that is known. Where there are several persons, the names of each begin with the person's
+/// name, those of an object always with that of its model's file, as in `anna:LASI`, `box:3`.
+/// request: how the input was asked for; `like` has its person and model.
 /// progress(done, all): frames; may be empty.
 /// @throws Error
 FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,

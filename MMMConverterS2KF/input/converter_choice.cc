@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
+#include "common/support/folder.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -27,13 +27,7 @@ std::string ShippedConfig(const std::string& name) {
 }
 
 std::vector<std::string> ShippedConfigs() {
-  std::vector<std::string> names;
-  std::error_code failure;
-  for (const auto& file : fs::directory_iterator(DataDirectory() + "/converters", failure)) {
-    if (file.path().extension() == ".xml") names.push_back(file.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+  return StemsIn(DataDirectory() + "/converters", ".xml");
 }
 
 // A file, or the shipped configuration of that name.

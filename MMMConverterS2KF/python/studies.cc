@@ -149,7 +149,7 @@ LabelledRecording LabelPoints(const py::dict& input, const py::dict& options,
 
 void SaveLabelled(LabelledRecording* labelled, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckLabelledOutput(file);
+  CheckLabelledOutput(file, false);
   CheckKeepsRecording(file, labelled->report.input.recording);
   OutputPlan plan;
   NameInputs(labelled->request.input, &plan);

@@ -77,6 +77,22 @@ std::string DescribePerson(const Person& person) {
   return text;
 }
 
+// A line for each: how many of its names were found.
+std::string DescribeOthers(const FoundLabels& found) {
+  const std::vector<NameFigures> figures = FiguresOfNames(found.labelling);
+  std::string text;
+  for (const OtherBody& other : found.others) {
+    const auto begin = figures.begin() + other.first_name;
+    const auto end = figures.begin() + other.end_name;
+    text += fmt::format(
+        "{:<11}{} ({}): {} of {} names found\n", other.is_object ? "object" : "person", other.name,
+        other.file,
+        std::count_if(begin, end, [](const NameFigures& name) { return name.frames > 0; }),
+        end - begin);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string DescribeLabels(const FoundLabels& found) {
@@ -97,6 +113,7 @@ std::string FormatLabelSummary(const LabelReport& report, bool is_repair) {
       fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {} points\n", recording.file,
                   recording.format, markers.num_frames(), markers.rate(), markers.num_labels());
   text += fmt::format("person     {}\n", DescribePerson(report.found.person));
+  text += DescribeOthers(report.found);
   text += fmt::format(
       "names      {}{}\n", DescribeLabels(report.found),
       report.found.setup.marker_set.empty() ? "" : "; marker set " + report.found.setup.marker_set);
@@ -152,6 +169,11 @@ Json ToJson(const LabelReport& report) {
                {"height_m", person.height.value > 0 ? Number(person.height.value) : Json(nullptr)},
                {"height_source", person.height.source},
                {"subject", person.subject ? Json(person.subject->name) : Json(nullptr)}};
+  for (const OtherBody& other : report.found.others) {
+    json["others"].push_back({{"name", other.name},
+                              {"file", other.file},
+                              {"kind", other.is_object ? "object" : "person"}});
+  }
   json.update(LabelsJson(report.found, recording.markers, report.input.first_frame));
   json["warnings"] = report.warnings.texts();
   return json;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <set>
@@ -16,6 +15,7 @@
 #include "common/model/kinematic_model.h"
 #include "common/support/diagnostics.h"
 #include "common/support/error.h"
+#include "common/support/folder.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 
@@ -174,13 +174,8 @@ MarkerSet ReadMarkerSet(const std::string& path) {
 }
 
 std::vector<MarkerSet> ReadMarkerSets(const std::string& folder) {
-  std::error_code error;
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
-  }
+  const std::vector<std::string> files = FilesIn(folder, ".xml");
   if (files.empty()) throw Error(fmt::format("{}: there are no marker sets (*.xml) here", folder));
-  std::sort(files.begin(), files.end());
   std::vector<MarkerSet> sets;
   sets.reserve(files.size());
   for (const std::string& file : files) sets.push_back(ReadMarkerSet(file));

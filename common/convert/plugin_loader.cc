@@ -15,6 +15,7 @@
 #include "common/convert/checked_converter.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
+#include "common/support/folder.h"
 #include "common/support/line_file.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
@@ -23,16 +24,6 @@ namespace mmm_converter {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> LibrariesIn(const std::string& folder) {
-  std::vector<std::string> paths;
-  std::error_code failure;
-  for (const auto& entry : fs::directory_iterator(folder, failure)) {
-    if (entry.path().extension() == ".so") paths.push_back(entry.path().string());
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
 
 std::string DescribeSearch(const std::vector<FoundPlugin>& plugins) {
   std::string text = "looked in " + JoinNames(PluginFolders(), " and ");
@@ -151,7 +142,7 @@ std::vector<std::string> PluginFolders() {
 std::vector<FoundPlugin> FindPlugins() {
   std::vector<FoundPlugin> plugins;
   for (const std::string& folder : PluginFolders()) {
-    for (const std::string& path : LibrariesIn(folder)) {
+    for (const std::string& path : FilesIn(folder, ".so")) {
       try {
         const LoadedPlugin plugin(path);
         plugins.push_back({path, plugin.factory().name(), plugin.factory().description()});

@@ -4,33 +4,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <limits>
 #include <memory>
-#include <numeric>
-#include <set>
 #include <utility>
 
 #include "common/calibrate/calibration.h"
 #include "common/label/label_body.h"
 #include "common/label/label_tracker.h"
+#include "common/label/named_pieces.h"
 #include "common/label/point_tracks.h"
+#include "common/label/rigid_finder.h"
+#include "common/label/scene_start.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
 
 namespace {
 
 constexpr int kFewestNames = 10;
 constexpr int kMostPoints = 1000;  // of a frame: time grows with their square
-constexpr int kFirstFrames = 8;    // that the body is looked for in
 constexpr double kLeastShare = 0.25;
 constexpr int kTimes = 2;
 constexpr double kSure = 0.7;
 constexpr int kPart = 256;   // frames whose predictions are kept
 constexpr double kHint = 6;  // cost that a track's name is worth
-
-/// How often the passes took a track for a marker.
-using Votes = std::vector<std::map<int, double>>;  // by track: marker, frames
 
 bool IsUncalibrated(const TrackingSetup& setup) {
   return std::none_of(setup.assignments().begin(), setup.assignments().end(),
@@ -39,156 +40,249 @@ bool IsUncalibrated(const TrackingSetup& setup) {
                       });
 }
 
+/// A marker is counted over all: those of the first person, of the second, ..., of the objects.
 class RecordingLabeller {
  public:
-  RecordingLabeller(const TrackingSetup& setup, const MarkerSequence& recording,
+  RecordingLabeller(const LabelScene& scene, const MarkerSequence& recording,
                     const std::vector<LabelIx>& stored,
                     const std::function<bool(int, int)>& progress)
-      : setup_(setup),
-        body_(std::make_unique<LabelBody>(setup)),
+      : objects_(scene.objects),
         recording_(recording),
         tracks_(FollowPoints(recording)),
         dt_(1 / recording.rate()),
         stored_(recording.num_labels(), -1),
         progress_(progress) {
-    for (std::size_t m = 0; m < setup.assignments().size(); ++m) {
-      const int name = setup.assignments()[m].label;
+    for (const TrackingSetup& setup : scene.persons) {
+      persons_.push_back({setup,
+                          std::make_unique<LabelBody>(setup),
+                          nullptr,
+                          static_cast<int>(name_of_marker_.size()),
+                          {},
+                          {},
+                          {},
+                          {},
+                          {}});
+      for (const MarkerAssignment& one : setup.assignments()) name_of_marker_.push_back(one.label);
+    }
+    for (const LabelObject& object : objects_) {
+      name_of_marker_.insert(name_of_marker_.end(), object.names.begin(), object.names.end());
+    }
+    for (std::size_t m = 0; m < name_of_marker_.size(); ++m) {
+      const int name = name_of_marker_[m];
       if (name < static_cast<int>(stored.size()) && stored[name] >= 0) {
         stored_[stored[name]] = static_cast<int>(m);
       }
     }
   }
 
-  /// The marker that the recording's own label of a column names, -1: none.
-  int stored(int column) const { return stored_[column]; }
-
+  MarkerColumns markers() const { return {stored_, name_of_marker_}; }
   const PointTracks& tracks() const { return tracks_; }
 
-  /// The marker of each track, -1: none, and the share of the votes that it has.
-  struct Names {
-    std::vector<int> markers;
-    std::vector<double> shares;
-  };
-  Names Run() {
-    Names names;
-    BodySearch search(*body_);
-    const auto [first, match] = FindFirst(&search);
-    auto tracker = std::make_unique<LabelTracker>(*body_);
-    tracker->Start(match);
-    for (int k = first; k >= 0; --k) Track(k, nullptr, tracker.get());
-    tracker->Reverse();
+  TrackNames Run() {
+    const int first_object = persons_.back().first_marker + persons_.back().body->num_markers();
+    const TrackNames of_objects =
+        FindObjectTracks(objects_, tracks_, first_object, [this](int k) { Show(k); });
+    is_object_.clear();
+    for (const int marker : of_objects.markers) is_object_.push_back(marker >= 0 ? 1 : 0);
+    TrackNames names;
+    const int first = Start();
+    for (int k = first; k >= 0; --k) Track(k, {}, nullptr);
+    Reverse();
     for (int time = 0; time < kTimes; ++time) {
-      names = ForwardAndBackward(names, tracker.get());
+      names = ForwardAndBackward(names);
       if (time > 0 || !Calibrate(names)) continue;
-      BodyMatch posture;
-      posture.posture = tracker->belief().posture;
-      tracker = std::make_unique<LabelTracker>(*body_);
-      tracker->Start(posture);
-      names = ForwardAndBackward(names, tracker.get());
+      for (Person& person : persons_) {
+        BodyMatch posture;
+        posture.posture = person.tracker->belief().posture;
+        person.tracker = std::make_unique<LabelTracker>(*person.body);
+        person.tracker->Start(posture);
+      }
+      names = ForwardAndBackward(names);
+    }
+    for (std::size_t t = 0; t < is_object_.size(); ++t) {
+      if (is_object_[t] == 0) continue;
+      names.markers[t] = of_objects.markers[t];
+      names.shares[t] = of_objects.shares[t];
     }
     return names;
   }
 
  private:
-  std::pair<int, BodyMatch> FindFirst(BodySearch* search) {
-    std::vector<int> order(tracks_.frames.size());
-    std::iota(order.begin(), order.end(), 0);
-    const int most = static_cast<int>(order.size());
-    std::stable_sort(order.begin(), order.end(), [this](int a, int b) {
-      return tracks_.frames[a].columns.size() > tracks_.frames[b].columns.size();
-    });
-    std::pair<int, BodyMatch> best = {-1, {}};
-    // Of the fullest third, spread over the recording.
-    const int candidates = std::max(most / 3, std::min(most, kFirstFrames));
-    const int count = std::min(candidates, kFirstFrames);
-    for (int i = 0; i < count; ++i) {
-      const int k = order[static_cast<std::size_t>(i) * candidates / count];
-      if (tracks_.frames[k].columns.size() < kFewestNames) continue;
-      BodyMatch match = search->Find(tracks_.frames[k].p_WP);
-      if (best.first < 0 || match.cost < best.second.cost) best = {k, std::move(match)};
+  struct Person {
+    TrackingSetup setup;
+    std::unique_ptr<LabelBody> body;
+    std::unique_ptr<LabelTracker> tracker;
+    int first_marker;
+    // Of this frame:
+    std::vector<int> offered;  ///< points
+    Matrix3Xd points;          ///< these
+    LabelTracker::Hints hints;
+    Matrix3Xd places;  ///< foreseen, of the markers
+    VectorXd variances;
+  };
+
+  /// Takes the persons up in the frame that is returned.
+  int Start() {
+    std::vector<Matrix3Xd> frames;
+    frames.reserve(tracks_.frames.size());
+    for (const FramePoints& points : tracks_.frames) {
+      std::vector<int> left;
+      for (std::size_t p = 0; p < points.tracks.size(); ++p) {
+        if (is_object_[points.tracks[p]] == 0) left.push_back(static_cast<int>(p));
+      }
+      frames.emplace_back(points.p_WP(Eigen::all, left));
     }
-    if (best.first < 0 || 2 * best.second.matched < body_->num_markers()) {
-      throw Error(fmt::format(
-          "no frame shows a person: of {} markers at most {} fit any posture of this body; is it "
-          "the right person, height and set of markers?",
-          body_->num_markers(), best.first < 0 ? 0 : best.second.matched));
+    std::vector<const LabelBody*> bodies;
+    bodies.reserve(persons_.size());
+    for (const Person& person : persons_) bodies.push_back(person.body.get());
+    const SceneStart start = FindScene(bodies, frames);
+    for (std::size_t i = 0; i < persons_.size(); ++i) {
+      persons_[i].tracker = std::make_unique<LabelTracker>(*persons_[i].body);
+      persons_[i].tracker->Start(start.matches[i]);
     }
-    return best;
+    return start.frame;
   }
 
-  const std::vector<int>& Track(int k, const Names* before, LabelTracker* tracker) {
-    return tracker->Track(tracks_.frames[k].p_WP, dt_, Hint(k, before));
+  void Reverse() {
+    for (Person& person : persons_) person.tracker->Reverse();
   }
 
-  const LabelTracker::Hints* Hint(int k, const Names* before) {
+  std::vector<LabelBelief> Beliefs() const {
+    std::vector<LabelBelief> beliefs;
+    beliefs.reserve(persons_.size());
+    for (const Person& person : persons_) beliefs.push_back(person.tracker->belief());
+    return beliefs;
+  }
+
+  void Restore(const std::vector<LabelBelief>& beliefs) {
+    for (std::size_t i = 0; i < persons_.size(); ++i) persons_[i].tracker->Restore(beliefs[i]);
+  }
+
+  std::size_t PersonOf(int marker) const {
+    std::size_t i = persons_.size() - 1;
+    while (persons_[i].first_marker > marker) --i;
+    return i;
+  }
+
+  /// Who is likeliest to have a point there.
+  std::size_t LikeliestPerson(const Vector3d& p_WP) const {
+    std::size_t likeliest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < persons_.size(); ++i) {
+      const Person& person = persons_[i];
+      const Eigen::ArrayXd d2 = (person.places.colwise() - p_WP).colwise().squaredNorm();
+      const double cost =
+          (d2 / person.variances.array() + 3 * person.variances.array().log()).minCoeff();
+      if (cost >= least) continue;
+      least = cost;
+      likeliest = i;
+    }
+    return likeliest;
+  }
+
+  /// Offers each point that is no object's to one person: who surely had it before, or else the
+  /// likeliest.
+  void Offer(int k, const TrackNames& before) {
     const FramePoints& points = tracks_.frames[k];
-    if (before == nullptr || before->markers.empty()) return StoredHint(points);
-    hints_.markers.resize(points.tracks.size());
-    hints_.worth.resize(points.tracks.size());
+    const bool is_first_time = before.markers.empty();
+    for (Person& person : persons_) {
+      if (persons_.size() > 1) person.tracker->Foresee(dt_, &person.places, &person.variances);
+      person.offered.clear();
+      person.hints.markers.clear();
+      person.hints.worth.clear();
+    }
     for (std::size_t p = 0; p < points.tracks.size(); ++p) {
-      hints_.markers[p] = before->markers[points.tracks[p]];
-      hints_.worth[p] = kHint * before->shares[points.tracks[p]];
+      const int track = points.tracks[p];
+      if (is_object_[track] != 0) continue;
+      const int marker = is_first_time ? stored_[points.columns[p]] : before.markers[track];
+      const double share = is_first_time ? 1 : before.shares[track];
+      std::size_t owner = 0;
+      if (persons_.size() > 1) {
+        const bool is_known = !is_first_time && marker >= 0 && share >= kSure;
+        owner = is_known ? PersonOf(marker)
+                         : LikeliestPerson(points.p_WP.col(static_cast<Eigen::Index>(p)));
+      }
+      Person& person = persons_[owner];
+      const int own = marker - person.first_marker;
+      person.offered.push_back(static_cast<int>(p));
+      person.hints.markers.push_back(own >= 0 && own < person.body->num_markers() ? own : -1);
+      person.hints.worth.push_back(kHint * share);
     }
-    return &hints_;
+    for (Person& person : persons_) person.points = points.p_WP(Eigen::all, person.offered);
   }
 
-  const LabelTracker::Hints* StoredHint(const FramePoints& points) {
-    hints_.markers.resize(points.columns.size());
-    for (std::size_t p = 0; p < points.columns.size(); ++p) {
-      hints_.markers[p] = stored_[points.columns[p]];
+  /// votes: null, or what the frame adds to.
+  void Track(int k, const TrackNames& before, TrackVotes* votes) {
+    Offer(k, before);
+    for (Person& person : persons_) {
+      Vote(k, person, person.tracker->Track(person.points, dt_, &person.hints), 0.25, votes);
     }
-    hints_.worth.assign(points.columns.size(), kHint);
-    return &hints_;
   }
 
-  void Vote(int k, const std::vector<int>& point_of_marker, double weight, Votes* votes) const {
-    for (int m = 0; m < body_->num_markers(); ++m) {
-      const int point = point_of_marker[m];
-      if (point >= 0) (*votes)[tracks_.frames[k].tracks[point]][m] += weight;
+  void Vote(int k, const Person& person, const std::vector<int>& point_of_marker, double weight,
+            TrackVotes* votes) const {
+    for (int m = 0; m < person.body->num_markers() && votes != nullptr; ++m) {
+      if (point_of_marker[m] < 0) continue;
+      const int track = tracks_.frames[k].tracks[person.offered[point_of_marker[m]]];
+      (*votes)[track][person.first_marker + m] += weight;
     }
   }
 
   /// Forward over the recording, and back again; on the way back each frame is judged by what came
   /// before and after it. Predictions of the way forward are kept for a part at a time.
-  Names ForwardAndBackward(const Names& before, LabelTracker* tracker) {
-    Votes votes(tracks_.tracks.size());
+  TrackNames ForwardAndBackward(const TrackNames& before) {
+    TrackVotes votes(tracks_.tracks.size());
     const int frames = static_cast<int>(tracks_.frames.size());
-    std::vector<LabelBelief> starts;  // of the parts
+    std::vector<std::vector<LabelBelief>> starts;  // of the parts
     for (int k = 0; k < frames; ++k) {
-      if (k % kPart == 0) starts.push_back(tracker->belief());
-      Vote(k, Track(k, &before, tracker), 0.25, &votes);
+      if (k % kPart == 0) starts.push_back(Beliefs());
+      Track(k, before, &votes);
       Show(k);
     }
-    tracker->Reverse();
-    LabelBelief backward = tracker->belief();
-    std::vector<LabelTracker::Prediction> predictions;
+    Reverse();
+    std::vector<LabelBelief> backward = Beliefs();
+    std::vector<std::vector<LabelTracker::Prediction>> predictions;  // by frame, by person
     for (int part = static_cast<int>(starts.size()) - 1; part >= 0; --part) {
       const int begin = part * kPart;
       const int end = std::min(begin + kPart, frames);
       predictions.clear();
-      tracker->Restore(starts[part]);
+      Restore(starts[part]);
       for (int k = begin; k < end; ++k) {
-        Track(k, &before, tracker);
-        predictions.push_back(tracker->prediction());
+        Track(k, before, nullptr);
+        predictions.emplace_back();
+        for (const Person& person : persons_) {
+          predictions.back().push_back(person.tracker->prediction());
+        }
       }
-      tracker->Restore(backward);
+      Restore(backward);
       for (int k = end - 1; k >= begin; --k) {
-        Vote(k, Track(k, &before, tracker), 0.25, &votes);
-        const std::vector<int>& between =
-            tracker->Between(tracks_.frames[k].p_WP, predictions[k - begin], Hint(k, &before));
-        Vote(k, between, 0.5, &votes);
+        Track(k, before, &votes);
+        for (std::size_t i = 0; i < persons_.size(); ++i) {
+          Person& person = persons_[i];
+          const std::vector<int>& between =
+              person.tracker->Between(person.points, predictions[k - begin][i], &person.hints);
+          Vote(k, person, between, 0.5, &votes);
+        }
       }
-      backward = tracker->belief();
+      backward = Beliefs();
     }
-    tracker->Reverse();
-    return Resolve(votes);
+    Reverse();
+    return ResolveVotes(votes, tracks_, static_cast<int>(name_of_marker_.size()), kLeastShare);
   }
 
-  /// Whoever was only scaled by height is calibrated on what has surely got its name.
-  bool Calibrate(const Names& names) {
-    if (!IsUncalibrated(setup_)) return false;
+  /// Whoever was only scaled by height is calibrated on what has surely got its name. True: someone
+  /// was.
+  bool Calibrate(const TrackNames& names) {
+    bool is_anyone = false;
+    for (Person& person : persons_) {
+      if (IsUncalibrated(person.setup) && CalibrateOne(names, &person)) is_anyone = true;
+    }
+    return is_anyone;
+  }
+
+  bool CalibrateOne(const TrackNames& names, Person* person) {
     std::vector<std::string> labels;
-    std::vector<MarkerAssignment> assignments = setup_.assignments();
+    std::vector<MarkerAssignment> assignments = person->setup.assignments();
     for (std::size_t m = 0; m < assignments.size(); ++m) {
       labels.push_back(std::to_string(m));
       assignments[m].label = LabelIx(static_cast<int>(m));
@@ -197,18 +291,19 @@ class RecordingLabeller {
                          recording_.first_time());
     for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {
       const PointTrack& track = tracks_.tracks[t];
-      if (names.markers[t] < 0 || names.shares[t] < kSure) continue;
+      const int marker = names.markers[t] - person->first_marker;
+      if (marker < 0 || marker >= person->body->num_markers() || names.shares[t] < kSure) continue;
       for (int k = track.begin; k < track.end; ++k) {
-        named.frame(k).col(names.markers[t]) =
-            tracks_.frames[k].p_WP.col(track.points[k - track.begin]);
+        named.frame(k).col(marker) = tracks_.frames[k].p_WP.col(track.points[k - track.begin]);
       }
     }
+    TrackingSetup& setup = person->setup;
     try {
       const CalibrationResult result =
-          CalibrateSubject(*setup_.model, setup_.joints, {{"", &named, assignments}}, {});
-      setup_.model =
-          std::make_shared<const KinematicModel>(FitToSubject(*setup_.model, result.subject));
-      body_ = std::make_unique<LabelBody>(setup_);
+          CalibrateSubject(*setup.model, setup.joints, {{"", &named, assignments}}, {});
+      setup.model =
+          std::make_shared<const KinematicModel>(FitToSubject(*setup.model, result.subject));
+      person->body = std::make_unique<LabelBody>(setup);
     } catch (const Error&) {
       return false;  // too short or too still: as before
     }
@@ -221,102 +316,28 @@ class RecordingLabeller {
     }
   }
 
-  /// The surest first; a name is not given twice in a frame.
-  Names Resolve(const Votes& votes) const {
-    struct Claim {
-      int track, marker;
-      double frames, share;
-    };
-    std::vector<Claim> claims;
-    for (std::size_t t = 0; t < votes.size(); ++t) {
-      const PointTrack& track = tracks_.tracks[t];
-      for (const auto& [marker, frames] : votes[t]) {
-        const double share = frames / (track.end - track.begin);
-        if (share > kLeastShare) claims.push_back({static_cast<int>(t), marker, frames, share});
-      }
-    }
-    std::stable_sort(claims.begin(), claims.end(),
-                     [](const Claim& a, const Claim& b) { return a.frames > b.frames; });
-    Names names;
-    names.markers.assign(votes.size(), -1);
-    names.shares.assign(votes.size(), 0);
-    std::vector<std::vector<char>> is_given(body_->num_markers(),
-                                            std::vector<char>(tracks_.frames.size(), 0));
-    for (const Claim& claim : claims) {
-      if (names.markers[claim.track] >= 0) continue;
-      const PointTrack& track = tracks_.tracks[claim.track];
-      std::vector<char>& given = is_given[claim.marker];
-      if (std::find(given.begin() + track.begin, given.begin() + track.end, 1) !=
-          given.begin() + track.end) {
-        continue;
-      }
-      std::fill(given.begin() + track.begin, given.begin() + track.end, 1);
-      names.markers[claim.track] = claim.marker;
-      names.shares[claim.track] = claim.share;
-    }
-    return names;
-  }
-
-  TrackingSetup setup_;
-  std::unique_ptr<LabelBody> body_;
+  std::vector<Person> persons_;
+  const std::vector<LabelObject>& objects_;
+  std::vector<int> name_of_marker_;
   const MarkerSequence& recording_;
   PointTracks tracks_;
+  std::vector<char> is_object_;  // by track
   double dt_;
   std::vector<int> stored_;  // marker by column
   const std::function<bool(int, int)>& progress_;
-  LabelTracker::Hints hints_;
-};
-
-/// What was found where it is sure enough, else what is stored where that has no other place.
-class NameOfPoints {
- public:
-  NameOfPoints(const RecordingLabeller& labeller, const RecordingLabeller::Names& found,
-               const LabelOptions& options)
-      : labeller_(labeller), found_(found), options_(options) {
-    const PointTracks& tracks = labeller.tracks();
-    for (std::size_t t = 0; t < tracks.tracks.size(); ++t) {
-      for (int k = tracks.tracks[t].begin; k < tracks.tracks[t].end; ++k) {
-        if (IsSure(static_cast<int>(t), k)) given_.insert({found.markers[t], k});
-      }
-    }
-  }
-
-  /// The marker of a track in a frame; -1: none.
-  int operator()(int track, int k) const {
-    if (IsSure(track, k)) return found_.markers[track];
-    const int stored = StoredMarker(track, k);
-    return stored >= 0 && !given_.contains({stored, k}) ? stored : -1;
-  }
-
- private:
-  int StoredMarker(int t, int k) const {
-    const PointTrack& track = labeller_.tracks().tracks[t];
-    return labeller_.stored(labeller_.tracks().frames[k].columns[track.points[k - track.begin]]);
-  }
-  bool IsSure(int t, int k) const {
-    if (found_.markers[t] < 0) return false;
-    const int stored = StoredMarker(t, k);
-    const bool is_change = stored >= 0 && stored != found_.markers[t];
-    return found_.shares[t] >=
-           (is_change ? options_.least_change_probability : options_.least_probability);
-  }
-
-  const RecordingLabeller& labeller_;
-  const RecordingLabeller::Names& found_;
-  const LabelOptions& options_;
-  std::set<std::pair<int, int>> given_;  // marker, frame
 };
 
 }  // namespace
 
-Labelling LabelRecording(const TrackingSetup& setup, const std::vector<std::string>& names,
+Labelling LabelRecording(const LabelScene& scene, const std::vector<std::string>& names,
                          const MarkerSequence& recording, const LabelOptions& options,
                          const std::function<bool(int, int)>& progress) {
-  if (setup.assignments().size() < kFewestNames) {
-    throw Error(
-        fmt::format("a body with {} markers can't be found among points; at least {} are "
-                    "needed",
-                    setup.assignments().size(), kFewestNames));
+  for (std::size_t i = 0; i < scene.persons.size(); ++i) {
+    const std::size_t markers = scene.persons[i].assignments().size();
+    if (markers >= kFewestNames) continue;
+    throw Error(fmt::format(
+        "{} with {} markers can't be found among points; at least {} are needed",
+        i == 0 ? "a body" : fmt::format("the body of person {}", i + 1), markers, kFewestNames));
   }
   for (int k = 0; k < recording.num_frames(); ++k) {
     const auto seen = recording.frame(k).row(0).array().isFinite().count();
@@ -324,34 +345,16 @@ Labelling LabelRecording(const TrackingSetup& setup, const std::vector<std::stri
       throw Error(
           fmt::format("frame {} has {} points; at most {} can be labelled", k, seen, kMostPoints));
     }
+    if (seen > kMostPointsWithObjects && !scene.objects.empty()) {
+      throw Error(fmt::format("frame {} has {} points; objects can be found among {} at most", k,
+                              seen, kMostPointsWithObjects));
+    }
   }
-  RecordingLabeller labeller(setup, recording, options.stored, progress);
+  RecordingLabeller labeller(scene, recording, options.stored, progress);
   const auto found = labeller.Run();
-  const PointTracks& tracks = labeller.tracks();
-  const NameOfPoints name_of(labeller, found, options);
   Labelling labelling;
   labelling.names = names;
-  for (std::size_t t = 0; t < tracks.tracks.size(); ++t) {
-    const PointTrack& track = tracks.tracks[t];
-    NamedPiece piece;
-    for (int k = track.begin; k < track.end; ++k) {
-      const LabelIx point(tracks.frames[k].columns[track.points[k - track.begin]]);
-      const int marker = name_of(static_cast<int>(t), k);
-      const int name = marker < 0 ? -1 : static_cast<int>(setup.assignments()[marker].label);
-      if (k > track.begin && piece.point == point && piece.name == name) {
-        piece.end = k + 1;
-        continue;
-      }
-      if (k > track.begin) labelling.pieces.push_back(piece);
-      const bool is_found = marker >= 0 && marker == found.markers[t];
-      piece = {point, k, k + 1, name, is_found ? found.shares[t] : 1 - found.shares[t]};
-    }
-    labelling.pieces.push_back(piece);
-  }
-  std::sort(labelling.pieces.begin(), labelling.pieces.end(),
-            [](const NamedPiece& a, const NamedPiece& b) {
-              return a.point != b.point ? a.point < b.point : a.begin < b.begin;
-            });
+  labelling.pieces = PiecesOf(labeller.tracks(), found, labeller.markers(), options);
   return labelling;
 }
 

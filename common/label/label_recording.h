@@ -6,28 +6,29 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
+#include "common/label/label_options.h"
 #include "common/label/labelling.h"
+#include "common/label/object_tracks.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
 
-struct LabelOptions {
-  /// A recording's own label per name, where it is to be believed unless the body surely says
-  /// otherwise (repair); empty, or -1: none.
-  std::vector<LabelIx> stored = {};
-  /// Names less probable are not given.
-  double least_probability = 0.4;
-  /// Nor do they take the place of another one that is stored.
-  double least_change_probability = 0.8;
+/// Who and what may be among the points. A setup's labels and an object's names are indices of the
+/// names of the labelling.
+struct LabelScene {
+  std::vector<TrackingSetup> persons;  ///< at least one; models calibrated or scaled by height
+  std::vector<LabelObject> objects = {};
 };
 
-/// Names the points of a recording by the body that wears them. setup: of the names, as if they
-/// were a recording's labels; its model is the person's, calibrated or scaled by height. Columns of
-/// the recording are points whatever their labels say; a column may hold several markers one after
-/// the other. progress(done, all) may be empty; returning false ends it with an Error.
-/// @throws Error where the setup has fewer than ten markers, or no frame shows enough points for
-///         the body to be found.
-Labelling LabelRecording(const TrackingSetup& setup, const std::vector<std::string>& names,
+/// Names the points of a recording by the bodies that wear them. Objects are found first, by the
+/// distances between their markers; what they leave is the persons', who share it frame by frame:
+/// each point is offered to the one it is likelier to belong to. Several persons are looked for
+/// where they stand apart, in one frame of the recording at least. Columns of the recording are
+/// points whatever their labels say; a column may hold several markers one after the other.
+/// progress(done, all) may be empty; returning false ends it with an Error.
+/// @throws Error where a person has fewer than ten markers, or no frame shows enough points for
+///         the bodies to be found.
+Labelling LabelRecording(const LabelScene& scene, const std::vector<std::string>& names,
                          const MarkerSequence& recording, const LabelOptions& options,
                          const std::function<bool(int, int)>& progress);
 

@@ -87,12 +87,18 @@ void LabelTracker::Invert(const Ref<const MatrixXd>& A, MatrixXd* inverse) {
   *inverse = product_.view().selfadjointView<Eigen::Lower>();
 }
 
+Posture LabelTracker::PostureAfter(double dt) const {
+  const double a = kVelocityMemory * (1 - std::exp(-dt / kVelocityMemory));
+  Posture posture = Retract(belief_.posture, a * belief_.velocity);
+  posture.joint_angles =
+      posture.joint_angles.cwiseMax(body_.kinematics.lower()).cwiseMin(body_.kinematics.upper());
+  return posture;
+}
+
 void LabelTracker::Predict(double dt) {
   const double b = std::exp(-dt / kVelocityMemory);
   const double a = kVelocityMemory * (1 - b);
-  predicted_ = Retract(belief_.posture, a * belief_.velocity);
-  predicted_.joint_angles =
-      predicted_.joint_angles.cwiseMax(body_.kinematics.lower()).cwiseMin(body_.kinematics.upper());
+  predicted_ = PostureAfter(dt);
   belief_.velocity *= b;
   MatrixXd& P_qq = belief_.P_qq;
   MatrixXd& P_qv = belief_.P_qv;
@@ -118,6 +124,13 @@ void LabelTracker::Predict(double dt) {
     P_qq.col(i) *= share;
     P_qv.row(i) *= share;
   }
+}
+
+void LabelTracker::Foresee(double dt, Matrix3Xd* places, VectorXd* variances) {
+  Expect(PostureAfter(dt), belief_.P_qq);
+  *places = expected_;
+  *variances = deviations_.array().square() + belief_.offset_variance.array() +
+               body_.skin.array().square() + Squared(dt * kMovements.front().speed);
 }
 
 void LabelTracker::Expect(const Posture& posture, const MatrixXd& P) {
@@ -325,15 +338,6 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
   Learn(points, dt);
   free_points_.Count(static_cast<int>(points.cols()), point_of_marker_, dt);
   return point_of_marker_;
-}
-
-void LabelTracker::Reverse() {
-  belief_.velocity *= -1;
-  belief_.P_qv *= -1;
-}
-
-LabelTracker::Prediction LabelTracker::prediction() const {
-  return {predicted_, prior_, belief_.offset, belief_.offset_variance};
 }
 
 const std::vector<int>& LabelTracker::Between(const Ref<const Matrix3Xd>& points,

@@ -46,6 +46,10 @@ class LabelTracker {
   const std::vector<int>& Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt,
                                 const Hints* hints = nullptr);
 
+  /// Where the markers will be dt [s] after the last frame, 3 x markers [m], and the variance of a
+  /// coordinate of each [m^2].
+  void Foresee(double dt, Eigen::Matrix3Xd* places, Eigen::VectorXd* variances);
+
   /// Where the last frame's posture has the markers, 3 x markers [m].
   const Eigen::Matrix3Xd& expected() const { return expected_; }
   /// Standard deviation of a coordinate of these [m].
@@ -59,7 +63,9 @@ class LabelTracker {
     Eigen::VectorXd offset_variance;
   };
   /// Of the last frame.
-  Prediction prediction() const;
+  Prediction prediction() const {
+    return {predicted_, prior_, belief_.offset, belief_.offset_variance};
+  }
 
   /// The point of each marker in the last frame by its prediction together with that of a tracker
   /// that came from the other end of the recording. The belief stays as it is.
@@ -68,12 +74,16 @@ class LabelTracker {
 
   const LabelBelief& belief() const { return belief_; }
   /// Time runs the other way from now on.
-  void Reverse();
+  void Reverse() {
+    belief_.velocity *= -1;
+    belief_.P_qv *= -1;
+  }
   void Restore(const LabelBelief& belief) { belief_ = belief; }
 
  private:
   /// Of a symmetric, positive definite matrix, by its lower triangle.
   void Invert(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::MatrixXd* inverse);
+  Posture PostureAfter(double dt) const;
   void Predict(double dt);
   /// Expected places, and their covariances by P, at a posture.
   void Expect(const Posture& posture, const Eigen::MatrixXd& P);

@@ -24,7 +24,7 @@ struct LaidOutFrame {
 /// other.
 class FrameMailbox {
  public:
-  static constexpr int kRoom = 64;  ///< frames that may wait; the oldest gives way
+  static constexpr int kRoom = 256;  ///< frames that may wait; the oldest gives way
 
   /// keeps_all: Put waits until the last frame is taken, so that none is dropped.
   explicit FrameMailbox(bool keeps_all);

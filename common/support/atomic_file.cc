@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "common/support/error.h"
+#include "common/support/folder.h"
 
 namespace mmm_converter {
 namespace {
@@ -221,12 +222,9 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
 }
 
 void RemoveAbandonedFiles(const std::string& folder) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
+  for (const std::string& name : NamesIn(folder)) {
     if (name.starts_with(kScratchBegin) && name.ends_with(kScratchEnd)) {
-      RemoveIfAbandoned(entry->path());
+      RemoveIfAbandoned(fs::path(folder) / name);
     }
   }
 }

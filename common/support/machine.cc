@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -17,8 +16,6 @@
 
 namespace mmm_converter {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kKibi = 1024;
 constexpr std::array kMemoryUnits = {'K', 'M', 'G', 'T'};
@@ -39,26 +36,26 @@ std::optional<double> PositiveNumber(std::istream& stream) {
   return number && *number > 0 ? number : std::nullopt;
 }
 
-std::optional<double> ReadNumber(const fs::path& file) {
+std::optional<double> ReadNumber(const std::string& file) {
   std::ifstream stream(file);
   return PositiveNumber(stream);
 }
 
 // "max 100000" or "150000 100000": microseconds of processor time in each period.
-std::optional<double> ReadCpuMax(const fs::path& file) {
+std::optional<double> ReadCpuMax(const std::string& file) {
   std::ifstream stream(file);
   const auto quota = PositiveNumber(stream);
   const auto period = PositiveNumber(stream);
   return quota && period ? std::optional(*quota / *period) : std::nullopt;
 }
 
-std::optional<double> ReadQuota(const fs::path& folder) {
-  const auto quota = ReadNumber(folder / "cpu.cfs_quota_us");
-  const auto period = ReadNumber(folder / "cpu.cfs_period_us");
+std::optional<double> ReadQuota(const std::string& folder) {
+  const auto quota = ReadNumber(folder + "/cpu.cfs_quota_us");
+  const auto period = ReadNumber(folder + "/cpu.cfs_period_us");
   return quota && period ? std::optional(*quota / *period) : std::nullopt;
 }
 
-void TakeMemory(const fs::path& file, ControlGroupLimits* limits) {
+void TakeMemory(const std::string& file, ControlGroupLimits* limits) {
   constexpr double kNoLimit = 1e18;  // version 1 has the largest number there is
   const auto bytes = ReadNumber(file);
   if (!bytes || *bytes > kNoLimit) return;
@@ -67,12 +64,12 @@ void TakeMemory(const fs::path& file, ControlGroupLimits* limits) {
 
 // A limit of any group above holds too.
 template <typename Visit>
-void ForGroupAndAbove(const fs::path& mount, const std::string& group, Visit visit) {
-  fs::path path = fs::path(group).relative_path();
-  visit(mount / path);
-  while (!path.empty()) {
-    path = path.parent_path();
-    visit(mount / path);
+void ForGroupAndAbove(const std::string& mount, std::string group, Visit visit) {
+  visit(mount + "/" + group);
+  while (!group.empty()) {
+    const std::size_t slash = group.rfind('/');
+    group.resize(slash == std::string::npos ? 0 : slash);
+    visit(mount + "/" + group);
   }
 }
 
@@ -80,8 +77,8 @@ void ForGroupAndAbove(const fs::path& mount, const std::string& group, Visit vis
 
 ControlGroupLimits ReadControlGroupLimits(const std::string& root) {
   ControlGroupLimits limits;
-  const fs::path mount = fs::path(root) / "sys/fs/cgroup";
-  std::ifstream groups(fs::path(root) / "proc/self/cgroup");
+  const std::string mount = root + "/sys/fs/cgroup";
+  std::ifstream groups(root + "/proc/self/cgroup");
   std::string line;  // "0::/user.slice", or "4:cpu,cpuacct:/user.slice" of version 1
   while (std::getline(groups, line)) {
     std::istringstream parts(line);
@@ -93,17 +90,17 @@ ControlGroupLimits ReadControlGroupLimits(const std::string& root) {
     std::getline(parts, group);
     const std::string padded = "," + controllers + ",";
     if (controllers.empty()) {
-      ForGroupAndAbove(mount, group, [&](const fs::path& folder) {
-        TakeSmaller(&limits.cores, ReadCpuMax(folder / "cpu.max"));
-        TakeMemory(folder / "memory.max", &limits);
+      ForGroupAndAbove(mount, group, [&](const std::string& folder) {
+        TakeSmaller(&limits.cores, ReadCpuMax(folder + "/cpu.max"));
+        TakeMemory(folder + "/memory.max", &limits);
       });
     } else if (padded.find(",cpu,") != std::string::npos) {
-      ForGroupAndAbove(mount / "cpu", group, [&](const fs::path& folder) {
+      ForGroupAndAbove(mount + "/cpu", group, [&](const std::string& folder) {
         TakeSmaller(&limits.cores, ReadQuota(folder));
       });
     } else if (padded.find(",memory,") != std::string::npos) {
-      ForGroupAndAbove(mount / "memory", group, [&](const fs::path& folder) {
-        TakeMemory(folder / "memory.limit_in_bytes", &limits);
+      ForGroupAndAbove(mount + "/memory", group, [&](const std::string& folder) {
+        TakeMemory(folder + "/memory.limit_in_bytes", &limits);
       });
     }
   }

@@ -26,8 +26,8 @@
 #include "common/math/seeded_random.h"
 #include "common/support/error.h"
 #include "common/support/parallel.h"
-#include "common/support/units.h"
 #include "tests/benchmark/label_cases.h"
+#include "tests/benchmark/label_counts.h"
 #include "tests/support/all_indices.h"
 #include "tests/support/unnamed_points.h"
 
@@ -45,21 +45,6 @@ double ProcessorSeconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-/// Of points.
-struct Counts {
-  double right = 0, wrong = 0, left = 0, ghosts = 0;
-  double changed = 0;  // right ones that a repair changes
-  double frames = 0, seconds = 0;
-  std::map<std::pair<int, int>, int> confusions;  // label that is right, label given; -1: none
-
-  void Count(int truth, int given) {
-    if (truth < 0 && given < 0) return;
-    (truth < 0 ? ghosts : given == truth ? right : given < 0 ? left : wrong) += 1;
-    if (given != truth) ++confusions[{truth, given}];
-  }
-  double markers() const { return right + wrong + left; }
-};
 
 class Labels {
  public:
@@ -93,7 +78,7 @@ class Labels {
           return counts;
         },
         &all);
-    Print(all);
+    PrintCounts(all);
   }
 
   /// The points of a frame that are seen.
@@ -122,12 +107,23 @@ class Labels {
   /// A whole recording.
   static void Offline(const LabelCase& one, const TrackingSetup& setup,
                       const testing::UnnamedPoints& made, Counts* counts) {
+    Count(made, LabelRecording({{setup}}, one.recording.labels(), made.points, {}, {}), counts);
+  }
+
+  /// The name of each point, by frame and column; -1: none.
+  static std::vector<std::vector<int>> GivenNames(const testing::UnnamedPoints& made,
+                                                  const Labelling& labelling) {
     std::vector<std::vector<int>> given = made.truth;
     for (auto& frame : given) std::fill(frame.begin(), frame.end(), -1);
-    const Labelling labelling = LabelRecording(setup, one.recording.labels(), made.points, {}, {});
     for (const NamedPiece& piece : labelling.pieces) {
       for (int k = piece.begin; k < piece.end; ++k) given[k][piece.point] = piece.name;
     }
+    return given;
+  }
+
+  static void Count(const testing::UnnamedPoints& made, const Labelling& labelling,
+                    Counts* counts) {
+    const auto given = GivenNames(made, labelling);
     for (std::size_t k = 0; k < given.size(); ++k) {
       for (std::size_t c = 0; c < given[k].size(); ++c) {
         if (IsSeen(made.points.frame(k).col(c))) counts->Count(made.truth[k][c], given[k][c]);
@@ -194,6 +190,42 @@ class Labels {
     Starts(body, setup, made, find, counts);
   }
 
+  /// Two persons and a box, each on its own.
+  void Together(bool is_hard) const {
+    using OfBodies = std::map<std::string, Counts>;
+    std::vector<OfBodies> runs(static_cast<std::size_t>(last_ - first_ + 1));
+    ParallelFor(static_cast<int>(runs.size()), 0, [&](int i) {
+      const auto seed = static_cast<std::uint64_t>(first_ + i);
+      const TogetherCase one = MakeTogether(seed);
+      testing::UnnamedErrors errors;
+      if (is_hard) errors = {0.3, 5};
+      const testing::UnnamedPoints made = MakeUnnamed(one.recording, errors, seed);
+      const double begin = ProcessorSeconds();
+      const auto given =
+          GivenNames(made, LabelRecording(one.scene, one.recording.labels(), made.points, {}, {}));
+      const double seconds = ProcessorSeconds() - begin;
+      for (std::size_t k = 0; k < given.size(); ++k) {
+        for (std::size_t c = 0; c < given[k].size(); ++c) {
+          if (!IsSeen(made.points.frame(static_cast<int>(k)).col(static_cast<int>(c)))) continue;
+          const int truth = made.truth[k][c];
+          const int name = std::max(truth, given[k][c]);
+          if (name < 0) continue;
+          const std::string& label = one.recording.labels()[truth < 0 ? name : truth];
+          runs[i]["body " + label.substr(0, label.find(':'))].Count(truth, given[k][c]);
+        }
+      }
+      for (auto& [body, counts] : runs[i]) {
+        counts.frames = one.recording.num_frames();
+        counts.seconds = seconds;
+      }
+    });
+    std::map<std::string, std::vector<Counts>> all;
+    for (const OfBodies& run : runs) {
+      for (const auto& [body, counts] : run) all[body].push_back(counts);
+    }
+    PrintCounts(all);
+  }
+
   /// Events of a second mended, and labels that are changed without need.
   void Repair() const {
     for (std::size_t e = 0; e < kEvents.size(); ++e) {
@@ -248,7 +280,7 @@ class Labels {
     counts.frames = one.recording.num_frames();
     const double begin = ProcessorSeconds();
     const Labelling labelling =
-        LabelRecording(one.calibrated, one.recording.labels(), broken.recording, options, {});
+        LabelRecording({{one.calibrated}}, one.recording.labels(), broken.recording, options, {});
     counts.seconds = ProcessorSeconds() - begin;
     const std::vector<int> markers = MarkerOfLabel(one);
     for (const NamedPiece& piece : labelling.pieces) {
@@ -297,40 +329,6 @@ class Labels {
     }
   }
 
-  static void Print(const std::map<std::string, std::vector<Counts>>& all) {
-    Counts mean;  // of the recordings' shares
-    double worst = 1;
-    std::printf("%-8s %7s %7s %7s %7s  ms/frame\n", "", "right", "wrong", "left", "ghosts");
-    const auto print = [](const std::string& name, const Counts& c) {
-      std::printf("%-8s %7.2f %7.2f %7.2f %7.2f  %.2f\n", name.c_str(),
-                  kPercent * c.right / c.markers(), kPercent * c.wrong / c.markers(),
-                  kPercent * c.left / c.markers(), kPercent * c.ghosts / c.markers(),
-                  kMilliseconds * c.seconds / c.frames);
-    };
-    for (const auto& [name, runs] : all) {
-      Counts sum;
-      for (const Counts& c : runs) {
-        sum.right += c.right;
-        sum.wrong += c.wrong;
-        sum.left += c.left;
-        sum.ghosts += c.ghosts;
-        sum.frames += c.frames;
-        sum.seconds += c.seconds;
-        worst = std::min(worst, c.right / c.markers());
-      }
-      print(name, sum);
-      const double n = sum.markers();
-      mean.right += sum.right / n;
-      mean.wrong += sum.wrong / n;
-      mean.left += sum.left / n;
-      mean.ghosts += sum.ghosts / n;
-      mean.frames += sum.frames;
-      mean.seconds += sum.seconds;
-    }
-    print("mean", mean);
-    std::printf("worst    %7.2f\n", kPercent * worst);
-  }
-
   int first_;
   int last_;
   std::vector<LabelCase> real_;
@@ -356,6 +354,8 @@ int main(int argc, char** argv) try {
       {"starts-hard", [&] { labels.Names(Labels::FromNothing, true, true); }},
       {"starts-near", [&] { labels.Names(Labels::FromTheLabels, true, false); }},
       {"starts-near-hard", [&] { labels.Names(Labels::FromTheLabels, true, true); }},
+      {"together", [&] { labels.Together(false); }},
+      {"together-hard", [&] { labels.Together(true); }},
       {"repair", [&] { labels.Repair(); }}};
   std::stringstream whats(args[1]);
   for (std::string what; std::getline(whats, what, ',');) {

@@ -2,6 +2,7 @@
 #include "tests/benchmark/label_cases.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -133,6 +134,44 @@ LabelCase MadeCase(std::uint64_t seed) {
   one.calibrated = testing::SetupOf(person, joints, assignments);
   one.by_height = testing::SetupOf(model, joints, assignments);
   return one;
+}
+
+TogetherCase MakeTogether(std::uint64_t seed) {
+  constexpr std::uint64_t kOther = 1000;   // seeds of the second persons
+  constexpr double kFar = 1, kNear = 0.4;  // [m] from the middle
+  TogetherCase together;
+  const std::array<LabelCase, 2> persons = {MadeCase(seed), MadeCase(seed + kOther)};
+  SeededRandom random(seed);
+  LabelObject box;
+  box.p_OM.resize(3, 5);
+  for (double& x : box.p_OM.reshaped()) x = 0.3 * random.Uniform();
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < persons.size(); ++i) {
+    TrackingSetup setup = persons[i].calibrated;
+    for (MarkerAssignment& one : setup.mapping.assignments) {
+      one.label = LabelIx(one.label + static_cast<int>(labels.size()));
+    }
+    together.scene.persons.push_back(std::move(setup));
+    for (const std::string& label : persons[i].recording.labels()) {
+      labels.push_back(std::to_string(i) + ":" + label);
+    }
+  }
+  for (int m = 0; m < box.p_OM.cols(); ++m) {
+    box.names.push_back(static_cast<int>(labels.size()));
+    labels.push_back("box:" + std::to_string(m));
+  }
+  const MarkerSequence& first = persons[0].recording;
+  const MarkerSequence& second = persons[1].recording;
+  together.recording = MarkerSequence(labels, first.num_frames(), first.rate(), 0);
+  for (int k = 0; k < first.num_frames(); ++k) {
+    const double x = kFar + (kNear - kFar) * k / first.num_frames();
+    const Eigen::Matrix3d R(Eigen::AngleAxisd(0.02 * k, Eigen::Vector3d(1, 2, 2) / 3));
+    const Eigen::Vector3d p(std::sin(0.03 * k), std::cos(0.03 * k), 1);
+    together.recording.frame(k) << first.frame(k).colwise() - Eigen::Vector3d(x, 0, 0),
+        second.frame(k).colwise() + Eigen::Vector3d(x, 0, 0), (R * box.p_OM).colwise() + p;
+  }
+  together.scene.objects.push_back(std::move(box));
+  return together;
 }
 
 std::vector<int> MarkerOfLabel(const LabelCase& one) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
+#include "common/label/label_recording.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {
@@ -25,6 +26,13 @@ std::vector<LabelCase> RealCases(const std::vector<std::string>& only);
 inline constexpr const char* kMadeCase = "made";
 /// Three seconds of another person with each seed.
 LabelCase MadeCase(std::uint64_t seed);
+
+/// Two of these persons, who come from 2 m to 0.8 m of each other, and a box with five markers.
+struct TogetherCase {
+  MarkerSequence recording;
+  LabelScene scene;  ///< names are the recording's labels
+};
+TogetherCase MakeTogether(std::uint64_t seed);
 
 /// The marker of each label of a recording, -1: none.
 std::vector<int> MarkerOfLabel(const LabelCase& one);

@@ -76,8 +76,8 @@ std::uint64_t FrameBytes(std::uint64_t points, const C3dHeader& header, bool flo
   return (4 * points + header.analog_words) * (floats ? 4 : 2);
 }
 
-int Points(const C3dHeader& header, const C3dParameters& parameters, bool floats,
-           std::uint64_t frames, std::uint64_t room, Warnings* warnings) {
+int NumPoints(const C3dHeader& header, const C3dParameters& parameters, bool floats,
+              std::uint64_t frames, std::uint64_t room, Warnings* warnings) {
   const std::uint64_t used = Count(parameters, "USED").value_or(0);
   const std::uint64_t said = header.points;
   if (used == 0 || used == said || used > kFullWord) return header.points;
@@ -142,7 +142,7 @@ C3dLayout ResolveC3dLayout(const C3dHeader& header, const C3dParameters& paramet
   const std::uint64_t room = file_size - std::min(layout.data_start, file_size);
   const std::uint64_t declared = DeclaredFrames(header, parameters);
   layout.declared_frames = static_cast<long>(declared);
-  layout.points = Points(header, parameters, layout.floats, declared, room, warnings);
+  layout.points = NumPoints(header, parameters, layout.floats, declared, room, warnings);
   layout.frame_bytes = FrameBytes(layout.points, header, layout.floats);
   if (layout.frame_bytes == 0) return layout;
   const std::uint64_t held = room / layout.frame_bytes;

@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 
 constexpr double kCentimetres = 100;  // in a metre
 constexpr int kCentimetreDecimals = 6;
-constexpr int kMetreDecimals = 8;
+constexpr int kOffsetDecimals = 8;
 constexpr int kBvhDegreeDecimals = 6;
 constexpr double kSamePlace = 1e-9;    // [m]
 constexpr double kShortestEnd = 1e-3;  // of an end that is worth showing [m]
@@ -95,7 +95,7 @@ class BvhSkeleton {
            (RotationToZUp(UpAxis::kY).transpose() * p_W);
   }
 
-  int decimals() const { return unit_ == BvhUnit::kMetres ? kMetreDecimals : kCentimetreDecimals; }
+  int decimals() const { return unit_ == BvhUnit::kMetres ? kOffsetDecimals : kCentimetreDecimals; }
 
   Vector3d Offset(const BvhJoint& joint) const {
     return joint.parent < 0 ? Vector3d::Zero().eval() : joint.place - joints_[joint.parent].place;

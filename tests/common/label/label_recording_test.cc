@@ -50,7 +50,7 @@ TEST(LabelRecordingTest, ACalibratedPersonsPointsGetTheirNames) {
   const RecordedPerson made = Record(901, 3);
   const UnnamedPoints points = MakeUnnamed(made.recording, {}, 1);
   const Labelling labelling =
-      LabelRecording(made.calibrated, made.recording.labels(), points.points, {}, {});
+      LabelRecording({{made.calibrated}}, made.recording.labels(), points.points, {}, {});
   const LabelScore score = ScoreLabels(points, labelling, made.names);
   EXPECT_GE(score.right, 0.999);
   EXPECT_LE(score.wrong, 0.0001);
@@ -63,7 +63,7 @@ TEST(LabelRecordingTest, HiddenMarkersAndGhosts) {
   errors.ghosts = 5;
   const UnnamedPoints points = MakeUnnamed(made.recording, errors, 2);
   const Labelling labelling =
-      LabelRecording(made.calibrated, made.recording.labels(), points.points, {}, {});
+      LabelRecording({{made.calibrated}}, made.recording.labels(), points.points, {}, {});
   const LabelScore score = ScoreLabels(points, labelling, made.names);
   EXPECT_GE(score.right, 0.99);
   EXPECT_LE(score.wrong, 0.003);
@@ -75,7 +75,7 @@ TEST(LabelRecordingTest, HeightAloneTellsAllButNeighbours) {
   const RecordedPerson made = Record(903, 3);
   const UnnamedPoints points = MakeUnnamed(made.recording, {}, 3);
   const Labelling labelling =
-      LabelRecording(made.uncalibrated, made.recording.labels(), points.points, {}, {});
+      LabelRecording({{made.uncalibrated}}, made.recording.labels(), points.points, {}, {});
   const LabelScore score = ScoreLabels(points, labelling, made.names);
   EXPECT_GE(score.right, 0.95);
   EXPECT_LE(score.right + score.wrong, 1);
@@ -96,7 +96,7 @@ TEST(LabelRecordingTest, ExchangedLabelsAreMendedAndNothingElseChanges) {
   LabelOptions options;
   options.stored = AllIndices<LabelIx>(swapped.labels().size());
   const Labelling labelling =
-      LabelRecording(made.calibrated, swapped.labels(), swapped, options, {});
+      LabelRecording({{made.calibrated}}, swapped.labels(), swapped, options, {});
   const int left = swapped.FindLabel("LANK");
   const int right = swapped.FindLabel("RANK");
   for (const NamedPiece& piece : labelling.pieces) {
@@ -115,7 +115,7 @@ TEST(LabelRecordingTest, PiecesCoverWhatIsSeenAndDoNotOverlap) {
   errors.ghosts = 3;
   const UnnamedPoints points = MakeUnnamed(made.recording, errors, 5);
   const Labelling labelling =
-      LabelRecording(made.calibrated, made.recording.labels(), points.points, {}, {});
+      LabelRecording({{made.calibrated}}, made.recording.labels(), points.points, {}, {});
   Eigen::MatrixXi covered =
       Eigen::MatrixXi::Zero(points.points.num_labels(), points.points.num_frames());
   Eigen::MatrixXi named =
@@ -136,6 +136,102 @@ TEST(LabelRecordingTest, PiecesCoverWhatIsSeenAndDoNotOverlap) {
   EXPECT_LE(named.maxCoeff(), 1);
 }
 
+/// Recordings side by side; of each its labels' indices among all.
+struct Together {
+  MarkerSequence recording;
+  std::vector<std::vector<LabelIx>> labels;
+};
+
+Together PutTogether(const std::vector<MarkerSequence>& parts) {
+  Together together;
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    together.labels.emplace_back();
+    for (const std::string& label : parts[i].labels()) {
+      together.labels.back().emplace_back(static_cast<int>(labels.size()));
+      labels.push_back(std::to_string(i) + ":" + label);
+    }
+  }
+  together.recording = MarkerSequence(labels, parts[0].num_frames(), parts[0].rate(), 0);
+  for (int k = 0; k < parts[0].num_frames(); ++k) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (int c = 0; c < parts[i].num_labels(); ++c) {
+        together.recording.frame(k).col(together.labels[i][c]) = parts[i].frame(k).col(c);
+      }
+    }
+  }
+  return together;
+}
+
+/// The recording, moved along x: `from` [m] in the first frame, `to` in the last.
+MarkerSequence Shifted(MarkerSequence recording, double from, double to) {
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    const double share = static_cast<double>(k) / recording.num_frames();
+    recording.frame(k).row(0).array() += from + share * (to - from);
+  }
+  return recording;
+}
+
+/// Five markers that swing and turn, 1 m from the origin, with a noise of 0.5 mm.
+MarkerSequence SwingingBox(const Eigen::Matrix3Xd& p_OM, int frames, std::uint64_t seed) {
+  SeededRandom random(seed);
+  MarkerSequence box({"1", "2", "3", "4", "5"}, frames, 100, 0);
+  for (int k = 0; k < frames; ++k) {
+    const Eigen::Matrix3d R(Eigen::AngleAxisd(0.02 * k, Eigen::Vector3d(1, 2, 2) / 3));
+    const Eigen::Vector3d p(std::sin(0.03 * k), std::cos(0.03 * k), 1);
+    box.frame(k) = (R * p_OM).colwise() + p;
+    for (double& x : box.frame(k).reshaped()) x += 0.0005 * random.Normal();
+  }
+  return box;
+}
+
+TrackingSetup WithLabels(TrackingSetup setup, const std::vector<LabelIx>& labels) {
+  for (MarkerAssignment& one : setup.mapping.assignments) one.label = labels[one.label];
+  return setup;
+}
+
+// From 2 m apart until each reaches behind the other.
+TEST(LabelRecordingTest, PointsOfTwoPersonsAndABoxGoToTheirs) {
+  for (const std::uint64_t seed : {921, 923}) {
+    const RecordedPerson anna = Record(seed, 2.5);
+    const RecordedPerson ben = Record(seed + 1, 2.5);
+    Eigen::Matrix3Xd p_OM(3, 5);
+    p_OM << 0, 0.2, 0.2, 0, 0.1, 0, 0, 0.14, 0.11, 0.05, 0, 0.01, 0, 0, 0.12;
+    const Together together =
+        PutTogether({Shifted(anna.recording, -1, -0.4), Shifted(ben.recording, 1, 0.4),
+                     SwingingBox(p_OM, anna.recording.num_frames(), seed)});
+    UnnamedErrors errors;
+    errors.hidden = 0.15;
+    errors.ghosts = 4;
+    const UnnamedPoints points = MakeUnnamed(together.recording, errors, seed);
+    LabelScene scene;
+    scene.persons = {WithLabels(anna.calibrated, together.labels[0]),
+                     WithLabels(ben.calibrated, together.labels[1])};
+    scene.objects = {{{}, p_OM}};
+    for (const LabelIx label : together.labels[2]) scene.objects[0].names.push_back(label);
+    const Labelling labelling =
+        LabelRecording(scene, together.recording.labels(), points.points, {}, {});
+    std::vector<int> names(together.recording.labels().size());
+    std::iota(names.begin(), names.end(), 0);
+    const LabelScore score = ScoreLabels(points, labelling, names);
+    EXPECT_GE(score.right, 0.98) << seed;
+    EXPECT_LE(score.wrong, 0.005) << seed;
+  }
+}
+
+TEST(LabelRecordingTest, AnObjectThatIsNotThereTakesNoPoints) {
+  const RecordedPerson made = Record(925, 1);
+  const UnnamedPoints points = MakeUnnamed(made.recording, {}, 7);
+  std::vector<std::string> labels = made.recording.labels();
+  const int first = static_cast<int>(labels.size());
+  labels.insert(labels.end(), {"a", "b", "c", "d"});
+  Eigen::Matrix3Xd p_OM(3, 4);
+  p_OM << 0, 0.3, 0, 0.1, 0, 0, 0.4, 0.1, 0, 0, 0, 0.25;
+  const LabelScene scene = {{made.calibrated}, {{{first, first + 1, first + 2, first + 3}, p_OM}}};
+  const Labelling labelling = LabelRecording(scene, labels, points.points, {}, {});
+  for (const NamedPiece& piece : labelling.pieces) EXPECT_LT(piece.name, first);
+}
+
 TEST(LabelRecordingTest, NobodyIsNotFound) {
   const RecordedPerson made = Record(906, 0.2);
   MarkerSequence noise(made.recording.labels(), 20, 100, 0);
@@ -145,14 +241,14 @@ TEST(LabelRecordingTest, NobodyIsNotFound) {
       for (int i = 0; i < 3; ++i) noise.frame(k)(i, c) = 20 * random.Uniform();
     }
   }
-  EXPECT_THROW(LabelRecording(made.calibrated, made.recording.labels(), noise, {}, {}), Error);
+  EXPECT_THROW(LabelRecording({{made.calibrated}}, made.recording.labels(), noise, {}, {}), Error);
 }
 
 TEST(LabelRecordingTest, TooManyPointsAreAnError) {
   const RecordedPerson made = Record(908, 0.1);
   MarkerSequence many(std::vector<std::string>(1001, "*"), 1, 100, 0);
   many.frame(0).setZero();
-  EXPECT_THROW(LabelRecording(made.calibrated, made.recording.labels(), many, {}, {}), Error);
+  EXPECT_THROW(LabelRecording({{made.calibrated}}, made.recording.labels(), many, {}, {}), Error);
 }
 
 TEST(BodySearchTest, APointFarFromEverybodyDoesNotDisturb) {
