@@ -42,6 +42,7 @@ std::vector<int> FullestFrames(const std::vector<Matrix3Xd>& frames) {
   const int candidates = std::max(all / 3, std::min(all, kFrames));
   const int count = std::min(candidates, kFrames);
   std::vector<int> chosen;
+  chosen.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     chosen.push_back(order[static_cast<std::size_t>(i) * candidates / count]);
   }
@@ -78,6 +79,7 @@ std::vector<Matrix3Xd> Parts(const Matrix3Xd& points, int count) {
     }
   }
   std::vector<Matrix3Xd> parts;
+  parts.reserve(members.size());
   for (const std::vector<int>& part : members) parts.emplace_back(points(Eigen::all, part));
   return parts;
 }
@@ -88,6 +90,7 @@ SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
                      const std::vector<Matrix3Xd>& frames) {
   const auto count = static_cast<int>(bodies.size());
   std::vector<std::unique_ptr<BodySearch>> searches;
+  searches.reserve(bodies.size());
   for (const LabelBody* body : bodies) searches.push_back(std::make_unique<BodySearch>(*body));
   SceneStart best;
   double least = std::numeric_limits<double>::infinity();
@@ -96,13 +99,13 @@ SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
     const std::vector<Matrix3Xd> parts = Parts(frames[k], count);
     // Who is in which part.
     MatrixXd costs = MatrixXd::Constant(count, count, 0);
-    std::vector<BodyMatch> matches(static_cast<std::size_t>(count * count));
+    std::vector<BodyMatch> matches(bodies.size() * bodies.size());
     bool has_points = true;
     for (const Matrix3Xd& part : parts) has_points = has_points && part.cols() >= kFewestPoints;
     if (!has_points) continue;
     for (int b = 0; b < count; ++b) {
       for (int c = 0; c < count; ++c) {
-        BodyMatch& match = matches[static_cast<std::size_t>(b * count + c)];
+        BodyMatch& match = matches[b * bodies.size() + c];
         match = searches[b]->Find(parts[c]);
         costs(b, c) = match.cost;
       }
@@ -114,7 +117,7 @@ SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
     best.frame = k;
     best.matches.clear();
     for (int b = 0; b < count; ++b) {
-      best.matches.push_back(matches[static_cast<std::size_t>(b * count + part_of[b])]);
+      best.matches.push_back(matches[b * bodies.size() + part_of[b]]);
     }
   }
   for (int b = 0; b < count; ++b) {

@@ -37,11 +37,10 @@ std::vector<std::string> StemsIn(const std::string& folder, std::string_view end
 }
 
 std::vector<std::string> FilesIn(const std::string& folder, std::string_view ending) {
+  std::string begin = folder;
+  if (!begin.ends_with('/')) begin += '/';
   std::vector<std::string> files = StemsIn(folder, ending);
-  for (std::string& file : files) {
-    file = folder + (folder.ends_with('/') ? "" : "/") + file;
-    file += ending;
-  }
+  for (std::string& file : files) file.insert(0, begin).append(ending);
   return files;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Folder, NamesFilesAndStemsAreSorted) {
-  const std::string folder = testing::TestFolder();
+  const std::string& folder = testing::TestFolder();
   for (const char* name : {"b.xml", "a.xml", ".xml", "c.xml.old", "with a\nline.xml"}) {
     std::ofstream(folder + "/" + name) << "x";
   }
@@ -29,7 +29,7 @@ TEST(Folder, NamesFilesAndStemsAreSorted) {
 }
 
 TEST(Folder, WhatIsNoneHasNothingAndTheReasonIsTold) {
-  const std::string folder = testing::TestFolder();
+  const std::string& folder = testing::TestFolder();
   std::error_code failure;
   EXPECT_TRUE(NamesIn(folder + "/none", &failure).empty());
   EXPECT_EQ(failure, std::errc::no_such_file_or_directory);
