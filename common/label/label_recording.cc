@@ -53,15 +53,10 @@ class RecordingLabeller {
         stored_(recording.num_labels(), -1),
         progress_(progress) {
     for (const TrackingSetup& setup : scene.persons) {
-      persons_.push_back({setup,
-                          std::make_unique<LabelBody>(setup),
-                          nullptr,
-                          static_cast<int>(name_of_marker_.size()),
-                          {},
-                          {},
-                          {},
-                          {},
-                          {}});
+      Person& person = persons_.emplace_back();
+      person.setup = setup;
+      person.body = std::make_unique<LabelBody>(setup);
+      person.first_marker = static_cast<int>(name_of_marker_.size());
       for (const MarkerAssignment& one : setup.assignments()) name_of_marker_.push_back(one.label);
     }
     for (const LabelObject& object : objects_) {
@@ -112,7 +107,7 @@ class RecordingLabeller {
     TrackingSetup setup;
     std::unique_ptr<LabelBody> body;
     std::unique_ptr<LabelTracker> tracker;
-    int first_marker;
+    int first_marker = 0;
     // Of this frame:
     std::vector<int> offered;  ///< points
     Matrix3Xd points;          ///< these

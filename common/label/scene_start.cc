@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "common/label/body_search.h"
+#include "common/label/linear_assignment.h"
 #include "common/math/statistics.h"
 #include "common/support/error.h"
 
