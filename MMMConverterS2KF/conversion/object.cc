@@ -286,6 +286,7 @@ std::vector<ObjectModel> ReadObjectModels(const std::string& folder, Warnings* w
   std::error_code failure;
   (void)NamesIn(folder, &failure);
   if (failure) throw Error(fmt::format("{}: can't be read: {}", folder, failure.message()));
+  std::string why_not;  // of the first that is none
   std::vector<ObjectModel> models;
   for (const std::string& file : FilesIn(folder, ".xml")) {
     if (!IsFile(file)) continue;
@@ -302,11 +303,13 @@ std::vector<ObjectModel> ReadObjectModels(const std::string& folder, Warnings* w
       warnings->Append(of_model);
       models.push_back({"in " + folder, "", 0, true, file, std::move(model)});
     } catch (const Error& error) {
+      if (why_not.empty()) why_not = fmt::format("; {}", error.what());
       warnings->Add(fmt::format("left out: {}", error.what()));
     }
   }
   if (!models.empty()) return models;
-  throw Error(fmt::format("{}: there is no model of a rigid object (*.xml) here", folder));
+  throw Error(
+      fmt::format("{}: there is no model of a rigid object (*.xml) here{}", folder, why_not));
 }
 
 void UseModel(const ObjectModel& object, Input* input) {

@@ -151,6 +151,7 @@ TEST(Label, PersonsAndObjectsOfOneCloudAreNamedApart) {
          "each is then a --subject");
   expect({"--and-subject-file", InFolder("ben.xml"), "--repair"}, "one person at a time");
   expect({"--object-models", InFolder("nowhere")}, "can't be read: No such file");
+  expect({"--object-models", TestFolder()}, "here; " + InFolder("anna.xml"));
   expect({"--and-subject-file", InFolder("ben.xml"), "--summary", InFolder("ben.xml")}, "is read");
   expect({"--object-models", InFolder("objects"), "--report", InFolder("objects/box.xml")},
          "is read");
