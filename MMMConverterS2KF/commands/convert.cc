@@ -116,7 +116,8 @@ std::string ChooseInput(const Arguments& arguments) {
 }
 
 void TakeLabels(const Arguments& arguments, ConversionRequest* request) {
-  request->label_hints = {arguments.Get("like").value_or(""), arguments.Has("repair")};
+  request->label_hints.like = arguments.Get("like").value_or("");
+  request->label_hints.repair = arguments.Has("repair");
   request->label = arguments.Has("label") || request->label_hints.repair;
   if (request->label && request->is_object) {
     throw UsageError("convert: --label names the markers of a person, not those of an --object");
