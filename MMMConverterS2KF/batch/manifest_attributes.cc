@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <sstream>
 
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_sequence.h"
@@ -134,6 +135,22 @@ std::vector<ManifestAttribute> MakeAttributes() {
       {"labelLike", "with label: a labelled recording of the person with these markers",
        [](Value v, Value folder, Settings s) {
          s->request.label_hints.like = FileIn(folder, v);
+         return std::string();
+       }},
+      {"labelAndSubjectFiles",
+       "with label: who else is there, from calibrate: files, with ; between them",
+       [](Value v, Value folder, Settings s) {
+         s->request.label_hints.other_persons.clear();
+         std::istringstream files(v);
+         for (std::string file; std::getline(files, file, ';');) {
+           const std::string name(Trim(file));
+           if (!name.empty()) s->request.label_hints.other_persons.push_back(FileIn(folder, name));
+         }
+         return std::string();
+       }},
+      {"labelObjectModels", "with label: folder with the models of rigid objects that may be there",
+       [](Value v, Value folder, Settings s) {
+         s->request.label_hints.object_models = FileIn(folder, v);
          return std::string();
        }},
       {"subject", "label prefix to take where a recording has several subjects",

@@ -53,9 +53,10 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
     hash.AddPart(value);
   }
   const std::string own_set = (fs::path(config.file).parent_path() / config.marker_set).string();
-  for (const std::string& file :
-       {request.input.person.processor_file, request.input.person.subject_file, config.subject_file,
-        own_set, request.input.marker_set, request.label_hints.like}) {
+  std::vector<std::string> files = FilesOf(request.label_hints);
+  files.insert(files.end(), {request.input.person.processor_file, request.input.person.subject_file,
+                             config.subject_file, own_set, request.input.marker_set});
+  for (const std::string& file : files) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");
   }

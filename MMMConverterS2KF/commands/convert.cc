@@ -43,6 +43,11 @@ const std::vector<OptionGroup> kOtherOptions = {
       {"like", "RECORDING",
        "with --label: by the labels of another recording of the person with these markers, too",
        ""},
+      {"and-subject-file", "FILE",
+       "with --label: another person who is there too and is not converted, calibrated; for each "
+       "of "
+       "them. Rigid objects that may be there are those of --object-models",
+       "", true},
       {"repair", "",
        "correct wrong labels first, as label --repair does; nothing is written but the motion",
        ""}}},
@@ -82,6 +87,7 @@ Examples
   MMMConverterS2KF convert walk.c3d --height 1.75 --self-calibrate --subject-out anna.xml
   MMMConverterS2KF convert run.c3d --subject-file anna.xml
   MMMConverterS2KF convert unlabelled.c3d --label --subject-file anna.xml
+  MMMConverterS2KF convert both.c3d --label --subject-file anna.xml --and-subject-file ben.xml
   MMMConverterS2KF convert unlabelled.c3d --label --like standing.c3d --height 1.68
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
@@ -122,8 +128,16 @@ void TakeLabels(const Arguments& arguments, ConversionRequest* request) {
   if (request->label && request->is_object) {
     throw UsageError("convert: --label names the markers of a person, not those of an --object");
   }
-  if (!request->label && !request->label_hints.like.empty()) {
+  request->label_hints.other_persons = arguments.GetAll("and-subject-file");
+  if (request->label) {
+    request->label_hints.object_models = arguments.Get("object-models").value_or("");
+    return;
+  }
+  if (!request->label_hints.like.empty()) {
     throw UsageError("convert: --like says by which recording --label or --repair finds names");
+  }
+  if (!request->label_hints.other_persons.empty()) {
+    throw UsageError("convert: --and-subject-file says who else wears the points of a --label");
   }
 }
 

@@ -76,11 +76,7 @@ void LabelInput(const ConversionRequest& request, const ConverterConfig& config,
   MarkerSequence& markers = plan->input.recording.markers;
   plan->labels = FindLabels(request.input, request.label_hints, plan->input, config, progress,
                             &plan->warnings);
-  std::vector<RelabelledPoint> named;
-  for (const RelabelledPoint& point : plan->labels->points) {
-    if (!point.label.starts_with('*')) named.push_back(point);
-  }
-  markers = Relabelled(named, markers);
+  markers = Relabelled(PointsOfPerson(*plan->labels), markers);
 }
 
 void WritePerson(const ConversionReport& report) {
@@ -157,7 +153,9 @@ void CheckOutputs(const ConversionRequest& request,
                   const std::vector<const ConversionPlan*>& plans) {
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
-  if (request.label) outputs.Read(request.label_hints.like);
+  if (request.label) {
+    for (const std::string& file : FilesOf(request.label_hints)) outputs.Read(file);
+  }
   for (const ConversionPlan* plan : plans) {
     NameInputs(plan->converter, &outputs);
     outputs.Read(plan->person.subject_file);

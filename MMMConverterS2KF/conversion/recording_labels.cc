@@ -238,8 +238,8 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
   found.setup.model = std::make_shared<const KinematicModel>(
       ScaleModel(*input.reference, ScalingOf(found.person, config)));
   const std::string name = found.person.subject ? found.person.subject->name : SubjectName(input);
-  names.Give(hints.other_persons.empty() ? "" : name + ":", &found.setup, &found.labelling,
-             options);
+  if (!hints.other_persons.empty()) found.prefix = name + ":";
+  names.Give(found.prefix, &found.setup, &found.labelling, options);
   scene->persons.push_back(found.setup);
   for (const std::string& file : hints.other_persons) {
     AddPerson(file, name, input, config, &found, scene, options, warnings);
@@ -255,6 +255,29 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
 
 }  // namespace
 
+std::vector<std::string> FilesOf(const LabelHints& hints) {
+  std::vector<std::string> files = hints.other_persons;
+  if (!hints.like.empty()) files.push_back(hints.like);
+  if (hints.object_models.empty()) return files;
+  for (std::string& model : FilesIn(hints.object_models, ".xml")) files.push_back(std::move(model));
+  return files;
+}
+
+std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found) {
+  std::set<std::string> others;
+  for (const OtherBody& other : found.others) {
+    for (int i = other.first_name; i < other.end_name; ++i) others.insert(found.labelling.names[i]);
+  }
+  std::vector<RelabelledPoint> points;
+  for (const RelabelledPoint& point : found.points) {
+    if (point.label.starts_with('*')) continue;
+    if (point.is_named && others.contains(point.label)) continue;
+    points.push_back(point);
+    if (point.is_named) points.back().label.erase(0, found.prefix.size());
+  }
+  return points;
+}
+
 FoundLabels FindNames(const InputRequest& request, const Input& input,
                       const ConverterConfig& config, Warnings* warnings) {
   LabelScene scene;
@@ -265,6 +288,9 @@ FoundLabels FindNames(const InputRequest& request, const Input& input,
 FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
                        const ConverterConfig& config, const std::function<bool(int, int)>& progress,
                        Warnings* warnings) {
+  if (hints.repair && hints.has_others()) {
+    throw Error("labels can be repaired for one person at a time, without objects");
+  }
   LabelScene scene;
   LabelOptions options;
   FoundLabels found = FindNamesAndPerson(request, hints, input, config, &scene, &options, warnings);
@@ -282,18 +308,11 @@ LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int
   report.output = request.output;
   Warnings* const warnings = &report.warnings;
   if (!request.output.empty()) CheckLabelledOutput(request.output, request.hints.has_others());
-  if (request.hints.repair && request.hints.has_others()) {
-    throw Error("labels can be repaired for one person at a time, without objects");
-  }
   ConverterChoice choice = ChooseConverter(request.converter, warnings);
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
   NameInputs(choice, &outputs);
-  outputs.Read(request.hints.like);
-  for (const std::string& file : request.hints.other_persons) outputs.Read(file);
-  if (!request.hints.object_models.empty()) {
-    for (const std::string& file : FilesIn(request.hints.object_models, ".xml")) outputs.Read(file);
-  }
+  for (const std::string& file : FilesOf(request.hints)) outputs.Read(file);
   outputs.Rewrite(request.output, request.input.file);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   outputs.Check();

@@ -24,6 +24,9 @@ struct LabelHints {
   bool has_others() const { return !other_persons.empty() || !object_models.empty(); }
 };
 
+/// Files that are read for these.
+std::vector<std::string> FilesOf(const LabelHints& hints);
+
 /// A person beside the first, or a rigid object.
 struct OtherBody {
   std::string name;
@@ -36,6 +39,7 @@ struct OtherBody {
 struct FoundLabels {
   Person person;
   TrackingSetup setup;            ///< of the labelling's names; its model is the person's
+  std::string prefix;             ///< of the person's names, as in `anna:`
   std::vector<OtherBody> others;  ///< whose names come after those of the setup
   Labelling labelling;
   std::vector<RelabelledPoint> points;
@@ -55,6 +59,10 @@ struct FoundLabels {
 FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
                        const ConverterConfig& config, const std::function<bool(int, int)>& progress,
                        Warnings* warnings);
+
+/// The person's own points, under names without prefix; those of others and those without a name
+/// are left out.
+std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found);
 
 /// As FindLabels without hints, of points that are still to come: person, setup and the names
 /// (Labelling::names) alone.

@@ -104,7 +104,9 @@ TEST(Manifest, LabelsAreFoundWhereTheInnermostSaysSo) {
   const BatchManifest manifest = Parse(R"(
     <Batch labelLike="standing.c3d"><Recording file="a.c3d"/>
       <Group label="true"><Recording file="b.c3d"/><Recording file="c.c3d" label="false"/>
-        <Recording file="d.c3d" label="repair" labelLike="/other.c3d"/></Group></Batch>)");
+        <Recording file="d.c3d" label="repair" labelLike="/other.c3d"/>
+        <Recording file="e.c3d" labelAndSubjectFiles="ben.xml; /cleo.xml" labelObjectModels="cups"/>
+      </Group></Batch>)");
   EXPECT_FALSE(manifest.entries[0].request.label);
   EXPECT_TRUE(manifest.entries[1].request.label);
   EXPECT_FALSE(manifest.entries[1].request.label_hints.repair);
@@ -113,6 +115,10 @@ TEST(Manifest, LabelsAreFoundWhereTheInnermostSaysSo) {
   EXPECT_TRUE(manifest.entries[3].request.label);
   EXPECT_TRUE(manifest.entries[3].request.label_hints.repair);
   EXPECT_EQ(manifest.entries[3].request.label_hints.like, "/other.c3d");
+  EXPECT_FALSE(manifest.entries[3].request.label_hints.has_others());
+  EXPECT_THAT(manifest.entries[4].request.label_hints.other_persons,
+              ElementsAre("/data/ben.xml", "/cleo.xml"));
+  EXPECT_EQ(manifest.entries[4].request.label_hints.object_models, "/data/cups");
 }
 
 TEST(Manifest, SaysAllThatIsWrongWithItsLine) {

@@ -20,6 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 constexpr int kFrames = 150;
 constexpr double kSmaller = 0.93;
@@ -133,7 +134,13 @@ TEST(Label, PersonsAndObjectsOfOneCloudAreNamedApart) {
   ExpectSubject(output, "ben", ben);
   ExpectSubject(output, "box", box);
 
-  // As a user goes on.
+  // In one step, and as a user goes on.
+  ExpectRuns({"convert", cloud, "--label", "--subject-file", InFolder("ben.xml"),
+              "--and-subject-file", InFolder("anna.xml"), "--object-models", InFolder("objects"),
+              "-o", InFolder("ben_only.xml"), "--summary", InFolder("ben_only.json")});
+  const auto only = nlohmann::json::parse(ReadText(InFolder("ben_only.json")));
+  EXPECT_THAT(only.at("markers").at("used"), SizeIs(53));
+  EXPECT_LT(only.at("distance_mm").at("mean"), 5);
   ExpectRuns({"convert", output, "--subject", "ben", "--subject-file", InFolder("ben.xml"),
               "--frames", ":20", "-o", InFolder("ben_motion.xml")});
   ExpectRuns({"convert", output, "--subject", "box", "--object", "--object-models",
@@ -152,6 +159,7 @@ TEST(Label, PersonsAndObjectsOfOneCloudAreNamedApart) {
   expect({"--and-subject-file", InFolder("ben.xml"), "--repair"}, "one person at a time");
   expect({"--object-models", InFolder("nowhere")}, "can't be read: No such file");
   expect({"--object-models", TestFolder()}, "here; " + InFolder("anna.xml"));
+  EXPECT_EQ(RunProgram({"convert", cloud, "--and-subject-file", InFolder("ben.xml")}).exit_code, 2);
   expect({"--and-subject-file", InFolder("ben.xml"), "--summary", InFolder("ben.xml")}, "is read");
   expect({"--object-models", InFolder("objects"), "--report", InFolder("objects/box.xml")},
          "is read");
