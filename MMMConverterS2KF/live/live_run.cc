@@ -242,15 +242,15 @@ class LiveRun {
     }
   }
 
-  // Those that came while a first posture was searched for. Later, as many as are tracked before
-  // the next frame is due: of a stream that halted they come all at once, and the newest is hardly
-  // later for it.
+  // Those that came before the first was taken, or while a first posture was searched for. Later,
+  // as many as are tracked before the next frame is due: of a stream that halted they come all at
+  // once, and the newest is hardly later for it.
   int MostInOrder() {
     if (to_make_up_ > 0) {
       --to_make_up_;
       return FrameMailbox::kRoom;
     }
-    if (rate_ <= 0) return 1;
+    if (rate_ <= 0) return FrameMailbox::kRoom;
     return static_cast<int>(std::clamp(1 / (rate_ * busy_), 1.0, 1.0 * FrameMailbox::kRoom));
   }
 

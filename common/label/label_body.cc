@@ -67,6 +67,7 @@ LabelBody::LabelBody(const TrackingSetup& setup)
       if (kinematics.Moves(j, m)) joints_of_marker[m].push_back(j);
     }
   }
+  spread = (place.array().square() + skin.array().square()).sqrt();
   FindLimbs();
   for (const Angles& arms : ArmTemplates()) {
     for (const Angles& legs : LegTemplates()) {

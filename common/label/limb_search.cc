@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/support/units.h"
 
@@ -24,8 +25,9 @@ constexpr int kThrownSteps = 8;
 constexpr double kNearThrow = 0.5;  // [rad]
 constexpr double kReach = 0.5;      // [m]: free points farther off are not a marker's
 constexpr double kBeside = 0.25;  // [m] between markers of limbs that may have each other's points
-constexpr double kPairShare = 0.4;  // of the throws, where limbs are beside each other
-constexpr double kLimbStep = 0.6;   // longest [rad]
+constexpr double kPairShare = 0.4;    // of the throws, where limbs are beside each other
+constexpr double kToPairShare = 0.8;  // of the tries, where two points are as far as two markers
+constexpr double kLimbStep = 0.6;     // longest [rad]
 constexpr double kLimbDamping = 0.01;
 constexpr double kLimbGain = 1;
 
@@ -48,7 +50,7 @@ void LimbSearch::Excess(const Ref<const Matrix3Xd>& points, const BodyMatch& mat
     const int point = match.point_of_marker[m];
     if (point >= 0) {
       const double v =
-          body_.place[m] * body_.place[m] + MatchCosts::kSettled * MatchCosts::kSettled;
+          body_.spread[m] * body_.spread[m] + MatchCosts::kSettled * MatchCosts::kSettled;
       excess_[m] = std::max((points.col(point) - at_.p_WM.col(m)).squaredNorm() / v - kGood, 0.0);
       continue;
     }
@@ -150,13 +152,49 @@ void LimbSearch::Step(const LabelBody::Limb& limb, Posture* posture) {
 void LimbSearch::Draw(const LabelBody::Limb& limb, Posture* posture) {
   for (int i = 0; i < kThrownSteps; ++i) {
     const double spread = kThrownFrom * std::pow(kThrownTo / kThrownFrom, i / (kThrownSteps - 1.0));
-    variances_ = body_.place(limb.markers).array().square() + spread * spread;
+    variances_ = body_.spread(limb.markers).array().square() + spread * spread;
     Place(limb, *posture);
     soft_.Compute(places_, variances_, points_);
     targets_ = soft_.targets();
     noise_ = (variances_.array() / soft_.weights().array().max(1e-9)).sqrt();
     Step(limb, posture);
   }
+}
+
+bool LimbSearch::DrawToPair(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) {
+  constexpr int kSteps = 6;
+  constexpr double kAsFar = 0.02;  // [m]
+  const auto markers = static_cast<int>(limb.markers.size());
+  const auto link = [&](int i) { return body_.kinematics.link_of_marker(limb.markers[i]); };
+  const int first = random->UniformIndex(markers);
+  std::vector<int>& mates = drawn_from_;
+  mates.clear();
+  for (int i = 0; i < markers; ++i) {
+    if (i != first && link(i) == link(first)) mates.push_back(i);
+  }
+  if (mates.empty()) return false;
+  const int second = mates[random->UniformIndex(static_cast<int>(mates.size()))];
+  Place(limb, *posture);
+  const double between = (places_.col(first) - places_.col(second)).norm();
+  point_pairs_.clear();
+  for (int p = 0; p < points_.cols(); ++p) {
+    if ((points_.col(p) - places_.col(first)).norm() > kReach) continue;
+    for (int q = 0; q < points_.cols(); ++q) {
+      const double distance = (points_.col(p) - points_.col(q)).norm();
+      if (q != p && std::abs(distance - between) < kAsFar) point_pairs_.emplace_back(p, q);
+    }
+  }
+  if (point_pairs_.empty()) return false;
+  const auto [p, q] = point_pairs_[random->UniformIndex(static_cast<int>(point_pairs_.size()))];
+  noise_ = body_.spread(limb.markers);
+  targets_.setConstant(3, markers, kNaN);
+  targets_.col(first) = points_.col(p);
+  targets_.col(second) = points_.col(q);
+  for (int i = 0; i < kSteps; ++i) {
+    Place(limb, *posture);
+    Step(limb, posture);
+  }
+  return true;
 }
 
 double LimbSearch::Settle(const LabelBody::Limb& limb, int turns, Posture* posture) {
@@ -166,7 +204,7 @@ double LimbSearch::Settle(const LabelBody::Limb& limb, int turns, Posture* postu
   for (int turn = 0;; ++turn) {
     Place(limb, *posture);
     noise_ =
-        (body_.place(limb.markers).array().square() + MatchCosts::kSettled * MatchCosts::kSettled)
+        (body_.spread(limb.markers).array().square() + MatchCosts::kSettled * MatchCosts::kSettled)
             .sqrt();
     cost_.resize(markers, points_.cols());
     for (Eigen::Index m = 0; m < markers; ++m) {
@@ -220,9 +258,11 @@ bool LimbSearch::Improve(const Ref<const Matrix3Xd>& points, int attempts, Seede
     points_ = points(Eigen::all, allowed_);
     trial = match->posture;
     const double before = Settle(*limb, 0, &trial);
-    Throw(*first, random, &trial);
-    if (second != nullptr) Throw(*second, random, &trial);
-    Draw(*limb, &trial);
+    if (random->Uniform() >= kToPairShare || !DrawToPair(*limb, random, &trial)) {
+      Throw(*first, random, &trial);
+      if (second != nullptr) Throw(*second, random, &trial);
+      Draw(*limb, &trial);
+    }
     const double after = Settle(*limb, kTurns, &trial);
     if (after > before - kLimbGain) continue;
     is_better = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "common/label/body_match.h"
@@ -16,7 +17,8 @@ namespace mmm_converter {
 
 /// Looks for single limbs, and for two that are beside each other, while the rest of the body stays
 /// where it is: their joints are thrown anew and drawn to the points that the rest leaves by soft
-/// assignment. Feet that stand together may have each other's points: then neither is found alone.
+/// assignment, or two of a link's markers are put at two points that are as far apart. Feet that
+/// stand together may have each other's points: then neither is found alone.
 class LimbSearch {
  public:
   /// body must outlive the search.
@@ -42,6 +44,10 @@ class LimbSearch {
   void Throw(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) const;
   void Place(const LabelBody::Limb& limb, const Posture& posture);
   void Draw(const LabelBody::Limb& limb, Posture* posture);
+  /// Puts two markers of a link at two points that are as far from each other: among ghosts, and
+  /// where others are hidden, the two that are right tell more than all together. False: there are
+  /// none.
+  bool DrawToPair(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture);
   /// Towards targets_ with the noise of noise_, about the posture placed last.
   void Step(const LabelBody::Limb& limb, Posture* posture);
   /// Assignment and fit in turns; the cost of the limb.
@@ -58,8 +64,10 @@ class LimbSearch {
   Eigen::Matrix3Xd places_;   // of the limb's markers
   Eigen::VectorXd variances_, noise_, excess_;
   Eigen::Matrix3Xd targets_;
-  Eigen::MatrixXd cost_;       // the limb's markers x allowed points
-  std::vector<int> assigned_;  // into allowed_, by the limb's marker
+  Eigen::MatrixXd cost_;  // the limb's markers x allowed points
+  std::vector<int> drawn_from_;
+  std::vector<std::pair<int, int>> point_pairs_;  // of points_
+  std::vector<int> assigned_;                     // into allowed_, by the limb's marker
   Eigen::MatrixXd H_;
   Eigen::MatrixX3d J_;
   Eigen::VectorXd g_;
