@@ -206,7 +206,7 @@ void BodySearch::Draw(const Ref<const Matrix3Xd>& points, double from, double to
                       Posture* posture) {
   for (int i = 0; i < steps; ++i) {
     const double spread = from * std::pow(to / from, i / std::max(steps - 1.0, 1.0));
-    variances_ = body_.spread.array().square() + spread * spread;
+    variances_ = body_.place.array().square() + spread * spread;
     soft_.Compute(equations_.Place(*posture), variances_, points);
     noise_ = (variances_.array() / soft_.weights().array().max(1e-9)).sqrt();
     Step(soft_.targets(), noise_, posture);
@@ -221,7 +221,7 @@ double BodySearch::SoftCost(const Ref<const Matrix3Xd>& points, const Posture& p
   VectorXd nearest =
       VectorXd::Constant(points.cols(), MatchCosts::kUnmatched);  // marker of each point
   for (int m = 0; m < body_.num_markers(); ++m) {
-    const double variance = body_.spread[m] * body_.spread[m] + spread * spread;
+    const double variance = body_.place[m] * body_.place[m] + spread * spread;
     const Eigen::RowVectorXd d2 =
         (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
     cost += std::min(d2.minCoeff(), MatchCosts::kUnmatched);
@@ -235,7 +235,7 @@ BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& p
   cost_.resize(body_.num_markers(), points.cols());
   for (int m = 0; m < body_.num_markers(); ++m) {
     const double variance =
-        body_.spread[m] * body_.spread[m] + MatchCosts::kSettled * MatchCosts::kSettled;
+        body_.place[m] * body_.place[m] + MatchCosts::kSettled * MatchCosts::kSettled;
     cost_.row(m) = (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
   }
   BodyMatch match;
@@ -259,7 +259,7 @@ BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& 
       if (best.point_of_marker[m] >= 0) targets_.col(m) = points.col(best.point_of_marker[m]);
     }
     Posture next = best.posture;
-    noise_ = (body_.spread.array().square() + MatchCosts::kSettled * MatchCosts::kSettled).sqrt();
+    noise_ = (body_.place.array().square() + MatchCosts::kSettled * MatchCosts::kSettled).sqrt();
     equations_.Place(next);
     Step(targets_, noise_, &next);
     BodyMatch match = Match(points, next);

@@ -67,7 +67,6 @@ LabelBody::LabelBody(const TrackingSetup& setup)
       if (kinematics.Moves(j, m)) joints_of_marker[m].push_back(j);
     }
   }
-  spread = (place.array().square() + skin.array().square()).sqrt();
   FindLimbs();
   for (const Angles& arms : ArmTemplates()) {
     for (const Angles& legs : LegTemplates()) {

@@ -19,9 +19,8 @@ struct LabelBody {
   int num_markers() const { return kinematics.num_markers(); }
 
   MarkerKinematics kinematics;
-  Eigen::VectorXd place;   ///< deviation of a marker from the model's place, each coordinate [m]
-  Eigen::VectorXd skin;    ///< deviation about its own place, each coordinate [m]
-  Eigen::VectorXd spread;  ///< deviation from the model's place by both, each coordinate [m]
+  Eigen::VectorXd place;  ///< deviation of a marker from the model's place, each coordinate [m]
+  Eigen::VectorXd skin;   ///< deviation about its own place, each coordinate [m]
   Eigen::VectorXd natural_angles;  ///< NaturalAngles
   /// The tracked joints that move a marker, from the root outwards.
   std::vector<std::vector<int>> joints_of_marker;

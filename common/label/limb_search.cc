@@ -50,7 +50,7 @@ void LimbSearch::Excess(const Ref<const Matrix3Xd>& points, const BodyMatch& mat
     const int point = match.point_of_marker[m];
     if (point >= 0) {
       const double v =
-          body_.spread[m] * body_.spread[m] + MatchCosts::kSettled * MatchCosts::kSettled;
+          body_.place[m] * body_.place[m] + MatchCosts::kSettled * MatchCosts::kSettled;
       excess_[m] = std::max((points.col(point) - at_.p_WM.col(m)).squaredNorm() / v - kGood, 0.0);
       continue;
     }
@@ -152,7 +152,7 @@ void LimbSearch::Step(const LabelBody::Limb& limb, Posture* posture) {
 void LimbSearch::Draw(const LabelBody::Limb& limb, Posture* posture) {
   for (int i = 0; i < kThrownSteps; ++i) {
     const double spread = kThrownFrom * std::pow(kThrownTo / kThrownFrom, i / (kThrownSteps - 1.0));
-    variances_ = body_.spread(limb.markers).array().square() + spread * spread;
+    variances_ = body_.place(limb.markers).array().square() + spread * spread;
     Place(limb, *posture);
     soft_.Compute(places_, variances_, points_);
     targets_ = soft_.targets();
@@ -186,7 +186,7 @@ bool LimbSearch::DrawToPair(const LabelBody::Limb& limb, SeededRandom* random, P
   }
   if (point_pairs_.empty()) return false;
   const auto [p, q] = point_pairs_[random->UniformIndex(static_cast<int>(point_pairs_.size()))];
-  noise_ = body_.spread(limb.markers);
+  noise_ = body_.place(limb.markers);
   targets_.setConstant(3, markers, kNaN);
   targets_.col(first) = points_.col(p);
   targets_.col(second) = points_.col(q);
@@ -204,7 +204,7 @@ double LimbSearch::Settle(const LabelBody::Limb& limb, int turns, Posture* postu
   for (int turn = 0;; ++turn) {
     Place(limb, *posture);
     noise_ =
-        (body_.spread(limb.markers).array().square() + MatchCosts::kSettled * MatchCosts::kSettled)
+        (body_.place(limb.markers).array().square() + MatchCosts::kSettled * MatchCosts::kSettled)
             .sqrt();
     cost_.resize(markers, points_.cols());
     for (Eigen::Index m = 0; m < markers; ++m) {
