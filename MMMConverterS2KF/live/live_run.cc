@@ -233,18 +233,15 @@ class LiveRun {
       status_stage_ = session_.stage();
       status_gathered_ = session_.gathered();
       if (session_.starts() != starts) to_make_up_ = kMostMadeUp;
-      if (mailbox_.is_empty()) {
-        to_make_up_ = 0;
-        session_.Prepare();
-      }
+      if (mailbox_.is_empty()) session_.Prepare();
       const std::chrono::duration<double> busy = steady_clock::now() - taken_;
       busy_ += kBusyShare * (busy.count() - busy_);
     }
   }
 
-  // Those that came before the first was taken, or while a first posture was searched for. Later,
-  // as many as are tracked before the next frame is due: of a stream that halted they come all at
-  // once, and the newest is hardly later for it.
+  // Those that came before the first was taken, while a first posture was searched for, and while
+  // what tracks did its first work. Later, as many as are tracked before the next frame is due: of
+  // a stream that halted they come all at once, and the newest is hardly later for it.
   int MostInOrder() {
     if (to_make_up_ > 0) {
       --to_make_up_;

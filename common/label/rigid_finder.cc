@@ -103,6 +103,29 @@ bool RigidFinder::Settle(const Ref<const Matrix3Xd>& points) {
   return Fit(points);
 }
 
+void RigidFinder::Reconsider(const Ref<const Matrix3Xd>& points) {
+  const std::vector<int> first = point_of_marker_;
+  Eigen::Isometry3d best_X_WO = X_WO_;
+  int most = CountFound();
+  double least = SquaredResidual(points);
+  best_ = first;
+  for (std::size_t m = 0; m < first.size(); ++m) {
+    if (first[m] < 0) continue;
+    point_of_marker_ = first;
+    point_of_marker_[m] = -1;
+    if (!Settle(points)) continue;
+    const int found = CountFound();
+    const double residual = SquaredResidual(points);
+    if (found < most || (found == most && residual >= least)) continue;
+    most = found;
+    least = residual;
+    best_ = point_of_marker_;
+    best_X_WO = X_WO_;
+  }
+  point_of_marker_ = best_;
+  X_WO_ = best_X_WO;
+}
+
 const std::vector<int>& RigidFinder::Find(const Ref<const Matrix3Xd>& points) {
   const int fewest = std::min(num_markers(), kFewestAnywhere);
   best_.assign(static_cast<std::size_t>(num_markers()), -1);
@@ -158,8 +181,11 @@ const std::vector<int>& RigidFinder::Find(const Ref<const Matrix3Xd>& points) {
     }
     if (most == num_markers()) break;  // another triple would only find it again
   }
-  if (frames_ > 0) X_WO_ = best_X_WO;
-  return best_;
+  if (frames_ == 0) return best_;
+  X_WO_ = best_X_WO;
+  point_of_marker_ = best_;
+  Reconsider(points);
+  return point_of_marker_;
 }
 
 const std::vector<int>& RigidFinder::Follow(const Ref<const Matrix3Xd>& points) {
@@ -169,6 +195,7 @@ const std::vector<int>& RigidFinder::Follow(const Ref<const Matrix3Xd>& points) 
   if (frames_ > 1) X_WO_ = X_WO * last_X_WO_.inverse() * X_WO;
   Complete(points, frames_ > 1 ? kAsExpected : kAsBefore);
   if (Settle(points)) {
+    Reconsider(points);
     last_X_WO_ = X_WO;
     ++frames_;
     return point_of_marker_;

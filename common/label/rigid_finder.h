@@ -46,6 +46,9 @@ class RigidFinder {
   void Complete(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double reach);
   /// Fit, Complete and Fit again.
   bool Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+  /// Settles without each point in turn, and keeps what has the most points, then the nearest: one
+  /// that is another marker's bends the pose, and nothing lies where it should any more.
+  void Reconsider(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
   int CountFound() const;
   double SquaredResidual(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const;
 
