@@ -103,16 +103,15 @@ bool RigidFinder::Settle(const Ref<const Matrix3Xd>& points) {
   return Fit(points);
 }
 
-void RigidFinder::Reconsider(const Ref<const Matrix3Xd>& points) {
+bool RigidFinder::SettleWithoutOne(const Ref<const Matrix3Xd>& points) {
   const std::vector<int> first = point_of_marker_;
   Eigen::Isometry3d best_X_WO = X_WO_;
-  int most = CountFound();
-  double least = SquaredResidual(points);
-  best_ = first;
-  for (std::size_t m = 0; m < first.size(); ++m) {
-    if (first[m] < 0) continue;
+  int most = 0;
+  double least = 0;
+  for (int left_out = -1; left_out < num_markers(); ++left_out) {
+    if (left_out >= 0 && first[left_out] < 0) continue;
     point_of_marker_ = first;
-    point_of_marker_[m] = -1;
+    if (left_out >= 0) point_of_marker_[left_out] = -1;
     if (!Settle(points)) continue;
     const int found = CountFound();
     const double residual = SquaredResidual(points);
@@ -122,8 +121,10 @@ void RigidFinder::Reconsider(const Ref<const Matrix3Xd>& points) {
     best_ = point_of_marker_;
     best_X_WO = X_WO_;
   }
+  if (most == 0) return false;
   point_of_marker_ = best_;
   X_WO_ = best_X_WO;
+  return true;
 }
 
 const std::vector<int>& RigidFinder::Find(const Ref<const Matrix3Xd>& points) {
@@ -182,9 +183,9 @@ const std::vector<int>& RigidFinder::Find(const Ref<const Matrix3Xd>& points) {
     if (most == num_markers()) break;  // another triple would only find it again
   }
   if (frames_ == 0) return best_;
-  X_WO_ = best_X_WO;
   point_of_marker_ = best_;
-  Reconsider(points);
+  X_WO_ = best_X_WO;
+  SettleWithoutOne(points);
   return point_of_marker_;
 }
 
@@ -194,8 +195,7 @@ const std::vector<int>& RigidFinder::Follow(const Ref<const Matrix3Xd>& points) 
   const Eigen::Isometry3d X_WO = X_WO_;
   if (frames_ > 1) X_WO_ = X_WO * last_X_WO_.inverse() * X_WO;
   Complete(points, frames_ > 1 ? kAsExpected : kAsBefore);
-  if (Settle(points)) {
-    Reconsider(points);
+  if (SettleWithoutOne(points)) {
     last_X_WO_ = X_WO;
     ++frames_;
     return point_of_marker_;

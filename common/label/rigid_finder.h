@@ -46,9 +46,10 @@ class RigidFinder {
   void Complete(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double reach);
   /// Fit, Complete and Fit again.
   bool Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
-  /// Settles without each point in turn, and keeps what has the most points, then the nearest: one
-  /// that is another marker's bends the pose, and nothing lies where it should any more.
-  void Reconsider(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+  /// Settles with all points that have been chosen, and without each in turn, and keeps what has
+  /// the most points, then the nearest: one that is another marker's bends the pose, and nothing
+  /// lies where it should any more. False: none of these settles.
+  bool SettleWithoutOne(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
   int CountFound() const;
   double SquaredResidual(const Eigen::Ref<const Eigen::Matrix3Xd>& points) const;
 

@@ -59,6 +59,35 @@ TEST(RigidFinder, AMirroredObjectIsAnother) {
   EXPECT_EQ(RigidFinder(p_OM).Find(mirrored), std::vector<int>(4, -1));
 }
 
+TEST(RigidFinder, MarkersAsCloseAsItMovesInAFrameStayApart) {
+  constexpr double kStep = 0.03;  // [m]
+  constexpr int kFrames = 40;
+  int found = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    SeededRandom random(seed);
+    Matrix3Xd p_OM = Shape(5, &random);
+    p_OM.col(4) = p_OM.col(0) + Vector3d(kStep, 0, 0);
+    RigidFinder finder(p_OM);
+    bool is_there = false;
+    for (int k = 0; k < kFrames; ++k) {
+      const Eigen::Matrix3d R(Eigen::AngleAxisd(0.02 * k, Vector3d(1, 2, 2) / 3));
+      const Matrix3Xd now =
+          (R * p_OM).colwise() + R * Vector3d(seed % 2 == 0 ? kStep * k : -kStep * k, 0, 0);
+      std::vector<int> points;
+      if (is_there) points = finder.Follow(now);
+      if (!is_there || points[0] + points[1] + points[2] < 0) points = finder.Find(now);
+      is_there = false;
+      for (int m = 0; m < 5; ++m) {
+        if (points[static_cast<std::size_t>(m)] < 0) continue;
+        is_there = true;
+        ++found;
+        EXPECT_EQ(points[static_cast<std::size_t>(m)], m) << "seed " << seed << ", frame " << k;
+      }
+    }
+  }
+  EXPECT_GE(found, 0.99 * 20 * kFrames * 5);
+}
+
 TEST(RigidFinder, FollowsThreeThatAreInTheirPlaces) {
   SeededRandom random(22);
   const Matrix3Xd p_OM = Shape(6, &random);
