@@ -45,8 +45,7 @@ const std::vector<OptionGroup> kOtherOptions = {
        ""},
       {"and-subject-file", "FILE",
        "with --label: another person who is there too and is not converted, calibrated; for each "
-       "of "
-       "them. Rigid objects that may be there are those of --object-models",
+       "of them. Rigid objects that may be there are those of --object-models",
        "", true},
       {"repair", "",
        "correct wrong labels first, as label --repair does; nothing is written but the motion",

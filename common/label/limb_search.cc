@@ -167,13 +167,12 @@ bool LimbSearch::DrawToPair(const LabelBody::Limb& limb, SeededRandom* random, P
   const auto markers = static_cast<int>(limb.markers.size());
   const auto link = [&](int i) { return body_.kinematics.link_of_marker(limb.markers[i]); };
   const int first = random->UniformIndex(markers);
-  std::vector<int>& mates = drawn_from_;
-  mates.clear();
+  mates_.clear();
   for (int i = 0; i < markers; ++i) {
-    if (i != first && link(i) == link(first)) mates.push_back(i);
+    if (i != first && link(i) == link(first)) mates_.push_back(i);
   }
-  if (mates.empty()) return false;
-  const int second = mates[random->UniformIndex(static_cast<int>(mates.size()))];
+  if (mates_.empty()) return false;
+  const int second = mates_[random->UniformIndex(static_cast<int>(mates_.size()))];
   Place(limb, *posture);
   const double between = (places_.col(first) - places_.col(second)).norm();
   point_pairs_.clear();

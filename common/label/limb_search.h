@@ -64,8 +64,8 @@ class LimbSearch {
   Eigen::Matrix3Xd places_;   // of the limb's markers
   Eigen::VectorXd variances_, noise_, excess_;
   Eigen::Matrix3Xd targets_;
-  Eigen::MatrixXd cost_;  // the limb's markers x allowed points
-  std::vector<int> drawn_from_;
+  Eigen::MatrixXd cost_;                          // the limb's markers x allowed points
+  std::vector<int> mates_;                        // of the limb's markers, those of a link
   std::vector<std::pair<int, int>> point_pairs_;  // of points_
   std::vector<int> assigned_;                     // into allowed_, by the limb's marker
   Eigen::MatrixXd H_;
