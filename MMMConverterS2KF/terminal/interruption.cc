@@ -2,6 +2,7 @@
 #include "MMMConverterS2KF/terminal/interruption.h"
 
 #include <array>
+#include <atomic>
 #include <csignal>
 
 namespace mmm_converter {
@@ -9,7 +10,8 @@ namespace {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t noted_signal = 0;
+std::atomic<int> noted_signal = 0;  // threads read what a handler wrote in another one
+static_assert(std::atomic<int>::is_always_lock_free);
 std::array<struct sigaction, kSignals.size()> old_actions;
 
 void Note(int signal) { noted_signal = signal; }

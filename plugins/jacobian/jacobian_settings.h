@@ -16,7 +16,7 @@ struct JacobianSettings {
   Method method = Method::kLeastSquares;
   double robust_distance = 0;     ///< [m]; 0: all markers count in full
   double natural_weight = 0.003;  ///< [m/rad]
-  int start_attempts = 16;
+  int start_attempts = 32;
 
   int max_iterations = 50;
   double tolerance = 1e-6;

@@ -53,7 +53,7 @@ struct S2kfSettings {
   DeviationSettings deviations;
 
   StartMethod start = StartMethod::kFit;
-  int start_attempts = 16;
+  int start_attempts = 32;
   bool recovery = true;
 
   bool smoothing = false;

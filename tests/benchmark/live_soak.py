@@ -6,7 +6,7 @@
 killed, N times. One viewer of the page never reads, one reads; a listener of MVN and a ZeroMQ subscriber die half way,
 another subscriber looks at every posture: after each cut it counts the frames until all segments are within 10 mm of
 where they were at the same frame of the recording before the first cut. The recording is best one that ends
-as it begins. A process that only sleeps, with real-time priority where the system gives it, notes when it was woken
+as it begins; its frames are a whole number of periods, after which the movement is at the same place again. A process that only sleeps, with real-time priority where the system gives it, notes when it was woken
 late: in such a stall nothing of the machine ran for us, and frames that are dropped then are not the program's.
 Needs NumPy and libzmq.
 """
@@ -30,6 +30,14 @@ from live_peers import Relay, Subscriber, free_port, open_viewer
 BACK = 0.010  # [m] of the worst segment
 NAP, STALL = 0.0005, 0.003  # [s]
 QUIET = 60  # [s] before the first cut, and after the last
+
+
+def check_period(arguments):
+    """Frame numbers go on where the recording begins anew; so must the period."""
+    told = subprocess.run([arguments.program, "info", arguments.recording, "--json"], check=True, capture_output=True)
+    frames = json.loads(told.stdout)["frames"]
+    if frames % arguments.period:
+        sys.exit(f"{arguments.recording} has {frames} frames, which is no whole number of periods of {arguments.period}")
 
 
 class Server:
@@ -202,7 +210,7 @@ def main():
     parser.add_argument("--cuts", type=int, default=10)
     parser.add_argument("--speed", type=float, default=1, help="of the recording's own pace")
     parser.add_argument("--height", type=float, default=1.8)
-    parser.add_argument("--period", type=int, default=1348, help="frames of the recording")
+    parser.add_argument("--period", type=int, default=1348, help="frames after which the movement is the same")
     parser.add_argument("--subscribe", help=argparse.SUPPRESS)
     parser.add_argument("--note-stalls", help=argparse.SUPPRESS)
     parser.add_argument("--realtime", action="store_true", help="of live, and of the server and the relay before it")
@@ -213,6 +221,7 @@ def main():
             subscriber.message()
     if arguments.note_stalls:
         note_stalls(arguments.note_stalls)
+    check_period(arguments)
 
     if arguments.realtime:
         be_urgent()

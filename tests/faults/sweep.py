@@ -32,6 +32,7 @@ class Conversion:
 
     name = "convert"
     has_threads = False
+    has_json = False
 
     def __init__(self, program):
         self.program = program
@@ -75,6 +76,7 @@ class Batch:
 
     name = "batch"
     has_threads = True
+    has_json = True  # of its journal
 
     def __init__(self, program):
         self.program = program
@@ -122,7 +124,7 @@ class Sweep:
         killed = run.code == -signal.SIGKILL and "kill" in kind
         problem = case.problem(run, killed or kind == "change+")
         # The JSON library allocates where it frees, and where it can't it ends the program.
-        aborted = run.code == -signal.SIGABRT and kind == "alloc+"
+        aborted = run.code == -signal.SIGABRT and (kind == "alloc+" or (kind == "alloc" and case.has_json))
         if problem is None and run.code < 0 and not killed and not aborted:
             problem = f"ended by signal {-run.code}"
         # What fails may be the write of the message itself.

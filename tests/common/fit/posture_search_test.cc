@@ -10,6 +10,8 @@
 namespace mmm_converter::testing {
 namespace {
 
+constexpr int kAttempts = 32;  // as converters start
+
 // Of single frames: how many starts are as near to the markers as the fit that starts at the truth.
 struct Starts {
   int right = 0, all = 0;
@@ -33,7 +35,7 @@ Starts CountStarts(const KinematicModel& person, const PoseTrajectory& motion, s
     Posture near = {truth.position, truth.orientation, truth.joint_angles(joints)};
     Posture found;
     const double least = search.fit().Solve(z, scale, options, &near).cost;
-    starts.right += search.Assemble(z, scale, options, 16, &found).cost < 1.03 * least;
+    starts.right += search.Assemble(z, scale, options, kAttempts, &found).cost < 1.03 * least;
     ++starts.all;
   }
   return starts;
@@ -51,8 +53,8 @@ TEST(PostureSearch, FindsThePostureOfASingleFrame) {
       sum.all += starts.all;
     }
   }
-  // Of seeds 5 to 8, which nothing was chosen on, 97 % of twice as many; 87 % with 4 attempts.
-  EXPECT_GE(sum.right, 0.93 * sum.all);
+  // Of seeds 5 to 8, which nothing was chosen on, all 200; with 16 attempts 199.
+  EXPECT_GE(sum.right, 0.98 * sum.all);
 }
 
 }  // namespace
