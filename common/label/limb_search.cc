@@ -27,6 +27,8 @@ constexpr double kReach = 0.5;      // [m]: free points farther off are not a ma
 constexpr double kBeside = 0.25;  // [m] between markers of limbs that may have each other's points
 constexpr double kPairShare = 0.4;    // of the throws, where limbs are beside each other
 constexpr double kToPairShare = 0.8;  // of the tries, where two points are as far as two markers
+constexpr double kAnyShare = 0.5;     // of the throws: of any limb, however well it matches
+constexpr double kHeldShare = 0.5;    // of the tries with two points: what is nearer to the root
 constexpr double kLimbStep = 0.6;     // longest [rad]
 constexpr double kLimbDamping = 0.01;
 constexpr double kLimbGain = 1;
@@ -64,6 +66,9 @@ void LimbSearch::Excess(const Ref<const Matrix3Xd>& points, const BodyMatch& mat
 }
 
 const LabelBody::Limb* LimbSearch::DrawLimb(SeededRandom* random) const {
+  if (random->Uniform() < kAnyShare) {
+    return &body_.limbs[random->UniformIndex(static_cast<int>(body_.limbs.size()))];
+  }
   const int limb = body_.limb_of_marker[IndexAtShare(random->Uniform(), excess_)];
   return limb < 0 ? nullptr : &body_.limbs[limb];
 }
@@ -82,6 +87,12 @@ const LabelBody::Limb* LimbSearch::LimbBeside(const LabelBody::Limb& limb) const
     }
   }
   return beside;
+}
+
+bool LimbSearch::IsNearerToRoot(int marker, int other) const {
+  const std::vector<int>& joints = body_.joints_of_marker[marker];
+  return std::all_of(joints.begin(), joints.end(),
+                     [&](int j) { return body_.kinematics.Moves(j, other); });
 }
 
 void LimbSearch::Throw(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) const {
@@ -104,7 +115,7 @@ void LimbSearch::Place(const LabelBody::Limb& limb, const Posture& posture) {
   places_ = at_.p_WM(Eigen::all, limb.markers);
 }
 
-void LimbSearch::Step(const LabelBody::Limb& limb, Posture* posture) {
+void LimbSearch::Step(const LabelBody::Limb& limb, const VectorXd& usual, Posture* posture) {
   const auto joints = static_cast<Eigen::Index>(limb.joints.size());
   body_.kinematics.ComputeJacobian(&at_);
   const auto J_transposed = at_.J_transposed.view();
@@ -126,7 +137,7 @@ void LimbSearch::Step(const LabelBody::Limb& limb, Posture* posture) {
     const int joint = limb.joints[j];
     const double angle = posture->joint_angles[joint];
     H_(j, j) += MatchCosts::kNaturalWeight;
-    g_[j] += MatchCosts::kNaturalWeight * (body_.natural_angles[joint] - angle);
+    g_[j] += MatchCosts::kNaturalWeight * (usual[joint] - angle);
     const bool is_pressing = (angle <= body_.kinematics.lower()[joint] && g_[j] < 0) ||
                              (angle >= body_.kinematics.upper()[joint] && g_[j] > 0);
     if (is_pressing) {
@@ -157,7 +168,7 @@ void LimbSearch::Draw(const LabelBody::Limb& limb, Posture* posture) {
     soft_.Compute(places_, variances_, points_);
     targets_ = soft_.targets();
     noise_ = (variances_.array() / soft_.weights().array().max(1e-9)).sqrt();
-    Step(limb, posture);
+    Step(limb, body_.natural_angles, posture);
   }
 }
 
@@ -187,11 +198,18 @@ bool LimbSearch::DrawToPair(const LabelBody::Limb& limb, SeededRandom* random, P
   const auto [p, q] = point_pairs_[random->UniformIndex(static_cast<int>(point_pairs_.size()))];
   noise_ = body_.place(limb.markers);
   targets_.setConstant(3, markers, kNaN);
+  const bool holds = random->Uniform() < kHeldShare;
+  for (int i = 0; holds && i < markers; ++i) {
+    const int point = assigned_[i];
+    if (point < 0 || point == p || point == q || link(i) == link(first)) continue;
+    if (IsNearerToRoot(limb.markers[i], limb.markers[first])) targets_.col(i) = points_.col(point);
+  }
   targets_.col(first) = points_.col(p);
   targets_.col(second) = points_.col(q);
+  angles_ = posture->joint_angles;  // joints that these points do not move stay
   for (int i = 0; i < kSteps; ++i) {
     Place(limb, *posture);
-    Step(limb, posture);
+    Step(limb, angles_, posture);
   }
   return true;
 }
@@ -221,7 +239,7 @@ double LimbSearch::Settle(const LabelBody::Limb& limb, int turns, Posture* postu
     for (Eigen::Index m = 0; m < markers; ++m) {
       if (assigned_[m] >= 0) targets_.col(m) = points_.col(assigned_[m]);
     }
-    Step(limb, posture);
+    Step(limb, body_.natural_angles, posture);
   }
 }
 

@@ -44,12 +44,15 @@ class LimbSearch {
   void Throw(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture) const;
   void Place(const LabelBody::Limb& limb, const Posture& posture);
   void Draw(const LabelBody::Limb& limb, Posture* posture);
+  /// Only joints that move `other`, too, move the marker.
+  bool IsNearerToRoot(int marker, int other) const;
   /// Puts two markers of a link at two points that are as far from each other: among ghosts, and
-  /// where others are hidden, the two that are right tell more than all together. False: there are
-  /// none.
+  /// where others are hidden, the two that are right tell more than all together. What is nearer to
+  /// the root keeps the points that Settle gave it, or not. False: there are none.
   bool DrawToPair(const LabelBody::Limb& limb, SeededRandom* random, Posture* posture);
-  /// Towards targets_ with the noise of noise_, about the posture placed last.
-  void Step(const LabelBody::Limb& limb, Posture* posture);
+  /// Towards targets_ with the noise of noise_, about the posture placed last. usual: angles that
+  /// joints tend to.
+  void Step(const LabelBody::Limb& limb, const Eigen::VectorXd& usual, Posture* posture);
   /// Assignment and fit in turns; the cost of the limb.
   double Settle(const LabelBody::Limb& limb, int turns, Posture* posture);
 
@@ -62,7 +65,7 @@ class LimbSearch {
   Eigen::Matrix3Xd points_;   // these
   Eigen::Matrix3Xd found_;    // all markers of the best match
   Eigen::Matrix3Xd places_;   // of the limb's markers
-  Eigen::VectorXd variances_, noise_, excess_;
+  Eigen::VectorXd variances_, noise_, excess_, angles_;
   Eigen::Matrix3Xd targets_;
   Eigen::MatrixXd cost_;                          // the limb's markers x allowed points
   std::vector<int> mates_;                        // of the limb's markers, those of a link

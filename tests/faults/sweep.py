@@ -119,13 +119,13 @@ class Sweep:
             return range(1, count + 1)
         return sorted({max(1, round(count * (i / points) ** 2)) for i in range(1, points + 1)})
 
-    def take(self, case, kind, fault, run):
-        """Judges a run."""
+    def take(self, case, kind, fault, run, is_early=False):
+        """Judges a run. is_early: what fails may have been the loader's, before main."""
         killed = run.code == -signal.SIGKILL and "kill" in kind
         problem = case.problem(run, killed or kind == "change+")
         # The JSON library allocates where it frees, and where it can't it ends the program.
         aborted = run.code == -signal.SIGABRT and (kind == "alloc+" or (kind == "alloc" and case.has_json))
-        if problem is None and run.code < 0 and not killed and not aborted:
+        if problem is None and run.code < 0 and not (killed or aborted or is_early):
             problem = f"ended by signal {-run.code}"
         # What fails may be the write of the message itself.
         says_why = re.search(rb"^error: |error while loading|: error|cannot ", run.error, re.M) or "inject=write" in fault
@@ -161,7 +161,7 @@ class Sweep:
                     case.prepare()
                     fault = f"inject={call}:{inject}:when={number}"
                     run = case.program.run(case.words, before=["strace", "-f", "-o", "/dev/null", "-e", fault])
-                    self.take(case, kind, fault, run)
+                    self.take(case, kind, fault, run, is_early=number <= before[call])
 
     def clocks(self, case):
         for step in (-10**8, 10**8):
