@@ -32,11 +32,13 @@ struct Stage {
   int steps;
   std::size_t kept;
 };
-constexpr std::size_t kFirstKept = 72;
+constexpr std::size_t kFirstKept = 144;
 constexpr std::array<Stage, 3> kStages = {
-    {{0.20, 0.12, 7, 24}, {0.12, 0.07, 7, 9}, {0.07, 0.03, 8, 9}}};
-// Of the last postures, settled in any case; the others only where the best of these is bad.
+    {{0.20, 0.12, 7, 48}, {0.12, 0.07, 7, 18}, {0.07, 0.03, 8, 18}}};
+// Of the last postures, settled in any case, and unless the best of these is good; the others only
+// where it is bad.
 constexpr std::size_t kSettledFirst = 4;
+constexpr std::size_t kSettledNext = 9;
 
 constexpr double kDrawnTo = 0.03;  // [m]
 
@@ -348,7 +350,10 @@ BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
   const Throws& throws =
       throws_ == LimbThrows::kWithWholeBody ? kThrowsWithWholeBody : kThrowsAlone;
   BodyMatch best;
-  for (std::size_t i = 0; i < candidates.size() && (i < kSettledFirst || best.cost > bad); ++i) {
+  const auto is_enough = [&](std::size_t settled) {
+    return settled >= kSettledFirst && best.cost <= (settled < kSettledNext ? good : bad);
+  };
+  for (std::size_t i = 0; i < candidates.size() && !is_enough(i); ++i) {
     BodyMatch match = Settle(points, candidates[i].posture);
     ImproveLimbs(points, throws.first, &match);
     if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
