@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/batch/manifest.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "tests/fuzz/fuzz_target.h"
 
 namespace mmm_converter::testing {
@@ -10,8 +13,9 @@ void ReadManifestBytes(std::string_view bytes) {
   std::set<std::string> ids;
   for (const BatchEntry& entry : manifest.entries) {
     Require(ids.insert(entry.id).second, "ids that are unique");
-    Require(!entry.id.empty() && entry.id.front() != '/' && entry.id != ".." &&
-                entry.id.find("../") == std::string::npos,
+    const std::filesystem::path output(entry.id);
+    Require(output.is_relative() && !output.empty() &&
+                std::find(output.begin(), output.end(), "..") == output.end(),
             "outputs in the output folder");
   }
   Require(ShardOf(manifest.entries, 1, 2).size() + ShardOf(manifest.entries, 2, 2).size() ==
