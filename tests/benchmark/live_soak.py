@@ -6,8 +6,9 @@
 killed, N times. One viewer of the page never reads, one reads; a listener of MVN and a ZeroMQ subscriber die half way,
 another subscriber looks at every posture: after each cut it counts the frames until all segments are within 10 mm of
 where they were at the same frame of the recording before the first cut. The recording is best one that ends
-as it begins; its frames are a whole number of periods, after which the movement is at the same place again. A process that only sleeps, with real-time priority where the system gives it, notes when it was woken
-late: in such a stall nothing of the machine ran for us, and frames that are dropped then are not the program's.
+as it begins; its frames are a whole number of periods, after which the movement is at the same place again.
+A process that only sleeps, with real-time priority where the system gives it, notes when it was woken late: in such
+a stall nothing of the machine ran for us, and frames that are dropped then are not the program's.
 Needs NumPy and libzmq.
 """
 

@@ -120,7 +120,7 @@ class Sweep:
         return sorted({max(1, round(count * (i / points) ** 2)) for i in range(1, points + 1)})
 
     def take(self, case, kind, fault, run, is_early=False):
-        """Judges a run. is_early: what fails may have been the loader's, before main."""
+        """Judges a run. is_early: it ended in the loader, before main."""
         killed = run.code == -signal.SIGKILL and "kill" in kind
         problem = case.problem(run, killed or kind == "change+")
         # The JSON library allocates where it frees, and where it can't it ends the program.
@@ -161,7 +161,8 @@ class Sweep:
                     case.prepare()
                     fault = f"inject={call}:{inject}:when={number}"
                     run = case.program.run(case.words, before=["strace", "-f", "-o", "/dev/null", "-e", fault])
-                    self.take(case, kind, fault, run, is_early=number <= before[call])
+                    is_early = number <= before[call] and not case.folder.exists()
+                    self.take(case, kind, fault, run, is_early)
 
     def clocks(self, case):
         for step in (-10**8, 10**8):
