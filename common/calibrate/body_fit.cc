@@ -10,6 +10,7 @@
 #include "common/calibrate/frame_equations.h"
 #include "common/calibrate/robust_cost.h"
 #include "common/math/dense.h"
+#include "common/math/square.h"
 #include "common/support/parallel.h"
 
 namespace mmm_converter {
@@ -31,8 +32,6 @@ constexpr double kLeastDamping = 1e-7;
 constexpr double kMostDamping = 1e6;
 // Frames are summed up in so many parts, whatever the number of threads: the same sum each time.
 constexpr int kParts = 8;
-
-double Square(double x) { return x * x; }
 
 /// Information about the scales of a person of known height: the mean of left and right is 1 by
 /// scale_deviation, their difference 0 by side_deviation.

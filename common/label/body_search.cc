@@ -236,8 +236,7 @@ BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& p
   const Matrix3Xd& places = equations_.Place(posture);
   cost_.resize(body_.num_markers(), points.cols());
   for (int m = 0; m < body_.num_markers(); ++m) {
-    const double variance =
-        body_.place[m] * body_.place[m] + MatchCosts::kSettled * MatchCosts::kSettled;
+    const double variance = body_.place[m] * body_.place[m] + settled_ * settled_;
     cost_.row(m) = (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
   }
   BodyMatch match;
@@ -261,7 +260,7 @@ BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& 
       if (best.point_of_marker[m] >= 0) targets_.col(m) = points.col(best.point_of_marker[m]);
     }
     Posture next = best.posture;
-    noise_ = (body_.place.array().square() + MatchCosts::kSettled * MatchCosts::kSettled).sqrt();
+    noise_ = (body_.place.array().square() + settled_ * settled_).sqrt();
     equations_.Place(next);
     Step(targets_, noise_, &next);
     BodyMatch match = Match(points, next);
@@ -315,6 +314,13 @@ void BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, 
   if (!limbs_.Improve(points, attempts, &random_, &better)) return;
   better = Settle(points, better.posture);
   if (better.cost < match->cost) *match = std::move(better);
+}
+
+BodyMatch BodySearch::SettleFinely(const Ref<const Matrix3Xd>& points, const Posture& posture) {
+  settled_ = 0;
+  BodyMatch match = Settle(points, posture);
+  settled_ = MatchCosts::kSettled;
+  return match;
 }
 
 BodyMatch BodySearch::FindNear(const Ref<const Matrix3Xd>& points, const Posture& posture,

@@ -35,6 +35,10 @@ class BodySearch {
   BodyMatch FindNear(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
                      double spread);
 
+  /// From a posture that is about right; the cost is that of the markers' places alone, as if the
+  /// posture was not off any more: small differences count.
+  BodyMatch SettleFinely(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
+
   /// Throws badly matching limbs anew, so often, and keeps what is cheaper.
   void ImproveLimbs(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts,
                     BodyMatch* match);
@@ -75,6 +79,7 @@ class BodySearch {
   LinearAssignment assignment_;
   LimbSearch limbs_;
   SeededRandom random_;
+  double settled_ = MatchCosts::kSettled;
   Eigen::VectorXd variances_, noise_;
   Eigen::MatrixXd cost_;  // markers x points
   Eigen::Matrix3Xd targets_;

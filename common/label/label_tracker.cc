@@ -3,12 +3,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "common/math/dense.h"
 #include "common/math/rotation.h"
+#include "common/math/square.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -22,16 +22,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Of root position [m], root rotation and joints [rad]: velocities are correlated in time
-// (Ornstein-Uhlenbeck).
-struct Movement {
-  double speed;  // standard deviation [1/s]
-  double start;  // deviation when a body is taken up
-};
-constexpr std::array<Movement, 3> kMovements = {{{1, 0.02}, {2, 0.05}, {3, 0.1}}};
-constexpr double kVelocityMemory = 0.25;  // [s]
-constexpr double kOffsetMemory = 1.0;     // [s] in which a hidden marker's place is forgotten
-constexpr double kOffsetDrift = 0.004;    // [m / sqrt(s)] of a seen one
+constexpr double kOffsetMemory = 1.0;   // [s] in which a hidden marker's place is forgotten
+constexpr double kOffsetDrift = 0.004;  // [m / sqrt(s)] of a seen one
 
 constexpr double kUnassigned = 21.1;  // chi-square of three, exceeded once in 10,000
 constexpr double kGate = 2 * kUnassigned;
@@ -39,10 +31,6 @@ constexpr double kFarthestPlace = 12;  // most that the distance from the model'
 constexpr double kVague = 0.012;       // [m]: beyond, soft assignment comes first
 constexpr double kLost = 0.05;         // [m]: beyond, a limb is not taken up by one point
 constexpr int kTurns = 3;
-
-int GroupOf(Eigen::Index dof) { return dof < 3 ? 0 : dof < 6 ? 1 : 2; }
-
-double Squared(double x) { return x * x; }
 
 }  // namespace
 
@@ -62,20 +50,7 @@ LabelTracker::LabelTracker(const LabelBody& body)
   covariances_.resize(body.num_markers());
 }
 
-void LabelTracker::Start(const BodyMatch& match) {
-  const int dofs = body_.kinematics.num_dofs();
-  belief_.posture = match.posture;
-  belief_.velocity.setZero(dofs);
-  belief_.P_qq.setZero(dofs, dofs);
-  belief_.P_qv.setZero(dofs, dofs);
-  belief_.P_vv.setZero(dofs, dofs);
-  for (int i = 0; i < dofs; ++i) {
-    belief_.P_qq(i, i) = Squared(kMovements[GroupOf(i)].start);
-    belief_.P_vv(i, i) = Squared(kMovements[GroupOf(i)].speed);
-  }
-  belief_.offset.setZero(3, body_.num_markers());
-  belief_.offset_variance = body_.place.array().square();
-}
+void LabelTracker::Start(const BodyMatch& match) { belief_ = BeliefAt(body_, match.posture); }
 
 void LabelTracker::Invert(const Ref<const MatrixXd>& A, MatrixXd* inverse) {
   factor_.view() = A;
@@ -87,50 +62,11 @@ void LabelTracker::Invert(const Ref<const MatrixXd>& A, MatrixXd* inverse) {
   *inverse = product_.view().selfadjointView<Eigen::Lower>();
 }
 
-Posture LabelTracker::PostureAfter(double dt) const {
-  const double a = kVelocityMemory * (1 - std::exp(-dt / kVelocityMemory));
-  Posture posture = Retract(belief_.posture, a * belief_.velocity);
-  posture.joint_angles =
-      posture.joint_angles.cwiseMax(body_.kinematics.lower()).cwiseMin(body_.kinematics.upper());
-  return posture;
-}
-
-void LabelTracker::Predict(double dt) {
-  const double b = std::exp(-dt / kVelocityMemory);
-  const double a = kVelocityMemory * (1 - b);
-  predicted_ = PostureAfter(dt);
-  belief_.velocity *= b;
-  MatrixXd& P_qq = belief_.P_qq;
-  MatrixXd& P_qv = belief_.P_qv;
-  MatrixXd& P_vv = belief_.P_vv;
-  P_qq += a * (P_qv + P_qv.transpose()) + a * a * P_vv;
-  P_qv = b * (P_qv + a * P_vv);
-  P_vv *= b * b;
-  const double tau2 = Squared(kVelocityMemory);
-  for (int i = 0; i < P_qq.rows(); ++i) {
-    const double variance = Squared(kMovements[GroupOf(i)].speed);
-    P_qq(i, i) += variance * 2 * tau2 * (dt / kVelocityMemory - 1.5 + 2 * b - 0.5 * b * b);
-    P_qv(i, i) += variance * kVelocityMemory * Squared(1 - b);
-    P_vv(i, i) += variance * (1 - b * b);
-  }
-  // A joint is within its limits, whatever was not seen.
-  for (int j = 0; j < body_.kinematics.num_joints(); ++j) {
-    const int i = 6 + j;
-    const auto [lower, upper] = body_.kinematics.Range(j);
-    const double most = Squared(upper - lower) / 12;
-    if (P_qq(i, i) <= most) continue;
-    const double share = std::sqrt(most / P_qq(i, i));
-    P_qq.row(i) *= share;
-    P_qq.col(i) *= share;
-    P_qv.row(i) *= share;
-  }
-}
-
 void LabelTracker::Foresee(double dt, Matrix3Xd* places, VectorXd* variances) {
-  Expect(PostureAfter(dt), belief_.P_qq);
+  Expect(belief_.PostureAfter(body_, dt), belief_.P_qq);
   *places = expected_;
   *variances = deviations_.array().square() + belief_.offset_variance.array() +
-               body_.skin.array().square() + Squared(dt * kMovements.front().speed);
+               body_.skin.array().square() + Square(dt * LabelBelief::kRootSpeed);
 }
 
 void LabelTracker::Expect(const Posture& posture, const MatrixXd& P) {
@@ -196,11 +132,11 @@ bool LabelTracker::DrawSoftly(const Ref<const Matrix3Xd>& points, Posture* postu
 }
 
 void LabelTracker::AssignMarker(int m, const Ref<const Matrix3Xd>& points) {
-  const double skin2 = Squared(body_.skin[m]);
+  const double skin2 = Square(body_.skin[m]);
   Matrix3d S = covariances_[m];
   S.diagonal().array() += belief_.offset_variance[m] + skin2;
   Matrix3d S_place = covariances_[m];
-  S_place.diagonal().array() += Squared(body_.place[m]) + skin2;
+  S_place.diagonal().array() += Square(body_.place[m]) + skin2;
   const Matrix3d inverse = S.inverse();
   const Matrix3d inverse_place = S_place.inverse();
   const double size = std::log(S.determinant() / (8 * skin2 * skin2 * skin2));
@@ -292,24 +228,15 @@ void LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P,
 }
 
 void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
-  constexpr int kAttempts = 6;
+  constexpr int kAttempts = 20;
   constexpr double kGain = 10;
-  constexpr int kRunning = 2;
   const BodyMatch now = search_.Match(points, *posture);
-  if (search_.MostGain(points, now) < kGain) {
-    doubts_ = 0;
-    return;
-  }
-  const double cost = now.cost;
+  if (search_.MostGain(points, now) < kGain) return;
   BodyMatch other = search_.FindNear(points, *posture, 0.06);
-  if (other.cost > cost) other.posture = *posture;
+  if (other.cost > now.cost) other.posture = *posture;
   search_.ImproveLimbs(points, kAttempts, &other);
-  if (other.cost > cost - kGain) {
-    doubts_ = 0;
-    return;
-  }
-  if (++doubts_ < kRunning) return;
-  doubts_ = 0;
+  other = search_.SettleFinely(points, other.posture);
+  if (other.cost > search_.SettleFinely(points, *posture).cost - kGain) return;
   Start(other);
   predicted_ = other.posture;
   Invert(belief_.P_qq, &prior_);
@@ -322,7 +249,8 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
                                             const Hints* hints) {
   constexpr double kDoubtEvery = 0.1;  // [s]
   hints_ = hints;
-  Predict(dt);
+  belief_.Predict(body_, dt);
+  predicted_ = belief_.posture;
   Posture posture = predicted_;
   Invert(belief_.P_qq, &prior_);
   Expect(predicted_, belief_.P_qq);
@@ -334,7 +262,8 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
     since_doubt_ = 0;
     Doubt(points, &posture);
   }
-  Correct(posture);
+  belief_.Correct(prior_, posture, P_);
+  belief_.ExpectSpeeds(body_, point_of_marker_, dt);
   Learn(points, dt);
   free_points_.Count(static_cast<int>(points.cols()), point_of_marker_, dt);
   return point_of_marker_;
@@ -366,20 +295,10 @@ const std::vector<int>& LabelTracker::Between(const Ref<const Matrix3Xd>& points
   return point_of_marker_;
 }
 
-// The velocities learn of the frame through what they have in common with the posture.
-void LabelTracker::Correct(const Posture& posture) {
-  const MatrixXd gain = belief_.P_qv.transpose() * prior_;
-  belief_.velocity += gain * Local(predicted_, posture);
-  belief_.P_vv -= gain * (belief_.P_qq - P_) * gain.transpose();
-  belief_.P_qv = P_ * gain.transpose();
-  belief_.P_qq = P_;
-  belief_.posture = posture;
-}
-
 void LabelTracker::Learn(const Ref<const Matrix3Xd>& points, double dt) {
   for (int m = 0; m < body_.num_markers(); ++m) {
     double& variance = belief_.offset_variance[m];
-    const double place = Squared(body_.place[m]);
+    const double place = Square(body_.place[m]);
     const int point = point_of_marker_[m];
     if (point < 0) {
       variance = std::min(place, variance + place * std::min(1.0, dt / kOffsetMemory));
@@ -387,8 +306,8 @@ void LabelTracker::Learn(const Ref<const Matrix3Xd>& points, double dt) {
     }
     const Eigen::Matrix3d& R_WL = at_.R_WL[body_.kinematics.link_of_marker(m)];
     const Vector3d r = R_WL.transpose() * (points.col(point) - at_.p_WM.col(m));
-    const double noise = Squared(body_.skin[m]) + Squared(deviations_[m]);
-    variance = std::min(place, variance + Squared(kOffsetDrift) * dt);
+    const double noise = Square(body_.skin[m]) + Square(deviations_[m]);
+    variance = std::min(place, variance + Square(kOffsetDrift) * dt);
     const double gain = variance / (variance + noise);
     belief_.offset.col(m) += gain * (r - belief_.offset.col(m));
     variance *= 1 - gain;

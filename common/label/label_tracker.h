@@ -7,22 +7,13 @@
 #include "common/fit/normal_equations.h"
 #include "common/label/body_search.h"
 #include "common/label/free_points.h"
+#include "common/label/label_belief.h"
 #include "common/label/label_body.h"
 #include "common/label/linear_assignment.h"
 #include "common/label/soft_assignment.h"
 #include "common/math/padded_matrix.h"
 
 namespace mmm_converter {
-
-/// What is believed of a person between two frames: postures and velocities are normal, in tangent
-/// coordinates (Retract).
-struct LabelBelief {
-  Posture posture;                   ///< tracked joints
-  Eigen::VectorXd velocity;          ///< of the dofs [m/s], [rad/s]
-  Eigen::MatrixXd P_qq, P_qv, P_vv;  ///< covariance of dofs and velocities
-  Eigen::Matrix3Xd offset;  ///< of the markers from the model's places, axes of their links [m]
-  Eigen::VectorXd offset_variance;  ///< of each coordinate [m^2]
-};
 
 /// Names the points of one frame after the other by a body that moves on: a Kalman filter of the
 /// posture whose update chooses the cheapest assignment of points, and follows where each marker is
@@ -74,17 +65,12 @@ class LabelTracker {
 
   const LabelBelief& belief() const { return belief_; }
   /// Time runs the other way from now on.
-  void Reverse() {
-    belief_.velocity *= -1;
-    belief_.P_qv *= -1;
-  }
+  void Reverse() { belief_.Reverse(); }
   void Restore(const LabelBelief& belief) { belief_ = belief; }
 
  private:
   /// Of a symmetric, positive definite matrix, by its lower triangle.
   void Invert(const Eigen::Ref<const Eigen::MatrixXd>& A, Eigen::MatrixXd* inverse);
-  Posture PostureAfter(double dt) const;
-  void Predict(double dt);
   /// Expected places, and their covariances by P, at a posture.
   void Expect(const Posture& posture, const Eigen::MatrixXd& P);
   /// False: the posture is clear enough without.
@@ -98,7 +84,6 @@ class LabelTracker {
   /// One step to the assigned points from `posture`, the prediction counting as it is sure.
   void Update(const Eigen::Ref<const Eigen::Matrix3Xd>& targets, const Eigen::VectorXd& noise,
               Posture* posture);
-  void Correct(const Posture& posture);
   void Learn(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
 
   /// Assignment and update in turns; leaves both behind, and what is expected after them. P: of the
@@ -112,7 +97,6 @@ class LabelTracker {
   LabelBelief belief_;
   BodySearch search_;
   double since_doubt_ = 0;  // [s]
-  int doubts_ = 0;          // running
   FreePoints free_points_;
   MarkerJacobian at_;
   NormalEquations equations_;
