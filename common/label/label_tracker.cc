@@ -165,7 +165,19 @@ void LabelTracker::Assign(const Ref<const Matrix3Xd>& points) {
       }
     }
   }
+  for (std::size_t p = 0; p < continued_.size(); ++p) {
+    const int marker = continued_[p];
+    const auto p_ix = static_cast<Eigen::Index>(p);
+    if (marker >= 0 && !CouldBeOther(marker, p_ix)) costs_(marker, p_ix) -= kFarthestPlace;
+  }
   point_of_marker_ = assignment_.Solve(costs_, kUnassigned + free_points_.Surplus());
+}
+
+bool LabelTracker::CouldBeOther(int marker, Eigen::Index point) const {
+  for (int m = 0; m < body_.num_markers(); ++m) {
+    if (m != marker && costs_(m, point) < kUnassigned) return true;
+  }
+  return false;
 }
 
 bool LabelTracker::IsOnlyChoice(int marker) const {
@@ -249,6 +261,10 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
                                             const Hints* hints) {
   constexpr double kDoubtEvery = 0.1;  // [s]
   hints_ = hints;
+  continued_.clear();
+  for (const int last : follower_.Follow(points, dt)) {
+    continued_.push_back(last < 0 ? -1 : marker_of_point_[last]);
+  }
   belief_.Predict(body_, dt);
   predicted_ = belief_.posture;
   Posture posture = predicted_;
@@ -265,6 +281,10 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
   belief_.Correct(prior_, posture, P_);
   belief_.ExpectSpeeds(body_, point_of_marker_, dt);
   Learn(points, dt);
+  marker_of_point_.assign(static_cast<std::size_t>(points.cols()), -1);
+  for (std::size_t m = 0; m < point_of_marker_.size(); ++m) {
+    if (point_of_marker_[m] >= 0) marker_of_point_[point_of_marker_[m]] = static_cast<int>(m);
+  }
   free_points_.Count(static_cast<int>(points.cols()), point_of_marker_, dt);
   return point_of_marker_;
 }
@@ -274,6 +294,7 @@ const std::vector<int>& LabelTracker::Between(const Ref<const Matrix3Xd>& points
   const LabelBelief belief = belief_;
   const Posture predicted = predicted_;
   hints_ = hints;
+  continued_.clear();
   const MatrixXd information = prior_ + other.information;
   MatrixXd P;
   Invert(information, &P);

@@ -10,6 +10,7 @@
 #include "common/label/label_belief.h"
 #include "common/label/label_body.h"
 #include "common/label/linear_assignment.h"
+#include "common/label/point_tracks.h"
 #include "common/label/soft_assignment.h"
 #include "common/math/padded_matrix.h"
 
@@ -65,8 +66,14 @@ class LabelTracker {
 
   const LabelBelief& belief() const { return belief_; }
   /// Time runs the other way from now on.
-  void Reverse() { belief_.Reverse(); }
-  void Restore(const LabelBelief& belief) { belief_ = belief; }
+  void Reverse() {
+    belief_.Reverse();
+    follower_.Forget();
+  }
+  void Restore(const LabelBelief& belief) {
+    belief_ = belief;
+    follower_.Forget();
+  }
 
  private:
   /// Of a symmetric, positive definite matrix, by its lower triangle.
@@ -79,6 +86,8 @@ class LabelTracker {
   void AssignMarker(int marker, const Eigen::Ref<const Eigen::Matrix3Xd>& points);
   /// A limb that could be anywhere is not taken up by a single point.
   void DropLonely();
+  /// Another marker could have the point.
+  bool CouldBeOther(int marker, Eigen::Index point) const;
   /// No free point could be the marker about as well.
   bool IsOnlyChoice(int marker) const;
   /// One step to the assigned points from `posture`, the prediction counting as it is sure.
@@ -98,6 +107,9 @@ class LabelTracker {
   BodySearch search_;
   double since_doubt_ = 0;  // [s]
   FreePoints free_points_;
+  PointFollower follower_;
+  std::vector<int> continued_;  // by point: the marker that it was in the last frame, or -1
+  std::vector<int> marker_of_point_;
   MarkerJacobian at_;
   NormalEquations equations_;
   SoftAssignment soft_;

@@ -2,7 +2,7 @@
 #include "common/label/point_tracks.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace mmm_converter {
 
@@ -26,59 +26,59 @@ FramePoints PointsOf(const MarkerSequence& recording, int k) {
   return points;
 }
 
-struct Nearest {
-  int index = -1;
-  double distance = std::numeric_limits<double>::infinity();
-  double next = std::numeric_limits<double>::infinity();
+}  // namespace
 
-  void Offer(int other, double d) {
-    if (d < distance) {
-      next = distance;
-      distance = d;
-      index = other;
-    } else {
-      next = std::min(next, d);
+void PointFollower::Nearest::Offer(int other, double d) {
+  if (d < distance) {
+    next = distance;
+    distance = d;
+    index = other;
+  } else {
+    next = std::min(next, d);
+  }
+}
+
+bool PointFollower::Nearest::IsClear() const { return next > kClearly * distance + kNearby; }
+
+const std::vector<int>& PointFollower::Follow(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                              double dt) {
+  const double reach = std::min(kNearby + 0.5 * kAcceleration * dt * dt, kFarthest);
+  forward_.assign(static_cast<std::size_t>(last_.cols()), {});
+  backward_.assign(static_cast<std::size_t>(points.cols()), {});
+  for (Eigen::Index a = 0; a < last_.cols(); ++a) {
+    const Eigen::Vector3d expected = last_.col(a) + dt * velocity_.col(a);
+    for (Eigen::Index b = 0; b < points.cols(); ++b) {
+      const double d = (points.col(b) - expected).norm();
+      forward_[a].Offer(static_cast<int>(b), d);
+      backward_[b].Offer(static_cast<int>(a), d);
     }
   }
-  bool IsClear() const { return next > kClearly * distance + kNearby; }
-};
-
-}  // namespace
+  followed_.assign(backward_.size(), -1);
+  next_velocity_.setZero(3, points.cols());
+  for (Eigen::Index b = 0; b < points.cols(); ++b) {
+    const int a = backward_[b].index;
+    if (a < 0 || forward_[a].index != b || forward_[a].distance > reach || !forward_[a].IsClear() ||
+        !backward_[b].IsClear()) {
+      continue;
+    }
+    followed_[b] = a;
+    next_velocity_.col(b) = (points.col(b) - last_.col(a)) / dt;
+  }
+  last_ = points;
+  velocity_.swap(next_velocity_);
+  return followed_;
+}
 
 PointTracks FollowPoints(const MarkerSequence& recording) {
   PointTracks result;
-  const double dt = 1 / recording.rate();
-  const double reach = std::min(kNearby + 0.5 * kAcceleration * dt * dt, kFarthest);
-  Eigen::Matrix3Xd velocity;  // of the last frame's points, per frame
+  PointFollower follower;
   for (int k = 0; k < recording.num_frames(); ++k) {
     FramePoints points = PointsOf(recording, k);
-    const Eigen::Index count = points.p_WP.cols();
-    Eigen::Matrix3Xd next_velocity = Eigen::Matrix3Xd::Zero(3, count);
-    if (k > 0) {
-      const FramePoints& last = result.frames.back();
-      std::vector<Nearest> forward(last.columns.size());
-      std::vector<Nearest> backward(points.columns.size());
-      for (Eigen::Index a = 0; a < last.p_WP.cols(); ++a) {
-        const Eigen::Vector3d expected = last.p_WP.col(a) + velocity.col(a);
-        for (Eigen::Index b = 0; b < count; ++b) {
-          const double d = (points.p_WP.col(b) - expected).norm();
-          forward[a].Offer(static_cast<int>(b), d);
-          backward[b].Offer(static_cast<int>(a), d);
-        }
-      }
-      for (std::size_t b = 0; b < backward.size(); ++b) {
-        const int a = backward[b].index;
-        if (a < 0 || forward[a].index != static_cast<int>(b) || forward[a].distance > reach ||
-            !forward[a].IsClear() || !backward[b].IsClear()) {
-          continue;
-        }
-        points.tracks[b] = last.tracks[a];
-        next_velocity.col(static_cast<Eigen::Index>(b)) =
-            points.p_WP.col(static_cast<Eigen::Index>(b)) - last.p_WP.col(a);
-      }
-    }
-    for (std::size_t p = 0; p < points.tracks.size(); ++p) {
-      if (points.tracks[p] < 0) {
+    const std::vector<int>& followed = follower.Follow(points.p_WP, 1 / recording.rate());
+    for (std::size_t p = 0; p < followed.size(); ++p) {
+      if (followed[p] >= 0) {
+        points.tracks[p] = result.frames.back().tracks[followed[p]];
+      } else {
         points.tracks[p] = static_cast<int>(result.tracks.size());
         result.tracks.push_back({k, k, {}});
       }
@@ -86,7 +86,6 @@ PointTracks FollowPoints(const MarkerSequence& recording) {
       track.end = k + 1;
       track.points.push_back(static_cast<int>(p));
     }
-    velocity = std::move(next_velocity);
     result.frames.push_back(std::move(points));
   }
   return result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "common/motion/marker_sequence.h"
@@ -28,8 +29,31 @@ struct PointTracks {
 };
 
 /// Follows points from frame to frame at constant velocity: those that are each other's nearest,
-/// clearly nearer than any other, and no farther than a person accelerates. A recording's columns
-/// do not count: a column may hold several things.
+/// clearly nearer than any other, and no farther than a person accelerates.
+class PointFollower {
+ public:
+  /// For each point its place among those of the frame before, -1: it is new. points: 3 x points
+  /// [m], finite; dt [s]: since the frame before. Valid until the next call.
+  const std::vector<int>& Follow(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
+
+  /// All points of the next frame are new.
+  void Forget() { last_.resize(3, 0); }
+
+ private:
+  struct Nearest {
+    int index = -1;
+    double distance = std::numeric_limits<double>::infinity();
+    double next = std::numeric_limits<double>::infinity();
+    void Offer(int other, double d);
+    bool IsClear() const;
+  };
+  Eigen::Matrix3Xd last_ = Eigen::Matrix3Xd(3, 0);
+  Eigen::Matrix3Xd velocity_, next_velocity_;  // [m/s]
+  std::vector<Nearest> forward_, backward_;
+  std::vector<int> followed_;
+};
+
+/// Follows the points of a recording. Its columns do not count: a column may hold several things.
 PointTracks FollowPoints(const MarkerSequence& recording);
 
 }  // namespace mmm_converter
