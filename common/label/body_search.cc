@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "common/math/rotation.h"
 #include "common/math/statistics.h"
@@ -32,13 +34,12 @@ struct Stage {
   int steps;
   std::size_t kept;
 };
-constexpr std::size_t kFirstKept = 144;
+constexpr std::size_t kDrawn = 96;  // at a time; others only where the best of these are not good
+constexpr std::size_t kMostDrawn = 192;
 constexpr std::array<Stage, 3> kStages = {
-    {{0.20, 0.12, 7, 48}, {0.12, 0.07, 7, 18}, {0.07, 0.03, 8, 18}}};
-// Of the last postures, settled in any case, and unless the best of these is good; the others only
-// where it is bad.
+    {{0.20, 0.12, 7, 32}, {0.12, 0.07, 7, 16}, {0.07, 0.03, 8, 16}}};
+// Of the last postures, in any case; the others only where the best of these is not good.
 constexpr std::size_t kSettledFirst = 4;
-constexpr std::size_t kSettledNext = 9;
 
 constexpr double kDrawnTo = 0.03;  // [m]
 
@@ -49,8 +50,9 @@ struct Throws {
 };
 constexpr Throws kThrowsAlone = {40, 100, 300};
 constexpr Throws kThrowsWithWholeBody = {0, 40, 120};
-constexpr double kGoodShare = 0.1;  // of the cost that no match at all would have
-constexpr double kBadShare = 0.2;   // then the postures that were left last are tried, too
+// Of the cost that no match at all would have; where markers are hidden, ghosts hide how many.
+constexpr double kGoodShare = 0.1;
+constexpr double kGoodShareHidden = 0.15;
 
 /// Distance from the nearest of some points, cut off, on a grid.
 class DistanceGrid {
@@ -331,41 +333,48 @@ BodyMatch BodySearch::FindNear(const Ref<const Matrix3Xd>& points, const Posture
   return Settle(points, drawn);
 }
 
-BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
-  random_ = SeededRandom(1);
-  std::vector<Candidate> candidates = Candidates(points);
-  const auto keep = [&candidates](std::size_t count) {
-    std::sort(candidates.begin(), candidates.end(),
-              [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    candidates.resize(std::min(count, candidates.size()));
-  };
-  keep(kFirstKept);
+void BodySearch::Sort(std::vector<Candidate>* candidates) {
+  std::sort(candidates->begin(), candidates->end(),
+            [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+}
+
+void BodySearch::DrawAll(const Ref<const Matrix3Xd>& points, std::vector<Candidate>* candidates) {
   for (const Stage& stage : kStages) {
-    for (Candidate& candidate : candidates) {
+    for (Candidate& candidate : *candidates) {
       Draw(points, stage.from, stage.to, stage.steps, &candidate.posture);
       candidate.cost = SoftCost(points, candidate.posture, stage.to);
     }
-    keep(stage.kept);
+    Sort(candidates);
+    candidates->resize(std::min(stage.kept, candidates->size()));
   }
-  // What markers without points cost at least.
+}
+
+BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
+  random_ = SeededRandom(1);
+  std::vector<Candidate> candidates = Candidates(points);
+  Sort(&candidates);
+  candidates.resize(std::min(kMostDrawn, candidates.size()));
   const auto markers = static_cast<double>(body_.num_markers());
-  const double least =
-      MatchCosts::kUnmatched * std::max(markers - static_cast<double>(points.cols()), 0.0);
-  const double good = least + kGoodShare * MatchCosts::kUnmatched * markers;
-  const double bad = least + kBadShare * MatchCosts::kUnmatched * markers;
+  const double hidden = std::max(markers - static_cast<double>(points.cols()), 0.0);  // at least
+  const double good =
+      MatchCosts::kUnmatched * (hidden + markers * (hidden > 0 ? kGoodShareHidden : kGoodShare));
   const Throws& throws =
       throws_ == LimbThrows::kWithWholeBody ? kThrowsWithWholeBody : kThrowsAlone;
   BodyMatch best;
-  const auto is_enough = [&](std::size_t settled) {
-    return settled >= kSettledFirst && best.cost <= (settled < kSettledNext ? good : bad);
-  };
-  for (std::size_t i = 0; i < candidates.size() && !is_enough(i); ++i) {
-    BodyMatch match = Settle(points, candidates[i].posture);
-    ImproveLimbs(points, throws.first, &match);
-    if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
+  const auto is_good = [&] { return !best.point_of_marker.empty() && best.cost <= good; };
+  for (std::size_t begin = 0; begin < candidates.size() && !is_good(); begin += kDrawn) {
+    const std::size_t end = std::min(begin + kDrawn, candidates.size());
+    std::vector<Candidate> drawn(std::make_move_iterator(candidates.begin() + begin),
+                                 std::make_move_iterator(candidates.begin() + end));
+    DrawAll(points, &drawn);
+    for (std::size_t i = 0; i < drawn.size() && (i < kSettledFirst || !is_good()); ++i) {
+      BodyMatch match = Settle(points, drawn[i].posture);
+      ImproveLimbs(points, throws.first, &match);
+      if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
+    }
   }
   ImproveLimbs(points, throws.once, &best);
-  for (int i = 0; i < throws.more && best.cost > good; i += throws.once) {
+  for (int i = 0; i < throws.more && !is_good(); i += throws.once) {
     ImproveLimbs(points, throws.once, &best);
   }
   return best;

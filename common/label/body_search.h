@@ -58,6 +58,10 @@ class BodySearch {
   };
 
   std::vector<Candidate> Candidates(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
+  static void Sort(std::vector<Candidate>* candidates);
+  /// Draws all to the points, of which fewer and fewer go on; the cheapest is the first.
+  void DrawAll(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+               std::vector<Candidate>* candidates);
   /// Steps of soft assignment, while the spread goes from one value to the other.
   void Draw(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double from, double to, int steps,
             Posture* posture);
