@@ -62,7 +62,7 @@ CommonScale FindCommonScale(const MatrixXd& own_prior, double height_deviation) 
 /// Information about the scales before any recording; where the height is a guess, they have an
 /// unknown part in common (Woodbury).
 MatrixXd ScalePrior(const SegmentLengths& lengths, const CalibrationOptions& options) {
-  const MatrixXd own = OwnScalePrior(lengths, options);
+  MatrixXd own = OwnScalePrior(lengths, options);
   if (options.height_deviation <= 0) return own;
   const CommonScale common = FindCommonScale(own, options.height_deviation);
   return own - common.weights * common.weights.transpose() / common.variance;
