@@ -352,6 +352,8 @@ int main(int argc, char** argv) try {
       {"online-hard", [&] { labels.Names(Labels::Online, true, true); }},
       {"starts", [&] { labels.Names(Labels::FromNothing, true, false); }},
       {"starts-hard", [&] { labels.Names(Labels::FromNothing, true, true); }},
+      {"starts-height", [&] { labels.Names(Labels::FromNothing, false, false); }},
+      {"starts-height-hard", [&] { labels.Names(Labels::FromNothing, false, true); }},
       {"starts-near", [&] { labels.Names(Labels::FromTheLabels, true, false); }},
       {"starts-near-hard", [&] { labels.Names(Labels::FromTheLabels, true, true); }},
       {"together", [&] { labels.Together(false); }},
