@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "common/math/rotation.h"
@@ -234,11 +235,12 @@ double BodySearch::SoftCost(const Ref<const Matrix3Xd>& points, const Posture& p
   return cost + nearest.sum();
 }
 
-BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& posture) {
+BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& posture,
+                            double settled) {
   const Matrix3Xd& places = equations_.Place(posture);
   cost_.resize(body_.num_markers(), points.cols());
   for (int m = 0; m < body_.num_markers(); ++m) {
-    const double variance = body_.place[m] * body_.place[m] + settled_ * settled_;
+    const double variance = body_.place[m] * body_.place[m] + settled * settled;
     cost_.row(m) = (points.colwise() - places.col(m)).colwise().squaredNorm() / variance;
   }
   BodyMatch match;
@@ -252,20 +254,21 @@ BodyMatch BodySearch::Match(const Ref<const Matrix3Xd>& points, const Posture& p
   return match;
 }
 
-BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& posture) {
+BodyMatch BodySearch::Settle(const Ref<const Matrix3Xd>& points, const Posture& posture,
+                             double settled) {
   constexpr int kMostTurns = 6;
   constexpr double kLeastGain = 0.1;
-  BodyMatch best = Match(points, posture);
+  BodyMatch best = Match(points, posture, settled);
   for (int i = 0; i < kMostTurns; ++i) {
     targets_.setConstant(3, body_.num_markers(), kNaN);
     for (int m = 0; m < body_.num_markers(); ++m) {
       if (best.point_of_marker[m] >= 0) targets_.col(m) = points.col(best.point_of_marker[m]);
     }
     Posture next = best.posture;
-    noise_ = (body_.place.array().square() + settled_ * settled_).sqrt();
+    noise_ = (body_.place.array().square() + settled * settled).sqrt();
     equations_.Place(next);
     Step(targets_, noise_, &next);
-    BodyMatch match = Match(points, next);
+    BodyMatch match = Match(points, next, settled);
     const double gain = best.cost - match.cost;
     if (gain > 0) best = std::move(match);
     if (gain < kLeastGain) break;
@@ -319,10 +322,7 @@ void BodySearch::ImproveLimbs(const Ref<const Matrix3Xd>& points, int attempts, 
 }
 
 BodyMatch BodySearch::SettleFinely(const Ref<const Matrix3Xd>& points, const Posture& posture) {
-  settled_ = 0;
-  BodyMatch match = Settle(points, posture);
-  settled_ = MatchCosts::kSettled;
-  return match;
+  return Settle(points, posture, 0);
 }
 
 BodyMatch BodySearch::FindNear(const Ref<const Matrix3Xd>& points, const Posture& posture,
@@ -361,7 +361,8 @@ BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
   const Throws& throws =
       throws_ == LimbThrows::kWithWholeBody ? kThrowsWithWholeBody : kThrowsAlone;
   BodyMatch best;
-  const auto is_good = [&] { return !best.point_of_marker.empty() && best.cost <= good; };
+  best.cost = std::numeric_limits<double>::infinity();
+  const auto is_good = [&] { return best.cost <= good; };
   for (std::size_t begin = 0; begin < candidates.size() && !is_good(); begin += kDrawn) {
     const std::size_t end = std::min(begin + kDrawn, candidates.size());
     std::vector<Candidate> drawn(std::make_move_iterator(candidates.begin() + begin),
@@ -370,7 +371,7 @@ BodyMatch BodySearch::Find(const Ref<const Matrix3Xd>& points) {
     for (std::size_t i = 0; i < drawn.size() && (i < kSettledFirst || !is_good()); ++i) {
       BodyMatch match = Settle(points, drawn[i].posture);
       ImproveLimbs(points, throws.first, &match);
-      if (best.point_of_marker.empty() || match.cost < best.cost) best = std::move(match);
+      if (match.cost < best.cost) best = std::move(match);
     }
   }
   ImproveLimbs(points, throws.once, &best);

@@ -48,8 +48,9 @@ class BodySearch {
     return limbs_.MostGain(points, match);
   }
 
-  /// The cheapest match at this posture.
-  BodyMatch Match(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
+  /// The cheapest match at this posture. settled: deviation of what it may still be off [m].
+  BodyMatch Match(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
+                  double settled = MatchCosts::kSettled);
 
  private:
   struct Candidate {
@@ -69,7 +70,8 @@ class BodySearch {
   double SoftCost(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
                   double spread);
   /// Assignment and fit in turns.
-  BodyMatch Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture);
+  BodyMatch Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Posture& posture,
+                   double settled = MatchCosts::kSettled);
 
   void ImproveWithWholeBody(const Eigen::Ref<const Eigen::Matrix3Xd>& points, int attempts,
                             BodyMatch* match);
@@ -83,7 +85,6 @@ class BodySearch {
   LinearAssignment assignment_;
   LimbSearch limbs_;
   SeededRandom random_;
-  double settled_ = MatchCosts::kSettled;
   Eigen::VectorXd variances_, noise_;
   Eigen::MatrixXd cost_;  // markers x points
   Eigen::Matrix3Xd targets_;

@@ -2,7 +2,10 @@
 #include "common/label/point_tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "common/math/square.h"
 
 namespace mmm_converter {
 
@@ -43,12 +46,15 @@ bool PointFollower::Nearest::IsClear() const { return next > kClearly * distance
 const std::vector<int>& PointFollower::Follow(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                                               double dt) {
   const double reach = std::min(kNearby + 0.5 * kAcceleration * dt * dt, kFarthest);
+  const double farthest2 = Square(kClearly * reach + kNearby);  // beyond, nothing is in doubt
   forward_.assign(static_cast<std::size_t>(last_.cols()), {});
   backward_.assign(static_cast<std::size_t>(points.cols()), {});
   for (Eigen::Index a = 0; a < last_.cols(); ++a) {
     const Eigen::Vector3d expected = last_.col(a) + dt * velocity_.col(a);
     for (Eigen::Index b = 0; b < points.cols(); ++b) {
-      const double d = (points.col(b) - expected).norm();
+      const double d2 = (points.col(b) - expected).squaredNorm();
+      if (d2 > farthest2) continue;
+      const double d = std::sqrt(d2);
       forward_[a].Offer(static_cast<int>(b), d);
       backward_[b].Offer(static_cast<int>(a), d);
     }

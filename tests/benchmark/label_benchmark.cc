@@ -195,7 +195,7 @@ class Labels {
     using OfBodies = std::map<std::string, Counts>;
     std::vector<OfBodies> runs(static_cast<std::size_t>(last_ - first_ + 1));
     ParallelFor(static_cast<int>(runs.size()), 0, [&](int i) {
-      const auto seed = static_cast<std::uint64_t>(first_ + i);
+      const int seed = first_ + i;
       const TogetherCase one = MakeTogether(seed);
       testing::UnnamedErrors errors;
       if (is_hard) errors = {0.3, 5};
@@ -363,9 +363,9 @@ int main(int argc, char** argv) try {
   for (std::string what; std::getline(whats, what, ',');) {
     const auto found = table.find(what);
     if (found == table.end()) {
-      std::string names;
-      for (const auto& [name, run] : table) names += " " + name;
-      throw mmm_converter::Error(what + " is none of" + names);
+      std::string message = what + " is none of";
+      for (const auto& [name, run] : table) message.append(" ").append(name);
+      throw mmm_converter::Error(message);
     }
     std::printf("%s\n", what.c_str());
     found->second();
