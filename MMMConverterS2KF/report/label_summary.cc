@@ -100,10 +100,10 @@ std::string DescribeLabels(const FoundLabels& found) {
   const auto unnamed =
       std::count_if(found.points.begin(), found.points.end(),
                     [](const RelabelledPoint& point) { return point.label.starts_with('*'); });
-  return fmt::format("{} of {} names found{}; {} points stay without a name",
+  return fmt::format("{} of {} names found{}; {} without a name",
                      found.labelling.names.size() - not_found.size(), found.labelling.names.size(),
                      not_found.empty() ? "" : fmt::format(" (not: {})", FirstNames(not_found)),
-                     unnamed);
+                     unnamed == 1 ? "1 point stays" : fmt::format("{} points stay", unnamed));
 }
 
 std::string FormatLabelSummary(const LabelReport& report, bool is_repair) {

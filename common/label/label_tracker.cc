@@ -245,11 +245,12 @@ void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   const BodyMatch now = search_.Match(points, *posture);
   if (search_.MostGain(points, now) < kGain) return;
   BodyMatch other = search_.FindNear(points, *posture, 0.06);
-  if (other.cost > now.cost) other.posture = *posture;
+  if (other.cost > now.cost) other = now;
   search_.ImproveLimbs(points, kAttempts, &other);
   other = search_.SettleFinely(points, other.posture);
   if (other.cost > search_.SettleFinely(points, *posture).cost - kGain) return;
   Start(other);
+  continued_.clear();
   predicted_ = other.posture;
   Invert(belief_.P_qq, &prior_);
   *posture = other.posture;
