@@ -178,10 +178,12 @@ int RunLive(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const LiveRequest request = MakeRequest(arguments);
   if (!request.output.empty()) {
-    const std::string recovered = RecoverMotion(request.output);
+    Warnings warnings;
+    const std::string recovered = RecoverMotion(request.output, &warnings);
     if (!recovered.empty()) {
       LogWarning(fmt::format("{}: the motion of a run that was killed is now in {}", request.output,
                              recovered));
+      LogWarnings(warnings);
     }
   }
   StatusLine line;

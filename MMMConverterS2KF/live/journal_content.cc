@@ -130,9 +130,8 @@ JournalHeader ParseHeader(std::string_view line, const std::string& file) {
 
 // Where on the grid each frame is. Where the source's time ran back or stood, frames follow each
 // other.
-std::vector<int> GridOf(const std::vector<JournalFrame>& frames, double rate, double most_frames,
-                        const std::string& file) {
-  std::vector<int> grid;
+std::vector<double> GridOf(const std::vector<JournalFrame>& frames, double rate) {
+  std::vector<double> grid;
   double shift = frames.front().time;
   for (const JournalFrame& frame : frames) {
     double index = std::round((frame.time - shift) * rate);
@@ -140,15 +139,27 @@ std::vector<int> GridOf(const std::vector<JournalFrame>& frames, double rate, do
       index = grid.back() + 1;
       if (frame.time <= frames[grid.size() - 1].time) shift = frame.time - index / rate;
     }
-    if (index >= most_frames) {
-      throw Error(
-          fmt::format("{}: reaches over more than {:.0f} frames of {:g} Hz, which a journal of "
-                      "its size can't fill; move it away",
-                      file, most_frames, rate));
-    }
-    grid.push_back(static_cast<int>(index));
+    grid.push_back(index);
   }
   return grid;
+}
+
+// Of frames that share a place on a grid of `rate` / `step` the first stays. Returns the places.
+std::vector<int> KeepOneOf(int step, const std::vector<double>& grid,
+                           std::vector<JournalFrame>* frames) {
+  std::vector<int> places;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const int place = static_cast<int>(grid[i] / step);
+    if (!places.empty() && place == places.back()) continue;
+    if (places.size() != i) (*frames)[places.size()] = std::move((*frames)[i]);
+    places.push_back(place);
+  }
+  frames->resize(places.size());
+  while (!frames->back().is_tracking) {
+    frames->pop_back();
+    places.pop_back();
+  }
+  return places;
 }
 
 double MedianRate(const std::vector<JournalFrame>& frames) {
@@ -244,7 +255,7 @@ std::string FormatJournalHeader(const JournalHeader& header) {
   return FormatJsonLine(json);
 }
 
-JournalContent ReadJournal(const std::string& file) {
+JournalContent ReadJournal(const std::string& file, Warnings* warnings) {
   JournalContent content;
   std::vector<JournalFrame> frames;
   bool has_header = false;
@@ -262,33 +273,48 @@ JournalContent ReadJournal(const std::string& file) {
     if (frames.empty() && !frame.is_tracking) return;
     frames.push_back(std::move(frame));
   });
-  while (!frames.empty() && !frames.back().is_tracking) frames.pop_back();
   if (frames.empty()) return content;
-  const double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
+  content.frames = static_cast<int>(frames.size());
+  double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
   const JournalFrame& first = frames.front();
   const double numbers_per_frame =
       static_cast<double>(first.points.size() + 7 + first.posture.joint_angles.size() +
                           first.deviations.size() + 2 * first.residuals.size());
   const double numbers =
       kMoreNumbers + kNumbersPerByte * static_cast<double>(std::filesystem::file_size(file));
-  const std::vector<int> grid = GridOf(frames, rate, numbers / numbers_per_frame, file);
-  content.frames = static_cast<int>(frames.size());
+  const double most_frames = std::floor(numbers / numbers_per_frame);
+  const std::vector<double> grid = GridOf(frames, rate);
+  const double step = std::ceil((grid.back() + 1) / most_frames);
+  if (!IsFrameRate(rate / step)) {
+    throw Error(
+        fmt::format("{}: reaches over {:.6g} frames of {:g} Hz, which a journal of its size can't "
+                    "fill; move it away",
+                    file, grid.back() + 1, rate));
+  }
+  if (step > 1) {
+    rate /= step;
+    warnings->Add(
+        fmt::format("{} frames came of {:.6g}: the motion has {:.4g} Hz, a {:g}th of the "
+                    "source's rate",
+                    frames.size(), grid.back() + 1, rate, step));
+  }
+  const std::vector<int> places = KeepOneOf(static_cast<int>(step), grid, &frames);
   content.first_number = frames.front().number;
   content.markers =
-      MarkerSequence(content.header.labels, grid.back() + 1, rate, frames.front().time);
+      MarkerSequence(content.header.labels, places.back() + 1, rate, frames.front().time);
   content.result.trajectory.rate = rate;
   content.result.trajectory.first_time = frames.front().time;
-  FillResult(frames, grid, &content);
+  FillResult(frames, places, &content);
   return content;
 }
 
-std::string RecoverMotion(const std::string& output) {
+std::string RecoverMotion(const std::string& output, Warnings* warnings) {
   const std::string journal = JournalOf(output);
   if (!std::filesystem::exists(journal)) return "";
   JournalContent content;
   {
     const LineFile only_one(journal);  // no process is writing to it
-    content = ReadJournal(journal);
+    content = ReadJournal(journal, warnings);
     if (content.frames == 0) CheckHasBegun(journal);
   }
   std::string written;

@@ -65,12 +65,14 @@ std::vector<ConversionReport> LiveOutput::Finish(
   std::vector<ConversionReport> reports;
   for (std::size_t i = 0; i < plans_.size(); ++i) {
     const std::string journal = JournalOf(FileOf(i));
-    JournalContent content = ReadJournal(journal);
+    Warnings warnings;
+    JournalContent content = ReadJournal(journal, &warnings);
     if (content.frames > 0) {
       ConversionReport report{std::move(plans_[i]), {}, {}, {}, {}};
       report.output = FileOf(i);
       report.input.recording.markers = std::move(content.markers);
       report.result = std::move(content.result);
+      report.warnings = std::move(warnings);
       if (i == 0) report.calibration = calibration;
       if (i > 0) report.subject_output.clear();
       report.figures = MeasureConversion(report);

@@ -12,6 +12,7 @@
 #include "common/live/pose_sink.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/line_file.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -60,13 +61,14 @@ struct JournalContent {
   int frames = 0;  ///< that came
 };
 
-/// What can't be read of the last line, where the process was killed in it, is left out.
-/// @throws Error where it is no journal.
-JournalContent ReadJournal(const std::string& file);
+/// What can't be read of the last line, where the process was killed in it, is left out. Frames of
+/// which most are missing, and which reach further than memory should be taken for, come at a part
+/// of their rate, with a warning. @throws Error where it is no journal.
+JournalContent ReadJournal(const std::string& file, Warnings* warnings);
 
 /// Writes the motion of a journal that a killed process left, where there is one, beside its output
 /// as OUTPUT_recovered.xml. Returns the file written; empty: there was nothing.
 /// @throws Error
-std::string RecoverMotion(const std::string& output);
+std::string RecoverMotion(const std::string& output, Warnings* warnings);
 
 }  // namespace mmm_converter
