@@ -65,14 +65,6 @@ std::vector<C3dRelabelledPoint> PointsOfFile(const LabelReport& report) {
       points.push_back(ToC3d(*next, recording, labels, prefix));
     }
   }
-  std::set<std::string> given;
-  for (const C3dRelabelledPoint& point : points) {
-    if (point.label.empty() || given.insert(point.label).second) continue;
-    throw Error(fmt::format(
-        "{}: has another point {}, which is computed or another subject's; leave that name out of "
-        "the marker set, or give the person another name",
-        recording.file, point.label));
-  }
   return points;
 }
 
@@ -136,6 +128,21 @@ void CheckKeepsRecording(const std::string& file, const Recording& recording) {
   }
   throw Error(
       fmt::format("{}: is the recording itself, which would be lost; give another file", file));
+}
+
+std::set<std::string> NamesThatStay(const std::string& file, const Recording& recording) {
+  if (FormatOf(file) != "C3D" || recording.format != "C3D") return {};
+  const std::vector<std::string> labels = C3dPointNames(C3dFile(recording.file), nullptr);
+  const std::string prefix = PrefixOf(recording, labels);
+  std::set<std::string> names(labels.begin(), labels.end());
+  for (const std::string& label : labels) {
+    if (label.starts_with(prefix)) names.insert(label.substr(prefix.size()));
+  }
+  for (const int point : recording.points) {
+    names.erase(labels[point]);
+    if (labels[point].starts_with(prefix)) names.erase(labels[point].substr(prefix.size()));
+  }
+  return names;
 }
 
 void WriteLabelled(const LabelReport& report) {

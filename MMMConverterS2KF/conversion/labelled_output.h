@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "MMMConverterS2KF/conversion/recording_labels.h"
@@ -13,6 +14,10 @@ void CheckLabelledOutput(const std::string& file, bool of_several);
 
 /// @throws Error where the output is the recording itself and would not keep all that is in it.
 void CheckKeepsRecording(const std::string& file, const Recording& recording);
+
+/// Names that no point of the recording can have in this output: other points, computed ones and
+/// another subject's, have them and stay as they are.
+std::set<std::string> NamesThatStay(const std::string& file, const Recording& recording);
 
 /// Writes the recording under the names that were found. A C3D file as C3D keeps everything but
 /// its points (WriteRelabelledC3d), an MMM 2.0 file as MMM everything but the motion's markers;

@@ -207,6 +207,18 @@ void AddObject(const ObjectModel& model, const std::string& first, FoundLabels* 
   scene->objects.push_back(std::move(object));
 }
 
+void CheckAreFree(const std::vector<std::string>& names, const std::set<std::string>& taken,
+                  const std::string& file) {
+  for (const std::string& name : names) {
+    if (!taken.contains(name)) continue;
+    throw Error(fmt::format(
+        "{}: has another point {}, which is computed or another subject's and stays; give the "
+        "points other names (--like RECORDING or --marker-set NAME), the person another name, or "
+        "write a .trc",
+        file, name));
+  }
+}
+
 // What there is before the points: whose they are, and the names that they can have.
 FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hints,
                                const Input& input, const ConverterConfig& config, LabelScene* scene,
@@ -231,8 +243,9 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
       FindLabelledPerson(request, hints, input, like ? &*like : nullptr, &own, config, warnings);
   const bool is_of_file = !found.person.subject_file.empty();
   if (is_of_file || names.empty()) {
-    AddMarkerSet(input, config, is_of_file ? found.person.subject.get() : nullptr, &found.setup,
-                 &names);
+    TrackingSetup more;
+    AddMarkerSet(input, config, is_of_file ? found.person.subject.get() : nullptr, &more, &names);
+    if (found.setup.marker_set.empty()) found.setup.marker_set = more.marker_set;
   }
   found.setup.joints = ResolveJoints(config, *input.reference);
   found.setup.model = std::make_shared<const KinematicModel>(
@@ -250,6 +263,7 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
     }
   }
   if (!hints.repair) options->stored.clear();
+  CheckAreFree(found.labelling.names, hints.taken, recording.file);
   return found;
 }
 
@@ -320,6 +334,7 @@ LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int
   report.input = ReadInput(request.input, {}, warnings);
   const Recording& recording = report.input.recording;
   CheckKeepsRecording(request.output, recording);
+  request.hints.taken = NamesThatStay(request.output, recording);
   const WarningContext context(warnings, recording.file, recording.motion());
   MatchModel(request.input, &report.input, &choice.config);
   report.found =

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct LabelHints {
   bool repair = false;  ///< the recording's own labels are right unless the body says otherwise
   std::vector<std::string> other_persons;  ///< their subject files
   std::string object_models;               ///< folder with models of rigid objects; empty: none
+  std::set<std::string> taken;             ///< names that can't be given
   bool has_others() const { return !other_persons.empty() || !object_models.empty(); }
 };
 

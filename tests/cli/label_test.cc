@@ -169,6 +169,17 @@ TEST(Label, BatchesLabelToo) {
   ExpectLabelled(InFolder("converted/motions/pour.xml"));
 }
 
+// Plug-in Gait's bone axes have a point LTIP, as KIT's shin marker is called.
+TEST(Label, NamesThatAnotherPointKeepsAreRefusedBeforeTheWork) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string trial = SharedData("recordings/whole_body/pycgm_movement_trial.c3d");
+  const std::string output = InFolder("named.c3d");
+  const ProgramRun run = RunProgram({"label", trial, "--height", "1.7", "-o", output});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("another point LTIP"), HasSubstr("--like RECORDING")));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
 TEST(Label, WhatIsMissingIsSaid) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string input = Unlabelled();
