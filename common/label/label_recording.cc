@@ -15,6 +15,7 @@
 #include "common/label/point_tracks.h"
 #include "common/label/rigid_finder.h"
 #include "common/label/scene_start.h"
+#include "common/label/worn_elsewhere.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -30,8 +31,9 @@ constexpr int kMostPoints = 1000;  // of a frame: time grows with their square
 constexpr double kLeastShare = 0.25;
 constexpr int kTimes = 2;
 constexpr double kSure = 0.7;
-constexpr int kPart = 256;   // frames whose predictions are kept
-constexpr double kHint = 6;  // cost that a track's name is worth
+constexpr int kPart = 256;       // frames whose predictions are kept
+constexpr double kHint = 6;      // cost that a track's name is worth
+constexpr double kKnown = 0.02;  // [m] of a link that says where a marker is worn
 
 bool IsUncalibrated(const TrackingSetup& setup) {
   return std::none_of(setup.assignments().begin(), setup.assignments().end(),
@@ -85,7 +87,9 @@ class RecordingLabeller {
     Reverse();
     for (int time = 0; time < kTimes; ++time) {
       names = ForwardAndBackward(names);
-      if (time > 0 || !Calibrate(names)) continue;
+      if (time > 0) continue;
+      NameElsewhere(&names);
+      if (!Calibrate(names)) continue;
       for (Person& person : persons_) {
         BodyMatch posture;
         posture.posture = person.tracker->belief().posture;
@@ -257,12 +261,44 @@ class RecordingLabeller {
           const std::vector<int>& between =
               person.tracker->Between(person.points, predictions[k - begin][i], &person.hints);
           Vote(k, person, between, 0.5, &votes);
+          if (IsUncalibrated(person.setup)) LookElsewhere(k, person, between);
         }
       }
       backward = Beliefs();
     }
     Reverse();
     return ResolveVotes(votes, tracks_, static_cast<int>(name_of_marker_.size()), kLeastShare);
+  }
+
+  /// For where an uncalibrated person's markers without a point in this frame are worn.
+  void LookElsewhere(int k, const Person& person, const std::vector<int>& point_of_marker) {
+    std::vector<char> is_used(person.offered.size(), 0);
+    for (const int point : point_of_marker) {
+      if (point >= 0) is_used[point] = 1;
+    }
+    for (int m = 0; m < person.body->num_markers(); ++m) {
+      if (point_of_marker[m] >= 0 || person.tracker->deviations()[m] > kKnown) continue;
+      for (std::size_t p = 0; p < is_used.size(); ++p) {
+        if (is_used[p] != 0) continue;
+        const Vector3d p_WP = person.points.col(static_cast<Eigen::Index>(p));
+        elsewhere_.Add(person.first_marker + m, tracks_.frames[k].tracks[person.offered[p]],
+                       person.tracker->OffsetOf(m, p_WP), p_WP);
+      }
+    }
+  }
+
+  /// Tracks without a name become markers that mostly have none.
+  void NameElsewhere(TrackNames* names) const {
+    std::vector<int> frames(name_of_marker_.size(), 0);
+    for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {
+      const PointTrack& track = tracks_.tracks[t];
+      if (names->markers[t] >= 0) frames[names->markers[t]] += track.end - track.begin;
+    }
+    for (const auto& [marker, track] : elsewhere_.Find(dt_)) {
+      if (names->markers[track] >= 0 || 2 * frames[marker] > recording_.num_frames()) continue;
+      names->markers[track] = marker;
+      names->shares[track] = 1;
+    }
   }
 
   /// Whoever was only scaled by height is calibrated on what has surely got its name. True: someone
@@ -317,6 +353,7 @@ class RecordingLabeller {
   const MarkerSequence& recording_;
   PointTracks tracks_;
   std::vector<char> is_object_;  // by track
+  WornElsewhere elsewhere_;
   double dt_;
   std::vector<int> stored_;  // marker by column
   const std::function<bool(int, int)>& progress_;

@@ -47,6 +47,12 @@ class LabelTracker {
   /// Standard deviation of a coordinate of these [m].
   const Eigen::VectorXd& deviations() const { return deviations_; }
 
+  /// Of a point [m] from the model's place of a marker in the last frame, axes of its link [m].
+  Eigen::Vector3d OffsetOf(int marker, const Eigen::Vector3d& p_WP) const {
+    return at_.R_WL[body_.kinematics.link_of_marker(marker)].transpose() *
+           (p_WP - at_.p_WM.col(marker));
+  }
+
   /// What was known before the points of a frame were used.
   struct Prediction {
     Posture posture;

@@ -28,10 +28,13 @@ struct RecordedPerson {
   std::vector<int> names;      // 0, 1, ...
 };
 
-RecordedPerson Record(std::uint64_t seed, double seconds) {
+RecordedPerson Record(std::uint64_t seed, double seconds, double marker_deviation = 0.028,
+                      const std::string& far_marker = "",
+                      const Eigen::Vector3d& far = Eigen::Vector3d::Zero()) {
   const KinematicModel model = ScaledReferenceModel(kHeight);
-  Subject subject = DrawPerson(model, seed);
+  Subject subject = DrawPerson(model, seed, marker_deviation);
   for (MarkerOffset& offset : subject.offsets) {
+    if (offset.marker == far_marker) offset.offset += far;
     offset.standard_deviations.setConstant(0.005);
     offset.skin_deviation = 0.004;
   }
@@ -88,6 +91,23 @@ TEST(LabelRecordingTest, HeightAloneTellsAllButNeighbours) {
     EXPECT_LT((place(truth) - place(piece.name)).norm(), 0.12)
         << made.recording.labels()[truth] << " as " << made.recording.labels()[piece.name];
   }
+}
+
+// As markers of the shin and the thigh are: without a look elsewhere that point has no name.
+TEST(LabelRecordingTest, OfTheHeightAloneAMarkerMayBeFarFromTheModelsPlace) {
+  const RecordedPerson made = Record(905, 3, 0.008, "MARKER_RTIP", {0, 0.02, -0.13});
+  const UnnamedPoints points = MakeUnnamed(made.recording, {}, 5);
+  const Labelling labelling =
+      LabelRecording({{made.uncalibrated}}, made.recording.labels(), points.points, {}, {});
+  const int far = made.recording.FindLabel("RTIP");
+  int right = 0;
+  for (const NamedPiece& piece : labelling.pieces) {
+    for (int k = piece.begin; k < piece.end; ++k) {
+      if (piece.name == far && points.truth[k][piece.point] == far) ++right;
+    }
+  }
+  EXPECT_GE(right, 0.95 * made.recording.num_frames());
+  EXPECT_LE(ScoreLabels(points, labelling, made.names).wrong, 0.005);
 }
 
 TEST(LabelRecordingTest, ExchangedLabelsAreMendedAndNothingElseChanges) {
