@@ -22,7 +22,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr int kFrames = 150;
+constexpr int kFrames = 60;
 constexpr double kSmaller = 0.93;
 
 std::string InFolder(const std::string& name) { return TestFolder() + "/" + name; }
@@ -104,7 +104,7 @@ void ExpectRuns(const std::vector<std::string>& arguments) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
 }
 
-TEST(Label, PersonsAndObjectsOfOneCloudAreNamedApart) {
+TEST(LabelScene, PersonsAndObjectsOfOneCloudAreNamedApart) {
   const MarkerSequence anna = Person(1, false, 0);
   const MarkerSequence ben = Person(kSmaller, true, 2);
   const MarkerSequence box = Box();
