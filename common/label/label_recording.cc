@@ -279,10 +279,11 @@ class RecordingLabeller {
     for (int m = 0; m < person.body->num_markers(); ++m) {
       if (point_of_marker[m] >= 0 || person.tracker->deviations()[m] > kKnown) continue;
       for (std::size_t p = 0; p < is_used.size(); ++p) {
-        if (is_used[p] != 0) continue;
+        const int track = tracks_.frames[k].tracks[person.offered[p]];
+        const PointTrack& points = tracks_.tracks[track];
+        if (is_used[p] != 0 || points.end - points.begin < WornElsewhere::kLeastFrames) continue;
         const Vector3d p_WP = person.points.col(static_cast<Eigen::Index>(p));
-        elsewhere_.Add(person.first_marker + m, tracks_.frames[k].tracks[person.offered[p]],
-                       person.tracker->OffsetOf(m, p_WP), p_WP);
+        elsewhere_.Add(person.first_marker + m, track, person.tracker->OffsetOf(m, p_WP), p_WP);
       }
     }
   }

@@ -13,6 +13,8 @@ namespace mmm_converter {
 /// than a point that is named by its place alone.
 class WornElsewhere {
  public:
+  static constexpr int kLeastFrames = 10;  ///< of a track; of shorter ones nothing is known
+
   /// A frame in which neither has another. track: the point's. offset: of the point from the
   /// marker's place, axes of its link [m]; p_WP: of the point [m].
   void Add(int marker, int track, const Eigen::Vector3d& offset, const Eigen::Vector3d& p_WP);
@@ -30,8 +32,19 @@ class WornElsewhere {
     Sums& operator+=(const Sums& more);
     double ScatterOfOffset() const;  ///< each coordinate [m]
     double Path() const;             ///< deviation of the points, each coordinate [m]
+    Eigen::Vector3d MeanOffset() const { return offset / count; }
   };
-  std::map<std::pair<int, int>, Sums> sums_;
+  using Track = std::pair<const std::pair<int, int>, Sums>;
+  struct Place {
+    int marker = 0;
+    double distance = 0;  ///< from the model's place [m]
+    Sums all;
+    std::vector<int> tracks;
+  };
+  /// Where the marker's tracks are for longest.
+  Place FindPlace(int marker) const;
+
+  std::map<std::pair<int, int>, Sums> tracks_;  ///< by marker and track
 };
 
 }  // namespace mmm_converter
