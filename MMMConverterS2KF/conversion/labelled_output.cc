@@ -134,14 +134,16 @@ std::set<std::string> NamesThatStay(const std::string& file, const Recording& re
   if (FormatOf(file) != "C3D" || recording.format != "C3D") return {};
   const std::vector<std::string> labels = C3dPointNames(C3dFile(recording.file), nullptr);
   const std::string prefix = PrefixOf(recording, labels);
-  std::set<std::string> names(labels.begin(), labels.end());
-  for (const std::string& label : labels) {
-    if (label.starts_with(prefix)) names.insert(label.substr(prefix.size()));
+  std::vector<bool> is_of_recording(labels.size(), false);
+  for (const int point : recording.points) is_of_recording[point] = true;
+  std::set<std::string> names;
+  for (std::size_t p = 0; p < labels.size(); ++p) {
+    if (is_of_recording[p]) continue;
+    // As ToC3d gives labels: a name with a colon as it is, others behind the prefix.
+    if (labels[p].find(':') != std::string::npos) names.insert(labels[p]);
+    if (labels[p].starts_with(prefix)) names.insert(labels[p].substr(prefix.size()));
   }
-  for (const int point : recording.points) {
-    names.erase(labels[point]);
-    if (labels[point].starts_with(prefix)) names.erase(labels[point].substr(prefix.size()));
-  }
+  for (const std::string& name : recording.markers.labels()) names.erase(name);
   return names;
 }
 

@@ -89,13 +89,15 @@ void AddLabels(const TrackingSetup& matched, const MarkerSequence& markers, bool
 }
 
 // The marker set's labels of the subject's markers; of all markers, where there is no subject.
-void AddMarkerSet(const Input& input, ConverterConfig config, const Subject* subject,
-                  TrackingSetup* setup, NameList* names) {
+// Returns the marker set's name.
+std::string AddMarkerSet(const Input& input, ConverterConfig config, const Subject* subject,
+                         NameList* names) {
+  std::string marker_set;
   if (config.marker_pairs.empty() && config.marker_set == "auto") {
     config.marker_set = kUsualMarkerSet;
   }
   const KinematicModel& model = *input.reference;
-  std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, {}, model, &setup->marker_set);
+  std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, {}, model, &marker_set);
   if (pairs.empty()) pairs = OwnMarkerSet(model).pairs;
   std::set<std::string> worn;
   if (subject != nullptr) {
@@ -106,6 +108,7 @@ void AddMarkerSet(const Input& input, ConverterConfig config, const Subject* sub
     if (marker < 0 || (subject != nullptr && !worn.contains(pair.target))) continue;
     names->Add({pair.source, {LabelIx(), marker, pair.noise_scale}, LabelIx()});
   }
+  return marker_set;
 }
 
 // What the labelled recording tells of the person beyond the size.
@@ -172,7 +175,7 @@ void AddPerson(const std::string& file, const std::string& first, const Input& i
   CheckName(other, first, *found);
   TrackingSetup setup;
   NameList names;
-  AddMarkerSet(input, config, person.subject.get(), &setup, &names);
+  setup.marker_set = AddMarkerSet(input, config, person.subject.get(), &names);
   setup.joints = found->setup.joints;
   setup.model = std::make_shared<const KinematicModel>(
       ScaleModel(*input.reference, ScalingOf(person, config)));
@@ -243,9 +246,9 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
       FindLabelledPerson(request, hints, input, like ? &*like : nullptr, &own, config, warnings);
   const bool is_of_file = !found.person.subject_file.empty();
   if (is_of_file || names.empty()) {
-    TrackingSetup more;
-    AddMarkerSet(input, config, is_of_file ? found.person.subject.get() : nullptr, &more, &names);
-    if (found.setup.marker_set.empty()) found.setup.marker_set = more.marker_set;
+    const std::string marker_set =
+        AddMarkerSet(input, config, is_of_file ? found.person.subject.get() : nullptr, &names);
+    if (found.setup.marker_set.empty()) found.setup.marker_set = marker_set;
   }
   found.setup.joints = ResolveJoints(config, *input.reference);
   found.setup.model = std::make_shared<const KinematicModel>(

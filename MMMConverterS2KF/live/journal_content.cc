@@ -144,21 +144,22 @@ std::vector<double> GridOf(const std::vector<JournalFrame>& frames, double rate)
   return grid;
 }
 
-// Of frames that share a place on a grid of `rate` / `step` the first stays. Returns the places.
+// Of frames that share a place on the coarser grid the first with a posture stays. Returns the
+// places.
 std::vector<int> KeepOneOf(int step, const std::vector<double>& grid,
                            std::vector<JournalFrame>* frames) {
   std::vector<int> places;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const int place = static_cast<int>(grid[i] / step);
-    if (!places.empty() && place == places.back()) continue;
-    if (places.size() != i) (*frames)[places.size()] = std::move((*frames)[i]);
-    places.push_back(place);
+    JournalFrame& frame = (*frames)[i];
+    if (places.empty() || place != places.back()) {
+      places.push_back(place);
+    } else if (!frame.is_tracking || (*frames)[places.size() - 1].is_tracking) {
+      continue;
+    }
+    if (places.size() <= i) (*frames)[places.size() - 1] = std::move(frame);
   }
   frames->resize(places.size());
-  while (!frames->back().is_tracking) {
-    frames->pop_back();
-    places.pop_back();
-  }
   return places;
 }
 
@@ -273,6 +274,7 @@ JournalContent ReadJournal(const std::string& file, Warnings* warnings) {
     if (frames.empty() && !frame.is_tracking) return;
     frames.push_back(std::move(frame));
   });
+  while (!frames.empty() && !frames.back().is_tracking) frames.pop_back();
   if (frames.empty()) return content;
   content.frames = static_cast<int>(frames.size());
   double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
@@ -294,7 +296,7 @@ JournalContent ReadJournal(const std::string& file, Warnings* warnings) {
   if (step > 1) {
     rate /= step;
     warnings->Add(
-        fmt::format("{} frames came of {:.6g}: the motion has {:.4g} Hz, a {:g}th of the "
+        fmt::format("{} frames came of {:.6g}: the motion has {:.4g} Hz, 1/{:g} of the "
                     "source's rate",
                     frames.size(), grid.back() + 1, rate, step));
   }

@@ -261,7 +261,9 @@ class RecordingLabeller {
           const std::vector<int>& between =
               person.tracker->Between(person.points, predictions[k - begin][i], &person.hints);
           Vote(k, person, between, 0.5, &votes);
-          if (IsUncalibrated(person.setup)) LookElsewhere(k, person, between);
+          if (before.markers.empty() && IsUncalibrated(person.setup)) {
+            LookElsewhere(k, person, between);
+          }
         }
       }
       backward = Beliefs();

@@ -24,27 +24,31 @@ class WornElsewhere {
   std::vector<std::pair<int, int>> Find(double dt) const;
 
  private:
-  struct Sums {
+  /// Of vectors [m].
+  struct Moments {
     double count = 0;
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero(), p_WP = Eigen::Vector3d::Zero();
-    double offset_squares = 0, p_WP_squares = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double squares = 0;
 
-    Sums& operator+=(const Sums& more);
-    double ScatterOfOffset() const;  ///< each coordinate [m]
-    double Path() const;             ///< deviation of the points, each coordinate [m]
-    Eigen::Vector3d MeanOffset() const { return offset / count; }
+    void Add(const Eigen::Vector3d& v);
+    void Add(const Moments& more);
+    Eigen::Vector3d Mean() const { return sum / count; }
+    double Deviation() const;  ///< each coordinate
   };
-  using Track = std::pair<const std::pair<int, int>, Sums>;
+  struct Seen {
+    Moments offset, p_WP;
+  };
+  using Track = std::pair<const std::pair<int, int>, Seen>;
   struct Place {
     int marker = 0;
     double distance = 0;  ///< from the model's place [m]
-    Sums all;
+    Seen all;
     std::vector<int> tracks;
   };
   /// Where the marker's tracks are for longest.
   Place FindPlace(int marker) const;
 
-  std::map<std::pair<int, int>, Sums> tracks_;  ///< by marker and track
+  std::map<std::pair<int, int>, Seen> tracks_;  ///< by marker and track
 };
 
 }  // namespace mmm_converter
