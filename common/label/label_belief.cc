@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/math/dense.h"
 #include "common/math/square.h"
 
 namespace mmm_converter {
@@ -92,11 +93,22 @@ void LabelBelief::Predict(const LabelBody& body, double dt) {
 }
 
 // The velocities learn of the frame through what they have in common with the posture.
-void LabelBelief::Correct(const MatrixXd& prior, const Posture& corrected, const MatrixXd& P) {
-  const MatrixXd gain = P_qv.transpose() * prior;
-  velocity += gain * Local(posture, corrected);
-  P_vv -= gain * (P_qq - P) * gain.transpose();
-  P_qv = P * gain.transpose();
+void LabelBelief::Correct(const MatrixXd& prior, const Posture& corrected, const MatrixXd& P,
+                          Scratch* scratch) {
+  PaddedMatrix& gain = scratch->gain;
+  PaddedMatrix& factor = scratch->factor;
+  PaddedMatrix& product = scratch->product;
+  factor.view() = P_qv.transpose();
+  product.view() = prior;
+  Multiply(1, factor, product, &gain);
+  velocity += gain.view() * Local(posture, corrected);
+  factor.view() = P_qq - P;
+  Multiply(1, gain, factor, &product);
+  MultiplyByTransposed(product, gain, &factor);
+  P_vv -= factor.view();
+  factor.view() = P;
+  MultiplyByTransposed(factor, gain, &product);
+  P_qv = product.view();
   P_qq = P;
   posture = corrected;
 }

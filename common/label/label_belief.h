@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/label/label_body.h"
+#include "common/math/padded_matrix.h"
 #include "common/model/posture.h"
 
 namespace mmm_converter {
@@ -26,7 +27,12 @@ struct LabelBelief {
   /// dt [s] later.
   void Predict(const LabelBody& body, double dt);
   /// By what a frame made of the predicted posture, whose inverse covariance is `prior`.
-  void Correct(const Eigen::MatrixXd& prior, const Posture& corrected, const Eigen::MatrixXd& P);
+  struct Scratch {
+    explicit Scratch(int dofs) : gain(dofs, dofs), factor(dofs, dofs), product(dofs, dofs) {}
+    PaddedMatrix gain, factor, product;
+  };
+  void Correct(const Eigen::MatrixXd& prior, const Posture& corrected, const Eigen::MatrixXd& P,
+               Scratch* scratch);
   /// What hardly moved of late will hardly move; a dof of which no marker has a point can do
   /// anything. dt [s]: since the last frame.
   void ExpectSpeeds(const LabelBody& body, const std::vector<int>& point_of_marker, double dt);

@@ -36,6 +36,7 @@ constexpr int kTurns = 3;
 
 LabelTracker::LabelTracker(const LabelBody& body)
     : body_(body),
+      scratch_(body.kinematics.num_dofs()),
       search_(body),
       at_(body.kinematics.MakeJacobian()),
       equations_(body.kinematics),
@@ -212,6 +213,22 @@ void LabelTracker::DropLonely() {
   }
 }
 
+void LabelTracker::Continue(const Ref<const Matrix3Xd>& points) {
+  constexpr double kFarthest = 0.15;  // [m] from where the marker is expected
+  std::vector<char> is_used(static_cast<std::size_t>(points.cols()), 0);
+  for (const int point : point_of_marker_) {
+    if (point >= 0) is_used[point] = 1;
+  }
+  for (std::size_t p = 0; p < continued_.size(); ++p) {
+    const int marker = continued_[p];
+    const auto p_ix = static_cast<Eigen::Index>(p);
+    if (marker < 0 || point_of_marker_[marker] >= 0 || is_used[p] != 0) continue;
+    if (CouldBeOther(marker, p_ix)) continue;
+    if ((points.col(p_ix) - expected_.col(marker)).norm() > kFarthest) continue;
+    point_of_marker_[marker] = static_cast<int>(p);
+  }
+}
+
 void LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P, Posture* posture) {
   constexpr double kClose = 0.02;  // [m]: a step so short is as good as linear
   P_ = P;
@@ -279,9 +296,10 @@ const std::vector<int>& LabelTracker::Track(const Ref<const Matrix3Xd>& points, 
     since_doubt_ = 0;
     Doubt(points, &posture);
   }
-  belief_.Correct(prior_, posture, P_);
+  belief_.Correct(prior_, posture, P_, &scratch_);
   belief_.ExpectSpeeds(body_, point_of_marker_, dt);
   Learn(points, dt);
+  Continue(points);
   marker_of_point_.assign(static_cast<std::size_t>(points.cols()), -1);
   for (std::size_t m = 0; m < point_of_marker_.size(); ++m) {
     if (point_of_marker_[m] >= 0) marker_of_point_[point_of_marker_[m]] = static_cast<int>(m);

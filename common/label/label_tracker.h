@@ -101,6 +101,9 @@ class LabelTracker {
               Posture* posture);
   void Learn(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double dt);
 
+  /// Points that go on keep their names where nobody else wants them, as skin slides far in a
+  /// throw. The posture does not follow them.
+  void Continue(const Eigen::Ref<const Eigen::Matrix3Xd>& points);
   /// Assignment and update in turns; leaves both behind, and what is expected after them. P: of the
   /// prediction, for which Expect was called at the posture.
   void Settle(const Eigen::Ref<const Eigen::Matrix3Xd>& points, const Eigen::MatrixXd& P,
@@ -110,6 +113,7 @@ class LabelTracker {
 
   const LabelBody& body_;
   LabelBelief belief_;
+  LabelBelief::Scratch scratch_;
   BodySearch search_;
   double since_doubt_ = 0;  // [s]
   FreePoints free_points_;

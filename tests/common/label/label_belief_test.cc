@@ -40,7 +40,7 @@ class LabelBeliefTest : public ::testing::Test {
       information.diagonal().array() += 1e6;
       Posture seen = Still();
       seen.position.x() = x_ += v * dt;
-      belief_.Correct(prior, seen, information.inverse());
+      belief_.Correct(prior, seen, information.inverse(), &scratch_);
       belief_.ExpectSpeeds(body_, points_, dt);
     }
   }
@@ -61,6 +61,7 @@ class LabelBeliefTest : public ::testing::Test {
 
   KinematicModel model_;
   LabelBody body_;
+  LabelBelief::Scratch scratch_ = LabelBelief::Scratch(body_.kinematics.num_dofs());
   LabelBelief belief_;
   std::vector<int> points_;  // all markers have one
   double x_ = 0;             // [m]

@@ -70,6 +70,22 @@ TEST(LabelTrackerTest, WhatSlidesFarKeepsItsPoint) {
   EXPECT_EQ(followed.wrong, 0);
 }
 
+// As in a throw: faster than the place is followed.
+TEST(LabelTrackerTest, WhatSlidesFastKeepsItsPoint) {
+  const KinematicModel model = ScaledReferenceModel(1.7);
+  const KinematicModel person = Calibrated(model, 955, 0.01);
+  MarkerSequence recording = RecordPerson(person, RangeOfMotion(model, 2, 0.6, 955), 955);
+  const int slides = recording.FindLabel("LSHO");
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    recording.frame(k)(2, slides) += 0.12 * std::clamp((k - 40) / 20.0, 0.0, 1.0);
+  }
+  const Followed followed =
+      Follow(SetupOf(person, TrackedJoints(model), AssignAll(model, recording)),
+             MakeUnnamed(recording, {}, 956));
+  EXPECT_EQ(followed.found[slides], recording.num_frames());
+  EXPECT_EQ(followed.wrong, 0);
+}
+
 // At 10 Hz a foot could be where the other one is, if it were not known to stand.
 TEST(LabelTrackerTest, FeetThatStandTogetherKeepTheirPoints) {
   const KinematicModel model = ScaledReferenceModel(1.7);
