@@ -35,10 +35,10 @@ struct Stage {
   int steps;
   std::size_t kept;
 };
-constexpr std::size_t kDrawn = 96;  // at a time; others only where the best of these are not good
-constexpr std::size_t kMostDrawn = 192;
+constexpr std::size_t kDrawn = 128;  // at a time; others only where the best of these are not good
+constexpr std::size_t kMostDrawn = 256;
 constexpr std::array<Stage, 3> kStages = {
-    {{0.20, 0.12, 7, 32}, {0.12, 0.07, 7, 16}, {0.07, 0.03, 8, 16}}};
+    {{0.20, 0.12, 5, 40}, {0.12, 0.07, 5, 20}, {0.07, 0.03, 6, 20}}};
 // Of the last postures, in any case; the others only where the best of these is not good.
 constexpr std::size_t kSettledFirst = 4;
 

@@ -23,6 +23,7 @@ constexpr double kModelScatter = 0.008;  // [m] by which a marker's place varies
 constexpr double kFarthest = 25;         // cost of a marker in a frame, at most
 constexpr double kNearEachOther = 0.12;  // [m] of two that may be exchanged
 constexpr double kLeastGain = 2;
+constexpr std::size_t kFewestFrames = 2;  // to be tried on
 
 }  // namespace
 
@@ -187,7 +188,7 @@ bool ExchangedNames::Try(const Trial& trial) {
       frames.push_back(&frame);
     }
   }
-  if (changed.empty()) return false;
+  if (changed.size() < kFewestFrames) return false;
   for (const Frame& frame : changed) frames.push_back(&frame);
   const Matrix3Xd before = offset_;
   for (Frame& frame : changed) Look(&frame);

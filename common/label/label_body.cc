@@ -29,7 +29,13 @@ const std::vector<Angles>& ArmTemplates() {
       {{"LSy", 1.5}, {"RSy", -1.5}},
       {{"LSx", 1.5}, {"RSx", 1.5}},
       {{"LSx", 2.9}, {"RSx", 2.9}},
-      {{"LSx", 0.5}, {"RSx", 0.5}, {"LEx", 1.6}, {"REx", 1.6}}};
+      {{"LSx", 0.5}, {"RSx", 0.5}, {"LEx", 1.6}, {"REx", 1.6}},
+      {{"LSy", 1.5}},
+      {{"RSy", -1.5}},
+      {{"LSx", 1.5}},
+      {{"RSx", 1.5}},
+      {{"LSx", 2.9}},
+      {{"RSx", 2.9}}};
   return kTemplates;
 }
 
@@ -38,6 +44,7 @@ const std::vector<Angles>& LegTemplates() {
       {},
       {{"LHx", 1.4}, {"RHx", 1.4}, {"LKx", -1.5}, {"RKx", -1.5}},
       {{"LHx", 0.6}, {"LKx", -0.2}, {"RHx", -0.3}, {"RKx", -0.4}},
+      {{"RHx", 0.6}, {"RKx", -0.2}, {"LHx", -0.3}, {"LKx", -0.4}},
       {{"LKx", -1.6}, {"RKx", -1.6}}};
   return kTemplates;
 }

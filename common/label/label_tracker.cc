@@ -258,7 +258,7 @@ void LabelTracker::Settle(const Ref<const Matrix3Xd>& points, const MatrixXd& P,
 
 void LabelTracker::Doubt(const Ref<const Matrix3Xd>& points, Posture* posture) {
   constexpr int kAttempts = 20;
-  constexpr double kGain = 10;
+  constexpr double kGain = 8.5;  // a lone marker that lacks its point says as much
   const BodyMatch now = search_.Match(points, *posture);
   if (search_.MostGain(points, now) < kGain) return;
   BodyMatch other = search_.FindNear(points, *posture, 0.06);
