@@ -146,6 +146,7 @@ std::vector<ExchangedNames::Trial> ExchangedNames::Trials(const TrackNames& name
       if (!AreNear(a, b)) continue;
       std::vector<int> tracks = tracks_of[a];
       tracks.insert(tracks.end(), tracks_of[b].begin(), tracks_of[b].end());
+      if (tracks.empty()) continue;
       std::sort(tracks.begin(), tracks.end(),
                 [this](int s, int t) { return tracks_.tracks[s].begin < tracks_.tracks[t].begin; });
       std::vector<Trial> parts;

@@ -96,5 +96,11 @@ TEST_F(ExchangedNamesTest, ANameThatIsTheOthersWhereThisOneIsHidden) {
   }
 }
 
+TEST_F(ExchangedNamesTest, NobodyHasAName) {
+  TrackNames none = names_;
+  none.markers.assign(none.markers.size(), -1);
+  EXPECT_EQ(Improved(none).markers, none.markers);
+}
+
 }  // namespace
 }  // namespace mmm_converter::testing
