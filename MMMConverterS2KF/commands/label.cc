@@ -49,7 +49,9 @@ events byte for byte.
 
 The names are, of a repair, the recording's own; else those of the markers that a --subject-file
 knows or that the recording --like has; else, with --height alone, all of the --marker-set, which by
-default is KIT's. A calibrated person is labelled most surely.
+default is KIT's. A calibrated person is labelled most surely. The verdict (good, check or failed)
+says whether the names can be trusted: whether all were found, and whether the points that have them
+are where this person wears markers.
 
 Several persons and rigid objects may be in one cloud of points: each point belongs to one of them
 or to nobody. Labels then begin with the name of the person or of the object's model, and convert

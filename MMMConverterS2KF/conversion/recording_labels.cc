@@ -342,6 +342,8 @@ LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int
   MatchModel(request.input, &report.input, &choice.config);
   report.found =
       FindLabels(request.input, request.hints, report.input, choice.config, progress, warnings);
+  report.mean_distance = LabelDistance(report.found, recording.markers);
+  report.verdict = JudgeLabels(report);
   return report;
 }
 

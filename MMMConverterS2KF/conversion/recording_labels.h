@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/conversion/verdict.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
 #include "common/convert/tracking_setup.h"
@@ -66,6 +67,10 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
 /// are left out.
 std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found);
 
+/// The mean distance of named points from the person's markers in the best postures of some frames
+/// [m]; NaN: too few are named.
+double LabelDistance(const FoundLabels& found, const MarkerSequence& markers);
+
 /// As FindLabels without hints, of points that are still to come: person, setup and the names
 /// (Labelling::names) alone.
 /// @throws Error
@@ -86,6 +91,8 @@ struct LabelReport {
   Input input;
   FoundLabels found;
   std::string output;
+  double mean_distance = 0;  ///< LabelDistance [m]
+  Verdict verdict;
   Warnings warnings;
 };
 

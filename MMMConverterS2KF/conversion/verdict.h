@@ -38,4 +38,9 @@ struct ConverterConfig;
 /// Likewise by what was estimated. config: what the person is scaled by.
 Verdict JudgeCalibration(const CalibrationReport& report, const ConverterConfig& config);
 
+struct LabelReport;
+
+/// Likewise of names that were found; label_verdict.cc has the limits.
+Verdict JudgeLabels(const LabelReport& report);
+
 }  // namespace mmm_converter

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -118,8 +120,13 @@ std::string FormatLabelSummary(const LabelReport& report, bool is_repair) {
       "names      {}{}\n", DescribeLabels(report.found),
       report.found.setup.marker_set.empty() ? "" : "; marker set " + report.found.setup.marker_set);
   if (is_repair) text += DescribeChanges(report);
-  return text + (report.output.empty() ? "written    nothing; -o FILE writes the recording so\n"
-                                       : fmt::format("written    {}\n", report.output));
+  if (std::isfinite(report.mean_distance)) {
+    text += fmt::format("distance   mean {:.1f} mm, named points from the person's markers\n",
+                        1000 * report.mean_distance);
+  }
+  text += report.output.empty() ? "written    nothing; -o FILE writes the recording so\n"
+                                : fmt::format("written    {}\n", report.output);
+  return text + FormatVerdict(report.verdict);
 }
 
 Json LabelsJson(const FoundLabels& found, const MarkerSequence& markers, int first_frame) {
@@ -175,6 +182,9 @@ Json ToJson(const LabelReport& report) {
                               {"kind", other.is_object ? "object" : "person"}});
   }
   json.update(LabelsJson(report.found, recording.markers, report.input.first_frame));
+  json["mean_distance_mm"] =
+      std::isfinite(report.mean_distance) ? Number(1000 * report.mean_distance) : Json(nullptr);
+  json["verdict"] = ToJson(report.verdict);
   json["warnings"] = report.warnings.texts();
   return json;
 }

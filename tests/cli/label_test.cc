@@ -77,8 +77,29 @@ TEST(Label, NamesByAnotherRecordingOfThePerson) {
   const std::string output = InFolder("out.xml");
   const ProgramRun run = RunProgram({"label", Unlabelled(), "--like", Labelled(), "-o", output});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("of 53 names found"), HasSubstr("written    " + output)));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("of 53 names found"), HasSubstr("written    " + output),
+                             HasSubstr("verdict    good")));
   ExpectLabelled(output);
+}
+
+// Half of a file, by the subject file of somebody else.
+TEST(Label, TheVerdictTellsWhatIsWrong) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string other = SharedData("recordings/kit_bimanual_c3d/Cut_1723.c3d");
+  const std::string subject = InFolder("subject.xml"), summary = InFolder("summary.json");
+  ProgramRun run = RunProgram({"calibrate", other, "--height", "1.68", "-o", subject});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string input = Unlabelled();
+  const std::string bytes = ReadText(input);
+  WriteText(input, bytes.substr(0, bytes.size() / 2));
+  run = RunProgram({"label", input, "--subject-file", subject, "--summary", summary});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("verdict    check"), HasSubstr("the file is cut off"),
+                             HasSubstr("53 names were not found ("),
+                             HasSubstr("mm from the markers of the subject: another person's")));
+  const auto json = nlohmann::json::parse(ReadText(summary));
+  EXPECT_EQ(json.at("verdict").at("level"), "check");
+  EXPECT_GT(json.at("mean_distance_mm"), 20);
 }
 
 TEST(Label, NamesByTheHeightAlone) {
