@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "common/calibrate/calibration.h"
@@ -19,6 +20,9 @@ constexpr double kSureName = 0.7;   // share of the votes
 constexpr double kKnown = 0.02;     // [m] of a link that says where a marker is worn
 constexpr double kKeptEvery = 0.1;  // [s]: skin has moved on
 constexpr int kMostKept = 40;
+// [m] of a marker that is worn elsewhere from the model's place, and from where it was worn before.
+constexpr double kReachOfHeight = 0.2, kReachOfCalibrated = 0.08;
+constexpr double kShareElsewhere = 0.9;
 
 bool IsCalibrated(const TrackingSetup& setup) {
   return std::any_of(setup.assignments().begin(), setup.assignments().end(),
@@ -48,7 +52,7 @@ void LabelledPerson::Start(const BodyMatch& match) {
 }
 
 void LabelledPerson::Keep(int frame, const std::vector<int>& point_of_marker) {
-  if (!is_calibrated_) LookElsewhere(frame, point_of_marker);
+  LookElsewhere(frame, point_of_marker);
   if (was_calibrated_ && frame % kept_every_ == kept_every_ / 2) {
     kept_.emplace_back(frame, tracker_->belief().posture);
   }
@@ -61,10 +65,8 @@ void LabelledPerson::Improve(TrackNames* names) {
     exchanged.Improve(names);
     kept_.clear();
   }
-  if (!is_calibrated_) {
-    NameElsewhere(names);
-    elsewhere_ = WornElsewhere();
-  }
+  NameElsewhere(names);
+  elsewhere_ = WornElsewhere();
 }
 
 void LabelledPerson::LookElsewhere(int frame, const std::vector<int>& point_of_marker) {
@@ -85,17 +87,29 @@ void LabelledPerson::LookElsewhere(int frame, const std::vector<int>& point_of_m
 }
 
 void LabelledPerson::NameElsewhere(TrackNames* names) const {
-  std::vector<int> frames(body_->num_markers(), 0);  // that have the marker
+  const auto frames = tracks_.frames.size();
+  std::vector<std::vector<char>> has_point(  // by marker
+      static_cast<std::size_t>(body_->num_markers()), std::vector<char>(frames, 0));
+  const auto part = [](std::vector<char>* of, const PointTrack& track) {
+    return std::span<char>(*of).subspan(track.begin, track.end - track.begin);
+  };
   for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {
-    const PointTrack& track = tracks_.tracks[t];
-    const int marker = names->markers[t];
-    if (IsMarker(marker)) frames[marker - first_marker_] += track.end - track.begin;
+    if (!IsMarker(names->markers[t])) continue;
+    std::ranges::fill(part(&has_point[names->markers[t] - first_marker_], tracks_.tracks[t]), 1);
   }
-  for (const auto& [marker, track] : elsewhere_.Find(dt_)) {
-    const bool is_mostly_found = 2 * frames[marker] > static_cast<int>(tracks_.frames.size());
-    if (names->markers[track] >= 0 || is_mostly_found) continue;
+  std::vector<char> is_mostly_found;
+  for (const auto& has : has_point) {
+    const auto found = static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
+    is_mostly_found.push_back(2 * found > frames ? 1 : 0);
+  }
+  const double reach = was_calibrated_ ? kReachOfCalibrated : kReachOfHeight;
+  for (const auto& [marker, track] : elsewhere_.Find(dt_, reach)) {
+    const std::span<char> has = part(&has_point[marker], tracks_.tracks[track]);
+    const bool is_taken = std::ranges::find(has, 1) != has.end();
+    if (names->markers[track] >= 0 || is_mostly_found[marker] != 0 || is_taken) continue;
+    std::ranges::fill(has, 1);
     names->markers[track] = first_marker_ + marker;
-    names->shares[track] = 1;
+    names->shares[track] = kShareElsewhere;
   }
 }
 

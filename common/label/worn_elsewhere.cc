@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kReach = 0.2;        // [m] from the model's place
+constexpr double kReach = 0.2;        // [m] from the marker's place
 constexpr double kLeastTime = 1;      // [s] of all tracks at a place
 constexpr double kScatter = 0.015;    // [m] of a track about its place on the link, each coordinate
 constexpr double kShareOfPath = 0.2;  // of how far the points move with the link
@@ -68,12 +68,12 @@ WornElsewhere::Place WornElsewhere::FindPlace(int marker) const {
   return best;
 }
 
-std::vector<std::pair<int, int>> WornElsewhere::Find(double dt) const {
+std::vector<std::pair<int, int>> WornElsewhere::Find(double dt, double reach) const {
   std::vector<Place> nearest_first;
   for (auto it = tracks_.begin(); it != tracks_.end();
        it = tracks_.lower_bound({it->first.first + 1, 0})) {
     Place place = FindPlace(it->first.first);
-    if (place.all.offset.count * dt < kLeastTime) continue;
+    if (place.all.offset.count * dt < kLeastTime || place.distance > reach) continue;
     const Seen& all = place.all;
     if (all.offset.Deviation() > kShareOfPath * all.p_WP.Deviation()) continue;
     nearest_first.push_back(std::move(place));

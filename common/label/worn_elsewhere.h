@@ -20,8 +20,8 @@ class WornElsewhere {
   void Add(int marker, int track, const Eigen::Vector3d& offset, const Eigen::Vector3d& p_WP);
 
   /// Markers and their tracks, each track at most once, those of a marker at the same place.
-  /// dt [s]: of a frame.
-  std::vector<std::pair<int, int>> Find(double dt) const;
+  /// dt [s]: of a frame. reach [m]: of a place, from the marker's own.
+  std::vector<std::pair<int, int>> Find(double dt, double reach) const;
 
  private:
   /// Of vectors [m].

@@ -94,20 +94,35 @@ TEST(LabelRecordingTest, HeightAloneTellsAllButNeighbours) {
 }
 
 // As markers of the shin and the thigh are: without a look elsewhere that point has no name.
+int FramesRightlyNamed(const UnnamedPoints& points, const Labelling& labelling, int name) {
+  int right = 0;
+  for (const NamedPiece& piece : labelling.pieces) {
+    for (int k = piece.begin; k < piece.end; ++k) {
+      if (piece.name == name && points.truth[k][piece.point] == name) ++right;
+    }
+  }
+  return right;
+}
+
 TEST(LabelRecordingTest, OfTheHeightAloneAMarkerMayBeFarFromTheModelsPlace) {
   const RecordedPerson made = Record(905, 3, 0.008, "MARKER_RTIP", {0, 0.02, -0.13});
   const UnnamedPoints points = MakeUnnamed(made.recording, {}, 5);
   const Labelling labelling =
       LabelRecording({{made.uncalibrated}}, made.recording.labels(), points.points, {}, {});
   const int far = made.recording.FindLabel("RTIP");
-  int right = 0;
-  for (const NamedPiece& piece : labelling.pieces) {
-    for (int k = piece.begin; k < piece.end; ++k) {
-      if (piece.name == far && points.truth[k][piece.point] == far) ++right;
-    }
-  }
-  EXPECT_GE(right, 0.95 * made.recording.num_frames());
+  EXPECT_GE(FramesRightlyNamed(points, labelling, far), 0.95 * made.recording.num_frames());
   EXPECT_LE(ScoreLabels(points, labelling, made.names).wrong, 0.005);
+}
+
+TEST(LabelRecordingTest, AMarkerMayHaveBeenPutOnElsewhereSince) {
+  const RecordedPerson before = Record(906, 3);
+  const RecordedPerson now = Record(906, 3, 0.028, "MARKER_LTHI", {0.02, 0, 0.06});
+  const UnnamedPoints points = MakeUnnamed(now.recording, {}, 6);
+  const Labelling labelling =
+      LabelRecording({{before.calibrated}}, now.recording.labels(), points.points, {}, {});
+  const int moved = now.recording.FindLabel("LTHI");
+  EXPECT_GE(FramesRightlyNamed(points, labelling, moved), 0.95 * now.recording.num_frames());
+  EXPECT_LE(ScoreLabels(points, labelling, now.names).wrong, 0.001);
 }
 
 TEST(LabelRecordingTest, ExchangedLabelsAreMendedAndNothingElseChanges) {

@@ -17,6 +17,7 @@ using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
 constexpr double kDt = 0.01;
+constexpr double kReach = 0.2;
 const Vector3d kWorn(0.03, 0.1, -0.02);
 
 // A link that swings by 0.3 m at 1 Hz.
@@ -30,7 +31,7 @@ void AddWorn(int marker, int track, const Vector3d& worn, int begin, int end,
 TEST(WornElsewhereTest, APointThatStaysOnAMovingLinkIsTheMarker) {
   WornElsewhere elsewhere;
   AddWorn(4, 7, kWorn, 0, 150, &elsewhere);
-  EXPECT_THAT(elsewhere.Find(kDt), ElementsAre(Pair(4, 7)));
+  EXPECT_THAT(elsewhere.Find(kDt, kReach), ElementsAre(Pair(4, 7)));
 }
 
 TEST(WornElsewhereTest, PiecesOfAPathCountTogether) {
@@ -38,21 +39,21 @@ TEST(WornElsewhereTest, PiecesOfAPathCountTogether) {
   AddWorn(4, 7, kWorn, 0, 60, &elsewhere);
   AddWorn(4, 8, kWorn + Vector3d(0.01, 0, 0), 70, 130, &elsewhere);
   AddWorn(4, 9, kWorn + Vector3d(0.06, 0, 0), 130, 190, &elsewhere);
-  EXPECT_THAT(elsewhere.Find(kDt), UnorderedElementsAre(Pair(4, 7), Pair(4, 8)));
+  EXPECT_THAT(elsewhere.Find(kDt, kReach), UnorderedElementsAre(Pair(4, 7), Pair(4, 8)));
 }
 
 TEST(WornElsewhereTest, ATrackIsOneMarkersAtMostTheNearers) {
   WornElsewhere elsewhere;
   AddWorn(4, 7, kWorn, 0, 150, &elsewhere);
   AddWorn(5, 7, kWorn / 2, 0, 150, &elsewhere);
-  EXPECT_THAT(elsewhere.Find(kDt), ElementsAre(Pair(5, 7)));
+  EXPECT_THAT(elsewhere.Find(kDt, kReach), ElementsAre(Pair(5, 7)));
 }
 
 TEST(WornElsewhereTest, WhatDoesNotMoveWithTheLinkIsNot) {
   WornElsewhere elsewhere;
   const Vector3d still = LinkAt(0) + kWorn;
   for (int k = 0; k < 300; ++k) elsewhere.Add(4, 7, still - LinkAt(k), still);
-  EXPECT_THAT(elsewhere.Find(kDt), IsEmpty());
+  EXPECT_THAT(elsewhere.Find(kDt, kReach), IsEmpty());
 }
 
 TEST(WornElsewhereTest, NothingIsKnownOfALinkThatStands) {
@@ -61,14 +62,14 @@ TEST(WornElsewhereTest, NothingIsKnownOfALinkThatStands) {
     const Vector3d sway(0.002 * std::sin(k), 0, 0);
     elsewhere.Add(4, 7, kWorn + sway, LinkAt(0) + kWorn);
   }
-  EXPECT_THAT(elsewhere.Find(kDt), IsEmpty());
+  EXPECT_THAT(elsewhere.Find(kDt, kReach), IsEmpty());
 }
 
 TEST(WornElsewhereTest, WhatIsShortOrFarIsNot) {
   WornElsewhere elsewhere;
   AddWorn(4, 7, kWorn, 0, 90, &elsewhere);
   AddWorn(5, 8, {0, 0.25, 0}, 0, 150, &elsewhere);
-  EXPECT_THAT(elsewhere.Find(kDt), IsEmpty());
+  EXPECT_THAT(elsewhere.Find(kDt, kReach), IsEmpty());
 }
 
 }  // namespace
