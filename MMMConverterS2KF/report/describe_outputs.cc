@@ -75,6 +75,7 @@ const std::vector<SummaryKind>& SummaryKinds() {
       {{"recordings", "calibration", "subject"}, "summary of a calibration"},
       {{"trials", "contenders", "rows"}, "comparison of converters"},
       {{"contacts", "checks", "verdict"}, "summary of a motion's dynamics"},
+      {{"names", "unnamed", "changes"}, "summary of labels"},
       {{"kind", "file"}, "description of a file"},
   };
   return kKinds;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/report/label_page.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "MMMConverterS2KF/conversion/verdict.h"
 #include "MMMConverterS2KF/report/drawn_frames.h"
 #include "MMMConverterS2KF/report/html.h"
 #include "MMMConverterS2KF/report/label_summary.h"
@@ -55,7 +58,8 @@ Json TracksOfNames(const LabelReport& report) {
 
 std::string FormatLabelPage(const LabelReport& report) {
   Json figures = ToJson(report);
-  figures["sentence"] = DescribeLabels(report.found);
+  figures["sentence"] = fmt::format("{}. Verdict: {}.", DescribeLabels(report.found),
+                                    DescribeVerdict(report.verdict));
   const std::string title =
       "Labels of " + std::filesystem::path(report.input.recording.file).filename().string();
   const std::string data = DataBlock("figures", FormatJson(figures)) +

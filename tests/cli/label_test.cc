@@ -100,6 +100,7 @@ TEST(Label, TheVerdictTellsWhatIsWrong) {
   const auto json = nlohmann::json::parse(ReadText(summary));
   EXPECT_EQ(json.at("verdict").at("level"), "check");
   EXPECT_GT(json.at("mean_distance_mm"), 20);
+  EXPECT_THAT(RunProgram({"info", summary}).out, HasSubstr("summary of labels"));
 }
 
 TEST(Label, NamesByTheHeightAlone) {
