@@ -26,7 +26,8 @@ namespace {
 constexpr int kFewestNames = 10;
 constexpr int kMostPoints = 1000;  // of a frame: time grows with their square
 constexpr double kLeastShare = 0.25;
-constexpr int kTimes = 2;
+constexpr int kStartsTried = 3;
+constexpr int kMostFramesTried = 3000;  // of longer recordings one start is tried
 constexpr double kSure = 0.7;
 constexpr int kPart = 256;   // frames whose predictions are kept
 constexpr double kHint = 6;  // cost that a track's name is worth
@@ -37,14 +38,15 @@ class RecordingLabeller {
   RecordingLabeller(const LabelScene& scene, const MarkerSequence& recording,
                     const std::vector<LabelIx>& stored,
                     const std::function<bool(int, int)>& progress)
-      : objects_(scene.objects),
+      : scene_(scene),
+        objects_(scene.objects),
         recording_(recording),
         tracks_(FollowPoints(recording)),
         dt_(1 / recording.rate()),
         stored_(recording.num_labels(), -1),
         progress_(progress) {
+    MakePersons();
     for (const TrackingSetup& setup : scene.persons) {
-      persons_.emplace_back(setup, static_cast<int>(name_of_marker_.size()), tracks_, dt_);
       for (const MarkerAssignment& one : setup.assignments()) name_of_marker_.push_back(one.label);
     }
     for (const LabelObject& object : objects_) {
@@ -67,14 +69,21 @@ class RecordingLabeller {
         FindObjectTracks(objects_, tracks_, first_object, [this](int k) { Show(k); });
     is_object_.clear();
     for (const int marker : of_objects.markers) is_object_.push_back(marker >= 0 ? 1 : 0);
-    TrackNames names;
-    const int first = Start();
-    for (int k = first; k >= 0; --k) Track(k, {}, nullptr);
-    Reverse();
-    for (int time = 0; time < kTimes; ++time) {
-      names = ForwardAndBackward(names);
-      if (time == 0 && Calibrate(names)) names = ForwardAndBackward(names);
+    const std::vector<SceneStart> starts = FindStarts();
+    TrackNames names = NamesFrom(starts.front());
+    const std::size_t tried = std::min<std::size_t>(starts.size(), StartsTried());
+    for (std::size_t i = 1; i < tried; ++i) {
+      std::vector<LabelledPerson> others;
+      others.swap(persons_);
+      MakePersons();
+      TrackNames other = NamesFrom(starts[i]);
+      if (VotesOf(other) > VotesOf(names)) {
+        names = std::move(other);
+      } else {
+        persons_.swap(others);
+      }
     }
+    names = ForwardAndBackward(names);
     for (std::size_t t = 0; t < is_object_.size(); ++t) {
       if (is_object_[t] == 0) continue;
       names.markers[t] = of_objects.markers[t];
@@ -84,8 +93,16 @@ class RecordingLabeller {
   }
 
  private:
-  /// Takes the persons up in the frame that is returned.
-  int Start() {
+  void MakePersons() {
+    persons_.clear();
+    int marker = 0;
+    for (const TrackingSetup& setup : scene_.persons) {
+      persons_.emplace_back(setup, marker, tracks_, dt_);
+      marker += persons_.back().body().num_markers();
+    }
+  }
+
+  std::vector<SceneStart> FindStarts() const {
     std::vector<Matrix3Xd> frames;
     frames.reserve(tracks_.frames.size());
     for (const FramePoints& points : tracks_.frames) {
@@ -98,9 +115,37 @@ class RecordingLabeller {
     std::vector<const LabelBody*> bodies;
     bodies.reserve(persons_.size());
     for (const LabelledPerson& person : persons_) bodies.push_back(&person.body());
-    const SceneStart start = FindScene(bodies, frames);
+    return FindScene(bodies, frames);
+  }
+
+  /// Where somebody is not calibrated, what is wrong at the start is learnt by the calibration:
+  /// more than one is tried.
+  int StartsTried() const {
+    const bool is_known =
+        std::all_of(persons_.begin(), persons_.end(),
+                    [](const LabelledPerson& person) { return person.was_calibrated(); });
+    const bool has_labels =
+        std::any_of(stored_.begin(), stored_.end(), [](int marker) { return marker >= 0; });
+    return is_known || has_labels || recording_.num_frames() > kMostFramesTried ? 1 : kStartsTried;
+  }
+
+  /// With the persons as they are there.
+  TrackNames NamesFrom(const SceneStart& start) {
     for (std::size_t i = 0; i < persons_.size(); ++i) persons_[i].Start(start.matches[i]);
-    return start.frame;
+    for (int k = start.frame; k >= 0; --k) Track(k, {}, nullptr);
+    Reverse();
+    TrackNames names = ForwardAndBackward({});
+    return Calibrate(names) ? ForwardAndBackward(names) : names;
+  }
+
+  /// That the names got [frames].
+  double VotesOf(const TrackNames& names) const {
+    double votes = 0;
+    for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {
+      const PointTrack& track = tracks_.tracks[t];
+      if (names.markers[t] >= 0) votes += names.shares[t] * (track.end - track.begin);
+    }
+    return votes;
   }
 
   void Reverse() {
@@ -249,6 +294,7 @@ class RecordingLabeller {
     }
   }
 
+  const LabelScene& scene_;
   std::vector<LabelledPerson> persons_;
   const std::vector<LabelObject>& objects_;
   std::vector<int> name_of_marker_;

@@ -29,6 +29,7 @@ class LabelledPerson {
   const LabelBody& body() const { return *body_; }
   LabelTracker& tracker() { return *tracker_; }
   const LabelTracker& tracker() const { return *tracker_; }
+  bool was_calibrated() const { return was_calibrated_; }
   int first_marker() const { return first_marker_; }
   bool IsMarker(int marker) const {
     return marker >= first_marker_ && marker < first_marker_ + body_->num_markers();

@@ -5,9 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "common/label/body_search.h"
 #include "common/label/linear_assignment.h"
@@ -87,14 +87,13 @@ std::vector<Matrix3Xd> Parts(const Matrix3Xd& points, int count) {
 
 }  // namespace
 
-SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
-                     const std::vector<Matrix3Xd>& frames) {
+std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
+                                  const std::vector<Matrix3Xd>& frames) {
   const auto count = static_cast<int>(bodies.size());
   std::vector<std::unique_ptr<BodySearch>> searches;
   searches.reserve(bodies.size());
   for (const LabelBody* body : bodies) searches.push_back(std::make_unique<BodySearch>(*body));
-  SceneStart best;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, SceneStart>> starts;  // with their costs
   for (const int k : FullestFrames(frames)) {
     if (frames[k].cols() < kFewestPoints * count) continue;
     const std::vector<Matrix3Xd> parts = Parts(frames[k], count);
@@ -113,16 +112,16 @@ SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
     }
     LinearAssignment assignment;
     const std::vector<int> part_of = assignment.Solve(costs, costs.sum() + 1);
-    if (assignment.cost() >= least) continue;
-    least = assignment.cost();
-    best.frame = k;
-    best.matches.clear();
+    SceneStart start{k, {}};
     for (int b = 0; b < count; ++b) {
-      best.matches.push_back(matches[b * bodies.size() + part_of[b]]);
+      start.matches.push_back(matches[b * bodies.size() + part_of[b]]);
     }
+    starts.emplace_back(assignment.cost(), std::move(start));
   }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   for (int b = 0; b < count; ++b) {
-    const int matched = best.matches.empty() ? 0 : best.matches[b].matched;
+    const int matched = starts.empty() ? 0 : starts.front().second.matches[b].matched;
     if (2 * matched >= bodies[b]->num_markers()) continue;
     throw Error(fmt::format(
         "no frame shows {}: of {} markers at most {} fit any posture of this body; is it the right "
@@ -130,7 +129,9 @@ SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
         count == 1 ? "a person" : fmt::format("person {}", b + 1), bodies[b]->num_markers(),
         matched, count == 1 ? "" : ", and do the persons stand apart in some frames"));
   }
-  return best;
+  std::vector<SceneStart> best_first;
+  for (auto& [cost, start] : starts) best_first.push_back(std::move(start));
+  return best_first;
 }
 
 }  // namespace mmm_converter

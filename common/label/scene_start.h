@@ -16,10 +16,11 @@ struct SceneStart {
 };
 
 /// Looks for bodies among points without names: in frames that show many points, spread over the
-/// recording, and of these the one in which all together match best. Several bodies are looked for
-/// in the parts that a frame's points fall into. frames: 3 x points [m].
+/// recording. Several bodies are looked for
+/// in the parts that a frame's points fall into. frames: 3 x points [m]. The frame in which all
+/// together match best is the first of the result.
 /// @throws Error where no frame shows half of each body's markers.
-SceneStart FindScene(const std::vector<const LabelBody*>& bodies,
-                     const std::vector<Eigen::Matrix3Xd>& frames);
+std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
+                                  const std::vector<Eigen::Matrix3Xd>& frames);
 
 }  // namespace mmm_converter
