@@ -98,6 +98,7 @@ void LabelledPerson::NameElsewhere(TrackNames* names) const {
     std::ranges::fill(part(&has_point[names->markers[t] - first_marker_], tracks_.tracks[t]), 1);
   }
   std::vector<char> is_mostly_found;
+  is_mostly_found.reserve(has_point.size());
   for (const auto& has : has_point) {
     const auto found = static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
     is_mostly_found.push_back(2 * found > frames ? 1 : 0);
@@ -115,6 +116,7 @@ void LabelledPerson::NameElsewhere(TrackNames* names) const {
 
 MarkerSequence LabelledPerson::Named(const TrackNames& names) const {
   std::vector<std::string> labels;
+  labels.reserve(body_->num_markers());
   for (int m = 0; m < body_->num_markers(); ++m) labels.push_back(std::to_string(m));
   MarkerSequence named(labels, static_cast<int>(tracks_.frames.size()), 1 / dt_, 0);
   for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {

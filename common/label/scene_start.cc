@@ -130,6 +130,7 @@ std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
         matched, count == 1 ? "" : ", and do the persons stand apart in some frames"));
   }
   std::vector<SceneStart> best_first;
+  best_first.reserve(starts.size());
   for (auto& [cost, start] : starts) best_first.push_back(std::move(start));
   return best_first;
 }
