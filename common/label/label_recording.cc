@@ -220,7 +220,7 @@ class RecordingLabeller {
   void Track(int k, const TrackNames& before, TrackVotes* votes) {
     Offer(k, before);
     for (LabelledPerson& person : persons_) {
-      Vote(k, person, person.tracker().Track(person.points, dt_, &person.hints), 0.25, votes);
+      Vote(k, person, person.Follow(), 0.25, votes);
     }
   }
 

@@ -51,6 +51,25 @@ void LabelledPerson::Start(const BodyMatch& match) {
   tracker_->Start(match);
 }
 
+const std::vector<int>& LabelledPerson::Follow() {
+  constexpr double kFitting = 0.75;  // of the points, or of the markers where these are fewer
+  constexpr double kLost = 0.5;      // [s]
+  constexpr double kGain = 10;
+  const std::vector<int>& found = tracker_->Track(points, dt_, &hints);
+  const auto fitting = std::count_if(found.begin(), found.end(), [](int p) { return p >= 0; });
+  const auto possible = std::min<Eigen::Index>(points.cols(), body_->num_markers());
+  const bool is_there = 2 * possible > body_->num_markers();
+  const bool fits = static_cast<double>(fitting) >= kFitting * static_cast<double>(possible);
+  unfit_ = is_there && !fits ? unfit_ + dt_ : 0;
+  if (unfit_ < kLost) return found;
+  unfit_ = 0;
+  BodySearch search(*body_);
+  const BodyMatch anew = search.SettleFinely(points, search.Find(points).posture);
+  const double now = search.SettleFinely(points, tracker_->belief().posture).cost;
+  if (anew.cost < now - kGain) tracker_->Start(anew);
+  return found;
+}
+
 void LabelledPerson::Keep(int frame, const std::vector<int>& point_of_marker) {
   LookElsewhere(frame, point_of_marker);
   if (was_calibrated_ && frame % kept_every_ == kept_every_ / 2) {

@@ -37,6 +37,10 @@ class LabelledPerson {
   /// Takes the person up with a tracker of their own.
   void Start(const BodyMatch& match);
 
+  /// Tracks the points of this frame; where most of what could fit does not for long, as after the
+  /// person was away, the body is looked for anew. The point of each marker, into offered.
+  const std::vector<int>& Follow();
+
   /// What a pass made of a frame. point_of_marker: into offered.
   void Keep(int frame, const std::vector<int>& point_of_marker);
 
@@ -71,6 +75,7 @@ class LabelledPerson {
   int kept_every_;  ///< frames
   std::unique_ptr<LabelBody> body_;
   std::unique_ptr<LabelTracker> tracker_;
+  double unfit_ = 0;                           ///< [s] for which too few of the points fit
   std::vector<std::pair<int, Posture>> kept_;  ///< frames of this pass
   WornElsewhere elsewhere_;
 };

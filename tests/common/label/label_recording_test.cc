@@ -12,6 +12,7 @@
 #include "common/math/seeded_random.h"
 #include "common/motion/occlusion.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 #include "tests/support/all_indices.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/unnamed_points.h"
@@ -123,6 +124,26 @@ TEST(LabelRecordingTest, AMarkerMayHaveBeenPutOnElsewhereSince) {
   const int moved = now.recording.FindLabel("LTHI");
   EXPECT_GE(FramesRightlyNamed(points, labelling, moved), 0.95 * now.recording.num_frames());
   EXPECT_LE(ScoreLabels(points, labelling, now.names).wrong, 0.001);
+}
+
+// For a second, and turned round on the other side of the room.
+TEST(LabelRecordingTest, WhoLeavesAndReturnsIsFoundAgain) {
+  const RecordedPerson made = Record(907, 3);
+  MarkerSequence recording = made.recording;
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()));
+  for (int k = 100; k < recording.num_frames(); ++k) {
+    if (k < 200) {
+      recording.frame(k).setConstant(kNaN);
+    } else {
+      recording.frame(k) = (turn * recording.frame(k)).colwise() + Eigen::Vector3d(2, 1, 0);
+    }
+  }
+  const UnnamedPoints points = MakeUnnamed(recording, {}, 7);
+  const Labelling labelling =
+      LabelRecording({{made.calibrated}}, recording.labels(), points.points, {}, {});
+  const LabelScore score = ScoreLabels(points, labelling, made.names);
+  EXPECT_GE(score.right, 0.99);
+  EXPECT_LE(score.wrong, 0.001);
 }
 
 TEST(LabelRecordingTest, ExchangedLabelsAreMendedAndNothingElseChanges) {
