@@ -12,11 +12,13 @@
 #include "MMMConverterS2KF/conversion/object.h"
 #include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "common/convert/marker_set.h"
+#include "common/fit/posture_search.h"
 #include "common/label/label_recording.h"
 #include "common/support/error.h"
 #include "common/support/folder.h"
 #include "common/support/output_plan.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -293,6 +295,50 @@ std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found) {
     if (point.is_named) points.back().label.erase(0, found.prefix.size());
   }
   return points;
+}
+
+double LabelDistance(const FoundLabels& found, const MarkerSequence& markers) {
+  constexpr int kFrames = 24, kFewestPoints = 10, kAttempts = 4;
+  const std::vector<MarkerAssignment>& assignments = found.setup.assignments();
+  const MarkerSequence named = Relabelled(PointsOfPerson(found), markers);
+  std::vector<int> columns;
+  columns.reserve(assignments.size());
+  for (const MarkerAssignment& one : assignments) {
+    const std::string& name = found.labelling.names[one.label];
+    columns.push_back(named.FindLabel(name.substr(found.prefix.size())));
+  }
+  const MarkerKinematics kinematics(*found.setup.model, found.setup.joints,
+                                    MarkerIndices(assignments));
+  PostureSearch search(kinematics);
+  PostureFitOptions options;
+  options.robust_distance = 0.1;
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const int k = (2 * i + 1) * named.num_frames() / (2 * kFrames);
+    Eigen::Matrix3Xd z =
+        Eigen::Matrix3Xd::Constant(3, static_cast<Eigen::Index>(columns.size()), kNaN);
+    for (std::size_t m = 0; m < columns.size(); ++m) {
+      if (columns[m] >= 0) z.col(static_cast<Eigen::Index>(m)) = named.frame(k).col(columns[m]);
+    }
+    if (z.row(0).array().isFinite().count() < kFewestPoints) continue;
+    Posture posture;
+    sum += search.Assemble(z, NoiseScales(assignments), options, kAttempts, &posture).mean_distance;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
+}
+
+std::vector<std::string> NamesNotFound(const Labelling& labelling) {
+  std::vector<char> is_found(labelling.names.size(), 0);
+  for (const NamedPiece& piece : labelling.pieces) {
+    if (piece.name >= 0) is_found[piece.name] = 1;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < is_found.size(); ++i) {
+    if (is_found[i] == 0) names.push_back(labelling.names[i]);
+  }
+  return names;
 }
 
 FoundLabels FindNames(const InputRequest& request, const Input& input,

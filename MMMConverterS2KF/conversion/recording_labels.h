@@ -71,6 +71,9 @@ std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found);
 /// [m]; NaN: too few are named.
 double LabelDistance(const FoundLabels& found, const MarkerSequence& markers);
 
+/// Those that no point has in any frame.
+std::vector<std::string> NamesNotFound(const Labelling& labelling);
+
 /// As FindLabels without hints, of points that are still to come: person, setup and the names
 /// (Labelling::names) alone.
 /// @throws Error

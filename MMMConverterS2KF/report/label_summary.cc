@@ -36,15 +36,6 @@ std::vector<NameFigures> FiguresOfNames(const Labelling& labelling) {
   return figures;
 }
 
-std::vector<std::string> NamesNotFound(const Labelling& labelling) {
-  const std::vector<NameFigures> figures = FiguresOfNames(labelling);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    if (figures[i].frames == 0) names.push_back(labelling.names[i]);
-  }
-  return names;
-}
-
 std::string DescribeChange(const LabelReport& report, const LabelChange& change) {
   const MarkerSequence& markers = report.input.recording.markers;
   return fmt::format(

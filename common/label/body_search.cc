@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "common/math/rotation.h"
+#include "common/label/posture_step.h"
 #include "common/math/statistics.h"
 #include "common/support/units.h"
 
@@ -24,9 +24,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kDamping = 0.01;         // relative
-constexpr double kLeastCurvature = 1e-3;  // [1/m^2], [1/rad^2]
-constexpr double kLongestStep = 0.6;      // [rad]
 constexpr int kYaws = 24;
 
 // Of the annealing: spread [m], steps to it, postures that go on.
@@ -186,25 +183,7 @@ std::vector<BodySearch::Candidate> BodySearch::Candidates(const Ref<const Matrix
 
 void BodySearch::Step(const MatrixXd& targets, const VectorXd& noise, Posture* posture) {
   constexpr double kNoLimit = 1e9;
-  constexpr int kSolves = 3;
-  const int joints = body_.kinematics.num_joints();
-  equations_.Linearize(targets, noise, kNoLimit);
-  equations_.H().diagonal().tail(joints).array() += MatchCosts::kNaturalWeight;
-  equations_.g().tail(joints) +=
-      MatchCosts::kNaturalWeight * (body_.natural_angles - posture->joint_angles);
-  equations_.HoldPressingJoints(posture->joint_angles);
-  equations_.Solve(kDamping, kLeastCurvature);
-  for (int i = 1; i < kSolves && equations_.HoldOversteppingJoints(posture->joint_angles); ++i) {
-    equations_.Solve(kDamping, kLeastCurvature);
-  }
-  const VectorXd& step = equations_.step();
-  const double longest = step.tail(joints + 3).lpNorm<Eigen::Infinity>();
-  const double share = longest > kLongestStep ? kLongestStep / longest : 1;
-  posture->position += share * step.head<3>();
-  posture->orientation = (posture->orientation * Exp(share * step.segment<3>(3))).normalized();
-  posture->joint_angles = (posture->joint_angles + share * step.tail(joints))
-                              .cwiseMax(body_.kinematics.lower())
-                              .cwiseMin(body_.kinematics.upper());
+  StepTowards(targets, noise, kNoLimit, body_, &equations_, posture);
 }
 
 void BodySearch::Draw(const Ref<const Matrix3Xd>& points, double from, double to, int steps,

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/label/body_match.h"
-#include "common/math/rotation.h"
+#include "common/label/posture_step.h"
 #include "common/math/square.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/units.h"
@@ -15,7 +15,6 @@ namespace mmm_converter {
 
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -68,29 +67,11 @@ void ExchangedNames::Look(Frame* frame) {
 void ExchangedNames::Fit(Frame* frame) {
   constexpr int kSteps = 2;
   constexpr double kRobustDistance = 0.05;  // [m]
-  constexpr double kDamping = 0.01;         // relative
-  constexpr double kLongestStep = 0.6;      // [rad]
-  Posture& posture = frame->posture;
-  const int joints = body_.kinematics.num_joints();
   for (int i = 0; i < kSteps; ++i) {
     Look(frame);
-    equations_.Place(posture);
+    equations_.Place(frame->posture);
     targets_ = frame->z - offset_W_;
-    equations_.Linearize(targets_, scatter_, kRobustDistance);
-    equations_.H().diagonal().tail(joints).array() += MatchCosts::kNaturalWeight;
-    equations_.g().tail(joints) +=
-        MatchCosts::kNaturalWeight * (body_.natural_angles - posture.joint_angles);
-    equations_.HoldPressingJoints(posture.joint_angles);
-    equations_.Solve(kDamping, 0);
-    if (equations_.HoldOversteppingJoints(posture.joint_angles)) equations_.Solve(kDamping, 0);
-    const VectorXd& step = equations_.step();
-    const double longest = step.tail(joints + 3).lpNorm<Eigen::Infinity>();
-    const double share = longest > kLongestStep ? kLongestStep / longest : 1;
-    posture.position += share * step.head<3>();
-    posture.orientation = (posture.orientation * Exp(share * step.segment<3>(3))).normalized();
-    posture.joint_angles = (posture.joint_angles + share * step.tail(joints))
-                               .cwiseMax(body_.kinematics.lower())
-                               .cwiseMin(body_.kinematics.upper());
+    StepTowards(targets_, scatter_, kRobustDistance, body_, &equations_, &frame->posture);
   }
   Look(frame);
 }

@@ -28,9 +28,8 @@ constexpr int kMostPoints = 1000;  // of a frame: time grows with their square
 constexpr double kLeastShare = 0.25;
 constexpr int kStartsTried = 3;
 constexpr int kMostFramesTried = 3000;  // of longer recordings one start is tried
-constexpr double kSure = 0.7;
-constexpr int kPart = 256;   // frames whose predictions are kept
-constexpr double kHint = 6;  // cost that a track's name is worth
+constexpr int kPart = 256;              // frames whose predictions are kept
+constexpr double kHint = 6;             // cost that a track's name is worth
 
 /// A marker is counted over all: those of the first person, of the second, ..., of the objects.
 class RecordingLabeller {
@@ -39,7 +38,6 @@ class RecordingLabeller {
                     const std::vector<LabelIx>& stored,
                     const std::function<bool(int, int)>& progress)
       : scene_(scene),
-        objects_(scene.objects),
         recording_(recording),
         tracks_(FollowPoints(recording)),
         dt_(1 / recording.rate()),
@@ -49,7 +47,7 @@ class RecordingLabeller {
     for (const TrackingSetup& setup : scene.persons) {
       for (const MarkerAssignment& one : setup.assignments()) name_of_marker_.push_back(one.label);
     }
-    for (const LabelObject& object : objects_) {
+    for (const LabelObject& object : scene_.objects) {
       name_of_marker_.insert(name_of_marker_.end(), object.names.begin(), object.names.end());
     }
     for (std::size_t m = 0; m < name_of_marker_.size(); ++m) {
@@ -66,7 +64,7 @@ class RecordingLabeller {
   TrackNames Run() {
     const int first_object = persons_.back().first_marker() + persons_.back().body().num_markers();
     const TrackNames of_objects =
-        FindObjectTracks(objects_, tracks_, first_object, [this](int k) { Show(k); });
+        FindObjectTracks(scene_.objects, tracks_, first_object, [this](int k) { Show(k); });
     is_object_.clear();
     for (const int marker : of_objects.markers) is_object_.push_back(marker >= 0 ? 1 : 0);
     const std::vector<SceneStart> starts = FindStarts();
@@ -203,7 +201,7 @@ class RecordingLabeller {
       const double share = is_first_time ? 1 : before.shares[track];
       std::size_t owner = 0;
       if (persons_.size() > 1) {
-        const bool is_known = !is_first_time && marker >= 0 && share >= kSure;
+        const bool is_known = !is_first_time && marker >= 0 && share >= LabelledPerson::kSureName;
         owner = is_known ? PersonOf(marker)
                          : LikeliestPerson(points.p_WP.col(static_cast<Eigen::Index>(p)));
       }
@@ -296,7 +294,6 @@ class RecordingLabeller {
 
   const LabelScene& scene_;
   std::vector<LabelledPerson> persons_;
-  const std::vector<LabelObject>& objects_;
   std::vector<int> name_of_marker_;
   const MarkerSequence& recording_;
   PointTracks tracks_;

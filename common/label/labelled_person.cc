@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kSureName = 0.7;   // share of the votes
 constexpr double kKnown = 0.02;     // [m] of a link that says where a marker is worn
 constexpr double kKeptEvery = 0.1;  // [s]: skin has moved on
 constexpr int kMostKept = 40;

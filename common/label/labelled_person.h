@@ -21,6 +21,8 @@ namespace mmm_converter {
 /// and what whole passes tell of their names.
 class LabelledPerson {
  public:
+  static constexpr double kSureName = 0.7;  ///< share of the votes of a name that is sure
+
   /// first_marker: the number of the first of this person's markers among those of all. tracks must
   /// outlive the person; dt [s]: of a frame.
   LabelledPerson(const TrackingSetup& setup, int first_marker, const PointTracks& tracks,

@@ -94,7 +94,6 @@ TEST(LabelRecordingTest, HeightAloneTellsAllButNeighbours) {
   }
 }
 
-// As markers of the shin and the thigh are: without a look elsewhere that point has no name.
 int FramesRightlyNamed(const UnnamedPoints& points, const Labelling& labelling, int name) {
   int right = 0;
   for (const NamedPiece& piece : labelling.pieces) {
@@ -105,6 +104,7 @@ int FramesRightlyNamed(const UnnamedPoints& points, const Labelling& labelling, 
   return right;
 }
 
+// As markers of the shin and the thigh are: without a look elsewhere that point has no name.
 TEST(LabelRecordingTest, OfTheHeightAloneAMarkerMayBeFarFromTheModelsPlace) {
   const RecordedPerson made = Record(905, 3, 0.008, "MARKER_RTIP", {0, 0.02, -0.13});
   const UnnamedPoints points = MakeUnnamed(made.recording, {}, 5);

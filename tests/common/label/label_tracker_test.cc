@@ -54,37 +54,27 @@ KinematicModel Calibrated(const KinematicModel& model, std::uint64_t seed, doubl
   return FitToSubject(model, subject);
 }
 
-// Skin over a shoulder slides by centimetres; nothing else is where such a marker goes.
-TEST(LabelTrackerTest, WhatSlidesFarKeepsItsPoint) {
+// A shoulder's marker slides by so much [m] in frames [begin, end), where no other marker is.
+void ExpectKeepsItsPoint(std::uint64_t seed, double slide, int begin, int end) {
   const KinematicModel model = ScaledReferenceModel(1.7);
-  const KinematicModel person = Calibrated(model, 953, 0.01);
-  MarkerSequence recording = RecordPerson(person, RangeOfMotion(model, 3, 0.6, 953), 953);
+  const KinematicModel person = Calibrated(model, seed, 0.01);
+  MarkerSequence recording = RecordPerson(person, RangeOfMotion(model, 3, 0.6, seed), seed);
   const int slides = recording.FindLabel("LSHO");
   for (int k = 0; k < recording.num_frames(); ++k) {
-    recording.frame(k)(2, slides) += 0.07 * std::clamp(k / 40.0 - 1, 0.0, 1.0);
+    const double share = static_cast<double>(k - begin) / (end - begin);
+    recording.frame(k)(2, slides) += slide * std::clamp(share, 0.0, 1.0);
   }
   const Followed followed =
       Follow(SetupOf(person, TrackedJoints(model), AssignAll(model, recording)),
-             MakeUnnamed(recording, {}, 954));
+             MakeUnnamed(recording, {}, seed + 1));
   EXPECT_EQ(followed.found[slides], recording.num_frames());
   EXPECT_EQ(followed.wrong, 0);
 }
 
+TEST(LabelTrackerTest, WhatSlidesFarKeepsItsPoint) { ExpectKeepsItsPoint(953, 0.07, 40, 80); }
+
 // As in a throw: faster than the place is followed.
-TEST(LabelTrackerTest, WhatSlidesFastKeepsItsPoint) {
-  const KinematicModel model = ScaledReferenceModel(1.7);
-  const KinematicModel person = Calibrated(model, 955, 0.01);
-  MarkerSequence recording = RecordPerson(person, RangeOfMotion(model, 2, 0.6, 955), 955);
-  const int slides = recording.FindLabel("LSHO");
-  for (int k = 0; k < recording.num_frames(); ++k) {
-    recording.frame(k)(2, slides) += 0.12 * std::clamp((k - 40) / 20.0, 0.0, 1.0);
-  }
-  const Followed followed =
-      Follow(SetupOf(person, TrackedJoints(model), AssignAll(model, recording)),
-             MakeUnnamed(recording, {}, 956));
-  EXPECT_EQ(followed.found[slides], recording.num_frames());
-  EXPECT_EQ(followed.wrong, 0);
-}
+TEST(LabelTrackerTest, WhatSlidesFastKeepsItsPoint) { ExpectKeepsItsPoint(955, 0.12, 40, 60); }
 
 // At 10 Hz a foot could be where the other one is, if it were not known to stand.
 TEST(LabelTrackerTest, FeetThatStandTogetherKeepTheirPoints) {
