@@ -9,7 +9,8 @@
 #   - headers of other projects, except Eigen, appear only in .cc files (and in tests); one header of the
 #     application includes <nlohmann/json_fwd.hpp> for all, and those of python may include pybind11
 #   - the library and the plugins name no option of the command line
-#   - every source starts with its licence line and has at most 400 lines; every folder has a README.md
+#   - every source starts with its licence line and has at most 400 lines
+#   - a room of more than a thousand lines has a README.md; a room is a folder of `layers`, one of plugins or one of tests
 cmake_minimum_required(VERSION 3.25)
 
 set(layers
@@ -111,21 +112,35 @@ macro(check_foreign_include path)
   endif()
 endmacro()
 
+# Adds num_lines of `file` to its room's.
+macro(count_in_room)
+  layer_of(${file} room)
+  if(room MATCHES "^(plugins|tests)$")
+    string(REGEX MATCH "^${room}/[^/]+" room ${file})
+  endif()
+  if(room)
+    list(APPEND rooms ${room})
+    math(EXPR lines_of_${room} "${num_lines} + 0${lines_of_${room}}")
+  endif()
+endmacro()
+
 foreach(top IN LISTS tops)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${top}/*)
   list(FILTER files EXCLUDE REGEX "/build[^/]*/")
   foreach(file IN LISTS files)
-    get_filename_component(folder ${file} DIRECTORY)
-    list(APPEND folders ${folder})
-    if(NOT file MATCHES "\\.(cc|h)$")
+    if(NOT file MATCHES "\\.(cc|h|js|py)$")
       continue()
     endif()
     file(READ ${ROOT}/${file} text)
+    string(REGEX MATCHALL "\n" lines "${text}")
+    list(LENGTH lines num_lines)
+    count_in_room()
+    if(file MATCHES "\\.(js|py)$")
+      continue()
+    endif()
     if(NOT text MATCHES "^// SPDX-License-Identifier: MIT\n")
       problem("the first line is not // SPDX-License-Identifier: MIT")
     endif()
-    string(REGEX MATCHALL "\n" lines "${text}")
-    list(LENGTH lines num_lines)
     if(num_lines GREATER 400)
       problem("${num_lines} lines; at most 400: which noun is missing?")
     endif()
@@ -154,11 +169,11 @@ if(num_json_headers GREATER 1)
   problem("<nlohmann/json_fwd.hpp> belongs in one header")
 endif()
 
-list(REMOVE_DUPLICATES folders)
-foreach(folder IN LISTS folders)
-  set(file ${folder})
-  if(NOT EXISTS ${ROOT}/${folder}/README.md)
-    problem("the folder has no README.md")
+list(REMOVE_DUPLICATES rooms)
+foreach(room IN LISTS rooms)
+  if(lines_of_${room} GREATER 1000 AND NOT EXISTS ${ROOT}/${room}/README.md)
+    set(file ${room})
+    problem("a room of ${lines_of_${room}} lines has no README.md")
   endif()
 endforeach()
 
