@@ -7,8 +7,8 @@
 
 namespace mmm_converter {
 
-/// The parts of a message behind its topic (README.md): a header, which is JSON, and the bytes of
-/// its arrays, little endian.
+/// The parts of a message behind its topic (common/live/README.md): a header, which is JSON, and
+/// the bytes of its arrays, little endian.
 struct PostureMessage {
   std::string header;
   std::string arrays;

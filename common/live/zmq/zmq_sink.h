@@ -8,8 +8,8 @@
 
 namespace mmm_converter {
 
-/// A ZeroMQ publisher; README.md has its message. address: "zmq://host:port"; without a port 5556.
-/// Nobody has to listen; who is too slow loses messages.
+/// A ZeroMQ publisher; common/live/README.md describes its messages. address: "zmq://host:port";
+/// without a port 5556. Nobody has to listen; who is too slow loses messages.
 /// @throws Error where it can't listen there.
 std::unique_ptr<PoseSink> OpenZmqSink(const std::string& address);
 
