@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The time of a frame and of its parts. See README.md for the commands and the figures.
+// The time of a frame and of its parts. RESULTS.md has the figures.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
