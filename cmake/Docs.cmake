@@ -1,4 +1,5 @@
-# The target `docs`: pages of the library by Doxygen, of the module for Python by Sphinx (docs/README.md).
+# The target `docs` of -DMMM_CONVERTER_DOCS=ON: pages of the library by Doxygen, of the module for Python by Sphinx (Debian:
+# doxygen, python3-sphinx), in build/docs/html. Any warning is an error.
 find_package(Doxygen 1.9 REQUIRED)
 find_package(Python REQUIRED COMPONENTS Interpreter)
 
@@ -10,7 +11,7 @@ set(docs_list ${docs_work}/pages.txt)
 # Headers that are installed, and the READMEs of all folders that users may look into.
 file(GLOB_RECURSE docs_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/common/*.h)
 list(FILTER docs_headers EXCLUDE REGEX "/common/(dynamics|calibrate|label)/")
-set(docs_pages ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/cmake/README.md)
+set(docs_pages ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
 foreach(folder common plugins MMMConverterS2KF xml_config examples)
   file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.md)
   list(APPEND docs_pages ${pages})

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Loaded before a program (LD_PRELOAD), it makes one of its calls fail, kills it there, or moves
-// its clock, as MMM_FAULT says, and writes what was called to the file MMM_FAULT_REPORT. See
-// README.md.
+// its clock, as MMM_FAULT says, and writes what was called to the file MMM_FAULT_REPORT.
 
 #include <dlfcn.h>
 #include <fcntl.h>

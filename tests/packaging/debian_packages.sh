@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# debian_packages.sh FOLDER: what the Debian packages in FOLDER are good for (cpack makes them, tests/packaging/README.md).
+# debian_packages.sh FOLDER: what the Debian packages in FOLDER are good for (cpack makes them, tests/README.md).
 #
 # lintian has no error to name. In a clean, minimal Debian 12, which debootstrap makes: installed, used by somebody without
 # rights from the installed tree alone, and removed without a trace. Needs root (a root of its own is mounted) and the
