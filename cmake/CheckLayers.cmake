@@ -10,13 +10,15 @@
 #     application includes <nlohmann/json_fwd.hpp> for all, and those of python may include pybind11
 #   - the library and the plugins name no option of the command line
 #   - every source starts with its licence line and has at most 400 lines
-#   - a room of more than a thousand lines has a README.md; a room is a folder of `layers`, one of plugins or one of tests
+#   - a room of more than a thousand lines has a README.md; a room is a folder of `layers`, one of plugins or one of tests;
+#     the layers of common/label are one room
 cmake_minimum_required(VERSION 3.25)
 
 set(layers
     common/support common/math common/model common/motion common/fit
     common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/urdf common/io common/io/recording
-    common/convert common/calibrate common/label common/evaluate common/live
+    common/convert common/calibrate
+    common/label common/label/search "common/label/track|common/label/learn" common/evaluate common/live
     plugins
     MMMConverterS2KF/terminal MMMConverterS2KF/input MMMConverterS2KF/conversion
     "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report
@@ -24,7 +26,7 @@ set(layers
     "MMMConverterS2KF/commands|MMMConverterS2KF/python" MMMConverterS2KF
     examples tests)
 # Of these the files alone are a layer: each of their folders is a layer of its own.
-set(divided common/io MMMConverterS2KF)
+set(divided common/io common/label MMMConverterS2KF)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")
 string(REPLACE "|" ";" folders_of_layers "${layers};common/dynamics")
@@ -117,6 +119,8 @@ macro(count_in_room)
   layer_of(${file} room)
   if(room MATCHES "^(plugins|tests)$")
     string(REGEX MATCH "^${room}/[^/]+" room ${file})
+  elseif(room MATCHES "^common/label/")
+    set(room common/label)
   endif()
   if(room)
     list(APPEND rooms ${room})

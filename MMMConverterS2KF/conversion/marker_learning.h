@@ -8,7 +8,7 @@
 #include "MMMConverterS2KF/input/converter_choice.h"
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
-#include "common/label/learn_markers.h"
+#include "common/label/learn/learn_markers.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

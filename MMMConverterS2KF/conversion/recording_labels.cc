@@ -13,7 +13,7 @@
 #include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "common/convert/marker_set.h"
 #include "common/fit/posture_search.h"
-#include "common/label/label_recording.h"
+#include "common/label/track/label_recording.h"
 #include "common/support/error.h"
 #include "common/support/folder.h"
 #include "common/support/output_plan.h"

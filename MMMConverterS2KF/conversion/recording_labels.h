@@ -11,8 +11,8 @@
 #include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/input/person.h"
 #include "common/convert/tracking_setup.h"
-#include "common/label/labelling.h"
-#include "common/label/relabelled.h"
+#include "common/label/track/labelling.h"
+#include "common/label/track/relabelled.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

@@ -25,7 +25,7 @@
 #include "MMMConverterS2KF/report/report.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
-#include "common/label/relabelled.h"
+#include "common/label/track/relabelled.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter::python {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/label/body_search.h"
+#include "common/label/search/body_search.h"
 #include "common/live/any_processor.h"
 
 namespace mmm_converter {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/label/label_body.h"
-#include "common/label/label_tracker.h"
+#include "common/label/search/label_body.h"
+#include "common/label/track/label_tracker.h"
 
 namespace mmm_converter {
 

@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "common/fit/posture_search.h"
-#include "common/label/body_search.h"
-#include "common/label/label_body.h"
-#include "common/label/label_recording.h"
-#include "common/label/label_tracker.h"
+#include "common/label/search/body_search.h"
+#include "common/label/search/label_body.h"
+#include "common/label/track/label_recording.h"
+#include "common/label/track/label_tracker.h"
 #include "common/math/seeded_random.h"
 #include "common/support/error.h"
 #include "common/support/parallel.h"

@@ -12,7 +12,7 @@
 #include "common/calibrate/calibration.h"
 #include "common/convert/converter_config.h"
 #include "common/io/recording/recording.h"
-#include "common/label/label_body.h"
+#include "common/label/search/label_body.h"
 #include "common/math/seeded_random.h"
 #include "common/support/error.h"
 #include "common/support/parallel.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
-#include "common/label/label_recording.h"
+#include "common/label/track/label_recording.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter {

@@ -8,7 +8,8 @@ set(licence "// SPDX-License-Identifier: MIT\n")
 function(write_good_tree)
   file(REMOVE_RECURSE ${WORK_DIR})
   foreach(folder common/support common/model common/motion common/io common/io/bytes common/io/c3d common/io/mmm
-                 common/io/recording common/dynamics plugins/one plugins/two MMMConverterS2KF MMMConverterS2KF/input
+                 common/io/recording common/dynamics common/label/search common/label/track
+                 common/label/learn plugins/one plugins/two MMMConverterS2KF MMMConverterS2KF/input
                  MMMConverterS2KF/conversion MMMConverterS2KF/comparison MMMConverterS2KF/dynamics MMMConverterS2KF/report
                  examples tests)
     file(WRITE ${WORK_DIR}/${folder}/used.h "${licence}#include <Eigen/Core>\n#include <vector>\n")
@@ -59,6 +60,12 @@ expect_fault(common/io/c3d/a.cc "${licence}#include \"common/io/recording/used.h
              "common/io/c3d must not include common/io/recording")
 expect_fault(common/io/c3d/a.cc "${licence}#include \"common/io/mmm/used.h\"\n"
              "common/io/c3d must not include common/io/mmm")
+expect_fault(common/label/a.h "${licence}#include \"common/label/search/used.h\"\n"
+             "common/label must not include common/label/search")
+expect_fault(common/label/search/a.h "${licence}#include \"common/label/track/used.h\"\n"
+             "common/label/search must not include common/label/track")
+expect_fault(common/label/learn/a.h "${licence}#include \"common/label/track/used.h\"\n"
+             "common/label/learn must not include common/label/track")
 expect_fault(MMMConverterS2KF/conversion/a.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n"
              "MMMConverterS2KF/conversion must not include MMMConverterS2KF/report")
 expect_fault(MMMConverterS2KF/dynamics/a.cc "${licence}#include \"MMMConverterS2KF/comparison/used.h\"\n"
@@ -94,3 +101,9 @@ foreach(room common/convert plugins/two tests/cli)
   file(WRITE ${WORK_DIR}/${room}/README.md "")
   expect_output("")
 endforeach()
+
+write_good_tree()
+foreach(folder search track learn)
+  file(WRITE ${WORK_DIR}/common/label/${folder}/a.cc "${licence}${comment}")
+endforeach()
+expect_output("common/label: a room of 10[0-9][0-9] lines has no README.md")

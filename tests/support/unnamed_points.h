@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/label/labelling.h"
+#include "common/label/track/labelling.h"
 #include "common/motion/marker_sequence.h"
 
 namespace mmm_converter::testing {

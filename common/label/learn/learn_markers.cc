@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "common/label/learn/learn_markers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "common/label/learn/body_sites.h"
+#include "common/label/learn/computed_points.h"
+#include "common/label/learn/learn_doubts.h"
+#include "common/label/learn/learn_frames.h"
+#include "common/label/learn/learned_places.h"
+#include "common/label/learn/usual_names.h"
+#include "common/label/search/body_search.h"
+#include "common/support/error.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+
+namespace {
+
+constexpr int kFewestLabels = 10;
+constexpr int kSearched = 8;         // frames that the body is looked for in
+constexpr double kAnyPlace = 0.045;  // [m] of others' markers from the model's
+constexpr double kOwnCost = 1;       // of a marker, where the set is the model's own
+constexpr double kFewFrames = 2, kMoreFrames = 5, kAllFrames = 15;  // that count each for itself
+
+/// The model's markers but for those at the ends of limbs, one of each is enough: hardly any set
+/// has several, and they would be looked for among the markers above.
+std::vector<MarkerAssignment> UsualMarkers(const BodySites& sites) {
+  std::vector<int> chosen;
+  for (int s = 0; s < static_cast<int>(sites.sites().size()); ++s) {
+    const BodySite& site = sites.sites()[s];
+    const bool is_last = std::none_of(sites.sites().begin(), sites.sites().end(),
+                                      [s](const BodySite& other) { return other.parent == s; });
+    const std::size_t count = is_last && site.mirror >= 0 ? 1 : site.markers.size();
+    for (std::size_t i = 0; i < count; ++i) chosen.push_back(site.markers[i]);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<MarkerAssignment> assignments;
+  assignments.reserve(chosen.size());
+  for (const int m : chosen) assignments.push_back({LabelIx(m), MarkerIx(m), 1.0});
+  return assignments;
+}
+
+std::vector<MarkerAssignment> AllMarkers(const KinematicModel& model) {
+  std::vector<MarkerAssignment> assignments;
+  assignments.reserve(model.markers().size());
+  for (int m = 0; m < static_cast<int>(model.markers().size()); ++m) {
+    assignments.push_back({LabelIx(m), MarkerIx(m), 1.0});
+  }
+  return assignments;
+}
+
+LabelBody MakeBody(const BodySites& sites, std::vector<MarkerAssignment> assignments) {
+  TrackingSetup setup;
+  setup.model = std::make_shared<const KinematicModel>(sites.model());
+  setup.joints = sites.joints();
+  setup.mapping.assignments = std::move(assignments);
+  return LabelBody(setup);
+}
+
+/// Finds the body in a frame: with the model's own markers, if it wears these, or with others.
+class AnyBodySearch {
+ public:
+  explicit AnyBodySearch(const BodySites& sites)
+      : own_body_(MakeBody(sites, AllMarkers(sites.model()))),
+        other_body_(MakeBody(sites, UsualMarkers(sites))),
+        own_(own_body_, LimbThrows::kWithWholeBody),
+        other_((other_body_.place.setConstant(kAnyPlace), other_body_),
+               LimbThrows::kWithWholeBody) {}
+
+  Posture Find(const Matrix3Xd& points) {
+    if (points.cols() >= own_body_.num_markers()) {
+      const BodyMatch match = own_.Find(points);
+      if (match.matched == own_body_.num_markers() && match.cost < kOwnCost * match.matched) {
+        return match.posture;
+      }
+    }
+    return other_.Find(points).posture;
+  }
+
+ private:
+  LabelBody own_body_, other_body_;
+  BodySearch own_, other_;
+};
+
+/// The best of what comes of the body as it is found in several frames.
+std::unique_ptr<LearnedPlaces> LearnFromStarts(const BodySites& sites,
+                                               const std::vector<LearnFrame>& frames,
+                                               const MatrixXd& deviations,
+                                               const Eigen::MatrixXi& named,
+                                               const std::function<void(int, int)>& progress) {
+  AnyBodySearch search(sites);
+  std::unique_ptr<LearnedPlaces> best;
+  for (int i = 0; i < kSearched; ++i) {
+    const auto k = static_cast<int>((2 * i + 1) * frames.size() / (2 * kSearched));
+    const Matrix3Xd points = SeenPoints(frames[k]);
+    if (points.cols() < kFewestLabels) continue;
+    auto learned = std::make_unique<LearnedPlaces>(sites, frames, deviations, named);
+    learned->Start(k, search.Find(points));
+    learned->Iterate(2, kFewFrames);
+    learned->Iterate(2, kMoreFrames);
+    learned->Iterate(2, kAllFrames);
+    if (!best || learned->cost() < best->cost()) best = std::move(learned);
+    if (progress) progress(i + 1, kSearched + 1);
+  }
+  if (!best) {
+    throw Error(fmt::format("no frame shows {} labels, so that nobody is found", kFewestLabels));
+  }
+  best->Iterate(20, kAllFrames);
+  best->AllowForSkinAtJoints();
+  return best;
+}
+
+/// Moves labels to sites nearby as long as that is better, and tells how much worse the next best
+/// site of each is.
+class Mover {
+ public:
+  Mover(const BodySites& sites, const MatrixXd& deviations, std::unique_ptr<LearnedPlaces> learned)
+      : sites_(sites), deviations_(deviations), learned_(std::move(learned)) {}
+
+  void Run() {
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds && TryAll(); ++round) {
+      learned_->Iterate(1, kAllFrames);
+      learned_->AllowForSkinAtJoints();
+    }
+  }
+
+  const LearnedPlaces& learned() const { return *learned_; }
+  /// By label.
+  const std::vector<double>& leads() const { return leads_; }
+
+ private:
+  bool TryAll() {
+    constexpr double kMostLead = 60;
+    leads_.assign(learned_->places().size(), kMostLead);
+    Stay();
+    bool is_better = false;
+    for (const std::vector<int>& group : RigidGroups(learned_->SitesOfLabels(), deviations_)) {
+      if (group.size() > 1) is_better |= TryGroup(group);
+    }
+    for (int l = 0; l < static_cast<int>(leads_.size()); ++l) {
+      if (learned_->places()[l].site >= 0) is_better |= TryGroup({l});
+    }
+    return is_better;
+  }
+
+  void Stay() {
+    stays_ = learned_->Moved({}, -1, kTurns)->cost();
+    group_stays_ = learned_->Moved({}, -1, kTurnsOfGroups)->cost();
+  }
+
+  bool TryGroup(const std::vector<int>& group) {
+    constexpr double kLeastGain = 0.5;
+    constexpr double kHopeless = 60;  // of a label
+    const int site = learned_->places()[group.front()].site;
+    for (const int other : sites_.Neighbours(site)) {
+      double more = 0;
+      for (const int l : group) more += learned_->costs()(l, other) - learned_->costs()(l, site);
+      if (more > kHopeless * static_cast<double>(group.size())) continue;
+      const bool is_single = group.size() == 1;
+      auto moved = learned_->Moved(group, other, is_single ? kTurns : kTurnsOfGroups);
+      const double lead = moved->cost() - (is_single ? stays_ : group_stays_);
+      for (const int l : group) leads_[l] = std::min(leads_[l], lead);
+      if (lead > -kLeastGain) continue;
+      learned_ = std::move(moved);
+      Stay();
+      return true;
+    }
+    return false;
+  }
+
+  static constexpr int kTurns = 3, kTurnsOfGroups = 8;
+  const BodySites& sites_;
+  const MatrixXd& deviations_;
+  std::unique_ptr<LearnedPlaces> learned_;
+  std::vector<double> leads_;
+  double stays_ = 0, group_stays_ = 0;  // what it costs if nothing moves
+};
+
+/// Makes points that are no markers unseen.
+void LeaveOut(const std::vector<std::string>& reasons, std::vector<LearnFrame>* frames) {
+  for (std::size_t l = 0; l < reasons.size(); ++l) {
+    if (reasons[l].empty()) continue;
+    for (LearnFrame& frame : *frames) frame.z.col(static_cast<Eigen::Index>(l)).setConstant(kNaN);
+  }
+}
+
+/// Of the frames that show most the one that is nearest to all angles 0.
+void ShowOneFrame(const LearnedPlaces& learned, LearnedMarkers* result) {
+  double best = -1;
+  for (const LearnFrame& frame : learned.frames()) {
+    if (frame.posture.joint_angles.size() == 0) continue;
+    const auto seen = static_cast<double>(frame.z.row(0).array().isFinite().count());
+    const double score = seen / (1 + 0.05 * frame.posture.joint_angles.norm());
+    if (score <= best) continue;
+    best = score;
+    result->posture = frame.posture;
+    result->points = frame.z;
+  }
+}
+
+}  // namespace
+
+LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>& joints,
+                            const std::vector<const MarkerSequence*>& recordings,
+                            const std::function<void(int, int)>& progress) {
+  const CommonLabels labels = FindCommonLabels(recordings);
+  std::vector<LearnFrame> frames = ChooseLearnFrames(recordings, labels);
+  const std::vector<std::string> computed = WhyNoMarkers(labels.names, frames);
+  LeaveOut(computed, &frames);
+  const auto count = std::count(computed.begin(), computed.end(), "");
+  if (count < kFewestLabels) {
+    throw Error(fmt::format("{} markers are too few to find a body; at least {} are needed", count,
+                            kFewestLabels));
+  }
+  const BodySites sites(model, joints);
+  const Eigen::MatrixXi named = WhatNamesSay(labels.names, sites);
+  const MatrixXd deviations = DistanceDeviations(frames);
+  Mover mover(sites, deviations, LearnFromStarts(sites, frames, deviations, named, progress));
+  mover.Run();
+  const LearnedPlaces& learned = mover.learned();
+  LearnedMarkers result;
+  result.mean_distance = learned.mean_distance();
+  result.frames = static_cast<int>(frames.size());
+  for (std::size_t l = 0; l < labels.names.size(); ++l) {
+    const WornPlace& worn = learned.places()[l];
+    LearnedMarker& marker = result.markers.emplace_back();
+    marker.label = labels.names[l];
+    marker.left_out = computed[l];
+    if (worn.site < 0) {
+      if (marker.left_out.empty()) marker.left_out = "hardly seen";
+      continue;
+    }
+    const auto [node, p_SM] = sites.OnUsualNode(worn.site, worn.p_SM);
+    marker.segment = model.segments()[node].name;
+    marker.p_SM = p_SM;
+    marker.scatter = worn.scatter;
+    marker.probability = 1 / (1 + std::exp(-std::min(mover.leads()[l], worn.lead)));
+  }
+  LeaveOutDoubtful({sites, learned, deviations, labels.names, named}, &result);
+  ShowOneFrame(learned, &result);
+  if (progress) progress(kSearched + 1, kSearched + 1);
+  return result;
+}
+
+}  // namespace mmm_converter

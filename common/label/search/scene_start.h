@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/label/search/body_match.h"
+#include "common/label/search/label_body.h"
+
+namespace mmm_converter {
+
+/// Where bodies were found: their points are those of that frame.
+struct SceneStart {
+  int frame = 0;
+  std::vector<BodyMatch> matches;  ///< by body
+};
+
+/// Looks for bodies among points without names: in frames that show many points, spread over the
+/// recording. Several bodies are looked for
+/// in the parts that a frame's points fall into. frames: 3 x points [m]. The frame in which all
+/// together match best is the first of the result.
+/// @throws Error where no frame shows half of each body's markers.
+std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
+                                  const std::vector<Eigen::Matrix3Xd>& frames);
+
+}  // namespace mmm_converter

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Labels that mean nothing: those of made persons and of real recordings, renamed and shuffled.
+
+#include "common/label/learn/learn_markers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/convert/converter_config.h"
+#include "common/io/recording/recording.h"
+#include "common/label/learn/body_sites.h"
+#include "common/math/seeded_random.h"
+#include "common/support/error.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/synthetic_person.h"
+
+namespace mmm_converter::testing {
+namespace {
+
+constexpr double kWearerHeight = 1.78;
+
+struct Renamed {
+  MarkerSequence recording;  // m1, m2, ...
+  std::vector<int> from;     // by label, column of the recording that was renamed
+};
+
+Renamed Rename(const MarkerSequence& recording, std::uint64_t seed) {
+  Renamed renamed;
+  renamed.from.resize(static_cast<std::size_t>(recording.num_labels()));
+  std::iota(renamed.from.begin(), renamed.from.end(), 0);
+  SeededRandom random(seed);
+  for (std::size_t i = renamed.from.size(); i > 1; --i) {
+    std::swap(renamed.from[i - 1], renamed.from[random.UniformIndex(static_cast<int>(i))]);
+  }
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < renamed.from.size(); ++i) {
+    labels.push_back("m" + std::to_string(i + 1));
+  }
+  renamed.recording = MarkerSequence(labels, recording.num_frames(), recording.rate(), 0);
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    renamed.recording.frame(k) = recording.frame(k)(Eigen::all, renamed.from);
+  }
+  return renamed;
+}
+
+struct SiteScore {
+  int right = 0, wrong = 0, other_side = 0, left_out = 0;
+};
+
+// truth: the segment of each column; empty: not known.
+SiteScore ScoreOf(const KinematicModel& model, const std::vector<int>& joints,
+                  const LearnedMarkers& learned, const Renamed& renamed,
+                  const std::vector<std::string>& truth) {
+  const BodySites sites(model, joints);
+  const auto site_of = [&](const std::string& segment) {
+    const int node = model.FindSegment(segment);
+    for (const BodySite& site : sites.sites()) {
+      if (std::count(site.nodes.begin(), site.nodes.end(), node) > 0) return &site;
+    }
+    return static_cast<const BodySite*>(nullptr);
+  };
+  SiteScore score;
+  for (std::size_t i = 0; i < learned.markers.size(); ++i) {
+    const LearnedMarker& marker = learned.markers[i];
+    const std::string& true_segment = truth[renamed.from[i]];
+    if (true_segment.empty()) continue;
+    if (!marker.left_out.empty()) {
+      ++score.left_out;
+      continue;
+    }
+    const BodySite* const found = site_of(marker.segment);
+    const BodySite* const right = site_of(true_segment);
+    ++(found == right ? score.right : score.wrong);
+    if (found != nullptr && right != nullptr && !found->side.empty() && !right->side.empty() &&
+        found->side != right->side) {
+      ++score.other_side;
+    }
+    if (found != right) {
+      ADD_FAILURE() << renamed.from[i] << " (" << true_segment << ") on " << marker.segment;
+    }
+  }
+  return score;
+}
+
+std::vector<std::string> SegmentsOf(const KinematicModel& model, int labels,
+                                    const std::vector<MarkerAssignment>& assignments) {
+  std::vector<std::string> segments(static_cast<std::size_t>(labels));
+  for (const MarkerAssignment& one : assignments) {
+    segments[one.label] = model.segments()[model.markers()[one.marker].segment].name;
+  }
+  return segments;
+}
+
+SiteScore LearnMadePerson(std::uint64_t seed) {
+  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
+  const KinematicModel person = FitToSubject(model, DrawPerson(model, seed));
+  const MarkerSequence recorded = RecordPerson(person, RangeOfMotion(model, 6, 0.6, seed), seed);
+  const Renamed renamed = Rename(recorded, seed);
+  const std::vector<int> joints = TrackedJoints(model);
+  const LearnedMarkers learned = LearnMarkers(model, joints, {&renamed.recording}, {});
+  return ScoreOf(model, joints, learned, renamed,
+                 SegmentsOf(model, recorded.num_labels(), AssignAll(model, recorded)));
+}
+
+TEST(LearnMarkersTest, AMadePersonsMarkersAreOnTheRightSegmentsOrLeftOut) {
+  for (const std::uint64_t seed : {921, 922}) {
+    SCOPED_TRACE(seed);
+    const SiteScore score = LearnMadePerson(seed);
+    EXPECT_EQ(score.wrong, 0);
+    EXPECT_EQ(score.other_side, 0);
+    EXPECT_GE(score.right, 43);
+  }
+}
+
+SiteScore LearnReal(const std::string& file, double height) {
+  const Recording recording = ReadRecording(SharedData(file), {});
+  const KinematicModel model = ScaledReferenceModel(height);
+  ConverterConfig config;
+  const auto reference = std::make_shared<const KinematicModel>(model);
+  const TrackingSetup setup = MatchMarkers(LabelsOf(recording.markers), reference, config);
+  const Renamed renamed = Rename(recording.markers, 5);
+  const LearnedMarkers learned = LearnMarkers(model, setup.joints, {&renamed.recording}, {});
+  return ScoreOf(model, setup.joints, learned, renamed,
+                 SegmentsOf(model, recording.markers.num_labels(), setup.assignments()));
+}
+
+TEST(LearnMarkersTest, KitsSet) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const SiteScore score = LearnReal("recordings/kit_bimanual_c3d/Close_1723.c3d", 1.68);
+  EXPECT_EQ(score.other_side, 0);
+  EXPECT_GE(score.right, 50);
+}
+
+TEST(LearnMarkersTest, PluginGait) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const SiteScore score = LearnReal("recordings/whole_body/kinematics_tennis_serve.c3d", 1.63);
+  EXPECT_EQ(score.other_side, 0);
+  EXPECT_GE(score.right, 35);
+}
+
+TEST(LearnMarkersTest, TooFewLabels) {
+  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
+  const MarkerSequence recording({"a", "b", "c"}, 10, 100, 0);
+  EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
+}
+
+TEST(LearnMarkersTest, NothingIsSeen) {
+  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
+  std::vector<std::string> labels;
+  for (int i = 0; i < 12; ++i) labels.push_back("m" + std::to_string(i));
+  const MarkerSequence recording(labels, 10, 100, 0);
+  EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
+}
+
+}  // namespace
+}  // namespace mmm_converter::testing
