@@ -26,7 +26,7 @@ struct JournalHeader {
 };
 
 /// The file that a motion is kept in while it comes: beside it, called as it + ".live". A line a
-/// frame (README.md); what is there survives the process.
+/// frame (README.md); what is written is safe if the program crashes.
 std::string JournalOf(const std::string& output);
 
 /// Writes frames into a journal, at least twice a second.

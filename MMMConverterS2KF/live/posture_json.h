@@ -7,7 +7,7 @@
 
 namespace mmm_converter {
 
-/// What a WebSocket client gets of a body before its postures (README.md).
+/// What a WebSocket client gets of a body before its postures (../README.md).
 std::string FormatBody(const LiveBody& body);
 
 /// One posture. with_segments: with the pose of every segment too.
