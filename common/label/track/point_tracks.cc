@@ -11,10 +11,10 @@ namespace mmm_converter {
 
 namespace {
 
-constexpr double kAcceleration = 80;  // [m/s^2] of a quick hand or foot
-constexpr double kNearby = 0.006;     // [m]
-constexpr double kFarthest = 0.12;    // [m]
-constexpr double kClearly = 3;        // times nearer than the next, beyond the slack
+constexpr double kAcceleration = 80;   // [m/s^2] of a quick hand or foot
+constexpr double kNearby = 0.006;      // [m]
+constexpr double kLongestStep = 0.12;  // [m] between two frames
+constexpr double kClearly = 3;         // times nearer than the next, beyond the slack
 
 FramePoints PointsOf(const MarkerSequence& recording, int k) {
   FramePoints points;
@@ -45,7 +45,7 @@ bool PointFollower::Nearest::IsClear() const { return next > kClearly * distance
 
 const std::vector<int>& PointFollower::Follow(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                                               double dt) {
-  const double reach = std::min(kNearby + 0.5 * kAcceleration * dt * dt, kFarthest);
+  const double reach = std::min(kNearby + 0.5 * kAcceleration * dt * dt, kLongestStep);
   const double farthest2 = Square(kClearly * reach + kNearby);  // beyond, nothing is in doubt
   forward_.assign(static_cast<std::size_t>(last_.cols()), {});
   backward_.assign(static_cast<std::size_t>(points.cols()), {});
