@@ -163,7 +163,35 @@ std::string FormatEvents(const std::vector<C3dEvent>& events) {
   return text;
 }
 
-std::string FormatPlates(const std::vector<C3dForcePlate>& plates) {
+const PlateForces* ForcesOf(const RecordedForces& forces, std::size_t plate) {
+  for (const PlateForces& one : forces.plates) {
+    if (one.plate.number == static_cast<int>(plate) + 1) return &one;
+  }
+  return nullptr;
+}
+
+/// Of a sample, counted as markers' frames are from the beginning of the capture [s].
+double TimeOf(int sample, const C3dLayout& layout, const RecordedForces& forces) {
+  const double start = layout.rate > 0 ? (layout.first_frame - 1) / layout.rate : 0;
+  return start + (forces.rate > 0 ? sample / forces.rate : 0);
+}
+
+std::string FormatLoads(const PlateForces& plate, const C3dLayout& layout,
+                        const RecordedForces& forces) {
+  std::string text =
+      fmt::format("     at most {:.0f} N, {}", plate.largest_load,
+                  plate.is_seen_unloaded ? fmt::format("unloaded {:.1f} N", plate.unloaded_level)
+                                         : "never unloaded");
+  for (std::size_t i = 0; i < plate.loads.size(); ++i) {
+    text += fmt::format("{} {:.3f} to {:.3f} s", i == 0 ? "; loaded" : ",",
+                        TimeOf(plate.loads[i].begin, layout, forces),
+                        TimeOf(plate.loads[i].end, layout, forces));
+  }
+  return text + "\n";
+}
+
+std::string FormatPlates(const C3dLayout& layout, const C3dDetails& details) {
+  const std::vector<C3dForcePlate>& plates = details.plates;
   std::string text =
       plates.empty() ? "plates     none\n" : fmt::format("plates     {}\n", plates.size());
   for (std::size_t i = 0; i < plates.size(); ++i) {
@@ -177,19 +205,39 @@ std::string FormatPlates(const std::vector<C3dForcePlate>& plates) {
       }
     }
     text += "\n";
+    if (const PlateForces* forces = ForcesOf(details.forces, i)) {
+      text += FormatLoads(*forces, layout, details.forces);
+    }
   }
   return text;
 }
 
-Json PlatesJson(const std::vector<C3dForcePlate>& plates) {
+void AddLoads(const PlateForces& plate, const C3dLayout& layout, const RecordedForces& forces,
+              Json* json) {
+  Json loads = Json::array();
+  for (const LoadInterval& load : plate.loads) {
+    loads.push_back({{"begin_s", Number(TimeOf(load.begin, layout, forces))},
+                     {"end_s", Number(TimeOf(load.end, layout, forces))}});
+  }
+  (*json)["largest_load_N"] = Number(plate.largest_load);
+  (*json)["unloaded_N"] = plate.is_seen_unloaded ? Number(plate.unloaded_level) : Json(nullptr);
+  (*json)["reversed"] = plate.is_reversed;
+  (*json)["tells_contact"] = plate.tells_contact;
+  (*json)["loads"] = std::move(loads);
+}
+
+Json PlatesJson(const C3dLayout& layout, const C3dDetails& details) {
   Json list = Json::array();
-  for (const C3dForcePlate& plate : plates) {
+  for (const C3dForcePlate& plate : details.plates) {
     Json corners = nullptr;
     for (int c = 0; plate.corners && c < 4; ++c) {
       const Eigen::Vector3d p = plate.corners->col(c);
       corners.push_back({Number(p.x()), Number(p.y()), Number(p.z())});
     }
     list.push_back({{"type", plate.type}, {"channels", plate.channels}, {"corners", corners}});
+    if (const PlateForces* forces = ForcesOf(details.forces, list.size() - 1)) {
+      AddLoads(*forces, layout, details.forces, &list.back());
+    }
   }
   return list;
 }
@@ -213,7 +261,8 @@ C3dDetails ReadC3dDetails(C3dFile* file, Warnings* warnings) {
   details.outputs = C3dOutputNames(*file);
   details.analog = ReadC3dAnalog(*file, warnings);
   details.events = ReadC3dEvents(*file, warnings);
-  details.plates = ReadC3dForcePlates(file->parameters(), warnings);
+  details.plates = ReadC3dForcePlates(file->parameters(), nullptr);
+  if (!details.plates.empty()) details.forces = ReadForces(file->path(), warnings);
   details.points = CountC3dPoints(file);
   return details;
 }
@@ -235,7 +284,7 @@ std::string FormatC3dDetails(const C3dFile& file, const C3dDetails& details) {
   if (total.measured > 0) {
     text += fmt::format("residual   {:.3g} on average, where one is stated\n", total.residual);
   }
-  return text + FormatAnalog(details.analog) + FormatPlates(details.plates) +
+  return text + FormatAnalog(details.analog) + FormatPlates(file.layout(), details) +
          FormatEvents(details.events) + FormatParameters(file.parameters());
 }
 
@@ -266,7 +315,7 @@ void AddC3dDetails(const C3dFile& file, const C3dDetails& details, Json* json) {
   (*json)["positions"] = CountsJson(Total(details.points));
   (*json)["points"] = std::move(points);
   (*json)["analog"] = AnalogJson(details.analog);
-  (*json)["force_plates"] = PlatesJson(details.plates);
+  (*json)["force_plates"] = PlatesJson(layout, details);
   (*json)["events"] = std::move(events);
   (*json)["parameters"] = ParametersJson(file.parameters());
 }

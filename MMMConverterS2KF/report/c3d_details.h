@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "MMMConverterS2KF/report/json.h"
+#include "common/forces/plate_forces.h"
 #include "common/io/c3d/c3d_analog.h"
 #include "common/io/c3d/c3d_events.h"
 #include "common/io/c3d/c3d_points.h"
@@ -20,6 +21,7 @@ struct C3dDetails {
   C3dAnalog analog;
   std::vector<C3dEvent> events;
   std::vector<C3dForcePlate> plates;
+  RecordedForces forces;  ///< of those plates that can be read
 };
 
 /// Reads the whole file once. @throws Error where it has become shorter meanwhile.

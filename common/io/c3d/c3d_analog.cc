@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t kMostPlates = 255;  // a dimension of a parameter
 constexpr std::size_t kCornerNumbers = 12;
 constexpr std::size_t kOriginNumbers = 3;
+constexpr std::size_t kCalibrationNumbers = 36;
+constexpr std::size_t kPolynomialNumbers = 12;
+constexpr std::size_t kZeroNumbers = 2;
 
 double AnalogRate(const C3dFile& file, int samples_per_frame) {
   const double stated = file.parameters().Number("ANALOG", "RATE").value_or(0);
@@ -159,7 +162,8 @@ std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, W
     const std::size_t per_plate =
         channels == nullptr || channels->dimensions.empty() ? 0 : channels->dimensions[0];
     for (const double channel : NumbersOf(channels, i, per_plate)) {
-      if (channel >= 1 && channel <= 65535) plate.channels.push_back(static_cast<int>(channel));
+      const bool is_number = channel >= 1 && channel <= 65535;
+      plate.channels.push_back(is_number ? static_cast<int>(channel) : 0);
     }
     const std::vector<double> numbers = NumbersOf(corners, i, kCornerNumbers);
     if (numbers.size() == kCornerNumbers) {
@@ -167,8 +171,26 @@ std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, W
     }
     const std::vector<double> origin = NumbersOf(origins, i, kOriginNumbers);
     if (origin.size() == kOriginNumbers) plate.origin = Eigen::Vector3d(origin.data());
+    const std::vector<double> calibration =
+        NumbersOf(parameters.Find("FORCE_PLATFORM", "CAL_MATRIX"), i, kCalibrationNumbers);
+    if (calibration.size() == kCalibrationNumbers) {
+      plate.calibration = Eigen::Map<const Eigen::Matrix<double, 6, 6>>(calibration.data());
+    }
+    const std::vector<double> polynomial =
+        NumbersOf(parameters.Find("FORCE_PLATFORM", "FPCOPPOLY"), i, kPolynomialNumbers);
+    if (polynomial.size() == kPolynomialNumbers) {
+      plate.cop_polynomial = Eigen::Map<const Eigen::Matrix<double, 6, 2>>(polynomial.data());
+    }
   }
   return plates;
+}
+
+std::optional<C3dZeroFrames> ReadC3dZeroFrames(const C3dParameters& parameters) {
+  const std::vector<double> frames =
+      NumbersOf(parameters.Find("FORCE_PLATFORM", "ZERO"), 0, kZeroNumbers);
+  if (frames.size() != kZeroNumbers || !(frames[1] >= 1) || frames[0] > frames[1]) return {};
+  if (!(frames[0] >= 0) || frames[1] > 65535) return {};
+  return C3dZeroFrames{std::max(1, static_cast<int>(frames[0])), static_cast<int>(frames[1])};
 }
 
 }  // namespace mmm_converter

@@ -34,12 +34,24 @@ Eigen::MatrixXd ReadC3dAnalogSamples(C3dFile* file, const C3dAnalog& analog);
 
 struct C3dForcePlate {
   int type = 0;               ///< FORCE_PLATFORM:TYPE; 0: not stated
-  std::vector<int> channels;  ///< counted from 1, as FORCE_PLATFORM:CHANNEL has them
+  std::vector<int> channels;  ///< FORCE_PLATFORM:CHANNEL, counted from 1; 0: is no channel's number
   /// A column for each corner, in the file's unit and axes; nothing: not stated.
   std::optional<Eigen::Matrix<double, 3, 4>> corners;
   /// In the file's unit and the plate's own axes; nothing: not stated.
   std::optional<Eigen::Vector3d> origin;
+  /// FORCE_PLATFORM:CAL_MATRIX: forces [N] and moments [N x file unit] are this times the channels.
+  std::optional<Eigen::Matrix<double, 6, 6>> calibration;
+  /// FORCE_PLATFORM:FPCOPPOLY: coefficients p1 to p6 of x, then those of y.
+  std::optional<Eigen::Matrix<double, 6, 2>> cop_polynomial;
 };
+
+/// Frames in which nobody is on the plates, counted from 1, both included.
+struct C3dZeroFrames {
+  int first = 1, last = 1;
+};
+
+/// FORCE_PLATFORM:ZERO. Nothing: not stated, or empty as [0, 0] and [1, 0] are.
+std::optional<C3dZeroFrames> ReadC3dZeroFrames(const C3dParameters& parameters);
 
 std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, Warnings* warnings);
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What files are known to hold wrong of a plate, found from where the loaded centre of pressure
+// lies.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "common/forces/plate_forces.h"
+
+namespace mmm_converter {
+
+/// Along the surface's normal, up, of each sample [N].
+Eigen::VectorXd VerticalForce(const PlateForces& forces);
+
+/// The vertical force of a plate that bears nobody [N]: the middle of the densest part of the
+/// samples near zero. Nothing: the plate is never unloaded.
+std::optional<double> UnloadedLevel(const Eigen::VectorXd& vertical);
+
+/// The unit of moments: the stated one, unless the loaded centre of pressure lies off the plate
+/// with it and on it with another.
+void CorrectUnits(const Eigen::MatrixXd& channels, ForcePlate* plate, Warnings* warnings);
+
+/// ORIGIN whose z is 0 stays, unless the loaded centre of pressure lies off the plate with it and
+/// on it with the reversed one.
+void CorrectOrigin(const Eigen::MatrixXd& channels, ForcePlate* plate, Warnings* warnings);
+
+/// Fills unloaded_level to loads; reverses forces that point down while somebody stands there.
+/// rate: of samples [Hz].
+void JudgeLoads(double rate, PlateForces* forces, Warnings* warnings);
+
+/// No centre of pressure where a moment's channel stands still while the plate is loaded.
+void LeaveOutSaturated(const Eigen::MatrixXd& channels, PlateForces* forces, Warnings* warnings);
+
+}  // namespace mmm_converter

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "common/forces/plate_checks.h"
+#include "common/forces/plate_forces.h"
+#include "common/io/c3d/c3d_file.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kLoadedBaseline = 15;  // [N] above the unloaded level: somebody is on the plate
+
+/// A row for each channel of the plate.
+Eigen::MatrixXd ChannelsOf(const ForcePlate& plate, const Eigen::MatrixXd& samples) {
+  Eigen::MatrixXd channels(static_cast<Eigen::Index>(plate.channels.size()), samples.cols());
+  for (std::size_t i = 0; i < plate.channels.size(); ++i) {
+    channels.row(static_cast<Eigen::Index>(i)) = samples.row(plate.channels[i]);
+  }
+  return channels;
+}
+
+/// Subtracts the mean of the frames in which the file says that nobody is on the plate.
+void SubtractBaseline(const ForcePlate& plate, const C3dZeroFrames& zero, int samples_per_frame,
+                      Eigen::MatrixXd* channels, Warnings* warnings) {
+  const Eigen::Index begin = Eigen::Index{zero.first - 1} * samples_per_frame;
+  const Eigen::Index end = std::min(Eigen::Index{zero.last} * samples_per_frame, channels->cols());
+  if (begin >= end) return;
+  const Eigen::VectorXd vertical = VerticalForce(ForcesOfPlate(plate, *channels));
+  const auto level = UnloadedLevel(vertical);
+  const double there = vertical.segment(begin, end - begin).mean();
+  if (level && std::abs(there - *level) > kLoadedBaseline) {
+    Warn(warnings, fmt::format("force plate {}: FORCE_PLATFORM:ZERO says that nobody is on it in "
+                               "frames {} to {}, but {:.0f} N are; no baseline is subtracted",
+                               plate.number, zero.first, zero.last, there - *level));
+    return;
+  }
+  const Eigen::VectorXd baseline = channels->middleCols(begin, end - begin).rowwise().mean();
+  if (baseline.allFinite()) channels->colwise() -= baseline;
+}
+
+PlateForces ReadPlate(ForcePlate plate, const Eigen::MatrixXd& samples, const RecordedForces& all,
+                      const std::optional<C3dZeroFrames>& zero, Warnings* warnings) {
+  Eigen::MatrixXd channels = ChannelsOf(plate, samples);
+  if (zero) SubtractBaseline(plate, *zero, all.samples_per_frame, &channels, warnings);
+  CorrectUnits(channels, &plate, warnings);
+  CorrectOrigin(channels, &plate, warnings);
+  PlateForces forces = ForcesOfPlate(plate, channels);
+  JudgeLoads(all.rate, &forces, warnings);
+  LeaveOutSaturated(channels, &forces, warnings);
+  return forces;
+}
+
+}  // namespace
+
+RecordedForces ReadForces(const std::string& path, Warnings* warnings) {
+  C3dFile file(path, nullptr);  // what there is to say of its points, their reader says
+  const WarningContext context(warnings, path);
+  RecordedForces forces;
+  const C3dAnalog analog = ReadC3dAnalog(file, nullptr);
+  std::vector<ForcePlate> plates = ReadForcePlates(file, analog, warnings);
+  forces.rate = analog.rate;
+  forces.samples_per_frame = std::max(analog.samples_per_frame, 1);
+  if (plates.empty()) return forces;
+  const Eigen::MatrixXd samples = ReadC3dAnalogSamples(&file, analog);
+  const auto zero = ReadC3dZeroFrames(file.parameters());
+  for (ForcePlate& plate : plates) {
+    forces.plates.push_back(ReadPlate(std::move(plate), samples, forces, zero, warnings));
+  }
+  return forces;
+}
+
+}  // namespace mmm_converter
