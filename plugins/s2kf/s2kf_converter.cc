@@ -25,7 +25,7 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
     : S2kfConverter(setup, settings, TrackedMarkers(setup)) {}
 
 S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings,
-                             TrackedMarkers worn)
+                             TrackedMarkers worn, Deviations deviations)
     : MotionConverter(setup),
       settings_(settings),
       markers_(setup),
@@ -33,6 +33,7 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
       tracker_(worn_, settings),
       frame_(worn_.kinematics()),
       covariance_(markers_, settings),
+      has_deviations_(deviations == Deviations::kOfEachFrame),
       of_model_(markers_.kinematics().MakeJacobian()) {
   own_deviations_.setZero(markers_.kinematics().num_dofs());
   estimate_.posture.joint_angles.setZero(setup.model->num_joints());
@@ -58,7 +59,7 @@ void S2kfConverter::FillEstimate(double dt) {
   markers_.kinematics().ComputeMarkers(frame_.posture.position,
                                        frame_.posture.orientation.toRotationMatrix(),
                                        frame_.posture.joint_angles, &of_model_);
-  if (!is_smoothed_) {
+  if (has_deviations_) {
     covariance_.Look(frame_.z, of_model_, dt);
     has_new_deviations_ = covariance_.IsDue();
     if (has_new_deviations_) {
@@ -148,16 +149,15 @@ ConversionResult S2kfConverter::Convert(const MarkerSequence& recording,
     if (rounds > 0) misplaced.Tell(&result);
     return result;
   }
-  if (!settings_.smoothing) return TrackAll(recording, progress);
-  OfflineTracker offline(recording, settings_, markers_, &tracker_);
-  // Also where progress cancels.
-  struct Reset {
-    bool& flag;
-    ~Reset() { flag = false; }
-  } const reset{is_smoothed_};
-  is_smoothed_ = true;
-  ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
-    offline.Keep(done - 1, track_, frame_);
+  return settings_.smoothing ? Smooth(recording, progress) : TrackAll(recording, progress);
+}
+
+ConversionResult S2kfConverter::Smooth(const MarkerSequence& recording,
+                                       const std::function<bool(int)>& progress) const {
+  S2kfConverter filter(setup(), settings_, worn_, Deviations::kLater);
+  OfflineTracker offline(recording, settings_, markers_, &filter.tracker_);
+  ConversionResult result = filter.MotionConverter::Convert(recording, [&](int done) {
+    offline.Keep(done - 1, filter.track_, filter.frame_);
     return !progress || progress(done);
   });
   offline.Smooth(keeps_covariances_, &result);

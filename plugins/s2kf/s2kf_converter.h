@@ -29,7 +29,10 @@ class S2kfConverter : public MotionConverter {
   bool KeepCovariances() override;
 
  private:
-  S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings, TrackedMarkers worn);
+  /// Whether an estimate has its deviations, or they come after the recording (OfflineTracker).
+  enum class Deviations { kOfEachFrame, kLater };
+  S2kfConverter(const TrackingSetup& setup, const S2kfSettings& settings, TrackedMarkers worn,
+                Deviations deviations = Deviations::kOfEachFrame);
 
   /// dt: since the last frame [s].
   void FillEstimate(double dt);
@@ -39,6 +42,8 @@ class S2kfConverter : public MotionConverter {
                              const std::function<bool(int)>& progress) const;
   ConversionResult TrackAll(const MarkerSequence& recording,
                             const std::function<bool(int)>& progress);
+  ConversionResult Smooth(const MarkerSequence& recording,
+                          const std::function<bool(int)>& progress) const;
 
   S2kfSettings settings_;
   TrackedMarkers markers_;  // as the model has them, which residuals are told against
@@ -47,7 +52,7 @@ class S2kfConverter : public MotionConverter {
   TrackState track_;
   TrackedFrame frame_;
   ReportedCovariance covariance_;
-  bool is_smoothed_ = false;  // the deviations come later
+  const bool has_deviations_;
   bool keeps_covariances_ = false;
   bool has_new_deviations_ = false;  // of this frame
   Eigen::VectorXd own_deviations_;   // of the filter, which takes all noise for white
