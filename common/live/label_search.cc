@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/label/search/body_search.h"
+#include "common/label/tuning.h"
 #include "common/live/any_processor.h"
 
 namespace mmm_converter {
@@ -13,10 +14,6 @@ namespace {
 constexpr std::size_t kRemembered = 64;  // clouds: 0.6 s of 100 Hz
 constexpr int kMostFrames = 3;           // that a body is looked for in, one after the other
 constexpr double kGoodCost = 1;          // of a marker: a ninth of what it costs without a point
-constexpr double kNear = 0.06;           // [m] that a posture which is right may be off
-constexpr double kGain = 20;             // of cost, by which another posture is better
-constexpr int kOtherNames = 3;           // that it gives
-constexpr int kRunning = 2;              // searches that say so
 
 }  // namespace
 
@@ -116,22 +113,19 @@ std::optional<LabelSearch::Found> LabelSearch::Search(const Job& job) {
   return Follow(job, best, best_number);
 }
 
-std::optional<LabelSearch::Found> LabelSearch::Doubt(const Job& job) {
+std::optional<LabelSearch::Found> LabelSearch::LookAnywhere(const Job& job) {
   BodySearch search(*job.body);
   PointCloud cloud;
   const std::int64_t number = Newest(&cloud);
   const BodyMatch other = search.Find(cloud.seen());
   BodyMatch own = search.Match(cloud.seen(), *job.posture);
-  BodyMatch near = search.FindNear(cloud.seen(), *job.posture, kNear);
+  BodyMatch near = search.FindNear(cloud.seen(), *job.posture, TrackTuning::kNearby);
   if (near.cost < own.cost) own = std::move(near);
   int others = 0;
   for (std::size_t m = 0; m < own.point_of_marker.size(); ++m) {
     if (own.point_of_marker[m] != other.point_of_marker[m]) ++others;
   }
-  const bool is_better = others >= kOtherNames && other.cost < own.cost - kGain;
-  doubts_ = is_better ? doubts_ + 1 : 0;
-  if (doubts_ < kRunning) return std::nullopt;
-  doubts_ = 0;
+  if (!watch_.IsReplaced(own.cost, other.cost, others)) return std::nullopt;
   return Follow(job, other, number);
 }
 
@@ -145,7 +139,7 @@ void LabelSearch::Run() {
       if (is_ending_) return;
       job = std::move(job_);
     }
-    std::optional<Found> found = job.posture ? Doubt(job) : Search(job);
+    std::optional<Found> found = job.posture ? LookAnywhere(job) : Search(job);
     {
       const std::lock_guard lock(mutex_);
       found_ = std::move(found);

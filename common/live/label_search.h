@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/label/search/label_body.h"
+#include "common/label/track/body_watch.h"
 #include "common/label/track/label_tracker.h"
 
 namespace mmm_converter {
@@ -74,7 +75,8 @@ class LabelSearch {
 
   void Run();
   std::optional<Found> Search(const Job& job);
-  std::optional<Found> Doubt(const Job& job);
+  /// For another posture than the job's.
+  std::optional<Found> LookAnywhere(const Job& job);
   Found Follow(const Job& job, const BodyMatch& match, std::int64_t number);
   /// A copy of the newest cloud, and its number.
   std::int64_t Newest(PointCloud* cloud);
@@ -91,7 +93,7 @@ class LabelSearch {
   std::atomic<bool> is_running_ = false;
   bool is_ending_ = false;
   bool is_dropped_ = false;  // of the thread that asks
-  int doubts_ = 0;           // running
+  BodyWatch watch_ = BodyWatch(WatchTuning::kLiveAnywhere);
   std::thread thread_;
 };
 

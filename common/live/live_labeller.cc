@@ -3,29 +3,26 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "common/label/tuning.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr int kFewest = 10;         // markers, and points to look for a body among
 constexpr double kLongestJump = 2;  // [s] between frames
-constexpr double kLost = 0.5;       // [s] in which less than half of the points fit
-constexpr double kDoubtEvery = 1;   // [s]
 
 }  // namespace
 
 LiveLabeller::LiveLabeller(const TrackingSetup& setup, bool waits)
     : body_(std::make_shared<const LabelBody>(setup)), waits_(waits) {
-  if (body_->num_markers() < kFewest) {
+  if (body_->num_markers() < BodyLimits::kFewestMarkers) {
     throw Error(
         fmt::format("a body with {} markers can't be found among points; at least {} are needed",
-                    body_->num_markers(), kFewest));
+                    body_->num_markers(), BodyLimits::kFewestMarkers));
   }
   for (const MarkerAssignment& assignment : setup.assignments()) {
     columns_.push_back(assignment.label);
@@ -64,12 +61,13 @@ void LiveLabeller::TakeFound(double time) {
   if (!found || found->time >= time || time - found->time > kLongestJump) return;
   following_ = std::move(found->body);
   followed_time_ = found->time;
-  seen_time_ = doubt_time_ = time;
+  is_look_due_ = false;
+  watch_.Restart();
 }
 
 void LiveLabeller::Follow(Eigen::Matrix3Xd* named) {
-  const std::vector<int>& points =
-      following_->tracker.Track(cloud_.seen(), cloud_.time - followed_time_);
+  const double dt = cloud_.time - followed_time_;
+  const std::vector<int>& points = following_->tracker.Track(cloud_.seen(), dt);
   followed_time_ = cloud_.time;
   int found = 0;
   for (std::size_t m = 0; m < points.size(); ++m) {
@@ -77,17 +75,16 @@ void LiveLabeller::Follow(Eigen::Matrix3Xd* named) {
     named->col(columns_[m]) = cloud_.points.col(points[m]);
     ++found;
   }
-  const int possible = std::max(kFewest, std::min(cloud_.count, body_->num_markers()));
-  if (2 * found >= possible) seen_time_ = cloud_.time;
-  if (cloud_.time - seen_time_ > kLost) Forget();
+  watch_.Count(found, cloud_.count, body_->num_markers(), dt);
+  is_look_due_ = watch_.IsLookDue(dt) || is_look_due_;
+  if (watch_.IsLost()) Forget();
 }
 
 void LiveLabeller::AskForSearch() {
-  if (search_.is_running() || cloud_.count < kFewest) return;
+  if (search_.is_running() || cloud_.count < BodyLimits::kFewestMarkers) return;
   if (!following_) {
     search_.Begin(body_, nullptr);
-  } else if (cloud_.time - doubt_time_ > kDoubtEvery) {
-    doubt_time_ = cloud_.time;
+  } else if (std::exchange(is_look_due_, false)) {
     search_.Begin(body_, &following_->tracker.belief().posture);
   }
 }

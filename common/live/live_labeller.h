@@ -43,8 +43,8 @@ class LiveLabeller {
   PointCloud cloud_;
   std::unique_ptr<BodyTracker> following_;
   double followed_time_ = 0;  // of the last cloud that it has seen [s]
-  double seen_time_ = 0;      // of the last one that showed the body
-  double doubt_time_ = 0;     // of the last search while it was followed
+  BodyWatch watch_ = BodyWatch(WatchTuning::kLive);
+  bool is_look_due_ = false;  // for another posture, since the last one
   LabelSearch search_;
 };
 

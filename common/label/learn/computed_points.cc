@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "common/io/recording/marker_labels.h"
+#include "common/label/tuning.h"
 #include "common/math/statistics.h"
 
 namespace mmm_converter {
@@ -18,11 +19,6 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr int kFewestCompared = 10;    // frames
-constexpr double kExactly = 1e-4;      // [m], rounding in files included
-constexpr double kShareOfSkin = 0.03;  // of how far the points vary that it is computed from
-constexpr std::size_t kNearest = 8;    // labels that a point can be computed from
 
 using Track = Matrix3Xd;  // 3 x frames; NaN: not seen
 
@@ -62,7 +58,7 @@ std::optional<double> VariationOf(const Track& a, const Track& b) {
     squares += d * d;
     ++count;
   }
-  if (count < kFewestCompared) return std::nullopt;
+  if (count < ComputedTuning::kFewestCompared) return std::nullopt;
   return std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
 }
 
@@ -75,7 +71,7 @@ double RadiusOf(const Matrix3Xd& p) {
     mean += one;
     ++count;
   }
-  if (count < kFewestCompared) return std::numeric_limits<double>::infinity();
+  if (count < ComputedTuning::kFewestCompared) return std::numeric_limits<double>::infinity();
   mean /= count;
   double largest = 0;
   for (const auto& one : p.colwise()) {
@@ -85,13 +81,14 @@ double RadiusOf(const Matrix3Xd& p) {
 }
 
 bool IsExact(double error, double variation) {
-  return error < kExactly && error < kShareOfSkin * variation;
+  return error < ComputedTuning::kExactly && error < ComputedTuning::kShareOfSkin * variation;
 }
 
 /// Whether a point is at the same share of the way between two others whose distance varies.
 bool IsBetween(const Track& p, const Track& a, const Track& b) {
   const auto variation = VariationOf(a, b);
-  if (!variation || *variation * kShareOfSkin < 1e-6) return false;
+  if (!variation || *variation * ComputedTuning::kShareOfSkin < ComputedTuning::kLeastSkin)
+    return false;
   const Track along = b - a;
   double dot = 0, square = 0;
   for (Eigen::Index k = 0; k < p.cols(); ++k) {
@@ -101,7 +98,7 @@ bool IsBetween(const Track& p, const Track& a, const Track& b) {
     square += along.col(k).squaredNorm();
   }
   const double share = square > 0 ? dot / square : 0;
-  if (share < 0.02 || share > 0.98) return false;
+  if (share < ComputedTuning::kAtAnEnd || share > 1 - ComputedTuning::kAtAnEnd) return false;
   const Eigen::VectorXd errors = (p - a - share * along).colwise().norm();
   const std::vector<double> values(errors.begin(), errors.end());
   const double error = Max(values);
@@ -149,7 +146,8 @@ class Functions {
       }
     }
     std::sort(by_variation.begin(), by_variation.end());
-    if (by_variation.size() > kNearest) by_variation.resize(kNearest);
+    if (by_variation.size() > ComputedTuning::kNearest)
+      by_variation.resize(ComputedTuning::kNearest);
     std::vector<int> nearest;
     nearest.reserve(by_variation.size());
     for (const auto& [unused, other] : by_variation) nearest.push_back(other);
@@ -185,7 +183,7 @@ class Functions {
     const auto ac = VariationOf(tracks_[a], tracks_[like]);
     if (!ab || !ac) return false;
     const double variation = std::max(*ab, *ac);
-    return variation * kShareOfSkin > 1e-6 &&
+    return variation * ComputedTuning::kShareOfSkin > ComputedTuning::kLeastSkin &&
            IsExact(RadiusOf(InAxesOf(tracks_[label], tracks_[a], tracks_[b], third)), variation);
   }
 
@@ -196,11 +194,10 @@ class Functions {
 /// By how points move: standing still, far away.
 void CheckMotion(const std::vector<Track>& tracks, const std::vector<LearnFrame>& frames,
                  std::vector<std::string>* why) {
-  constexpr double kStill = 5e-5, kMoving = 0.02, kFarAway = 3;  // [m]
   std::vector<double> radii, distances;
   radii.reserve(tracks.size());
   for (const Track& track : tracks) radii.push_back(RadiusOf(track));
-  const bool is_moving = Median(radii) > kMoving;
+  const bool is_moving = Median(radii) > ComputedTuning::kMoving;
   Track middle(3, static_cast<Eigen::Index>(frames.size()));
   for (std::size_t k = 0; k < frames.size(); ++k) {
     for (int i = 0; i < 3; ++i) {
@@ -211,10 +208,10 @@ void CheckMotion(const std::vector<Track>& tracks, const std::vector<LearnFrame>
   for (std::size_t l = 0; l < tracks.size(); ++l) {
     if (!(*why)[l].empty() || !std::isfinite(radii[l])) continue;
     const Eigen::VectorXd away = (tracks[l] - middle).colwise().norm();
-    if (is_moving && radii[l] < kStill) {
+    if (is_moving && radii[l] < ComputedTuning::kStill) {
       (*why)[l] = "stands still while the others move";
-    } else if (Median(std::vector<double>(away.begin(), away.end())) > kFarAway) {
-      (*why)[l] = fmt::format("more than {:g} m away from the others", kFarAway);
+    } else if (Median(std::vector<double>(away.begin(), away.end())) > ComputedTuning::kFarAway) {
+      (*why)[l] = fmt::format("more than {:g} m away from the others", ComputedTuning::kFarAway);
     }
   }
 }
@@ -234,8 +231,8 @@ std::vector<std::string> WhyNoMarkers(const std::vector<std::string>& labels,
     const auto same = std::find_if(others.begin(), others.end(), [&](int other) {
       const Eigen::VectorXd apart = (tracks[l] - tracks[other]).colwise().norm();
       const auto seen = apart.array().isFinite().count();
-      return seen >= kFewestCompared &&
-             Max(std::vector<double>(apart.begin(), apart.end())) < kExactly;
+      return seen >= ComputedTuning::kFewestCompared &&
+             Max(std::vector<double>(apart.begin(), apart.end())) < ComputedTuning::kExactly;
     });
     if (same != others.end()) {
       why[l] = fmt::format("always where {} is", labels[*same]);

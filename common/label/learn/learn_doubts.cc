@@ -7,12 +7,11 @@
 
 #include "common/label/learn/learn_frames.h"
 #include "common/label/learn/marker_names.h"
+#include "common/label/tuning.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
-
-constexpr double kSureOfSite = 0.9;
 
 std::string NameOfSite(const LearnEvidence& evidence, int site) {
   return evidence.sites.model().segments()[evidence.sites.sites()[site].segment].name;
@@ -22,34 +21,35 @@ std::string NameOfSite(const LearnEvidence& evidence, int site) {
 /// both sites are near, but for markers whose names say the same, and for those that keep their
 /// distances from one of these far better.
 std::string DoubtOf(const LearnEvidence& evidence, int label, double probability) {
-  constexpr double kClearly = 1, kFarBetter = 3, kRigidly = 0.004, kOutside = 0.03;
   const LearnedPlaces& learned = evidence.learned;
   const std::vector<int> of_labels = learned.SitesOfLabels();
   const int site = of_labels[label];
   const auto deviation_from = [&](int other) {
     return DeviationFrom(other, label, of_labels, evidence.deviations);
   };
-  const double own = deviation_from(site).value_or(kRigidly);
+  const double own = deviation_from(site).value_or(DoubtTuning::kRigidly);
   const auto prior = learned.prior_costs().row(label);
   const auto named = evidence.named.row(label);
   int usual = site;
   for (const int other : evidence.sites.Neighbours(site)) {
     const auto others = deviation_from(other);
-    const bool is_far_better = others && own<kRigidly&& * others> kFarBetter * own;
+    const bool is_far_better =
+        others && (own < DoubtTuning::kRigidly) && (*others > DoubtTuning::kFarBetter * own);
     const bool is_named = named[site] > 0 && named[other] < 0;
     if (!is_far_better && !is_named &&
-        prior[other] < std::min(prior[site] - kClearly, prior[usual])) {
+        prior[other] < std::min(prior[site] - DoubtTuning::kClearly, prior[usual])) {
       usual = other;
     }
   }
-  if (own > kRigidly && learned.DistanceBeyond(site, learned.places()[label].p_SM) > kOutside) {
+  if (own > DoubtTuning::kRigidly &&
+      learned.DistanceBeyond(site, learned.places()[label].p_SM) > DoubtTuning::kOutside) {
     return fmt::format("moves like {}, but too far from it", NameOfSite(evidence, site));
   }
   if (usual != site) {
     return fmt::format("moves like {}, but is where {} has its markers", NameOfSite(evidence, site),
                        NameOfSite(evidence, usual));
   }
-  if (probability < kSureOfSite) {
+  if (probability < DoubtTuning::kSure) {
     return fmt::format("on {} with a probability of {:.2f} only", NameOfSite(evidence, site),
                        probability);
   }

@@ -5,18 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "common/label/tuning.h"
 #include "common/math/statistics.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
 
 using Eigen::Matrix3Xd;
-
-namespace {
-
-constexpr int kLearnFrames = 60;
-
-}  // namespace
 
 CommonLabels FindCommonLabels(const std::vector<const MarkerSequence*>& recordings) {
   CommonLabels labels;
@@ -45,8 +40,9 @@ std::vector<LearnFrame> ChooseLearnFrames(const std::vector<const MarkerSequence
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const MarkerSequence& recording = *recordings[r];
     const double share = recording.num_frames() / recording.rate() / all;
-    const int count = std::min(recording.num_frames(),
-                               std::max(1, static_cast<int>(std::lround(kLearnFrames * share))));
+    const int count =
+        std::min(recording.num_frames(),
+                 std::max(1, static_cast<int>(std::lround(LearnFrameTuning::kFrames * share))));
     for (int i = 0; i < count; ++i) {
       const int begin = static_cast<int>(static_cast<long>(i) * recording.num_frames() / count);
       const int end = std::max(
@@ -88,7 +84,8 @@ Matrix3Xd SeenPoints(const LearnFrame& frame) {
 
 Eigen::MatrixXd DistanceDeviations(const std::vector<LearnFrame>& frames) {
   const Eigen::Index labels = frames.front().z.cols();
-  Eigen::MatrixXd deviations = Eigen::MatrixXd::Constant(labels, labels, 1e9);
+  Eigen::MatrixXd deviations =
+      Eigen::MatrixXd::Constant(labels, labels, LearnFrameTuning::kUnknown);
   std::vector<double> distances;
   for (Eigen::Index i = 0; i < labels; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -97,7 +94,7 @@ Eigen::MatrixXd DistanceDeviations(const std::vector<LearnFrame>& frames) {
         const double distance = (frame.z.col(i) - frame.z.col(j)).norm();
         if (std::isfinite(distance)) distances.push_back(distance);
       }
-      if (distances.size() < 5) continue;
+      if (distances.size() < LearnFrameTuning::kFewest) continue;
       const double spread = Percentile(distances, 95) - Percentile(distances, 5);
       deviations(i, j) = deviations(j, i) = spread / 3.3;
     }
@@ -119,7 +116,6 @@ std::optional<double> DeviationFrom(int site, int label, const std::vector<int>&
 
 std::vector<std::vector<int>> RigidGroups(const std::vector<int>& sites,
                                           const Eigen::MatrixXd& deviations) {
-  constexpr double kRigid = 0.006;  // [m]
   std::vector<std::vector<int>> groups;
   std::vector<char> is_done(sites.size(), 0);
   for (std::size_t l = 0; l < sites.size(); ++l) {
@@ -129,7 +125,7 @@ std::vector<std::vector<int>> RigidGroups(const std::vector<int>& sites,
     for (std::size_t g = 0; g < group.size(); ++g) {
       for (std::size_t o = 0; o < sites.size(); ++o) {
         if (is_done[o] || sites[o] != sites[l] ||
-            deviations(group[g], static_cast<Eigen::Index>(o)) > kRigid) {
+            deviations(group[g], static_cast<Eigen::Index>(o)) > LearnFrameTuning::kRigid) {
           continue;
         }
         is_done[o] = 1;

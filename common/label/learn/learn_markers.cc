@@ -14,6 +14,7 @@
 #include "common/label/learn/learned_places.h"
 #include "common/label/learn/usual_names.h"
 #include "common/label/search/body_search.h"
+#include "common/label/tuning.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 
@@ -23,12 +24,6 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 
 namespace {
-
-constexpr int kFewestLabels = 10;
-constexpr int kSearched = 8;         // frames that the body is looked for in
-constexpr double kAnyPlace = 0.045;  // [m] of others' markers from the model's
-constexpr double kOwnCost = 1;       // of a marker, where the set is the model's own
-constexpr double kFewFrames = 2, kMoreFrames = 5, kAllFrames = 15;  // that count each for itself
 
 /// The model's markers but for those at the ends of limbs, one of each is enough: hardly any set
 /// has several, and they would be looked for among the markers above.
@@ -71,14 +66,15 @@ class AnyBodySearch {
   explicit AnyBodySearch(const BodySites& sites)
       : own_body_(MakeBody(sites, AllMarkers(sites.model()))),
         other_body_(MakeBody(sites, UsualMarkers(sites))),
-        own_(own_body_, LimbThrows::kWithWholeBody),
-        other_((other_body_.place.setConstant(kAnyPlace), other_body_),
-               LimbThrows::kWithWholeBody) {}
+        own_(own_body_, LimbRestarts::kWithWholeBody),
+        other_((other_body_.place.setConstant(LearnTuning::kAnyPlace), other_body_),
+               LimbRestarts::kWithWholeBody) {}
 
   Posture Find(const Matrix3Xd& points) {
     if (points.cols() >= own_body_.num_markers()) {
       const BodyMatch match = own_.Find(points);
-      if (match.matched == own_body_.num_markers() && match.cost < kOwnCost * match.matched) {
+      if (match.matched == own_body_.num_markers() &&
+          match.cost < LearnTuning::kOwnCost * match.matched) {
         return match.posture;
       }
     }
@@ -98,22 +94,23 @@ std::unique_ptr<LearnedPlaces> LearnFromStarts(const BodySites& sites,
                                                const std::function<void(int, int)>& progress) {
   AnyBodySearch search(sites);
   std::unique_ptr<LearnedPlaces> best;
-  for (int i = 0; i < kSearched; ++i) {
-    const auto k = static_cast<int>((2 * i + 1) * frames.size() / (2 * kSearched));
+  for (int i = 0; i < LearnTuning::kSearched; ++i) {
+    const auto k = static_cast<int>((2 * i + 1) * frames.size() / (2 * LearnTuning::kSearched));
     const Matrix3Xd points = SeenPoints(frames[k]);
-    if (points.cols() < kFewestLabels) continue;
+    if (points.cols() < BodyLimits::kFewestMarkers) continue;
     auto learned = std::make_unique<LearnedPlaces>(sites, frames, deviations, named);
     learned->Start(k, search.Find(points));
-    learned->Iterate(2, kFewFrames);
-    learned->Iterate(2, kMoreFrames);
-    learned->Iterate(2, kAllFrames);
+    for (const double independent : LearnTuning::kIndependent) {
+      learned->Iterate(LearnTuning::kTurnsOfEach, independent);
+    }
     if (!best || learned->cost() < best->cost()) best = std::move(learned);
-    if (progress) progress(i + 1, kSearched + 1);
+    if (progress) progress(i + 1, LearnTuning::kSearched + 1);
   }
   if (!best) {
-    throw Error(fmt::format("no frame shows {} labels, so that nobody is found", kFewestLabels));
+    throw Error(fmt::format("no frame shows {} labels, so that nobody is found",
+                            BodyLimits::kFewestMarkers));
   }
-  best->Iterate(20, kAllFrames);
+  best->Iterate(LearnTuning::kTurnsAtLast, LearnTuning::kIndependent.back());
   best->AllowForSkinAtJoints();
   return best;
 }
@@ -126,9 +123,8 @@ class Mover {
       : sites_(sites), deviations_(deviations), learned_(std::move(learned)) {}
 
   void Run() {
-    constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds && TryAll(); ++round) {
-      learned_->Iterate(1, kAllFrames);
+    for (int round = 0; round < LearnTuning::kRounds && TryAll(); ++round) {
+      learned_->Iterate(1, LearnTuning::kIndependent.back());
       learned_->AllowForSkinAtJoints();
     }
   }
@@ -139,8 +135,7 @@ class Mover {
 
  private:
   bool TryAll() {
-    constexpr double kMostLead = 60;
-    leads_.assign(learned_->places().size(), kMostLead);
+    leads_.assign(learned_->places().size(), LearnTuning::kMostLead);
     Stay();
     bool is_better = false;
     for (const std::vector<int>& group : RigidGroups(learned_->SitesOfLabels(), deviations_)) {
@@ -153,23 +148,22 @@ class Mover {
   }
 
   void Stay() {
-    stays_ = learned_->Moved({}, -1, kTurns)->cost();
-    group_stays_ = learned_->Moved({}, -1, kTurnsOfGroups)->cost();
+    stays_ = learned_->Moved({}, -1, LearnTuning::kTurns)->cost();
+    group_stays_ = learned_->Moved({}, -1, LearnTuning::kTurnsOfGroups)->cost();
   }
 
   bool TryGroup(const std::vector<int>& group) {
-    constexpr double kLeastGain = 0.5;
-    constexpr double kHopeless = 60;  // of a label
     const int site = learned_->places()[group.front()].site;
     for (const int other : sites_.Neighbours(site)) {
       double more = 0;
       for (const int l : group) more += learned_->costs()(l, other) - learned_->costs()(l, site);
-      if (more > kHopeless * static_cast<double>(group.size())) continue;
+      if (more > LearnTuning::kHopeless * static_cast<double>(group.size())) continue;
       const bool is_single = group.size() == 1;
-      auto moved = learned_->Moved(group, other, is_single ? kTurns : kTurnsOfGroups);
+      auto moved = learned_->Moved(group, other,
+                                   is_single ? LearnTuning::kTurns : LearnTuning::kTurnsOfGroups);
       const double lead = moved->cost() - (is_single ? stays_ : group_stays_);
       for (const int l : group) leads_[l] = std::min(leads_[l], lead);
-      if (lead > -kLeastGain) continue;
+      if (lead > -LearnTuning::kLeastGain) continue;
       learned_ = std::move(moved);
       Stay();
       return true;
@@ -177,7 +171,6 @@ class Mover {
     return false;
   }
 
-  static constexpr int kTurns = 3, kTurnsOfGroups = 8;
   const BodySites& sites_;
   const MatrixXd& deviations_;
   std::unique_ptr<LearnedPlaces> learned_;
@@ -199,7 +192,7 @@ void ShowOneFrame(const LearnedPlaces& learned, LearnedMarkers* result) {
   for (const LearnFrame& frame : learned.frames()) {
     if (frame.posture.joint_angles.size() == 0) continue;
     const auto seen = static_cast<double>(frame.z.row(0).array().isFinite().count());
-    const double score = seen / (1 + 0.05 * frame.posture.joint_angles.norm());
+    const double score = seen / (1 + LearnTuning::kAngleWeight * frame.posture.joint_angles.norm());
     if (score <= best) continue;
     best = score;
     result->posture = frame.posture;
@@ -217,9 +210,9 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
   const std::vector<std::string> computed = WhyNoMarkers(labels.names, frames);
   LeaveOut(computed, &frames);
   const auto count = std::count(computed.begin(), computed.end(), "");
-  if (count < kFewestLabels) {
+  if (count < BodyLimits::kFewestMarkers) {
     throw Error(fmt::format("{} markers are too few to find a body; at least {} are needed", count,
-                            kFewestLabels));
+                            BodyLimits::kFewestMarkers));
   }
   const BodySites sites(model, joints);
   const Eigen::MatrixXi named = WhatNamesSay(labels.names, sites);
@@ -247,7 +240,7 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
   }
   LeaveOutDoubtful({sites, learned, deviations, labels.names, named}, &result);
   ShowOneFrame(learned, &result);
-  if (progress) progress(kSearched + 1, kSearched + 1);
+  if (progress) progress(LearnTuning::kSearched + 1, LearnTuning::kSearched + 1);
   return result;
 }
 

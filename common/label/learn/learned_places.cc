@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/fit/posture_search.h"
+#include "common/label/tuning.h"
 #include "common/math/statistics.h"
 #include "common/support/units.h"
 
@@ -19,16 +20,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double kSkinOfLabels = 0.008;  // [m] each coordinate
-constexpr double kMostOfBeyond = 60;
-constexpr double kBeyond = 0.012;  // [m] outside of where a site has its markers
-constexpr double kNear = 0.03;     // [m] of the model's own markers
-constexpr double kMostOfNear = 9;
-constexpr double kUnlikeOtherSide = 4;
-constexpr double kNamedElsewhere = 4;  // of 50 usual names one is worn elsewhere
-constexpr double kTrimmed = 0.9;
-constexpr int kFewestSeen = 5;
 
 /// The middle of some places (3 x n, each finite), and their scatter about it, each coordinate.
 std::pair<Vector3d, double> MiddleAndScatter(const Matrix3Xd& p) {
@@ -43,7 +34,7 @@ std::pair<Vector3d, double> MiddleAndScatter(const Matrix3Xd& p) {
   }
   std::sort(values.begin(), values.end());
   const auto kept = std::max<std::size_t>(
-      1, static_cast<std::size_t>(kTrimmed * static_cast<double>(values.size())));
+      1, static_cast<std::size_t>(LearnPlaceTuning::kTrimmed * static_cast<double>(values.size())));
   const double sum =
       std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept), 0.0);
   return {middle, std::sqrt(sum / (3 * static_cast<double>(kept)))};
@@ -59,15 +50,14 @@ LearnedPlaces::LearnedPlaces(const BodySites& sites, std::vector<LearnFrame> fra
       held_(places_.size(), -1),
       deviations_(std::move(deviations)),
       named_(std::move(named)),
-      skin_(VectorXd::Constant(static_cast<Eigen::Index>(places_.size()), kSkinOfLabels)),
+      skin_(VectorXd::Constant(static_cast<Eigen::Index>(places_.size()), LearnPlaceTuning::kSkin)),
       radii_(static_cast<Eigen::Index>(sites.sites().size())) {
-  constexpr double kLeastRadius = 0.04, kMargin = 0.025;
   for (int s = 0; s < radii_.size(); ++s) {
-    double farthest = kLeastRadius;
+    double farthest = LearnPlaceTuning::kLeastRadius;
     for (const Vector3d& place : sites.sites()[s].places) {
       farthest = std::max(farthest, sites.DistanceFromBones(s, place));
     }
-    radii_[s] = farthest + kMargin;
+    radii_[s] = farthest + LearnPlaceTuning::kMargin;
   }
 }
 
@@ -94,17 +84,17 @@ void LearnedPlaces::Iterate(int times, double independent) {
 }
 
 void LearnedPlaces::AllowForSkinAtJoints() {
-  constexpr double kMore = 0.017, kReach = 0.06;  // [m]
   for (std::size_t l = 0; l < places_.size(); ++l) {
     if (places_[l].site < 0) continue;
-    const double d = sites_.DistanceFromJoints(places_[l].site, places_[l].p_SM) / kReach;
-    skin_[static_cast<Eigen::Index>(l)] = kSkinOfLabels + kMore * std::exp(-d * d / 2);
+    const double d = sites_.DistanceFromJoints(places_[l].site, places_[l].p_SM) /
+                     LearnPlaceTuning::kReachOfJoints;
+    skin_[static_cast<Eigen::Index>(l)] =
+        LearnPlaceTuning::kSkin + LearnPlaceTuning::kSkinAtJoints * std::exp(-d * d / 2);
   }
   ChoosePlaces();
 }
 
 Eigen::MatrixXd LearnedPlaces::Strangeness() const {
-  constexpr double kWeight = 4, kUsual = 0.004;  // [m]
   const int labels = static_cast<int>(places_.size());
   Eigen::MatrixXd strangeness(labels, static_cast<Eigen::Index>(sites_.sites().size()));
   const std::vector<int> sites = SitesOfLabels();
@@ -114,13 +104,17 @@ Eigen::MatrixXd LearnedPlaces::Strangeness() const {
   }
   for (int l = 0; l < labels; ++l) {
     for (int s = 0; s < strangeness.cols(); ++s) {
-      const double deviation = DeviationFrom(s, l, sites, deviations_).value_or(kUsual);
-      strangeness(l, s) = kWeight * std::log1p(std::pow(std::min(deviation, 0.1) / kUsual, 2));
+      const double deviation =
+          DeviationFrom(s, l, sites, deviations_).value_or(LearnPlaceTuning::kRigidUsual);
+      strangeness(l, s) = LearnPlaceTuning::kRigidWeight *
+                          std::log1p(std::pow(std::min(deviation, LearnPlaceTuning::kRigidMost) /
+                                                  LearnPlaceTuning::kRigidUsual,
+                                              2));
       const int mirror = sites_.sites()[s].mirror;
       if (mirror < 0) {
-        strangeness(l, s) += kUnlikeOtherSide / 2;
+        strangeness(l, s) += LearnPlaceTuning::kUnlikeOtherSide / 2;
       } else if (counts[s] - (sites[l] == s) >= counts[mirror] - (sites[l] == mirror)) {
-        strangeness(l, s) += kUnlikeOtherSide;
+        strangeness(l, s) += LearnPlaceTuning::kUnlikeOtherSide;
       }
     }
   }
@@ -132,9 +126,10 @@ double LearnedPlaces::DistanceBeyond(int site, const Vector3d& p_SM) const {
 }
 
 double LearnedPlaces::PriorCost(int site, const Vector3d& p_SM) const {
-  const double beyond = DistanceBeyond(site, p_SM) / kBeyond;
-  const double near = sites_.DistanceFromMarkers(site, p_SM) / kNear;
-  return std::min(beyond * beyond / 2, kMostOfBeyond) + std::min(near * near / 2, kMostOfNear);
+  const double beyond = DistanceBeyond(site, p_SM) / LearnPlaceTuning::kBeyond;
+  const double near = sites_.DistanceFromMarkers(site, p_SM) / LearnPlaceTuning::kNear;
+  return std::min(beyond * beyond / 2, LearnPlaceTuning::kMostOfBeyond) +
+         std::min(near * near / 2, LearnPlaceTuning::kMostOfNear);
 }
 
 std::unique_ptr<LearnedPlaces> LearnedPlaces::Moved(const std::vector<int>& labels, int site,
@@ -164,10 +159,11 @@ void LearnedPlaces::ChoosePlaces() {
     X_SW[k] = sites_.Poses(frames_[k].posture);
     for (Isometry3d& X : X_SW[k]) X = X.inverse();
   }
-  costs_.setConstant(labels, count, 1e6);
+  costs_.setConstant(labels, count, LearnPlaceTuning::kImpossible);
   prior_costs_ = costs_;
-  const Eigen::MatrixXd strangeness =
-      fitted > kFewestSeen ? Strangeness() : Eigen::MatrixXd::Zero(labels, count).eval();
+  const Eigen::MatrixXd strangeness = fitted > LearnPlaceTuning::kFewestSeen
+                                          ? Strangeness()
+                                          : Eigen::MatrixXd::Zero(labels, count).eval();
   cost_ = 0;
   for (int l = 0; l < labels; ++l) {
     WornPlace& worn = places_[l];
@@ -177,12 +173,14 @@ void LearnedPlaces::ChoosePlaces() {
     for (std::size_t k = 0; k < frames_.size(); ++k) {
       if (!X_SW[k].empty() && frames_[k].z.col(l).allFinite()) seen.push_back(static_cast<int>(k));
     }
-    if (seen.empty() || (fitted > kFewestSeen && static_cast<int>(seen.size()) < kFewestSeen)) {
+    if (seen.empty() || (fitted > LearnPlaceTuning::kFewestSeen &&
+                         static_cast<int>(seen.size()) < LearnPlaceTuning::kFewestSeen)) {
       continue;
     }
-    const double weight = 1.5 * std::min<double>(static_cast<double>(seen.size()), independent_);
+    const double weight = LearnPlaceTuning::kWeight *
+                          std::min<double>(static_cast<double>(seen.size()), independent_);
     Matrix3Xd p(3, static_cast<Eigen::Index>(seen.size()));
-    double second = 1e6;
+    double second = LearnPlaceTuning::kImpossible;
     for (int s = 0; s < count; ++s) {
       if (held_[l] >= 0 && s != held_[l]) continue;
       for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -192,8 +190,8 @@ void LearnedPlaces::ChoosePlaces() {
       double cost = weight * std::log1p(std::pow(scatter / skin_[l], 2)) + PriorCost(s, middle) +
                     strangeness(l, s);
       prior_costs_(l, s) = PriorCost(s, middle);
-      if (named_(l, s) < 0) cost += kNamedElsewhere;
-      if (s == before) cost -= 0.5;
+      if (named_(l, s) < 0) cost += LearnPlaceTuning::kNamedElsewhere;
+      if (s == before) cost -= LearnPlaceTuning::kStays;
       costs_(l, s) = cost;
       if (worn.site < 0 || cost < costs_(l, worn.site)) {
         if (worn.site >= 0) second = costs_(l, worn.site);
@@ -229,10 +227,10 @@ void LearnedPlaces::FitPostures() {
   PostureSearch search(*kinematics);
   VectorXd noise(static_cast<Eigen::Index>(places_.size()));
   for (int l = 0; l < noise.size(); ++l) {
-    noise[l] = std::hypot(places_[l].scatter, kSkinOfLabels) / 0.01;
+    noise[l] = std::hypot(places_[l].scatter, LearnPlaceTuning::kSkin) / LearnFitTuning::kNoiseUnit;
   }
   PostureFitOptions options;
-  options.robust_distance = 0.04;
+  options.robust_distance = LearnFitTuning::kRobustDistance;
   // Outward from the frame that is known.
   std::vector<int> order(frames_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -254,7 +252,7 @@ void LearnedPlaces::FitPostures() {
       if (places_[l].site < 0) z.col(l).setConstant(kNaN);
     }
     const auto count = z.row(0).array().isFinite().count();
-    if (count < 10) continue;
+    if (count < LearnFitTuning::kFewestLabels) continue;
     PostureFit::Result result;
     if (frame.posture.joint_angles.size() == 0) {
       const int step = k < start_ ? 1 : -1;
@@ -262,19 +260,21 @@ void LearnedPlaces::FitPostures() {
       Posture near = frames_[from].posture;
       if (frames_[from].recording == frame.recording && near.joint_angles.size() > 0) {
         result = search.fit().Solve(z, noise, options, &near);
-        if (result.mean_distance > 0.04) {
-          for (int i = 0; i < 6; ++i) search.Improve(z, noise, options, &near);
+        if (result.mean_distance > LearnFitTuning::kBadStart) {
+          for (int i = 0; i < LearnFitTuning::kTriesAtStart; ++i)
+            search.Improve(z, noise, options, &near);
           result = search.fit().Solve(z, noise, options, &near);
         }
       } else {
         near.joint_angles = first.posture.joint_angles;
-        result = search.Assemble(z, noise, options, 20, &near);
+        result = search.Assemble(z, noise, options, LearnFitTuning::kTriesFromNothing, &near);
       }
       frame.posture = near;
     } else {
       result = search.fit().Solve(z, noise, options, &frame.posture);
-      if (is_searching_ && result.mean_distance > 0.03) {
-        for (int i = 0; i < 4; ++i) search.Improve(z, noise, options, &frame.posture);
+      if (is_searching_ && result.mean_distance > LearnFitTuning::kBad) {
+        for (int i = 0; i < LearnFitTuning::kTries; ++i)
+          search.Improve(z, noise, options, &frame.posture);
         result = search.fit().Solve(z, noise, options, &frame.posture);
       }
     }

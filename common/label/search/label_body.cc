@@ -7,19 +7,11 @@
 #include <utility>
 
 #include "common/fit/posture_fit.h"
+#include "common/label/tuning.h"
 
 namespace mmm_converter {
 
 namespace {
-
-constexpr double kUncalibratedPlace = 0.03;  // [m], of a marker with noise scale 1
-constexpr double kLargestPlace = 0.06;       // [m]
-constexpr double kLeastPlace = 0.008;        // [m] of a calibrated one: skin moves between sessions
-// Of a calibrated deviation: most of it is common to the markers of a link, and the posture makes
-// up for it.
-constexpr double kOwnShare = 0.4;
-constexpr double kSkin = 0.006;       // [m] of one that was not calibrated
-constexpr double kLeastSkin = 0.005;  // [m]
 
 using Angles = std::vector<std::pair<std::string, double>>;  // of joints, without "_joint" [rad]
 
@@ -70,9 +62,10 @@ LabelBody::LabelBody(const TrackingSetup& setup)
       joints_of_marker(place.size()) {
   for (int m = 0; m < num_markers(); ++m) {
     const ModelMarker& marker = setup.model->markers()[kinematics.markers()[m]];
-    place[m] = marker.deviation ? std::max(kOwnShare * *marker.deviation, kLeastPlace)
-                                : std::min(kUncalibratedPlace * place[m], kLargestPlace);
-    skin[m] = std::max(marker.skin_deviation.value_or(kSkin), kLeastSkin);
+    place[m] = marker.deviation
+                   ? std::max(PlaceTuning::kOwnShare * *marker.deviation, PlaceTuning::kLeast)
+                   : std::min(PlaceTuning::kByHeight * place[m], PlaceTuning::kMost);
+    skin[m] = std::max(marker.skin_deviation.value_or(PlaceTuning::kSkin), PlaceTuning::kLeastSkin);
     for (int j = 0; j < kinematics.num_joints(); ++j) {
       if (kinematics.Moves(j, m)) joints_of_marker[m].push_back(j);
     }

@@ -22,7 +22,7 @@ struct LabelBody {
   Eigen::VectorXd place;  ///< deviation of a marker from the model's place, each coordinate [m]
   Eigen::VectorXd skin;   ///< deviation about its own place, each coordinate [m]
   Eigen::VectorXd natural_angles;  ///< NaturalAngles
-  /// The tracked joints that move a marker, from the root outwards.
+  /// The tracked joints that move a marker, in their order.
   std::vector<std::vector<int>> joints_of_marker;
   /// What hangs on the trunk: joints that move at most a third of the markers, and the markers that
   /// they move.

@@ -17,4 +17,9 @@ void StepTowards(const Eigen::Ref<const Eigen::Matrix3Xd>& targets, const Eigen:
                  double robust_distance, const LabelBody& body, NormalEquations* equations,
                  Posture* posture);
 
+/// The same for equations that the caller has completed; damping: as NormalEquations::Solve has it.
+/// The posture moves by so much of the step that no angle moves by more than longest [rad].
+void StepInsideLimits(double relative, double absolute, double longest, const LabelBody& body,
+                      NormalEquations* equations, Posture* posture);
+
 }  // namespace mmm_converter

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/fit/rigid_shape.h"
+#include "common/label/tuning.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -16,16 +17,7 @@ using Eigen::Ref;
 
 namespace {
 
-constexpr double kInPlace = 0.01;     // [m] of a point from its marker's place
-constexpr double kOffLine = 0.01;     // [m]: three markers that stand on a line tell no pose
-constexpr double kAsExpected = 0.03;  // [m] of a point from where it should be after a frame
-constexpr double kAsBefore = 0.06;    // where it is not known how the object moves
-constexpr int kFewest = 3;
-constexpr int kFewestAnywhere = 4;  // or all
 // A search is given up after so many looks at a point; to try three points counts as some.
-constexpr long kMostChecks = 4'000'000;
-constexpr long kChecksOfATry = 1000;
-constexpr std::size_t kMostTriples = 60;
 
 }  // namespace
 
@@ -42,7 +34,7 @@ RigidFinder::RigidFinder(Matrix3Xd p_OM)
   std::stable_sort(triples_.begin(), triples_.end(), [](const Triple& a, const Triple& b) {
     return a.shortest_side > b.shortest_side;
   });
-  triples_.resize(std::min(triples_.size(), kMostTriples));
+  triples_.resize(std::min(triples_.size(), ObjectTuning::kMostTriples));
 }
 
 int RigidFinder::CountFound() const {
@@ -60,15 +52,15 @@ double RigidFinder::SquaredResidual(const Ref<const Matrix3Xd>& points) const {
 }
 
 bool RigidFinder::Fit(const Ref<const Matrix3Xd>& points) {
-  while (CountFound() >= kFewest) {
+  while (CountFound() >= ObjectTuning::kFewest) {
     z_.setConstant(kNaN);
     for (int m = 0; m < num_markers(); ++m) {
       if (point_of_marker_[m] >= 0) z_.col(m) = points.col(point_of_marker_[m]);
     }
-    if (DistanceFromLine(z_) < kOffLine) return false;
+    if (DistanceFromLine(z_) < ObjectTuning::kOffLine) return false;
     X_WO_ = FitRigidPose(p_OM_, z_, weights_);
     int worst = -1;
-    double farthest = kInPlace;
+    double farthest = ObjectTuning::kInPlace;
     for (int m = 0; m < num_markers(); ++m) {
       if (point_of_marker_[m] < 0) continue;
       const double distance = (X_WO_ * p_OM_.col(m) - z_.col(m)).norm();
@@ -99,7 +91,7 @@ void RigidFinder::Complete(const Ref<const Matrix3Xd>& points, double reach) {
 
 bool RigidFinder::Settle(const Ref<const Matrix3Xd>& points) {
   if (!Fit(points)) return false;
-  Complete(points, kInPlace);
+  Complete(points, ObjectTuning::kInPlace);
   return Fit(points);
 }
 
@@ -128,10 +120,10 @@ bool RigidFinder::SettleWithoutOne(const Ref<const Matrix3Xd>& points) {
 }
 
 const std::vector<int>& RigidFinder::Find(const Ref<const Matrix3Xd>& points) {
-  const int fewest = std::min(num_markers(), kFewestAnywhere);
+  const int fewest = std::min(num_markers(), ObjectTuning::kFewestAnywhere);
   best_.assign(static_cast<std::size_t>(num_markers()), -1);
   frames_ = 0;
-  if (points.cols() < fewest || points.cols() > kMostPointsWithObjects) return best_;
+  if (points.cols() < fewest || points.cols() > ObjectTuning::kMostPoints) return best_;
   const auto count = static_cast<int>(points.cols());
   pairs_.clear();
   for (int i = 0; i < count; ++i) {
@@ -158,24 +150,27 @@ const std::vector<int>& RigidFinder::Find(const Ref<const Matrix3Xd>& points) {
     best_X_WO = X_WO_;
     frames_ = 1;
   };
-  long checks = kMostChecks;
+  long checks = ObjectTuning::kMostChecks;
   for (const Triple& triple : triples_) {
     const auto& [a, b, c] = triple.markers;
     const double ab = (p_OM_.col(a) - p_OM_.col(b)).norm();
     const double ac = (p_OM_.col(a) - p_OM_.col(c)).norm();
     const double bc = (p_OM_.col(b) - p_OM_.col(c)).norm();
-    const auto from =
-        std::lower_bound(pairs_.begin(), pairs_.end(), Pair{ab - kInPlace, 0, 0}, is_shorter);
-    const auto to = std::upper_bound(from, pairs_.end(), Pair{ab + kInPlace, 0, 0}, is_shorter);
+    const auto from = std::lower_bound(pairs_.begin(), pairs_.end(),
+                                       Pair{ab - ObjectTuning::kInPlace, 0, 0}, is_shorter);
+    const auto to =
+        std::upper_bound(from, pairs_.end(), Pair{ab + ObjectTuning::kInPlace, 0, 0}, is_shorter);
     for (auto pair = from; pair != to && checks > 0; ++pair) {
       checks -= 2 * count;
       for (const auto& [i, j] :
            {std::pair(pair->first, pair->second), std::pair(pair->second, pair->first)}) {
         for (int k = 0; k < count && checks > 0; ++k) {
           if (k == i || k == j) continue;
-          if (std::abs((points.col(k) - points.col(i)).norm() - ac) > kInPlace) continue;
-          if (std::abs((points.col(k) - points.col(j)).norm() - bc) > kInPlace) continue;
-          checks -= kChecksOfATry;
+          if (std::abs((points.col(k) - points.col(i)).norm() - ac) > ObjectTuning::kInPlace)
+            continue;
+          if (std::abs((points.col(k) - points.col(j)).norm() - bc) > ObjectTuning::kInPlace)
+            continue;
+          checks -= ObjectTuning::kChecksOfATry;
           try_three(triple.markers, {i, j, k});
         }
       }
@@ -194,7 +189,7 @@ const std::vector<int>& RigidFinder::Follow(const Ref<const Matrix3Xd>& points) 
   if (frames_ == 0) return point_of_marker_;
   const Eigen::Isometry3d X_WO = X_WO_;
   if (frames_ > 1) X_WO_ = X_WO * last_X_WO_.inverse() * X_WO;
-  Complete(points, frames_ > 1 ? kAsExpected : kAsBefore);
+  Complete(points, frames_ > 1 ? ObjectTuning::kAsExpected : ObjectTuning::kAsBefore);
   if (SettleWithoutOne(points)) {
     last_X_WO_ = X_WO;
     ++frames_;

@@ -8,9 +8,6 @@
 
 namespace mmm_converter {
 
-/// Points of a frame that objects can be found among: time grows with their square.
-inline constexpr int kMostPointsWithObjects = 300;
-
 /// Finds a rigid object among the points of a frame by the distances between its markers, and
 /// follows it from frame to frame.
 class RigidFinder {

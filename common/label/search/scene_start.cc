@@ -11,6 +11,7 @@
 
 #include "common/label/search/body_search.h"
 #include "common/label/search/linear_assignment.h"
+#include "common/label/tuning.h"
 #include "common/math/statistics.h"
 #include "common/support/error.h"
 
@@ -21,9 +22,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr int kFrames = 8;  // that bodies are looked for in
-constexpr int kFewestPoints = 10;
 
 Vector3d MedianOf(const Matrix3Xd& points) {
   Vector3d median;
@@ -40,8 +38,9 @@ std::vector<int> FullestFrames(const std::vector<Matrix3Xd>& frames) {
   std::stable_sort(order.begin(), order.end(),
                    [&frames](int a, int b) { return frames[a].cols() > frames[b].cols(); });
   const int all = static_cast<int>(order.size());
-  const int candidates = std::max(all / 3, std::min(all, kFrames));
-  const int count = std::min(candidates, kFrames);
+  const int candidates =
+      std::max(all / SceneTuning::kFullestShare, std::min(all, SceneTuning::kFrames));
+  const int count = std::min(candidates, SceneTuning::kFrames);
   std::vector<int> chosen;
   chosen.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -53,7 +52,6 @@ std::vector<int> FullestFrames(const std::vector<Matrix3Xd>& frames) {
 /// Points in as many parts, as seen from above: divided along their longest direction, then each
 /// to the part whose median is nearest (k-medians).
 std::vector<Matrix3Xd> Parts(const Matrix3Xd& points, int count) {
-  constexpr int kTurns = 20;
   if (count == 1) return {points};
   Matrix3Xd flat = points;
   flat.row(2).setZero();
@@ -68,7 +66,7 @@ std::vector<Matrix3Xd> Parts(const Matrix3Xd& points, int count) {
     members[i * count / order.size()].push_back(order[i]);
   }
   Matrix3Xd centres = Matrix3Xd::Zero(3, count);
-  for (int turn = 0; turn < kTurns; ++turn) {
+  for (int turn = 0; turn < SceneTuning::kMedianTurns; ++turn) {
     for (int c = 0; c < count; ++c) {
       if (!members[c].empty()) centres.col(c) = MedianOf(flat(Eigen::all, members[c]));
     }
@@ -95,13 +93,14 @@ std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
   for (const LabelBody* body : bodies) searches.push_back(std::make_unique<BodySearch>(*body));
   std::vector<std::pair<double, SceneStart>> starts;  // with their costs
   for (const int k : FullestFrames(frames)) {
-    if (frames[k].cols() < kFewestPoints * count) continue;
+    if (frames[k].cols() < BodyLimits::kFewestMarkers * count) continue;
     const std::vector<Matrix3Xd> parts = Parts(frames[k], count);
     // Who is in which part.
     MatrixXd costs = MatrixXd::Constant(count, count, 0);
     std::vector<BodyMatch> matches(bodies.size() * bodies.size());
     bool has_points = true;
-    for (const Matrix3Xd& part : parts) has_points = has_points && part.cols() >= kFewestPoints;
+    for (const Matrix3Xd& part : parts)
+      has_points = has_points && part.cols() >= BodyLimits::kFewestMarkers;
     if (!has_points) continue;
     for (int b = 0; b < count; ++b) {
       for (int c = 0; c < count; ++c) {

@@ -3,18 +3,10 @@
 
 #include <cmath>
 
+#include "common/label/tuning.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
-
-namespace {
-
-constexpr int kRounds = 4;
-constexpr double kSlack = 0.011108996538242306;  // exp(-3^2 / 2): of a point three deviations off
-constexpr double kLeastExponent = -14;           // a ten-thousandth of the slack
-constexpr double kLeastWeight = 1e-3;
-
-}  // namespace
 
 void SoftAssignment::Compute(const Eigen::Ref<const Eigen::Matrix3Xd>& places,
                              const Eigen::VectorXd& variances,
@@ -27,18 +19,19 @@ void SoftAssignment::Compute(const Eigen::Ref<const Eigen::Matrix3Xd>& places,
     const double scale = -0.5 / variances[m];
     for (double& share : shares_.col(m)) {
       const double exponent = scale * share;
-      share = exponent < kLeastExponent ? 0 : std::exp(exponent);
+      share = exponent < SoftTuning::kLeastExponent ? 0 : std::exp(exponent);
     }
   }
-  for (int round = 0; round < kRounds; ++round) {
-    for (Eigen::Index m = 0; m < markers; ++m) shares_.col(m) /= kSlack + shares_.col(m).sum();
-    points_sum_ = shares_.rowwise().sum().array() + kSlack;
+  for (int round = 0; round < SoftTuning::kRounds; ++round) {
+    for (Eigen::Index m = 0; m < markers; ++m)
+      shares_.col(m) /= SoftTuning::kSlack + shares_.col(m).sum();
+    points_sum_ = shares_.rowwise().sum().array() + SoftTuning::kSlack;
     shares_.array().colwise() /= points_sum_;
   }
   weights_ = shares_.colwise().sum().transpose();
   targets_.noalias() = points * shares_;
   for (Eigen::Index m = 0; m < markers; ++m) {
-    if (weights_[m] > kLeastWeight) {
+    if (weights_[m] > SoftTuning::kLeastWeight) {
       targets_.col(m) /= weights_[m];
     } else {
       targets_.col(m).setConstant(kNaN);

@@ -7,6 +7,7 @@
 
 #include "common/label/search/body_match.h"
 #include "common/label/search/posture_step.h"
+#include "common/label/tuning.h"
 #include "common/math/square.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/units.h"
@@ -16,23 +17,13 @@ namespace mmm_converter {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-namespace {
-
-constexpr double kModelScatter = 0.008;  // [m] by which a marker's place varies, besides skin
-constexpr double kFarthest = 25;         // cost of a marker in a frame, at most
-constexpr double kNearEachOther = 0.12;  // [m] of two that may be exchanged
-constexpr double kLeastGain = 2;
-constexpr std::size_t kFewestFrames = 2;  // to be tried on
-
-}  // namespace
-
 ExchangedNames::ExchangedNames(const LabelBody& body, const PointTracks& tracks, int first_marker)
     : body_(body),
       tracks_(tracks),
       first_marker_(first_marker),
       equations_(body.kinematics),
       at_(body.kinematics.MakeJacobian()),
-      scatter_((body.skin.array().square() + Square(kModelScatter)).sqrt()),
+      scatter_((body.skin.array().square() + Square(ExchangeTuning::kModelScatter)).sqrt()),
       offset_(Matrix3Xd::Zero(3, body.num_markers())),
       offset_W_(offset_) {}
 
@@ -65,13 +56,12 @@ void ExchangedNames::Look(Frame* frame) {
 }
 
 void ExchangedNames::Fit(Frame* frame) {
-  constexpr int kSteps = 2;
-  constexpr double kRobustDistance = 0.05;  // [m]
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < ExchangeTuning::kSteps; ++i) {
     Look(frame);
     equations_.Place(frame->posture);
     targets_ = frame->z - offset_W_;
-    StepTowards(targets_, scatter_, kRobustDistance, body_, &equations_, &frame->posture);
+    StepTowards(targets_, scatter_, ExchangeTuning::kRobustDistance, body_, &equations_,
+                &frame->posture);
   }
   Look(frame);
 }
@@ -86,7 +76,7 @@ void ExchangedNames::PlaceMarkers(const Frames& frames) {
       if (!IsSeen(r)) continue;
       // Those far from most count less.
       const double weight =
-          std::min(1.0, kFarthest * variance / (r - offset_.col(m)).squaredNorm());
+          std::min(1.0, ExchangeTuning::kFarthest * variance / (r - offset_.col(m)).squaredNorm());
       sum += weight * r;
       information += weight;
     }
@@ -101,7 +91,8 @@ double ExchangedNames::Cost(const Frames& frames) const {
     for (int m = 0; m < body_.num_markers(); ++m) {
       const Vector3d r = frame->residual.col(m);
       if (!IsSeen(r)) continue;
-      cost += std::min(kFarthest, (r - offset_.col(m)).squaredNorm() / Square(scatter_[m]));
+      cost += std::min(ExchangeTuning::kFarthest,
+                       (r - offset_.col(m)).squaredNorm() / Square(scatter_[m]));
     }
     cost += MatchCosts::kNaturalWeight *
             (frame->posture.joint_angles - body_.natural_angles).squaredNorm();
@@ -112,7 +103,7 @@ double ExchangedNames::Cost(const Frames& frames) const {
 bool ExchangedNames::AreNear(int a, int b) const {
   double sum = 0;
   for (const Frame& frame : frames_) sum += (frame.places.col(a) - frame.places.col(b)).norm();
-  return sum < kNearEachOther * static_cast<double>(frames_.size());
+  return sum < ExchangeTuning::kNearEachOther * static_cast<double>(frames_.size());
 }
 
 std::vector<ExchangedNames::Trial> ExchangedNames::Trials(const TrackNames& names) const {
@@ -146,10 +137,9 @@ std::vector<ExchangedNames::Trial> ExchangedNames::Trials(const TrackNames& name
 }
 
 void ExchangedNames::FitAll() {
-  constexpr int kTurns = 8;
   Frames all;
   for (const Frame& frame : frames_) all.push_back(&frame);
-  for (int i = 0; i < kTurns; ++i) {
+  for (int i = 0; i < ExchangeTuning::kTurns; ++i) {
     for (Frame& frame : frames_) Fit(&frame);
     PlaceMarkers(all);
   }
@@ -157,8 +147,6 @@ void ExchangedNames::FitAll() {
 }
 
 bool ExchangedNames::Try(const Trial& trial) {
-  constexpr int kTurns = 4;
-  constexpr double kHopeless = 30;
   std::vector<Frame> changed;
   Frames frames;
   for (const Frame& frame : frames_) {
@@ -170,19 +158,19 @@ bool ExchangedNames::Try(const Trial& trial) {
       frames.push_back(&frame);
     }
   }
-  if (changed.size() < kFewestFrames) return false;
+  if (changed.size() < ExchangeTuning::kFewestFrames) return false;
   for (const Frame& frame : changed) frames.push_back(&frame);
   const Matrix3Xd before = offset_;
   for (Frame& frame : changed) Look(&frame);
   PlaceMarkers(frames);
   double cost = 0;
-  for (int i = 0; i < kTurns; ++i) {
+  for (int i = 0; i < ExchangeTuning::kTurnsOfATrial; ++i) {
     for (Frame& frame : changed) Fit(&frame);
     PlaceMarkers(frames);
     cost = Cost(frames);
-    if (cost > cost_ + kHopeless) break;
+    if (cost > cost_ + ExchangeTuning::kHopeless) break;
   }
-  if (cost > cost_ - kLeastGain) {
+  if (cost > cost_ - ExchangeTuning::kLeastGain) {
     offset_ = before;
     return false;
   }
@@ -196,11 +184,10 @@ bool ExchangedNames::Try(const Trial& trial) {
 }
 
 void ExchangedNames::Improve(TrackNames* names) {
-  constexpr int kMostPasses = 3;
   Read(*names);
   FitAll();
   bool is_better = true;
-  for (int pass = 0; pass < kMostPasses && is_better; ++pass) {
+  for (int pass = 0; pass < ExchangeTuning::kMostPasses && is_better; ++pass) {
     is_better = false;
     for (const Trial& trial : Trials(*names)) {
       if (!Try(trial)) continue;

@@ -2,9 +2,9 @@
 #include "common/label/track/label_belief.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "common/label/tuning.h"
 #include "common/math/dense.h"
 #include "common/math/square.h"
 
@@ -14,19 +14,9 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// Of root position [m], root rotation and joints [rad].
-struct Movement {
-  double speed;  // standard deviation [1/s], where nothing is known
-  double start;  // deviation when a body is taken up
-};
-constexpr std::array<Movement, 3> kMovements = {
-    {{LabelBelief::kRootSpeed, 0.02}, {2, 0.05}, {3, 0.1}}};
-constexpr double kVelocityMemory = 0.25;  // [s]
-constexpr double kSpeedMemory = 0.3;      // [s] in which it is forgotten how fast a dof was
-constexpr double kFaster = 2;             // than it was, as a standard deviation
-constexpr double kSlowest = 0.05;         // of Movement::speed
-
-const Movement& MovementOf(Eigen::Index dof) { return kMovements[dof < 3 ? 0 : dof < 6 ? 1 : 2]; }
+const MovementTuning::Kind& MovementOf(Eigen::Index dof) {
+  return dof < 3 ? MovementTuning::kRoot : dof < 6 ? MovementTuning::kTurn : MovementTuning::kJoint;
+}
 
 bool HasPoint(const LabelBody& body, const std::vector<int>& point_of_marker, int dof) {
   for (int m = 0; m < body.num_markers(); ++m) {
@@ -57,7 +47,8 @@ LabelBelief BeliefAt(const LabelBody& body, const Posture& posture) {
 }
 
 Posture LabelBelief::PostureAfter(const LabelBody& body, double dt) const {
-  const double a = kVelocityMemory * (1 - std::exp(-dt / kVelocityMemory));
+  const double a =
+      MovementTuning::kVelocityMemory * (1 - std::exp(-dt / MovementTuning::kVelocityMemory));
   Posture after = Retract(posture, a * velocity);
   after.joint_angles =
       after.joint_angles.cwiseMax(body.kinematics.lower()).cwiseMin(body.kinematics.upper());
@@ -65,18 +56,19 @@ Posture LabelBelief::PostureAfter(const LabelBody& body, double dt) const {
 }
 
 void LabelBelief::Predict(const LabelBody& body, double dt) {
-  const double b = std::exp(-dt / kVelocityMemory);
-  const double a = kVelocityMemory * (1 - b);
+  const double b = std::exp(-dt / MovementTuning::kVelocityMemory);
+  const double a = MovementTuning::kVelocityMemory * (1 - b);
   posture = PostureAfter(body, dt);
   velocity *= b;
   P_qq += a * (P_qv + P_qv.transpose()) + a * a * P_vv;
   P_qv = b * (P_qv + a * P_vv);
   P_vv *= b * b;
-  const double tau2 = Square(kVelocityMemory);
+  const double tau2 = Square(MovementTuning::kVelocityMemory);
   for (int i = 0; i < P_qq.rows(); ++i) {
     const double variance = Square(speed[i]);
-    P_qq(i, i) += variance * 2 * tau2 * (dt / kVelocityMemory - 1.5 + 2 * b - 0.5 * b * b);
-    P_qv(i, i) += variance * kVelocityMemory * Square(1 - b);
+    P_qq(i, i) +=
+        variance * 2 * tau2 * (dt / MovementTuning::kVelocityMemory - 1.5 + 2 * b - 0.5 * b * b);
+    P_qv(i, i) += variance * MovementTuning::kVelocityMemory * Square(1 - b);
     P_vv(i, i) += variance * (1 - b * b);
   }
   // A joint is within its limits, whatever was not seen.
@@ -115,10 +107,11 @@ void LabelBelief::Correct(const MatrixXd& prior, const Posture& corrected, const
 
 void LabelBelief::ExpectSpeeds(const LabelBody& body, const std::vector<int>& point_of_marker,
                                double dt) {
-  const double kept = std::exp(-dt / kSpeedMemory);
+  const double kept = std::exp(-dt / MovementTuning::kSpeedMemory);
   for (int i = 0; i < speed.size(); ++i) {
     const double most = MovementOf(i).speed;
-    const double seen = std::clamp(kFaster * std::abs(velocity[i]), kSlowest * most, most);
+    const double seen = std::clamp(MovementTuning::kFaster * std::abs(velocity[i]),
+                                   MovementTuning::kSlowest * most, most);
     const double now = Square(HasPoint(body, point_of_marker, i) ? seen : most);
     speed[i] = std::sqrt(std::max(now, kept * Square(speed[i]) + (1 - kept) * now));
   }

@@ -14,8 +14,6 @@ namespace mmm_converter {
 /// coordinates (Retract). Velocities are correlated in time (Ornstein-Uhlenbeck); how fast each dof
 /// is expected to be follows from how fast it was, so that feet that stand are foreseen to stand.
 struct LabelBelief {
-  static constexpr double kRootSpeed = 1;  ///< [m/s], standard deviation, where nothing is known
-
   Posture posture;                   ///< tracked joints
   Eigen::VectorXd velocity;          ///< of the dofs [m/s], [rad/s]
   Eigen::MatrixXd P_qq, P_qv, P_vv;  ///< covariance of dofs and velocities

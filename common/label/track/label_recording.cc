@@ -8,11 +8,11 @@
 #include <memory>
 #include <utility>
 
-#include "common/label/search/rigid_finder.h"
 #include "common/label/search/scene_start.h"
 #include "common/label/track/labelled_person.h"
 #include "common/label/track/named_pieces.h"
 #include "common/label/track/point_tracks.h"
+#include "common/label/tuning.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -22,14 +22,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr int kFewestNames = 10;
-constexpr int kMostPoints = 1000;  // of a frame: time grows with their square
-constexpr double kLeastShare = 0.25;
-constexpr int kStartsTried = 3;
-constexpr int kMostFramesTried = 3000;  // of longer recordings one start is tried
-constexpr int kPart = 256;              // frames whose predictions are kept
-constexpr double kHint = 6;             // cost that a track's name is worth
 
 /// A marker is counted over all: those of the first person, of the second, ..., of the objects.
 class RecordingLabeller {
@@ -124,7 +116,9 @@ class RecordingLabeller {
                     [](const LabelledPerson& person) { return person.was_calibrated(); });
     const bool has_labels =
         std::any_of(stored_.begin(), stored_.end(), [](int marker) { return marker >= 0; });
-    return is_known || has_labels || recording_.num_frames() > kMostFramesTried ? 1 : kStartsTried;
+    return is_known || has_labels || recording_.num_frames() > RecordingTuning::kMostFramesTried
+               ? 1
+               : RecordingTuning::kStartsTried;
   }
 
   /// With the persons as they are there.
@@ -189,7 +183,8 @@ class RecordingLabeller {
     const FramePoints& points = tracks_.frames[k];
     const bool is_first_time = before.markers.empty();
     for (LabelledPerson& person : persons_) {
-      if (persons_.size() > 1) person.tracker().Foresee(dt_, &person.places, &person.variances);
+      if (persons_.size() > 1)
+        person.tracker().PredictPlaces(dt_, &person.places, &person.variances);
       person.offered.clear();
       person.hints.markers.clear();
       person.hints.worth.clear();
@@ -201,7 +196,7 @@ class RecordingLabeller {
       const double share = is_first_time ? 1 : before.shares[track];
       std::size_t owner = 0;
       if (persons_.size() > 1) {
-        const bool is_known = !is_first_time && marker >= 0 && share >= LabelledPerson::kSureName;
+        const bool is_known = !is_first_time && marker >= 0 && share >= RecordingTuning::kSureName;
         owner = is_known ? PersonOf(marker)
                          : LikeliestPerson(points.p_WP.col(static_cast<Eigen::Index>(p)));
       }
@@ -209,7 +204,7 @@ class RecordingLabeller {
       const int own = marker - person.first_marker();
       person.offered.push_back(static_cast<int>(p));
       person.hints.markers.push_back(own >= 0 && own < person.body().num_markers() ? own : -1);
-      person.hints.worth.push_back(kHint * share);
+      person.hints.worth.push_back(RecordingTuning::kHint * share);
     }
     for (LabelledPerson& person : persons_) person.points = points.p_WP(Eigen::all, person.offered);
   }
@@ -218,7 +213,7 @@ class RecordingLabeller {
   void Track(int k, const TrackNames& before, TrackVotes* votes) {
     Offer(k, before);
     for (LabelledPerson& person : persons_) {
-      Vote(k, person, person.Follow(), 0.25, votes);
+      Vote(k, person, person.Follow(), RecordingTuning::kVote, votes);
     }
   }
 
@@ -238,7 +233,7 @@ class RecordingLabeller {
     const int frames = static_cast<int>(tracks_.frames.size());
     std::vector<std::vector<LabelBelief>> starts;  // of the parts
     for (int k = 0; k < frames; ++k) {
-      if (k % kPart == 0) starts.push_back(Beliefs());
+      if (k % RecordingTuning::kPart == 0) starts.push_back(Beliefs());
       Track(k, before, &votes);
       Show(k);
     }
@@ -246,8 +241,8 @@ class RecordingLabeller {
     std::vector<LabelBelief> backward = Beliefs();
     std::vector<std::vector<LabelTracker::Prediction>> predictions;  // by frame, by person
     for (int part = static_cast<int>(starts.size()) - 1; part >= 0; --part) {
-      const int begin = part * kPart;
-      const int end = std::min(begin + kPart, frames);
+      const int begin = part * RecordingTuning::kPart;
+      const int end = std::min(begin + RecordingTuning::kPart, frames);
       predictions.clear();
       Restore(starts[part]);
       for (int k = begin; k < end; ++k) {
@@ -262,17 +257,17 @@ class RecordingLabeller {
         Track(k, before, &votes);
         for (std::size_t i = 0; i < persons_.size(); ++i) {
           LabelledPerson& person = persons_[i];
-          const std::vector<int>& between =
-              person.tracker().Between(person.points, predictions[k - begin][i], &person.hints);
-          Vote(k, person, between, 0.5, &votes);
-          person.Keep(k, between);
+          const std::vector<int>& between = person.tracker().AssignBetween(
+              person.points, predictions[k - begin][i], person.hints);
+          Vote(k, person, between, 2 * RecordingTuning::kVote, &votes);
+          person.KeepFrame(k, between);
         }
       }
       backward = Beliefs();
     }
     Reverse();
-    TrackNames names =
-        ResolveVotes(votes, tracks_, static_cast<int>(name_of_marker_.size()), kLeastShare);
+    TrackNames names = ResolveVotes(votes, tracks_, static_cast<int>(name_of_marker_.size()),
+                                    RecordingTuning::kLeastShare);
     for (LabelledPerson& person : persons_) person.Improve(&names);
     return names;
   }
@@ -310,20 +305,21 @@ Labelling LabelRecording(const LabelScene& scene, const std::vector<std::string>
                          const std::function<bool(int, int)>& progress) {
   for (std::size_t i = 0; i < scene.persons.size(); ++i) {
     const std::size_t markers = scene.persons[i].assignments().size();
-    if (markers >= kFewestNames) continue;
-    throw Error(fmt::format(
-        "{} with {} markers can't be found among points; at least {} are needed",
-        i == 0 ? "a body" : fmt::format("the body of person {}", i + 1), markers, kFewestNames));
+    if (markers >= BodyLimits::kFewestMarkers) continue;
+    throw Error(
+        fmt::format("{} with {} markers can't be found among points; at least {} are needed",
+                    i == 0 ? "a body" : fmt::format("the body of person {}", i + 1), markers,
+                    BodyLimits::kFewestMarkers));
   }
   for (int k = 0; k < recording.num_frames(); ++k) {
     const auto seen = recording.frame(k).row(0).array().isFinite().count();
-    if (seen > kMostPoints) {
-      throw Error(
-          fmt::format("frame {} has {} points; at most {} can be labelled", k, seen, kMostPoints));
+    if (seen > BodyLimits::kMostPoints) {
+      throw Error(fmt::format("frame {} has {} points; at most {} can be labelled", k, seen,
+                              BodyLimits::kMostPoints));
     }
-    if (seen > kMostPointsWithObjects && !scene.objects.empty()) {
+    if (seen > ObjectTuning::kMostPoints && !scene.objects.empty()) {
       throw Error(fmt::format("frame {} has {} points; objects can be found among {} at most", k,
-                              seen, kMostPointsWithObjects));
+                              seen, ObjectTuning::kMostPoints));
     }
   }
   RecordingLabeller labeller(scene, recording, options.stored, progress);

@@ -8,6 +8,7 @@
 
 #include "common/calibrate/calibration.h"
 #include "common/label/track/exchanged_names.h"
+#include "common/label/tuning.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -15,13 +16,6 @@ namespace mmm_converter {
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kKnown = 0.02;     // [m] of a link that says where a marker is worn
-constexpr double kKeptEvery = 0.1;  // [s]: skin has moved on
-constexpr int kMostKept = 40;
-// [m] of a marker that is worn elsewhere from the model's place, and from where it was worn before.
-constexpr double kReachOfHeight = 0.2, kReachOfCalibrated = 0.08;
-constexpr double kShareElsewhere = 0.9;
 
 bool IsCalibrated(const TrackingSetup& setup) {
   return std::any_of(setup.assignments().begin(), setup.assignments().end(),
@@ -42,7 +36,8 @@ LabelledPerson::LabelledPerson(const TrackingSetup& setup, int first_marker,
       dt_(dt),
       body_(std::make_unique<LabelBody>(setup)) {
   const auto frames = static_cast<double>(tracks.frames.size());
-  kept_every_ = static_cast<int>(std::ceil(std::max({1.0, kKeptEvery / dt, frames / kMostKept})));
+  kept_every_ = static_cast<int>(std::ceil(
+      std::max({1.0, RecordingTuning::kKeptEvery / dt, frames / RecordingTuning::kMostKept})));
 }
 
 void LabelledPerson::Start(const BodyMatch& match) {
@@ -51,26 +46,21 @@ void LabelledPerson::Start(const BodyMatch& match) {
 }
 
 const std::vector<int>& LabelledPerson::Follow() {
-  constexpr double kFitting = 0.75;  // of the points, or of the markers where these are fewer
-  constexpr double kLost = 0.5;      // [s]
-  constexpr double kGain = 10;
-  const std::vector<int>& found = tracker_->Track(points, dt_, &hints);
-  const auto fitting = std::count_if(found.begin(), found.end(), [](int p) { return p >= 0; });
-  const auto possible = std::min<Eigen::Index>(points.cols(), body_->num_markers());
-  const bool is_there = 2 * possible > body_->num_markers();
-  const bool fits = static_cast<double>(fitting) >= kFitting * static_cast<double>(possible);
-  unfit_ = is_there && !fits ? unfit_ + dt_ : 0;
-  if (unfit_ < kLost) return found;
-  unfit_ = 0;
+  const std::vector<int>& found = tracker_->Track(points, dt_, hints);
+  const auto matched = std::count_if(found.begin(), found.end(), [](int p) { return p >= 0; });
+  watch_.Count(static_cast<int>(matched), static_cast<int>(points.cols()), body_->num_markers(),
+               dt_);
+  if (!watch_.IsLost()) return found;
+  watch_.Restart();
   BodySearch search(*body_);
   const BodyMatch anew = search.SettleFinely(points, search.Find(points).posture);
   const double now = search.SettleFinely(points, tracker_->belief().posture).cost;
-  if (anew.cost < now - kGain) tracker_->Start(anew);
+  if (watch_.IsReplaced(now, anew.cost)) tracker_->Start(anew);
   return found;
 }
 
-void LabelledPerson::Keep(int frame, const std::vector<int>& point_of_marker) {
-  LookElsewhere(frame, point_of_marker);
+void LabelledPerson::KeepFrame(int frame, const std::vector<int>& point_of_marker) {
+  CountUnmatched(frame, point_of_marker);
   if (was_calibrated_ && frame % kept_every_ == kept_every_ / 2) {
     kept_.emplace_back(frame, tracker_->belief().posture);
   }
@@ -83,28 +73,29 @@ void LabelledPerson::Improve(TrackNames* names) {
     exchanged.Improve(names);
     kept_.clear();
   }
-  NameElsewhere(names);
+  NameWornElsewhere(names);
   elsewhere_ = WornElsewhere();
 }
 
-void LabelledPerson::LookElsewhere(int frame, const std::vector<int>& point_of_marker) {
+void LabelledPerson::CountUnmatched(int frame, const std::vector<int>& point_of_marker) {
   std::vector<char> is_used(offered.size(), 0);
   for (const int point : point_of_marker) {
     if (point >= 0) is_used[point] = 1;
   }
   for (int m = 0; m < body_->num_markers(); ++m) {
-    if (point_of_marker[m] >= 0 || tracker_->deviations()[m] > kKnown) continue;
+    if (point_of_marker[m] >= 0 || tracker_->deviations()[m] > RecordingTuning::kKnown) continue;
     for (std::size_t p = 0; p < is_used.size(); ++p) {
       const int track = tracks_.frames[frame].tracks[offered[p]];
       const PointTrack& followed = tracks_.tracks[track];
-      if (is_used[p] != 0 || followed.end - followed.begin < WornElsewhere::kLeastFrames) continue;
+      if (is_used[p] != 0 || followed.end - followed.begin < ElsewhereTuning::kLeastFrames)
+        continue;
       const Vector3d p_WP = points.col(static_cast<Eigen::Index>(p));
       elsewhere_.Add(m, track, tracker_->OffsetOf(m, p_WP), p_WP);
     }
   }
 }
 
-void LabelledPerson::NameElsewhere(TrackNames* names) const {
+void LabelledPerson::NameWornElsewhere(TrackNames* names) const {
   const auto frames = tracks_.frames.size();
   std::vector<std::vector<char>> has_point(  // by marker
       static_cast<std::size_t>(body_->num_markers()), std::vector<char>(frames, 0));
@@ -121,14 +112,15 @@ void LabelledPerson::NameElsewhere(TrackNames* names) const {
     const auto found = static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
     is_mostly_found.push_back(2 * found > frames ? 1 : 0);
   }
-  const double reach = was_calibrated_ ? kReachOfCalibrated : kReachOfHeight;
+  const double reach =
+      was_calibrated_ ? ElsewhereTuning::kReachCalibrated : ElsewhereTuning::kReach;
   for (const auto& [marker, track] : elsewhere_.Find(dt_, reach)) {
     const std::span<char> has = part(&has_point[marker], tracks_.tracks[track]);
     const bool is_taken = std::ranges::find(has, 1) != has.end();
     if (names->markers[track] >= 0 || is_mostly_found[marker] != 0 || is_taken) continue;
     std::ranges::fill(has, 1);
     names->markers[track] = first_marker_ + marker;
-    names->shares[track] = kShareElsewhere;
+    names->shares[track] = ElsewhereTuning::kShare;
   }
 }
 
@@ -139,7 +131,7 @@ MarkerSequence LabelledPerson::Named(const TrackNames& names) const {
   MarkerSequence named(labels, static_cast<int>(tracks_.frames.size()), 1 / dt_, 0);
   for (std::size_t t = 0; t < tracks_.tracks.size(); ++t) {
     const PointTrack& track = tracks_.tracks[t];
-    if (!IsMarker(names.markers[t]) || names.shares[t] < kSureName) continue;
+    if (!IsMarker(names.markers[t]) || names.shares[t] < RecordingTuning::kSureName) continue;
     const int marker = names.markers[t] - first_marker_;
     for (int k = track.begin; k < track.end; ++k) {
       named.frame(k).col(marker) = tracks_.frames[k].p_WP.col(track.points[k - track.begin]);

@@ -8,6 +8,7 @@
 
 #include "common/convert/tracking_setup.h"
 #include "common/label/search/label_body.h"
+#include "common/label/track/body_watch.h"
 #include "common/label/track/label_tracker.h"
 #include "common/label/track/point_tracks.h"
 #include "common/label/track/track_names.h"
@@ -21,8 +22,6 @@ namespace mmm_converter {
 /// and what whole passes tell of their names.
 class LabelledPerson {
  public:
-  static constexpr double kSureName = 0.7;  ///< share of the votes of a name that is sure
-
   /// first_marker: the number of the first of this person's markers among those of all. tracks must
   /// outlive the person; dt [s]: of a frame.
   LabelledPerson(const TrackingSetup& setup, int first_marker, const PointTracks& tracks,
@@ -44,7 +43,7 @@ class LabelledPerson {
   const std::vector<int>& Follow();
 
   /// What a pass made of a frame. point_of_marker: into offered.
-  void Keep(int frame, const std::vector<int>& point_of_marker);
+  void KeepFrame(int frame, const std::vector<int>& point_of_marker);
 
   /// After a pass, by what was kept of it: names of whoever was calibrated before this recording
   /// are tried against each other; whoever is not gets names for what is worn far from the model's
@@ -63,8 +62,9 @@ class LabelledPerson {
   Eigen::VectorXd variances;
 
  private:
-  void LookElsewhere(int frame, const std::vector<int>& point_of_marker);
-  void NameElsewhere(TrackNames* names) const;
+  /// Markers without a point against points without a marker.
+  void CountUnmatched(int frame, const std::vector<int>& point_of_marker);
+  void NameWornElsewhere(TrackNames* names) const;
   /// The points that surely have names, by marker.
   MarkerSequence Named(const TrackNames& names) const;
 
@@ -77,7 +77,7 @@ class LabelledPerson {
   int kept_every_;  ///< frames
   std::unique_ptr<LabelBody> body_;
   std::unique_ptr<LabelTracker> tracker_;
-  double unfit_ = 0;                           ///< [s] for which too few of the points fit
+  BodyWatch watch_ = BodyWatch(WatchTuning::kRecorded);
   std::vector<std::pair<int, Posture>> kept_;  ///< frames of this pass
   WornElsewhere elsewhere_;
 };

@@ -4,13 +4,11 @@
 #include <algorithm>
 
 #include "common/label/search/rigid_finder.h"
+#include "common/label/tuning.h"
 
 namespace mmm_converter {
 
 namespace {
-
-constexpr double kObjectShare = 0.5;
-constexpr int kSearchEvery = 5;  // frames, for an object that is not there
 
 /// Objects in one frame after the other. Those that are followed come first, the others are looked
 /// for in what these leave.
@@ -34,7 +32,7 @@ class ObjectSearch {
           std::any_of(found_[i].begin(), found_[i].end(), [](int p) { return p >= 0; });
       if (is_there) until_search_[i] = 0;
       if (is_there || --until_search_[i] > 0) continue;
-      until_search_[i] = kSearchEvery;
+      until_search_[i] = ObjectTuning::kSearchEvery;
       std::vector<int> left;
       for (int p = 0; p < points.cols(); ++p) {
         if (is_held_[p] == 0) left.push_back(p);
@@ -78,7 +76,7 @@ TrackNames FindObjectTracks(const std::vector<LabelObject>& objects, const Point
     }
     at_frame(static_cast<int>(k));
   }
-  return ResolveVotes(votes, tracks, end_marker, kObjectShare);
+  return ResolveVotes(votes, tracks, end_marker, ObjectTuning::kTrackShare);
 }
 
 }  // namespace mmm_converter

@@ -5,16 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "common/label/tuning.h"
 #include "common/math/square.h"
 
 namespace mmm_converter {
 
 namespace {
-
-constexpr double kAcceleration = 80;   // [m/s^2] of a quick hand or foot
-constexpr double kNearby = 0.006;      // [m]
-constexpr double kLongestStep = 0.12;  // [m] between two frames
-constexpr double kClearly = 3;         // times nearer than the next, beyond the slack
 
 FramePoints PointsOf(const MarkerSequence& recording, int k) {
   FramePoints points;
@@ -41,12 +37,16 @@ void PointFollower::Nearest::Offer(int other, double d) {
   }
 }
 
-bool PointFollower::Nearest::IsClear() const { return next > kClearly * distance + kNearby; }
+bool PointFollower::Nearest::IsClear() const {
+  return next > FollowTuning::kClearly * distance + FollowTuning::kNearby;
+}
 
 const std::vector<int>& PointFollower::Follow(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
                                               double dt) {
-  const double reach = std::min(kNearby + 0.5 * kAcceleration * dt * dt, kLongestStep);
-  const double farthest2 = Square(kClearly * reach + kNearby);  // beyond, nothing is in doubt
+  const double reach = std::min(FollowTuning::kNearby + 0.5 * FollowTuning::kAcceleration * dt * dt,
+                                FollowTuning::kFarthest);
+  const double farthest2 = Square(FollowTuning::kClearly * reach +
+                                  FollowTuning::kNearby);  // beyond, nothing is in doubt
   forward_.assign(static_cast<std::size_t>(last_.cols()), {});
   backward_.assign(static_cast<std::size_t>(points.cols()), {});
   for (Eigen::Index a = 0; a < last_.cols(); ++a) {

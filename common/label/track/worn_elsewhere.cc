@@ -5,20 +5,11 @@
 #include <cmath>
 #include <set>
 
+#include "common/label/tuning.h"
+
 namespace mmm_converter {
 
 using Eigen::Vector3d;
-
-namespace {
-
-constexpr double kReach = 0.2;        // [m] from the marker's place
-constexpr double kLeastTime = 1;      // [s] of all tracks at a place
-constexpr double kScatter = 0.015;    // [m] of a track about its place on the link, each coordinate
-constexpr double kShareOfPath = 0.2;  // of how far the points move with the link
-constexpr double kSamePlace = 0.03;   // [m]
-constexpr std::size_t kMostPlaces = 50;  // of a marker's longest tracks
-
-}  // namespace
 
 void WornElsewhere::Moments::Add(const Vector3d& v) {
   count += 1;
@@ -37,7 +28,7 @@ double WornElsewhere::Moments::Deviation() const {
 }
 
 void WornElsewhere::Add(int marker, int track, const Vector3d& offset, const Vector3d& p_WP) {
-  if (offset.norm() > kReach) return;
+  if (offset.norm() > ElsewhereTuning::kReach) return;
   Seen& seen = tracks_[{marker, track}];
   seen.offset.Add(offset);
   seen.p_WP.Add(p_WP);
@@ -48,17 +39,19 @@ WornElsewhere::Place WornElsewhere::FindPlace(int marker) const {
   for (auto it = tracks_.lower_bound({marker, 0}); it != tracks_.end() && it->first.first == marker;
        ++it) {
     const Moments& offset = it->second.offset;
-    if (offset.count >= kLeastFrames && offset.Deviation() < kScatter) tracks.push_back(&*it);
+    if (offset.count >= ElsewhereTuning::kLeastFrames &&
+        offset.Deviation() < ElsewhereTuning::kScatter)
+      tracks.push_back(&*it);
   }
   std::stable_sort(tracks.begin(), tracks.end(), [](const Track* a, const Track* b) {
     return a->second.offset.count > b->second.offset.count;
   });
   Place best;
-  for (std::size_t i = 0; i < std::min(tracks.size(), kMostPlaces); ++i) {
+  for (std::size_t i = 0; i < std::min(tracks.size(), ElsewhereTuning::kMostPlaces); ++i) {
     const Vector3d middle = tracks[i]->second.offset.Mean();
     Place place{marker, middle.norm(), {}, {}};
     for (const Track* track : tracks) {
-      if ((track->second.offset.Mean() - middle).norm() > kSamePlace) continue;
+      if ((track->second.offset.Mean() - middle).norm() > ElsewhereTuning::kSamePlace) continue;
       place.all.offset.Add(track->second.offset);
       place.all.p_WP.Add(track->second.p_WP);
       place.tracks.push_back(track->first.second);
@@ -73,9 +66,10 @@ std::vector<std::pair<int, int>> WornElsewhere::Find(double dt, double reach) co
   for (auto it = tracks_.begin(); it != tracks_.end();
        it = tracks_.lower_bound({it->first.first + 1, 0})) {
     Place place = FindPlace(it->first.first);
-    if (place.all.offset.count * dt < kLeastTime || place.distance > reach) continue;
+    if (place.all.offset.count * dt < ElsewhereTuning::kLeastTime || place.distance > reach)
+      continue;
     const Seen& all = place.all;
-    if (all.offset.Deviation() > kShareOfPath * all.p_WP.Deviation()) continue;
+    if (all.offset.Deviation() > ElsewhereTuning::kShareOfPath * all.p_WP.Deviation()) continue;
     nearest_first.push_back(std::move(place));
   }
   std::sort(nearest_first.begin(), nearest_first.end(),

@@ -13,8 +13,6 @@ namespace mmm_converter {
 /// than a point that is named by its place alone.
 class WornElsewhere {
  public:
-  static constexpr int kLeastFrames = 10;  ///< of a track; of shorter ones nothing is known
-
   /// A frame in which neither has another. track: the point's. offset: of the point from the
   /// marker's place, axes of its link [m]; p_WP: of the point [m].
   void Add(int marker, int track, const Eigen::Vector3d& offset, const Eigen::Vector3d& p_WP);
