@@ -15,8 +15,8 @@
 
 namespace mmm_converter {
 
-/// Random angles for the joints of a limb: for all of them or for the second half. may_stay_near: in
-/// some tries near the angles that they have.
+/// Random angles for the joints of a limb: for all of them or for the second half. may_stay_near:
+/// in some tries near the angles that they have.
 void RandomizeJoints(const MarkerKinematics& kinematics, const std::vector<int>& joints,
                      bool may_stay_near, SeededRandom* random, Posture* posture);
 

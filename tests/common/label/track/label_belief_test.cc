@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/label/tuning.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter::testing {
@@ -72,7 +73,7 @@ TEST_F(LabelBeliefTest, WhoStandsIsForeseenToStand) {
   See(0, 20, 0.1);
   EXPECT_GT(before, 0.05);
   EXPECT_LT(DeviationAfter(0.1), 0.01);
-  EXPECT_NEAR(belief_.speed[0], 0.05 * LabelBelief::kRootSpeed, 0.02);
+  EXPECT_NEAR(belief_.speed[0], 0.05 * MovementTuning::kRoot.speed, 0.02);
 }
 
 TEST_F(LabelBeliefTest, WhoSetsOffIsForeseenToMove) {
@@ -81,7 +82,7 @@ TEST_F(LabelBeliefTest, WhoSetsOffIsForeseenToMove) {
   EXPECT_GE(belief_.speed[0], std::abs(belief_.velocity[0]));
   EXPECT_GT(belief_.velocity[0], 0.4);
   EXPECT_GT(DeviationAfter(0.1), 0.03);
-  EXPECT_LE(belief_.speed[0], LabelBelief::kRootSpeed);
+  EXPECT_LE(belief_.speed[0], MovementTuning::kRoot.speed);
 }
 
 TEST_F(LabelBeliefTest, WhatIsNotSeenCanDoAnything) {

@@ -8,7 +8,6 @@
 
 #include <numeric>
 
-#include "common/label/search/body_search.h"
 #include "common/math/seeded_random.h"
 #include "common/motion/occlusion.h"
 #include "common/support/error.h"
@@ -304,36 +303,6 @@ TEST(LabelRecordingTest, TooManyPointsAreAnError) {
   MarkerSequence many(std::vector<std::string>(1001, "*"), 1, 100, 0);
   many.frame(0).setZero();
   EXPECT_THROW(LabelRecording({{made.calibrated}}, made.recording.labels(), many, {}, {}), Error);
-}
-
-TEST(BodySearchTest, APointFarFromEverybodyDoesNotDisturb) {
-  const RecordedPerson made = Record(909, 0.1);
-  const LabelBody body(made.calibrated);
-  Eigen::Matrix3Xd points(3, made.recording.num_labels() + 1);
-  points << made.recording.frame(0), Eigen::Vector3d(1e6, 0, 0);
-  const BodyMatch match = BodySearch(body).Find(points);
-  for (int m = 0; m < body.num_markers(); ++m) {
-    EXPECT_EQ(match.point_of_marker[m], made.calibrated.assignments()[m].label);
-  }
-}
-
-TEST(BodySearchTest, OneFrameIsEnoughInAnyPosture) {
-  const RecordedPerson made = Record(907, 6);
-  const LabelBody body(made.calibrated);
-  BodySearch search(body);
-  int right = 0, all = 0;
-  for (int k = 0; k < made.recording.num_frames(); k += 60) {
-    // Lying on the side, and turned.
-    const Eigen::Matrix3d turn(Eigen::AngleAxisd(k * EIGEN_PI / 120, Eigen::Vector3d::UnitX()) *
-                               Eigen::AngleAxisd(k, Eigen::Vector3d::UnitZ()));
-    const Eigen::Matrix3Xd points = turn * made.recording.frame(k);
-    const BodyMatch match = search.Find(points);
-    for (int m = 0; m < body.num_markers(); ++m) {
-      right += match.point_of_marker[m] == made.calibrated.assignments()[m].label;
-      ++all;
-    }
-  }
-  EXPECT_GE(right, 0.99 * all);
 }
 
 }  // namespace

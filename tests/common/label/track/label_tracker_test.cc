@@ -10,6 +10,7 @@
 
 #include "common/label/search/body_search.h"
 #include "common/support/units.h"
+#include "tests/common/label/made_person.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/unnamed_points.h"
 
@@ -101,6 +102,73 @@ TEST(LabelTrackerTest, FeetThatStandTogetherKeepTheirPoints) {
              MakeUnnamed(recording, {.hidden = 0.3, .ghosts = 5}, 952));
   EXPECT_GE(followed.right, 0.985 * followed.markers);
   EXPECT_LE(followed.wrong, 0.01 * followed.markers);
+}
+
+void ExpectSame(const LabelBelief& a, const LabelBelief& b) {
+  EXPECT_EQ(a.posture.position, b.posture.position);
+  EXPECT_EQ(a.posture.joint_angles, b.posture.joint_angles);
+  EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(a.P_qq, b.P_qq);
+  EXPECT_EQ(a.offset, b.offset);
+  EXPECT_EQ(a.offset_variance, b.offset_variance);
+}
+
+TEST(LabelTrackerTest, AssigningBetweenChangesNothingOfTheTrack) {
+  const MadePerson made(961);
+  LabelTracker tracker(made.body), other(made.body), untouched(made.body);
+  BodyMatch start;
+  start.posture = made.PostureAt(0);
+  tracker.Start(start);
+  untouched.Start(start);
+  start.posture = made.PostureAt(10);
+  other.Start(start);
+  for (int k = 1; k < 5; ++k) {
+    tracker.Track(made.PointsAt(k), 0.01);
+    untouched.Track(made.PointsAt(k), 0.01);
+    other.Track(made.PointsAt(10 - k), 0.01);
+    const LabelTracker::Prediction before = tracker.prediction();
+    const std::vector<int> between =
+        tracker.AssignBetween(made.PointsAt(k), other.prediction(), {});
+    EXPECT_EQ(CountOwn(between), made.body.num_markers());
+    ExpectSame(tracker.belief(), untouched.belief());
+    EXPECT_EQ(tracker.prediction().posture.joint_angles, before.posture.joint_angles);
+    EXPECT_EQ(tracker.prediction().information, before.information);
+    EXPECT_EQ(tracker.prediction().offset, before.offset);
+  }
+}
+
+// Two points as near to a marker: the one that is guessed is its.
+TEST(LabelTrackerTest, AHintDecidesBetweenPointsAsLikely) {
+  const MadePerson made(962);
+  for (const int guessed : {0, 1}) {
+    LabelTracker tracker(made.body);
+    BodyMatch start;
+    start.posture = made.PostureAt(0);
+    tracker.Start(start);
+    tracker.Track(made.PointsAt(0), 0.01);
+    Eigen::Matrix3Xd points(3, made.body.num_markers() + 1);
+    points << made.PointsAt(1), made.PointsAt(1).col(5);
+    LabelTracker::Hints hints;
+    hints.markers.assign(static_cast<std::size_t>(points.cols()), -1);
+    hints.worth.assign(hints.markers.size(), 20);
+    const int point = guessed == 0 ? 5 : made.body.num_markers();
+    hints.markers[point] = 5;
+    EXPECT_EQ(tracker.Track(points, 0.01, hints)[5], point);
+  }
+}
+
+TEST(LabelTrackerTest, WhatIsRestoredGoesOnFromThere) {
+  const MadePerson made(963);
+  LabelTracker tracker(made.body);
+  BodyMatch start;
+  start.posture = made.PostureAt(0);
+  tracker.Start(start);
+  tracker.Track(made.PointsAt(1), 0.01);
+  const LabelBelief kept = tracker.belief();
+  tracker.Track(made.PointsAt(2), 0.01);
+  tracker.Restore(kept);
+  ExpectSame(tracker.belief(), kept);
+  EXPECT_EQ(CountOwn(tracker.Track(made.PointsAt(2), 0.01)), made.body.num_markers());
 }
 
 }  // namespace
