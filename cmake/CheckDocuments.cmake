@@ -1,0 +1,40 @@
+# cmake -DROOT=<project> -P CheckDocuments.cmake
+#
+# The Markdown of the project: at most 20,000 words in all, and every file or folder that it links to or cites is there.
+cmake_minimum_required(VERSION 3.25)
+
+set(most_words 20000)
+file(GLOB pages RELATIVE ${ROOT} ${ROOT}/*.md)
+foreach(top cmake common plugins MMMConverterS2KF xml_config examples tests)
+  file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${top}/*.md)
+  list(APPEND pages ${found})
+endforeach()
+list(FILTER pages EXCLUDE REGEX "(^|/)build[^/]*/")
+
+set(problems "")
+set(num_words 0)
+foreach(page IN LISTS pages)
+  file(READ ${ROOT}/${page} text)
+  # What means something in a CMake list.
+  string(REGEX REPLACE "[][;\\]" "|" plain "${text}")
+  string(REGEX MATCHALL "[^ \t\r\n]+" words "${plain}")
+  list(LENGTH words count)
+  math(EXPR num_words "${num_words} + ${count}")
+
+  get_filename_component(folder ${page} DIRECTORY)
+  string(REGEX MATCHALL "\\|\\([^()# \n]+" targets "${plain}")
+  list(TRANSFORM targets REPLACE "^\\|\\(" "")
+  string(REGEX MATCHALL "[A-Za-z0-9_./-]+\\.md" cited "${plain}")
+  foreach(target IN LISTS targets cited)
+    if(NOT target MATCHES "://" AND NOT EXISTS ${ROOT}/${folder}/${target} AND NOT EXISTS ${ROOT}/${target})
+      string(APPEND problems "  ${page}: there is no ${target}\n")
+    endif()
+  endforeach()
+endforeach()
+if(num_words GREATER most_words)
+  string(APPEND problems "  ${num_words} words of Markdown; at most ${most_words}: which of them stand in a header comment as well?\n")
+endif()
+if(problems)
+  message(FATAL_ERROR "\n${problems}")
+endif()
+message(STATUS "${num_words} words of Markdown")
