@@ -2,8 +2,8 @@
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
 #   - a folder of `layers` includes only folders before it; those joined by | do not include each other
-#   - common/dynamics uses model and motion (and what lies below model); only the application and the
-#     tests use dynamics
+#   - common/dynamics uses model and motion (and what lies below model); only judge, the part of pipeline
+#     for it, the application and the tests use dynamics
 #   - plugins never include each other, the application includes no plugin
 #   - include paths start at the project root; a file is opened only in io, support and above plugins
 #   - headers of other projects, except Eigen, appear only in .cc files (and in tests); one header of the
@@ -18,15 +18,15 @@ set(layers
     common/support common/math common/model common/motion common/fit
     common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/urdf common/io common/io/recording
     common/convert "common/calibrate|common/forces"
-    common/label common/label/search "common/label/track|common/label/learn" common/evaluate common/live
+    common/label common/label/search "common/label/track|common/label/learn" common/judge
+    common/pipeline/input common/pipeline "common/pipeline/comparison|common/pipeline/dynamics" common/live
     plugins
-    MMMConverterS2KF/terminal MMMConverterS2KF/input MMMConverterS2KF/conversion
-    "MMMConverterS2KF/comparison|MMMConverterS2KF/dynamics" MMMConverterS2KF/report
+    MMMConverterS2KF/terminal MMMConverterS2KF/report
     "MMMConverterS2KF/batch|MMMConverterS2KF/live"
     "MMMConverterS2KF/commands|MMMConverterS2KF/python" MMMConverterS2KF
     examples tests)
 # Of these the files alone are a layer: each of their folders is a layer of its own.
-set(divided common/io common/label MMMConverterS2KF)
+set(divided common/io common/label common/pipeline MMMConverterS2KF)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")
 string(REPLACE "|" ";" folders_of_layers "${layers};common/dynamics")
@@ -71,9 +71,11 @@ function(may_include from to out)
       set(${out} TRUE PARENT_SCOPE)
     endif()
   elseif(to STREQUAL common/dynamics)
-    if(from MATCHES "^(MMMConverterS2KF|tests)(/|$)")
+    if(from MATCHES "^(common/judge|common/pipeline/dynamics|(MMMConverterS2KF|tests)(/.*)?)$")
       set(${out} TRUE PARENT_SCOPE)
     endif()
+  elseif(from STREQUAL common/live AND to MATCHES "^common/(judge|pipeline)")
+    # beside them
   elseif(NOT from MATCHES "^MMMConverterS2KF" OR NOT to STREQUAL plugins)
     height_of(${from} user)
     height_of(${to} used)

@@ -5,13 +5,13 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/MMMConverterS2KF)
 set(header_dir ${CMAKE_INSTALL_INCLUDEDIR}/MMMConverterS2KF)
 
-install(TARGETS mmm_converter_common EXPORT MMMConverterS2KFTargets
+install(TARGETS mmm_converter_common mmm_converter_pipeline EXPORT MMMConverterS2KFTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_COMPONENT development)
 if(TARGET MMMConverterS2KF)
   install(TARGETS MMMConverterS2KF RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 install(DIRECTORY common DESTINATION ${header_dir} COMPONENT development FILES_MATCHING PATTERN "*.h"
-        PATTERN dynamics EXCLUDE PATTERN calibrate EXCLUDE PATTERN label EXCLUDE)  # not exported
+        PATTERN dynamics EXCLUDE PATTERN plausibility.h EXCLUDE)  # not exported
 install(DIRECTORY xml_config/ DESTINATION ${MMM_CONVERTER_DATA_DIR}
         PATTERN CMakeLists.txt EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -42,7 +42,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libmmm-converter-s2kf-dev, python3-mmmconverter, gnuplot-nox")
 mmm_converter_control_files(program
   triggers "activate-noawait ldconfig\n"
-  shlibs "libmmm_converter_common ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} mmm-converter-s2kf (= ${PROJECT_VERSION}-1)\n")
+  shlibs "libmmm_converter_common ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} mmm-converter-s2kf (= ${PROJECT_VERSION}-1)
+libmmm_converter_pipeline ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} mmm-converter-s2kf (= ${PROJECT_VERSION}-1)\n")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "motion capture markers to motions of the human body
 Converts recordings of optical motion capture (C3D, TRC, MMM) into motions of
 the Master Motor Map: root poses and joint angles of a model of the human body,

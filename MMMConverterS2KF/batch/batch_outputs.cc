@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "MMMConverterS2KF/conversion/exporters.h"
+#include "common/pipeline/exporters.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/pipeline/conversion_figures.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

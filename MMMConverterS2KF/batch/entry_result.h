@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/conversion.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

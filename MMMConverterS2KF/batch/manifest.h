@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
+#include "common/pipeline/conversion.h"
 
 namespace mmm_converter {
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/error.h"

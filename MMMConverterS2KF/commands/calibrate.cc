@@ -8,14 +8,15 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/comparison_output.h"
-#include "MMMConverterS2KF/comparison/comparison_setup.h"
-#include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
+#include "common/pipeline/comparison/comparison_setup.h"
+#include "common/pipeline/person_calibration.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

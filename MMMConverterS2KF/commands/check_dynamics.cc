@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/dynamics/dynamics_check.h"
-#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/dynamics_page.h"
 #include "MMMConverterS2KF/report/dynamics_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
+#include "common/pipeline/dynamics/dynamics_check.h"
+#include "common/pipeline/input/input.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

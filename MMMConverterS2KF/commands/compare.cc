@@ -7,12 +7,13 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/comparison_output.h"
-#include "MMMConverterS2KF/comparison/comparison_setup.h"
-#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/pipeline/comparison/comparison_setup.h"
+#include "common/pipeline/input/input.h"
 
 namespace mmm_converter {
 namespace {

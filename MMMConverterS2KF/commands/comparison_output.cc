@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/comparison/comparison_setup.h"
 #include "MMMConverterS2KF/report/comparison_json.h"
 #include "MMMConverterS2KF/report/comparison_plot.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/pipeline/comparison/comparison_setup.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

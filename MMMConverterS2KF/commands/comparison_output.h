@@ -6,7 +6,7 @@
 
 #include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "common/evaluate/comparison.h"
+#include "common/pipeline/comparison/comparison.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {

@@ -5,15 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion/all_motions.h"
-#include "MMMConverterS2KF/conversion/conversion.h"
-#include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/report/all_motions_summary.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/pipeline/all_motions.h"
+#include "common/pipeline/conversion.h"
+#include "common/pipeline/exporters.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

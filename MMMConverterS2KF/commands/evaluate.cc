@@ -6,16 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/comparison/comparison_setup.h"
-#include "MMMConverterS2KF/comparison/evaluation.h"
-#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/report/comparison_json.h"
 #include "MMMConverterS2KF/report/comparison_plot.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/pipeline/comparison/comparison_setup.h"
+#include "common/pipeline/comparison/evaluation.h"
+#include "common/pipeline/input/input.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 

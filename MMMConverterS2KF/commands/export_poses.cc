@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion/pose_output.h"
-#include "MMMConverterS2KF/dynamics/checked_motion.h"
-#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/motion/trajectory_derivatives.h"
+#include "common/pipeline/dynamics/checked_motion.h"
+#include "common/pipeline/input/input.h"
+#include "common/pipeline/pose_output.h"
 #include "common/support/atomic_file.h"
 #include "common/support/output_plan.h"
 #include "common/support/text.h"

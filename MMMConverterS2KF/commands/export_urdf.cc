@@ -5,10 +5,11 @@
 #include <iostream>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/io/urdf/urdf_model_writer.h"
+#include "common/pipeline/input/input.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

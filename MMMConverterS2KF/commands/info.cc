@@ -6,9 +6,9 @@
 #include "MMMConverterS2KF/batch/batch_file_kinds.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/report/file_kinds.h"
+#include "MMMConverterS2KF/report/version.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
-#include "MMMConverterS2KF/terminal/version.h"
 
 namespace mmm_converter {
 namespace {

@@ -5,13 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion/labelled_output.h"
-#include "MMMConverterS2KF/conversion/recording_labels.h"
 #include "MMMConverterS2KF/report/label_page.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/pipeline/labelled_output.h"
+#include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/conversion/exporters.h"
 #include "MMMConverterS2KF/live/live_run.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
 #include "MMMConverterS2KF/live/live_summary.h"
@@ -13,10 +12,12 @@
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/live/source_address.h"
+#include "common/pipeline/exporters.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {

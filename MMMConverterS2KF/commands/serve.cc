@@ -5,14 +5,15 @@
 #include <limits>
 
 #include "MMMConverterS2KF/commands/commands.h"
-#include "MMMConverterS2KF/input/input.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/live/natnet/natnet_server.h"
 #include "common/live/qtm/qtm_server.h"
 #include "common/live/stream_address.h"
 #include "common/math/up_axis.h"
+#include "common/pipeline/input/input.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

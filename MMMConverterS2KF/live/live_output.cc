@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "MMMConverterS2KF/conversion/motion_output.h"
 #include "MMMConverterS2KF/live/live_source.h"
 #include "MMMConverterS2KF/live/motion_journal.h"
+#include "common/pipeline/motion_output.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/live/live_request.h"
 #include "MMMConverterS2KF/live/live_session.h"
 #include "common/live/sink_runner.h"
+#include "common/pipeline/conversion.h"
 
 namespace mmm_converter {
 

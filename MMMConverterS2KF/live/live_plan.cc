@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "MMMConverterS2KF/conversion/object.h"
+#include "common/pipeline/object.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/exporters.h"
-#include "MMMConverterS2KF/input/converter_choice.h"
-#include "MMMConverterS2KF/input/input.h"
+#include "common/pipeline/exporters.h"
+#include "common/pipeline/input/converter_choice.h"
+#include "common/pipeline/input/input.h"
 
 namespace mmm_converter {
 

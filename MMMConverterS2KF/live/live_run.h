@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/live/live_request.h"
 #include "MMMConverterS2KF/live/live_session.h"
 #include "common/live/frame_source.h"
 #include "common/live/latency_histogram.h"
+#include "common/pipeline/conversion.h"
 
 namespace mmm_converter {
 

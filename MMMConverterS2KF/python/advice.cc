@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/python/advice.h"
 
+#include <algorithm>
+
 namespace mmm_converter::python {
 namespace {
 
@@ -37,10 +39,16 @@ const char* KeywordFor(Remedy remedy) {
   return "";
 }
 
+// "subject-file": "subject_file=".
+std::string Keyword(const std::string& option) {
+  if (option == "subject") return "prefix=";
+  std::string keyword = option + "=";
+  std::replace(keyword.begin(), keyword.end(), '-', '_');
+  return keyword;
+}
+
 }  // namespace
 
-std::string WithKeyword(const Error& error) {
-  return error.what() + std::string(KeywordFor(error.remedy()));
-}
+Wording KeywordWording() { return {&Keyword, &KeywordFor}; }
 
 }  // namespace mmm_converter::python

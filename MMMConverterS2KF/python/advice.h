@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
-#include "common/support/error.h"
+#include "common/support/advice.h"
 
 namespace mmm_converter::python {
 
-/// The message, with the keyword of the package's functions that gives what is missing.
-std::string WithKeyword(const Error& error);
+/// Messages name the keywords of the package's functions.
+Wording KeywordWording();
 
 }  // namespace mmm_converter::python

@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
-#include "MMMConverterS2KF/conversion/motion_output.h"
 #include "MMMConverterS2KF/python/arrays.h"
 #include "MMMConverterS2KF/python/background.h"
 #include "MMMConverterS2KF/python/module.h"
@@ -14,6 +12,8 @@
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "common/convert/marker_incidents.h"
+#include "common/pipeline/conversion.h"
+#include "common/pipeline/motion_output.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 

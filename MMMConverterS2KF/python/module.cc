@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "MMMConverterS2KF/python/advice.h"
-#include "MMMConverterS2KF/terminal/version.h"
+#include "MMMConverterS2KF/report/version.h"
 #include "common/support/error.h"
 
 namespace py = pybind11;
@@ -17,9 +17,10 @@ PYBIND11_MODULE(_mmmconverter, module) {
     try {
       if (raised) std::rethrow_exception(raised);
     } catch (const Error& failure) {
-      error(python::WithKeyword(failure).c_str());
+      error(WithAdvice(failure).c_str());
     }
   });
+  SetWording(python::KeywordWording());
   module.def("version_text", &VersionText);
   python::BindRecordings(&module);
   python::BindModels(&module);

@@ -3,8 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
-#include "MMMConverterS2KF/input/converter_choice.h"
-#include "MMMConverterS2KF/input/input.h"
+#include "common/pipeline/input/converter_choice.h"
+#include "common/pipeline/input/input.h"
 
 namespace mmm_converter::python {
 

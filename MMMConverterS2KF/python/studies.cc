@@ -6,11 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "MMMConverterS2KF/comparison/comparison_setup.h"
-#include "MMMConverterS2KF/conversion/labelled_output.h"
-#include "MMMConverterS2KF/conversion/person_calibration.h"
-#include "MMMConverterS2KF/conversion/recording_labels.h"
-#include "MMMConverterS2KF/dynamics/dynamics_check.h"
 #include "MMMConverterS2KF/python/arrays.h"
 #include "MMMConverterS2KF/python/background.h"
 #include "MMMConverterS2KF/python/module.h"
@@ -26,6 +21,11 @@
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/label/track/relabelled.h"
+#include "common/pipeline/comparison/comparison_setup.h"
+#include "common/pipeline/dynamics/dynamics_check.h"
+#include "common/pipeline/labelled_output.h"
+#include "common/pipeline/person_calibration.h"
+#include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter::python {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/all_motions.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/all_motions.h"
 
 namespace mmm_converter {
 

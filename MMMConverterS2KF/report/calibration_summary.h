@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/person_calibration.h"
 
 namespace mmm_converter {
 

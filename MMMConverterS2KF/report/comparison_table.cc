@@ -7,8 +7,8 @@
 #include <cmath>
 #include <span>
 
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
+#include "common/support/advice.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

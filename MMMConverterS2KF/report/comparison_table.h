@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/evaluate/comparison.h"
+#include "common/pipeline/comparison/comparison.h"
 
 namespace mmm_converter {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
+#include "common/pipeline/conversion_figures.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

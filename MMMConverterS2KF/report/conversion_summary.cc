@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "MMMConverterS2KF/conversion/conversion_figures.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
+#include "common/pipeline/conversion_figures.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/conversion.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/conversion.h"
 
 namespace mmm_converter {
 

@@ -11,9 +11,9 @@
 #include "MMMConverterS2KF/report/describe.h"
 #include "MMMConverterS2KF/report/info_markers.h"
 #include "MMMConverterS2KF/report/info_prospect.h"
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/tables/trc_reader.h"
+#include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 

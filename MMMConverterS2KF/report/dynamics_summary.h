@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/dynamics/dynamics_check.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/dynamics/dynamics_check.h"
 
 namespace mmm_converter {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/prospect.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/prospect.h"
 
 namespace mmm_converter {
 

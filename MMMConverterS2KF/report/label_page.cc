@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/conversion/verdict.h"
 #include "MMMConverterS2KF/report/drawn_frames.h"
 #include "MMMConverterS2KF/report/html.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/page_sources.h"
 #include "common/io/recording/marker_labels.h"
+#include "common/pipeline/verdict.h"
 
 namespace mmm_converter {
 namespace {

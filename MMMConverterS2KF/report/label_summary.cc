@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "MMMConverterS2KF/conversion/person_calibration.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/pipeline/person_calibration.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

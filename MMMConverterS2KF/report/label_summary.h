@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/recording_labels.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/recording_labels.h"
 
 namespace mmm_converter {
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "MMMConverterS2KF/conversion/person_calibration.h"
+#include "common/pipeline/person_calibration.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

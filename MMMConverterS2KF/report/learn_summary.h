@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/marker_learning.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/pipeline/marker_learning.h"
 
 namespace mmm_converter {
 

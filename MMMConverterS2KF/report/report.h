@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/evaluate/comparison.h"
+#include "common/pipeline/comparison/comparison.h"
 
 namespace mmm_converter {
 

@@ -9,9 +9,9 @@
 #include "MMMConverterS2KF/report/model_json.h"
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
+#include "common/support/advice.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "MMMConverterS2KF/report/json.h"
-#include "common/evaluate/comparison.h"
+#include "common/pipeline/comparison/comparison.h"
 
 namespace mmm_converter {
 

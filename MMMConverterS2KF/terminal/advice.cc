@@ -73,10 +73,8 @@ const char* AttributeFor(Remedy remedy) {
 
 }  // namespace
 
-std::string WithAdvice(const Error& error) { return WithAdvice(error.what(), error.remedy()); }
-
-std::string WithAdvice(const std::string& failure, Remedy remedy) {
-  return failure + OptionFor(remedy);
+Wording CommandLineWording() {
+  return {[](const std::string& name) { return "--" + name; }, &OptionFor};
 }
 
 std::string WithManifestAdvice(const Error& error) {

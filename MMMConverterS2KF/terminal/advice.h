@@ -3,15 +3,14 @@
 
 #include <string>
 
-#include "common/support/error.h"
+#include "common/support/advice.h"
 
 namespace mmm_converter {
 
-/// What went wrong, and the option that helps, where there is one.
-std::string WithAdvice(const Error& error);
-std::string WithAdvice(const std::string& failure, Remedy remedy);
+/// Messages name the options of the command line.
+Wording CommandLineWording();
 
-/// Likewise, and the attribute of a manifest that helps.
+/// What went wrong, and the attribute of a manifest that helps, where there is one.
 std::string WithManifestAdvice(const Error& error);
 
 }  // namespace mmm_converter

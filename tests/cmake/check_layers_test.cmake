@@ -8,10 +8,10 @@ set(licence "// SPDX-License-Identifier: MIT\n")
 function(write_good_tree)
   file(REMOVE_RECURSE ${WORK_DIR})
   foreach(folder common/support common/model common/motion common/io common/io/bytes common/io/c3d common/io/mmm
-                 common/io/recording common/dynamics common/label/search common/label/track
-                 common/label/learn plugins/one plugins/two MMMConverterS2KF MMMConverterS2KF/input
-                 MMMConverterS2KF/conversion MMMConverterS2KF/comparison MMMConverterS2KF/dynamics MMMConverterS2KF/report
-                 examples tests)
+                 common/io/recording common/label/search common/label/track common/label/learn
+                 common/judge common/pipeline common/pipeline/input common/pipeline/comparison
+                 common/pipeline/dynamics common/live common/dynamics plugins/one plugins/two MMMConverterS2KF
+                 MMMConverterS2KF/terminal MMMConverterS2KF/report examples tests)
     file(WRITE ${WORK_DIR}/${folder}/used.h "${licence}#include <Eigen/Core>\n#include <vector>\n")
   endforeach()
   file(WRITE ${WORK_DIR}/common/io/user.cc "${licence}#include <fmt/core.h>\n#include <fstream>\n
@@ -19,8 +19,8 @@ function(write_good_tree)
   file(WRITE ${WORK_DIR}/common/dynamics/user.h "${licence}#include \"common/motion/used.h\"\n")
   file(WRITE ${WORK_DIR}/common/io/recording/user.cc "${licence}#include \"common/io/c3d/used.h\"\n#include \"common/io/used.h\"\n")
   file(WRITE ${WORK_DIR}/MMMConverterS2KF/user.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n")
-  file(WRITE ${WORK_DIR}/MMMConverterS2KF/dynamics/user.cc "${licence}#include \"common/dynamics/used.h\"\n")
-  file(WRITE ${WORK_DIR}/MMMConverterS2KF/report/user.cc "${licence}#include \"MMMConverterS2KF/dynamics/used.h\"\n")
+  file(WRITE ${WORK_DIR}/common/pipeline/dynamics/user.cc "${licence}#include \"common/dynamics/used.h\"\n")
+  file(WRITE ${WORK_DIR}/MMMConverterS2KF/report/user.cc "${licence}#include \"common/pipeline/dynamics/used.h\"\n")
   file(WRITE ${WORK_DIR}/MMMConverterS2KF/report/json.h "${licence}#include <nlohmann/json_fwd.hpp>\n")
   file(WRITE ${WORK_DIR}/tests/user.cc "${licence}#include \"plugins/one/used.h\"\n")
 endfunction()
@@ -66,12 +66,20 @@ expect_fault(common/label/search/a.h "${licence}#include \"common/label/track/us
              "common/label/search must not include common/label/track")
 expect_fault(common/label/learn/a.h "${licence}#include \"common/label/track/used.h\"\n"
              "common/label/learn must not include common/label/track")
-expect_fault(MMMConverterS2KF/conversion/a.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n"
-             "MMMConverterS2KF/conversion must not include MMMConverterS2KF/report")
-expect_fault(MMMConverterS2KF/dynamics/a.cc "${licence}#include \"MMMConverterS2KF/comparison/used.h\"\n"
-             "MMMConverterS2KF/dynamics must not include MMMConverterS2KF/comparison")
-expect_fault(MMMConverterS2KF/input/a.cc "${licence}#include \"MMMConverterS2KF/used.h\"\n"
-             "MMMConverterS2KF/input must not include MMMConverterS2KF ")
+expect_fault(common/judge/a.cc "${licence}#include \"common/pipeline/used.h\"\n"
+             "common/judge must not include common/pipeline")
+expect_fault(common/pipeline/a.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n"
+             "common/pipeline must not include MMMConverterS2KF/report")
+expect_fault(common/pipeline/a.cc "${licence}#include \"common/live/used.h\"\n"
+             "common/pipeline must not include common/live")
+expect_fault(common/live/a.cc "${licence}#include \"common/pipeline/used.h\"\n"
+             "common/live must not include common/pipeline")
+expect_fault(common/pipeline/a.cc "${licence}#include \"common/dynamics/used.h\"\n"
+             "common/pipeline must not include common/dynamics")
+expect_fault(common/pipeline/dynamics/a.cc "${licence}#include \"common/pipeline/comparison/used.h\"\n"
+             "common/pipeline/dynamics must not include common/pipeline/comparison")
+expect_fault(MMMConverterS2KF/terminal/a.cc "${licence}#include \"MMMConverterS2KF/used.h\"\n"
+             "MMMConverterS2KF/terminal must not include MMMConverterS2KF ")
 expect_fault(MMMConverterS2KF/report/a.cc "${licence}#include \"plugins/one/used.h\"\n"
              "MMMConverterS2KF/report must not include plugins")
 expect_fault(MMMConverterS2KF/new/a.cc "${licence}" "its folder is no layer")
@@ -87,7 +95,7 @@ string(REPEAT "//\n" 400 comment)
 expect_fault(tests/a.cc "${licence}${comment}" "401 lines; at most 400")
 
 write_good_tree()
-file(WRITE ${WORK_DIR}/MMMConverterS2KF/input/json.h "${licence}#include <nlohmann/json_fwd.hpp>\n")
+file(WRITE ${WORK_DIR}/MMMConverterS2KF/terminal/json.h "${licence}#include <nlohmann/json_fwd.hpp>\n")
 expect_output("belongs in one header")
 
 # Rooms of three times 350 lines: a folder of a layer with the folders in it, a plugin, a folder of tests.

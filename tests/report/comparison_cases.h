@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "common/evaluate/comparison.h"
+#include "common/pipeline/comparison/comparison.h"
 
 namespace mmm_converter::testing {
 

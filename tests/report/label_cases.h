@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "MMMConverterS2KF/conversion/recording_labels.h"
+#include "common/pipeline/recording_labels.h"
 
 namespace mmm_converter::testing {
 

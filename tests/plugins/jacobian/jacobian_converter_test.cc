@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/evaluate/optimal_fit.h"
-#include "common/evaluate/tracking_quality.h"
+#include "common/judge/optimal_fit.h"
+#include "common/judge/tracking_quality.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"

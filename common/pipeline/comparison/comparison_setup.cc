@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/comparison/comparison_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "common/pipeline/input/finished_motion.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <typename Named>
+void NumberRepeatedNames(std::vector<Named>* items) {
+  std::map<std::string, int> count;
+  for (Named& item : *items) {
+    const int number = ++count[item.name];
+    if (number > 1) item.name += fmt::format(" ({})", number);
+  }
+}
+
+void TakeModel(const InputRequest& request, ConverterConfig config, Input* read, Trial* trial,
+               Warnings* warnings) {
+  MatchModel(request, read, &config);
+  const Input& input = *read;
+  const Recording& recording = input.recording;
+  TrackingSetup setup = MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference,
+                                     config, nullptr);  // each row says it
+  WarnOfFreeJoints(setup, config, warnings);
+  const Person person = FindPerson(request.person, setup, recording, config, warnings);
+  ScaleToPerson(ScalingOf(person, config), &setup);
+  trial->model = setup.model;
+  trial->subject = person.subject;
+}
+
+}  // namespace
+
+Contender MakeContender(const std::string& config) {
+  Contender contender;
+  contender.name = config.empty() ? "s2kf_default" : fs::path(config).stem().string();
+  try {
+    ConverterChoice choice = ChooseConverter({config, "", ""}, nullptr);
+    contender.config = std::move(choice.config);
+    contender.configuration = std::move(choice.text);
+    contender.plugin = std::move(choice.plugin);
+  } catch (const Error& error) {
+    contender.failure = WithAdvice(error);
+  }
+  return contender;
+}
+
+void NameInputs(const Contender& contender, OutputPlan* plan) {
+  NameInputs(ConverterChoice{contender.config, "", contender.plugin}, plan);
+}
+
+Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
+                Warnings* warnings) {
+  Trial trial;
+  trial.name = fs::path(request.file).filename().string();
+  try {
+    Warnings of_input;
+    Input input = ReadInput(request, {}, &of_input);
+    warnings->Append(of_input);
+    const WarningContext context(warnings, request.file, input.recording.motion());
+    if (!truth_file.empty()) {
+      const MmmMotion truth = ReadPostures(truth_file, input.recording.motion());
+      trial.truth = AlignFrames(truth.trajectory, input.recording.markers, truth_file);
+      if (request.person.subject_file.empty()) {
+        if (!request.person.size.height) request.person.size.height = truth.size.height;
+        if (!request.person.size.mass) request.person.size.mass = truth.size.mass;
+      }
+    }
+    TakeModel(request, config, &input, &trial, warnings);
+    trial.markers = std::move(input.recording.markers);
+  } catch (const Error& error) {
+    trial.failure = WithAdvice(error);
+  }
+  return trial;
+}
+
+void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders) {
+  NumberRepeatedNames(trials);
+  NumberRepeatedNames(contenders);
+}
+
+}  // namespace mmm_converter

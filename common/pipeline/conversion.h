@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/motion_converter.h"
+#include "common/pipeline/conversion_figures.h"
+#include "common/pipeline/exporters.h"
+#include "common/pipeline/input/converter_choice.h"
+#include "common/pipeline/input/input.h"
+#include "common/pipeline/input/person.h"
+#include "common/pipeline/object.h"
+#include "common/pipeline/person_calibration.h"
+#include "common/pipeline/recording_labels.h"
+#include "common/pipeline/verdict.h"
+#include "common/support/warnings.h"
+
+namespace mmm_converter {
+
+/// What the user asked for. Empty: a default.
+struct ConversionRequest {
+  InputRequest input;
+  ConverterRequest converter;
+  std::string output;                     ///< input stem + "_mmm.xml", beside the input
+  std::string output_format;              ///< "2.0" or "1.0"; empty: what the configuration says
+  std::string motion_name;                ///< to write
+  std::string model_path;                 ///< to write, as it is
+  bool self_calibrate = false;            ///< estimate the person from the recording itself
+  std::string subject_output;             ///< also write the estimated subject
+  std::string model_output;               ///< also write the subject's model
+  ExportFiles exports;                    ///< for other programs
+  std::vector<std::string> more_outputs;  ///< that the caller writes
+  bool label = false;                     ///< find the names of points first
+  LabelHints label_hints;                 ///< of these
+  bool is_object = false;                 ///< of a rigid object, whatever the file says
+  bool keeps_covariances = false;         ///< also where no export is of them
+  /// Folder of the models of objects; those that it lacks are written there.
+  std::string object_models;
+};
+
+/// All that is decided before the first frame is tracked.
+struct ConversionPlan {
+  Input input;
+  std::optional<FoundLabels> labels;  ///< where the input has got its labels by the body
+  ConverterChoice converter;
+  Person person;
+  std::optional<ObjectModel> object;  ///< what is tracked, where it is no person
+  TrackingSetup setup;
+  std::string output, output_format, motion_name;
+  std::string subject_output, model_output;  ///< empty: not written
+  bool keeps_covariances = false;
+  Warnings warnings;
+};
+
+/// A plan that has been carried out.
+struct ConversionReport : ConversionPlan {
+  std::optional<CalibrationResult> calibration;  ///< of this recording
+  ConversionResult result;
+  ConversionFigures figures;
+  Verdict verdict;
+};
+
+/// Reads the recording, the model and the configuration, finds labels where asked to, matches the
+/// markers and finds the person. progress: of the labels, as of CarryOut.
+/// @throws Error
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before,
+                              const std::function<bool(int, int)>& progress = {});
+
+/// Before any further work, of one motion or of all of a file.
+/// @throws Error where an output is a file that is read, two are the same, or one can't be written.
+void CheckOutputs(const ConversionRequest& request,
+                  const std::vector<const ConversionPlan*>& plans);
+
+/// Calibrates where asked to, and tracks; writes nothing. progress(done, all): frames; may be
+/// empty; returning false ends it with an Error.
+/// @throws Error
+ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
+                          const std::function<bool(int, int)>& progress);
+
+/// PlanConversion, CheckOutputs and CarryOut.
+ConversionReport RunConversion(const ConversionRequest& request,
+                               const std::function<bool(int, int)>& progress);
+
+/// Writes the model of an object, where that is new. @throws Error
+void WriteObjectModel(const ConversionReport& report);
+
+/// Writes the motion and what else is asked for.
+/// @throws Error; each file is then as it was before, or whole.
+void WriteConversion(const ConversionRequest& request, ConversionReport* report);
+
+}  // namespace mmm_converter

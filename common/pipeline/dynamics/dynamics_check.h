@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "common/dynamics/motion_dynamics.h"
+#include "common/judge/plausibility.h"
+#include "common/pipeline/dynamics/checked_motion.h"
+
+namespace mmm_converter {
+
+/// What was checked, and what came out.
+struct DynamicsReport {
+  CheckedMotion motion;
+  MotionDynamics dynamics;
+  Plausibility plausibility;
+};
+
+/// Judges the dynamics of a motion. progress: as ComputeMotionDynamics.
+/// @throws Error; also where this program was built without Simbody.
+DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& options,
+                             const std::function<void(int, int)>& progress = {});
+
+}  // namespace mmm_converter

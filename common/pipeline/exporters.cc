@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/exporters.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/io/tables/bvh_writer.h"
+#include "common/io/tables/covariance_npz.h"
+#include "common/io/tables/mot_writer.h"
+#include "common/io/tables/pose_table.h"
+#include "common/io/tables/trajectory_csv.h"
+#include "common/io/tables/trc_writer.h"
+#include "common/pipeline/conversion.h"
+#include "common/pipeline/pose_output.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+void WriteCsv(const std::string& file, const ConversionReport& report) {
+  WriteFileAtomically(file, FormatTrajectoryCsv(report.result.trajectory));
+}
+
+void WriteTrc(const std::string& file, const ConversionReport& report) {
+  const Recording& recording = report.input.recording;
+  TrcOutput output;
+  output.file_name = std::filesystem::path(file).filename().string();
+  output.first_frame = recording.first_frame + report.input.first_frame;
+  output.measured = &recording.markers;
+  output.model_markers.reserve(report.setup.assignments().size());
+  for (const MarkerAssignment& one : report.setup.assignments()) {
+    output.model_markers.push_back({one.label, one.marker});
+  }
+  output.model = report.setup.model.get();
+  output.trajectory = &report.result.trajectory;
+  WriteFileAtomically(file, FormatTrc(output));
+}
+
+void WriteMot(const std::string& file, const ConversionReport& report) {
+  const std::string& root = report.setup.model->segments().front().name;
+  WriteFileAtomically(file, FormatMot(report.result.trajectory, root));
+}
+
+void WritePoses(const std::string& file, const ConversionReport& report) {
+  const KinematicModel& model = *report.setup.model;
+  const PoseChoice choice;
+  BodySelection selection = SelectBodies(model, choice);
+  const Recording& recording = report.input.recording;
+  if (recording.mmm && recording.mmm->num_motions > 1) {
+    selection.objects = ObjectsBeside(recording.file, recording.motion());
+  }
+  const BodyPoses poses = ComputeBodyPoses(model, report.result.trajectory, selection);
+  WriteFileAtomically(file, FormatPoseFile(file, poses, choice.rotation));
+}
+
+void WriteBvh(const std::string& file, const ConversionReport& report) {
+  WriteFileAtomically(file, FormatBvh(*report.setup.model, report.result.trajectory));
+}
+
+void WriteBvhInMetres(const std::string& file, const ConversionReport& report) {
+  WriteFileAtomically(file,
+                      FormatBvh(*report.setup.model, report.result.trajectory, BvhUnit::kMetres));
+}
+
+void WriteCovariances(const std::string& file, const ConversionReport& report) {
+  const ConversionResult& result = report.result;
+  WriteFileAtomically(file, FormatCovarianceNpz(result.trajectory, result.covariances));
+}
+
+}  // namespace
+
+const std::vector<Exporter>& Exporters() {
+  static const std::vector<Exporter> exporters = {
+      {"csv", "csv", "postures and their standard deviations as CSV",
+       "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
+       "postures are smoothed (-c s2kf_offline)",
+       WriteCsv},
+      {"trc", "trc", "markers, measured and the model's, as TRC",
+       "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
+       "them (LABEL_model)",
+       WriteTrc},
+      {"mot", "mot", "postures for OpenSim",
+       "postures as OpenSim's motion, in metres and degrees with y up", WriteMot},
+      {"poses", "npz", "poses of all segments, as NumPy's .npz",
+       "poses of all segments and of the file's objects, 21 points of the body and the centre of "
+       "mass: .npz for NumPy, else CSV; see export-poses",
+       WritePoses},
+      {"bvh", "bvh", "the skeleton and its motion as BVH",
+       "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh},
+      {"bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres},
+      {"covariance", "npz", "covariances of the postures as NumPy's .npz",
+       "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
+       "them: "
+       "some 13 a second",
+       WriteCovariances, true}};
+  return exporters;
+}
+
+std::string OptionOf(const Exporter& exporter) { return std::string("export-") + exporter.name; }
+
+bool NeedCovariances(const ExportFiles& files) {
+  const std::vector<Exporter>& all = Exporters();
+  return std::any_of(all.begin(), all.end(), [&](const Exporter& one) {
+    return one.of_covariances && files.count(one.name) > 0;
+  });
+}
+
+void WriteExports(const ExportFiles& files, const ConversionReport& report) {
+  for (const Exporter& exporter : Exporters()) {
+    const auto file = files.find(exporter.name);
+    if (file != files.end()) exporter.write(file->second, report);
+  }
+}
+
+}  // namespace mmm_converter

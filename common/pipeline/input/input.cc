@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/input/input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "common/support/advice.h"
+#include "common/support/data_directory.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr const char* kDefaultModel = "models/mmm.xml";
+
+void TakeFrames(const InputRequest& request, Input* input) {
+  MarkerSequence& markers = input->recording.markers;
+  const int begin = request.first_frame.value_or(0);
+  const int end = std::min(request.end_frame.value_or(markers.num_frames()), markers.num_frames());
+  if (begin >= end) {
+    throw Error(fmt::format("{}: {} {}:{} has no frame of the recording's {}, counted from 0",
+                            request.file, OptionText("frames"), begin,
+                            request.end_frame.value_or(markers.num_frames()),
+                            markers.num_frames()));
+  }
+  input->first_frame = begin;
+  if (begin > 0 || end < markers.num_frames()) markers = markers.Slice(begin, end);
+}
+
+}  // namespace
+
+std::string ModelFile(const InputRequest& request) {
+  return request.model_file.empty() ? DataFile(kDefaultModel) : request.model_file;
+}
+
+void NameInputs(const InputRequest& request, OutputPlan* plan) {
+  plan->Read(request.file);
+  plan->Read(ModelFile(request));
+  plan->Read(request.marker_set);
+  plan->Read(request.person.processor_file);
+  plan->Read(request.person.subject_file);
+}
+
+Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {
+  Input input;
+  input.model_file = ModelFile(request);
+  if (read_before.model.value) {
+    input.model = read_before.model.value;
+    warnings->Append(read_before.model.warnings);
+  } else {
+    input.model = std::make_shared<const LoadedModel>(ReadModelFile(input.model_file, warnings));
+  }
+  input.reference = std::shared_ptr<const KinematicModel>(input.model, &input.model->model);
+  return input;
+}
+
+WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request) {
+  WithWarnings<std::shared_ptr<const LoadedModel>> model;
+  model.value =
+      std::make_shared<const LoadedModel>(ReadModelFile(ModelFile(request), &model.warnings));
+  return model;
+}
+
+Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {
+  Recording recording;
+  const auto& read = read_before.motion.value ? read_before.motion : read_before.recording;
+  if (read.value) {
+    recording = *read.value;
+    warnings->Append(read.warnings);
+  } else {
+    recording = ReadRecording(request.file, request.reading, warnings);
+  }
+  Input input = ReadModel(request, read_before, warnings);
+  input.recording = std::move(recording);
+  TakeFrames(request, &input);
+  return input;
+}
+
+ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
+                              Warnings* warnings) {
+  if (!read_before.choice.value) return ChooseConverter(request, warnings);
+  warnings->Append(read_before.choice.warnings);
+  return *read_before.choice.value;
+}
+
+void TakeMarkerSet(const InputRequest& request, ConverterConfig* config) {
+  if (request.marker_set.empty()) return;
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const bool is_file =
+      fs::exists(request.marker_set, failure) || request.marker_set.ends_with(".xml");
+  config->marker_set = is_file ? fs::absolute(request.marker_set).string() : request.marker_set;
+  config->marker_pairs.clear();
+}
+
+void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config) {
+  TakeMarkerSet(request, config);
+  if (!input->model->is_reference) config->model_processor = "None";
+  const auto set = ReadOwnMarkerSet(*config);
+  if (!set || set->places.empty()) return;
+  input->reference = std::make_shared<KinematicModel>(PlaceMarkers(*set, *input->model));
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/converter_config.h"
+#include "common/io/model_file.h"
+#include "common/io/recording/recording.h"
+#include "common/model/kinematic_model.h"
+#include "common/pipeline/input/converter_choice.h"
+#include "common/pipeline/input/person.h"
+#include "common/support/output_plan.h"
+#include "common/support/warnings.h"
+
+namespace mmm_converter {
+
+/// A recording and its person, as the user names them. Empty: a default.
+struct InputRequest {
+  std::string file;
+  ReadRecordingOptions reading;
+  std::optional<int> first_frame;  ///< counted from 0
+  std::optional<int> end_frame;    ///< the frame behind the last
+  std::string model_file;          ///< reference model, or a URDF
+  std::string marker_set;          ///< file or name; comes before the configuration's
+  PersonRequest person;
+};
+
+/// What has been read for a request before: for all recordings of a batch, or for all motions of a
+/// file. Null: is read.
+struct ReadBefore {
+  WithWarnings<std::shared_ptr<const LoadedModel>> model = {};
+  WithWarnings<std::shared_ptr<const ConverterChoice>> choice = {};
+  WithWarnings<std::shared_ptr<const Recording>> motion = {};     ///< one of several of the file
+  WithWarnings<std::shared_ptr<const Recording>> recording = {};  ///< the whole of the file
+};
+
+struct Input {
+  Recording recording;  ///< the frames asked for
+  int first_frame = 0;  ///< of them, counted from 0
+  std::string model_file;
+  std::shared_ptr<const LoadedModel> model;         ///< of that file
+  std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
+};
+
+/// Says in the plan which files the request names.
+void NameInputs(const InputRequest& request, OutputPlan* plan);
+
+/// The file of the reference model.
+std::string ModelFile(const InputRequest& request);
+
+/// The model only; no recording.
+/// @throws Error
+Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
+
+/// The model for several inputs: to be ReadBefore::model.
+/// @throws Error
+WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request);
+
+/// @throws Error
+Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
+
+/// ChooseConverter. @throws Error
+ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
+                              Warnings* warnings);
+
+/// The request's marker set instead of the configuration's, where it names one.
+void TakeMarkerSet(const InputRequest& request, ConverterConfig* config);
+
+/// Brings model and configuration together: TakeMarkerSet; the reference gets the markers that the
+/// configuration's marker set places; a model that is not of a person of 1 m is not scaled.
+/// @throws Error as ReadMarkerSet and PlaceMarkers.
+void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config);
+
+}  // namespace mmm_converter

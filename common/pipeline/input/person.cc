@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/input/person.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "common/calibrate/person_height.h"
+#include "common/convert/converter_config.h"
+#include "common/io/mmm/processor_config.h"
+#include "common/io/mmm/subject_file.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kAssumedMass = 70;  // [kg]
+constexpr const char* kAssumed = "assumed";
+
+// The first source that has a value.
+std::optional<PersonValue> Choose(const std::optional<double>& given,
+                                  const std::optional<double>& in_processor_file,
+                                  const std::string& processor_file,
+                                  const std::optional<double>& in_recording) {
+  if (given) return PersonValue{*given, "given"};
+  if (in_processor_file) return PersonValue{*in_processor_file, processor_file};
+  if (in_recording) return PersonValue{*in_recording, "from the file"};
+  return std::nullopt;
+}
+
+void Estimate(const TrackingSetup& setup, const MarkerSequence& markers, Person* person) {
+  const PersonHeight estimate = EstimatePersonHeight(setup, markers);
+  person->height = {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
+  person->height_deviation = estimate.deviation;
+}
+
+// Files have at least 6 digits of a metre or a kilogram.
+bool AreEqual(double a, double b) { return std::abs(a - b) < 1e-6; }
+
+// A number that the user gives must be the subject's.
+void CheckLength(const char* what, const std::optional<double>& given, std::optional<double> own,
+                 const std::string& file) {
+  if (!given || (own && AreEqual(*given, *own))) return;
+  throw Error(
+      fmt::format("{}: is calibrated for {} {}, not for {:g} m: its segment scales are relative to "
+                  "it; leave the {} out, or calibrate again with it",
+                  file, what, own ? fmt::format("{:g} m", *own) : "by the height", *given, what));
+}
+
+// Another mass changes no length.
+void TakeSubject(const PersonRequest& request, const BodySize& processor,
+                 const Recording& recording, Person* person, Warnings* warnings) {
+  const Subject& subject = *person->subject;
+  const std::string& file = person->subject_file;
+  const auto height = request.size.height ? request.size.height : processor.height;
+  const auto hand_length =
+      request.size.hand_length ? request.size.hand_length : processor.hand_length;
+  CheckLength("height", height, subject.height, file);
+  CheckLength("hand length", hand_length, subject.hand_length, file);
+  person->height = {subject.height, file};
+  person->mass = {subject.mass, file};
+  person->hand_length = subject.hand_length;
+  const auto mass = Choose(request.size.mass, processor.mass, request.processor_file, std::nullopt);
+  if (mass && !AreEqual(mass->value, subject.mass)) {
+    warnings->Add(fmt::format("{}: has a mass of {:g} kg; {:g} kg ({}) is taken", file,
+                              subject.mass, mass->value, mass->source));
+    person->mass = *mass;
+  }
+  if (recording.size().height && !AreEqual(*recording.size().height, subject.height)) {
+    warnings->Add(
+        fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
+                    "same person?",
+                    file, *recording.size().height, subject.height));
+  }
+}
+
+// Height, mass and hand length from where they are known, else estimated and assumed.
+void TakeNumbers(const PersonRequest& request, const BodySize& processor,
+                 const Recording& recording, Person* person) {
+  const std::string& file = request.processor_file;
+  const auto height = Choose(request.size.height, processor.height, file, recording.size().height);
+  const auto mass = Choose(request.size.mass, processor.mass, file, recording.size().mass);
+  const auto hand_length =
+      Choose(request.size.hand_length, processor.hand_length, file, recording.size().hand_length);
+  person->height = height.value_or(PersonValue());
+  person->mass = mass ? *mass : PersonValue{kAssumedMass, kAssumed};
+  if (hand_length) person->hand_length = hand_length->value;
+}
+
+Person Find(const PersonRequest& request, const KinematicModel& reference,
+            const Recording& recording, const ConverterConfig& config,
+            const std::function<void(Person*)>& estimate_height, Warnings* warnings) {
+  Person person;
+  BodySize processor;
+  if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
+  person.subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
+  if (!person.subject_file.empty()) {
+    person.subject = std::make_shared<Subject>(ReadSubject(person.subject_file, reference));
+    TakeSubject(request, processor, recording, &person, warnings);
+    return person;
+  }
+  TakeNumbers(request, processor, recording, &person);
+  if (person.height.source.empty()) estimate_height(&person);
+  return person;
+}
+
+Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config,
+                     Warnings* warnings) {
+  if (!request.subject_file.empty()) {
+    throw Error(fmt::format("{}, but the subject {} is relative to the scaled one",
+                            WhyUnscaled(config), request.subject_file));
+  }
+  if (!request.size.empty() || !request.processor_file.empty()) {
+    warnings->Add(WhyUnscaled(config) + "; height, mass and hand length are left out");
+  }
+  Person person;
+  person.height = {0, "model is not scaled"};
+  person.mass = person.height;
+  return person;
+}
+
+}  // namespace
+
+bool IsGiven(const PersonRequest& request) {
+  return !request.processor_file.empty() || !request.subject_file.empty() || !request.size.empty();
+}
+
+std::string DescribeHeight(const Person& person) {
+  const double deviation = person.height_deviation;
+  return fmt::format("{:.3g} m{} ({})", person.height.value,
+                     deviation > 0 ? fmt::format(" +- {:.2g}", deviation) : "",
+                     person.height.source);
+}
+
+std::string WhyUnscaled(const ConverterConfig& config) {
+  const std::string why = "the model is not scaled (it is a URDF";
+  if (config.file.empty()) return why + ")";
+  return why + ", or " + config.file + " has <Model name=\"None\">)";
+}
+
+PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
+  if (config.model_processor == "None") return {};
+  return {WinterScaling{person.height.value, person.mass.value, person.hand_length},
+          person.subject};
+}
+
+Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
+                  const Recording& recording, const ConverterConfig& config, Warnings* warnings) {
+  if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
+  const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, person); };
+  return Find(request, *setup.model, recording, config, estimate, warnings);
+}
+
+Person FindPersonOfPoints(const PersonRequest& request, const KinematicModel& reference,
+                          const Recording& recording, const ConverterConfig& config,
+                          Warnings* warnings) {
+  if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
+  const auto fail = [](Person* /*person*/) {
+    throw Error(fmt::format(
+        "who wears the markers? Points without names don't tell the height: give {}, another "
+        "recording of the person whose labels are right ({}), or {}",
+        OptionText("subject-file"), OptionText("like"), OptionText("height")));
+  };
+  return Find(request, reference, recording, config, fail, warnings);
+}
+
+Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
+                       const ConverterConfig& config, Warnings* warnings) {
+  const std::string unknown = fmt::format(
+      "how tall and heavy is the person? Give {} and {}, {} or {}", OptionText("height"),
+      OptionText("mass"), OptionText("person"), OptionText("subject-file"));
+  if (config.model_processor == "None") throw Error(WhyUnscaled(config));
+  const auto fail = [&](Person* /*person*/) { throw Error(unknown); };
+  Person person = Find(request, reference, Recording(), config, fail, warnings);
+  if (person.mass.source == kAssumed) throw Error(unknown);
+  return person;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/motion_output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "common/io/bytes/file_content.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsMmm2(const Recording& recording) { return recording.format == "MMM 2.0"; }
+
+// The file's markers stay as they are if the motion is in the same coordinates.
+bool AreMarkersAsInFile(const Recording& recording) {
+  return recording.up_axis == UpAxis::kZ && recording.unit == "mm";
+}
+
+// The format has no place for a subject: players see the reference, scaled by height and mass.
+std::string SubjectComment(const ConversionPlan& plan) {
+  if (!plan.person.subject) return "";
+  const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
+  const std::string& file =
+      plan.subject_output.empty() ? plan.person.subject_file : plan.subject_output;
+  return fmt::format(
+      "Root poses and joint angles are those of the subject {}{}, whose segment lengths and marker "
+      "places differ from this model scaled by height and mass{}",
+      plan.person.subject->name, file.empty() ? "" : " (" + name(file) + ")",
+      plan.model_output.empty() ? "" : "; the subject's model: " + name(plan.model_output));
+}
+
+MmmMotionOutput MotionOf(const ConversionRequest& request, const ConversionReport& report) {
+  MmmMotionOutput output = DescribeMotion(request, report);
+  output.trajectory = &report.result.trajectory;
+  output.markers = &report.input.recording.markers;
+  return output;
+}
+
+TextPieces Format(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  ConversionReport& first = *reports.front();
+  const Recording& recording = first.input.recording;
+  if (first.output_format == "2.0" && IsMmm2(recording)) {
+    std::vector<MmmMotionOutput> outputs;
+    outputs.reserve(reports.size());
+    for (const ConversionReport* report : reports) {
+      MmmMotionOutput output = MotionOf(request, *report);
+      output.motion_name = report->input.recording.motion();
+      if (AreMarkersAsInFile(report->input.recording) && !report->labels) output.markers = nullptr;
+      outputs.push_back(std::move(output));
+    }
+    return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
+  }
+  if (recording.mmm && recording.mmm->num_motions > 1) {
+    first.warnings.Add(
+        fmt::format("{}: has {} motions; the output has the converted one "
+                    "only (MMM 2.0 in and out keeps all)",
+                    request.input.file, recording.mmm->num_motions));
+  }
+  const MmmMotionOutput output = MotionOf(request, first);
+  return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
+}
+
+std::string DefaultOutput(const fs::path& input) {
+  return (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
+}
+
+std::string NameOf(const Recording& recording) {
+  if (!recording.motion().empty()) return recording.motion();
+  if (!recording.subject.empty()) return recording.subject;
+  return fs::path(recording.file).stem().string();
+}
+
+}  // namespace
+
+void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
+                        ConversionPlan* plan) {
+  const Recording& recording = plan->input.recording;
+  plan->output_format =
+      request.output_format.empty() ? plan->converter.config.output_format : request.output_format;
+  plan->output = request.output.empty() ? DefaultOutput(request.input.file) : request.output;
+  std::error_code failure;
+  const bool keeps_all = IsMmm2(recording) && plan->output_format != "1.0";
+  if (!keeps_all && fs::equivalent(plan->output, request.input.file, failure)) {
+    throw Error(
+        fmt::format("{}: is the recording itself, which would be lost; give another file "
+                    "with -o",
+                    plan->output));
+  }
+  const std::string& wanted = is_one_of_several ? "" : request.motion_name;
+  plan->motion_name = wanted.empty() ? NameOf(recording) : wanted;
+}
+
+MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionPlan& plan) {
+  MmmMotionOutput output;
+  output.recording_name = fs::path(request.input.file).stem().string();
+  output.motion_name = plan.motion_name;
+  output.model_path = !request.model_path.empty()
+                          ? request.model_path
+                          : ModelPathFor(plan.input.model_file, plan.output);
+  output.height = plan.person.height.value;
+  output.mass = plan.person.mass.value;
+  output.hand_length = plan.person.hand_length;
+  output.comment = SubjectComment(plan);
+  return output;
+}
+
+void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  WriteFileAtomically(reports.front()->output, Format(request, reports));
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/person_calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/io/mmm/subject_file.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameHeight = 1e-6;  // [m]; files have at least 6 digits
+
+std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
+
+CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
+                         Warnings* warnings) {
+  CalibrationInput one;
+  one.input = ReadInput(request, {}, warnings);
+  const WarningContext context(warnings, request.file, one.input.recording.motion());
+  MatchModel(request, &one.input, matched);
+  const ConverterConfig& config = *matched;
+  if (config.model_processor == "None") {
+    throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
+  }
+  const Recording& recording = one.input.recording;
+  one.setup = MatchMarkers(LabelsOf(recording.markers, recording.file), one.input.reference, config,
+                           warnings);
+  return one;
+}
+
+// Files that know the height must know the same.
+void CheckOnePerson(const CalibrationRequest& request,
+                    const std::vector<CalibrationInput>& recordings) {
+  if (request.inputs.front().person.size.height) return;
+  const CalibrationInput* first = nullptr;
+  for (const CalibrationInput& one : recordings) {
+    const auto height = one.input.recording.size().height;
+    if (!height) continue;
+    if (first == nullptr) first = &one;
+    const double other = *first->input.recording.size().height;
+    if (std::abs(*height - other) < kSameHeight) continue;
+    throw Error(
+        fmt::format("{} is of a person of {:g} m, {} of {:g} m; calibrate with recordings "
+                    "of one person, or say with {} which is right",
+                    one.input.recording.file, *height, first->input.recording.file, other,
+                    OptionText("height")));
+  }
+}
+
+// Markers that are not the person's draw the body out of all proportion.
+void CheckProportions(const Subject& subject) {
+  std::vector<std::string> segments;
+  for (const SegmentScale& scale : subject.scales) {
+    if (scale.scale < kLeastSegmentScale || scale.scale > kLargestSegmentScale) {
+      segments.push_back(scale.segment);
+    }
+  }
+  std::vector<std::string> markers;
+  for (const MarkerOffset& offset : subject.offsets) {
+    if (offset.offset.cwiseAbs().maxCoeff() > kLargestMarkerOffset)
+      markers.push_back(offset.marker);
+  }
+  if (segments.empty() && markers.empty()) return;
+  throw Error(
+      markers.empty()
+          ? fmt::format("no person has these proportions: with segments between half and twice the "
+                        "model's length, {} do not fit the markers; check unit, height and labels",
+                        FirstNames(segments))
+          : fmt::format("the recordings are not of one person with these labels: {} of {} markers "
+                        "would sit more than {:.0f} mm from where the model has them ({}); look "
+                        "for exchanged labels, another person's markers and the unit",
+                        markers.size(), subject.offsets.size(), kMillimetres * kLargestMarkerOffset,
+                        FirstNames(markers)));
+}
+
+}  // namespace
+
+std::string SubjectProgram() { return "MMMConverterS2KF " MMM_CONVERTER_VERSION; }
+
+std::string SubjectName(const Input& input) {
+  const Recording& recording = input.recording;
+  if (!recording.subject.empty()) return recording.subject;
+  if (!recording.motion().empty()) return recording.motion();
+  return fs::path(recording.file).stem().string();
+}
+
+CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
+                                  const std::vector<CalibrationRecording>& recordings,
+                                  const Person& person, const std::string& name, Warnings* warnings,
+                                  const std::function<void()>& between_steps) {
+  CalibrationOptions options;
+  options.between_steps = between_steps;
+  CalibrationResult result = CalibrateSubject(scaled, joints, recordings, options, warnings);
+  result.subject.name = name;
+  result.subject.model = scaled.name();
+  result.subject.height = person.height.value;
+  result.subject.mass = person.mass.value;
+  result.subject.hand_length = person.hand_length;
+  CheckProportions(result.subject);
+  const std::string file = FormatSubject(result.subject, SubjectProgram());
+  result.subject = ParseSubject(file, "the estimated subject", scaled);
+  return result;
+}
+
+CalibrationReport RunCalibration(const CalibrationRequest& request,
+                                 WithWarnings<ConverterConfig> configuration,
+                                 const std::function<void(int, int)>& progress) {
+  CalibrationReport report;
+  report.warnings = std::move(configuration.warnings);
+  ConverterConfig& config = configuration.value;
+  config.subject_file.clear();  // it is what is estimated
+  const int num_inputs = static_cast<int>(request.inputs.size());
+  report.recordings.reserve(request.inputs.size());
+  for (int i = 0; i < num_inputs; ++i) {
+    if (progress) progress(i, num_inputs);
+    Warnings warnings;  // what is said of several recordings is said once
+    report.recordings.push_back(ReadOne(request.inputs[i], &config, &warnings));
+    report.warnings.AppendNew(warnings);
+  }
+  CheckOnePerson(request, report.recordings);
+  const Input& first = report.recordings.front().input;
+  TrackingSetup setup = report.recordings.front().setup;
+  report.person =
+      FindPerson(request.inputs.front().person, setup, first.recording, config, &report.warnings);
+  ScaleToPerson(ScalingOf(report.person, config), &setup);
+  std::vector<CalibrationRecording> recordings;
+  recordings.reserve(report.recordings.size());
+  for (const CalibrationInput& one : report.recordings) {
+    recordings.push_back({FileName(one.input.recording.file), &one.input.recording.markers,
+                          one.setup.assignments()});
+  }
+  Warnings warnings;
+  report.result =
+      CalibratePerson(*setup.model, setup.joints, recordings, report.person,
+                      request.name.empty() ? SubjectName(first) : request.name, &warnings, [&] {
+                        if (progress) progress(num_inputs, num_inputs);
+                      });
+  report.warnings.AppendNew(warnings);
+  report.person.subject = std::make_shared<Subject>(report.result.subject);
+  report.model =
+      std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));
+  report.verdict = JudgeCalibration(report, config);
+  return report;
+}
+
+}  // namespace mmm_converter

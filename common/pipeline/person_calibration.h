@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/calibrate/calibration.h"
+#include "common/convert/tracking_setup.h"
+#include "common/pipeline/input/converter_choice.h"
+#include "common/pipeline/input/input.h"
+#include "common/pipeline/input/person.h"
+#include "common/pipeline/verdict.h"
+#include "common/support/warnings.h"
+
+namespace mmm_converter {
+
+/// What the user asked for. Empty: a default.
+struct CalibrationRequest {
+  std::vector<InputRequest> inputs;  ///< recordings of one person; person and model are the first's
+  ConverterRequest converter;        ///< its configuration names markers and joints
+  std::string name;                  ///< of the person
+};
+
+/// A recording of the person, and what of it is used.
+struct CalibrationInput {
+  Input input;
+  TrackingSetup setup;  ///< on the reference model
+};
+
+/// Everything that a summary tells.
+struct CalibrationReport {
+  std::vector<CalibrationInput> recordings;
+  Person person;                                ///< with the subject
+  std::shared_ptr<const KinematicModel> model;  ///< fitted to the subject
+  CalibrationResult result;
+  Verdict verdict;
+  Warnings warnings;
+};
+
+/// Reads the recordings, matches their markers, scales the model and estimates what is left.
+/// configuration: names markers and joints. progress(done, all): recordings read; also, all of
+/// them, often during the estimate, which ends by what it throws.
+/// @throws Error; where recordings tell too little, with what is missing.
+CalibrationReport RunCalibration(const CalibrationRequest& request,
+                                 WithWarnings<ConverterConfig> configuration,
+                                 const std::function<void(int, int)>& progress);
+
+/// CalibrateSubject for a person whose height and mass are known: the result's subject is complete,
+/// and as its file says it, so that a file gives what the calibration itself gave.
+/// scaled: by the person's height and mass, of `reference`. between_steps: as CalibrationOptions.
+CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vector<int>& joints,
+                                  const std::vector<CalibrationRecording>& recordings,
+                                  const Person& person, const std::string& name, Warnings* warnings,
+                                  const std::function<void()>& between_steps = {});
+
+/// What a subject file says of the program.
+std::string SubjectProgram();
+
+/// The person's name where none is given: of the recording's subject or motion, else of its file.
+std::string SubjectName(const Input& input);
+
+}  // namespace mmm_converter

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/recording_labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "common/convert/marker_set.h"
+#include "common/fit/posture_search.h"
+#include "common/label/track/label_recording.h"
+#include "common/pipeline/labelled_output.h"
+#include "common/pipeline/object.h"
+#include "common/pipeline/person_calibration.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
+#include "common/support/folder.h"
+#include "common/support/output_plan.h"
+#include "common/support/text.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr const char* kUsualMarkerSet = "kit53";
+
+/// A name that a point can have.
+struct PossibleName {
+  std::string text;
+  MarkerAssignment marker;  ///< its label does not count
+  LabelIx stored;           ///< the recording's column that is called so; -1: none
+};
+
+/// Names, each model marker at most once.
+class NameList {
+ public:
+  void Add(PossibleName name) {
+    if (markers_.insert(name.marker.marker).second) names_.push_back(std::move(name));
+  }
+  bool empty() const { return names_.empty(); }
+
+  /// The setup's assignments, and what LabelRecording asks for. prefix: of the names.
+  void Give(const std::string& prefix, TrackingSetup* setup, Labelling* labelling,
+            LabelOptions* options) {
+    std::sort(names_.begin(), names_.end(), [](const PossibleName& a, const PossibleName& b) {
+      return a.marker.marker < b.marker.marker;
+    });
+    setup->mapping = MarkerMapping();
+    for (const PossibleName& name : names_) {
+      MarkerAssignment assignment = name.marker;
+      assignment.label = LabelIx(static_cast<int>(labelling->names.size()));
+      setup->mapping.assignments.push_back(assignment);
+      labelling->names.push_back(prefix + name.text);
+      options->stored.push_back(name.stored);
+    }
+  }
+
+ private:
+  std::vector<PossibleName> names_;
+  std::set<int> markers_;
+};
+
+/// A recording whose labels are names, and how they match the model that is not scaled.
+struct Labelled {
+  Input input;
+  TrackingSetup setup;
+};
+
+Labelled ReadLike(const InputRequest& request, const std::string& file, ConverterConfig config,
+                  Warnings* warnings) {
+  InputRequest like;
+  like.file = file;
+  like.reading.subject = request.reading.subject;
+  like.model_file = request.model_file;
+  like.marker_set = request.marker_set;
+  Labelled labelled;
+  labelled.input = ReadInput(like, {}, warnings);
+  const WarningContext context(warnings, file);
+  MatchModel(like, &labelled.input, &config);
+  labelled.setup = MatchMarkers(LabelsOf(labelled.input.recording.markers, file),
+                                labelled.input.reference, config, warnings);
+  return labelled;
+}
+
+void AddLabels(const TrackingSetup& matched, const MarkerSequence& markers, bool are_stored,
+               NameList* names) {
+  for (const MarkerAssignment& one : matched.assignments()) {
+    names->Add({markers.labels()[one.label], one, are_stored ? one.label : LabelIx()});
+  }
+}
+
+// The marker set's labels of the subject's markers; of all markers, where there is no subject.
+// Returns the marker set's name.
+std::string AddMarkerSet(const Input& input, ConverterConfig config, const Subject* subject,
+                         NameList* names) {
+  std::string marker_set;
+  if (config.marker_pairs.empty() && config.marker_set == "auto") {
+    config.marker_set = kUsualMarkerSet;
+  }
+  const KinematicModel& model = *input.reference;
+  std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, {}, model, &marker_set);
+  if (pairs.empty()) pairs = OwnMarkerSet(model).pairs;
+  std::set<std::string> worn;
+  if (subject != nullptr) {
+    for (const MarkerOffset& offset : subject->offsets) worn.insert(offset.marker);
+  }
+  for (const MarkerPair& pair : pairs) {
+    const MarkerIx marker(model.FindMarker(pair.target));
+    if (marker < 0 || (subject != nullptr && !worn.contains(pair.target))) continue;
+    names->Add({pair.source, {LabelIx(), marker, pair.noise_scale}, LabelIx()});
+  }
+  return marker_set;
+}
+
+// What the labelled recording tells of the person beyond the size.
+void Calibrate(const Labelled& like, const ConverterConfig& config, Person* person,
+               Warnings* warnings) {
+  if (person->subject || config.model_processor == "None") return;
+  const Recording& recording = like.input.recording;
+  TrackingSetup setup = like.setup;
+  ScaleToPerson(ScalingOf(*person, config), &setup);
+  const std::string file = std::filesystem::path(recording.file).filename().string();
+  try {
+    const CalibrationResult result = CalibratePerson(
+        *setup.model, setup.joints, {{file, &recording.markers, setup.assignments()}}, *person,
+        SubjectName(like.input), warnings);
+    person->subject = std::make_shared<Subject>(result.subject);
+  } catch (const Error& error) {
+    warnings->Add(
+        fmt::format("{}: the person can't be calibrated on it and is known by the height only: {}",
+                    recording.file, error.what()));
+  }
+}
+
+Person FindLabelledPerson(const InputRequest& request, const LabelHints& hints, const Input& input,
+                          const Labelled* like, const TrackingSetup* own,
+                          const ConverterConfig& config, Warnings* warnings) {
+  if (like != nullptr) {
+    Person person =
+        FindPerson(request.person, like->setup, like->input.recording, config, warnings);
+    Calibrate(*like, config, &person, warnings);
+    return person;
+  }
+  if (hints.repair) return FindPerson(request.person, *own, input.recording, config, warnings);
+  return FindPersonOfPoints(request.person, *input.reference, input.recording, config, warnings);
+}
+
+// Names of bodies are read back as subjects, whose case does not count.
+void CheckName(const OtherBody& body, const std::string& first, const FoundLabels& found) {
+  if (body.name.empty() || body.name.starts_with('*')) {
+    throw Error(fmt::format("{}: the name \"{}\" can't stand before labels; give it another one",
+                            body.file, body.name));
+  }
+  std::string same = EqualIgnoringCase(first, body.name) ? "the first person" : "";
+  for (const OtherBody& other : found.others) {
+    if (EqualIgnoringCase(other.name, body.name)) same = other.file;
+  }
+  if (same.empty()) return;
+  throw Error(
+      fmt::format("{}: {} is called {}, too, and so would be its labels; give it another "
+                  "name",
+                  body.file, same, body.name));
+}
+
+void AddPerson(const std::string& file, const std::string& first, const Input& input,
+               const ConverterConfig& config, FoundLabels* found, LabelScene* scene,
+               LabelOptions* options, Warnings* warnings) {
+  if (file.empty()) throw Error("the file of another person has no name");
+  PersonRequest request;
+  request.subject_file = file;
+  const Person person =
+      FindPersonOfPoints(request, *input.reference, input.recording, config, warnings);
+  OtherBody other;
+  other.name = person.subject->name;
+  other.file = file;
+  CheckName(other, first, *found);
+  TrackingSetup setup;
+  NameList names;
+  setup.marker_set = AddMarkerSet(input, config, person.subject.get(), &names);
+  setup.joints = found->setup.joints;
+  setup.model = std::make_shared<const KinematicModel>(
+      ScaleModel(*input.reference, ScalingOf(person, config)));
+  other.first_name = static_cast<int>(found->labelling.names.size());
+  names.Give(other.name + ":", &setup, &found->labelling, options);
+  other.end_name = static_cast<int>(found->labelling.names.size());
+  found->others.push_back(std::move(other));
+  scene->persons.push_back(std::move(setup));
+}
+
+void AddObject(const ObjectModel& model, const std::string& first, FoundLabels* found,
+               LabelScene* scene) {
+  OtherBody other;
+  other.name = std::filesystem::path(model.file).stem().string();
+  other.file = model.file;
+  other.is_object = true;
+  CheckName(other, first, *found);
+  LabelObject object;
+  object.p_OM = PlacesOfMarkers(model.model->model);
+  other.first_name = static_cast<int>(found->labelling.names.size());
+  std::set<std::string> labels;
+  for (const ModelMarker& marker : model.model->model.markers()) {
+    const std::string label = LabelOfMarker(marker.name);
+    if (!labels.insert(label).second) {
+      throw Error(fmt::format("{}: two markers would have the label {}", model.file, label));
+    }
+    object.names.push_back(static_cast<int>(found->labelling.names.size()));
+    found->labelling.names.push_back(other.name + ":" + label);
+  }
+  other.end_name = static_cast<int>(found->labelling.names.size());
+  found->others.push_back(std::move(other));
+  scene->objects.push_back(std::move(object));
+}
+
+void CheckAreFree(const std::vector<std::string>& names, const std::set<std::string>& taken,
+                  const std::string& file) {
+  for (const std::string& name : names) {
+    if (!taken.contains(name)) continue;
+    throw Error(fmt::format(
+        "{}: has another point {}, which is computed or another subject's and stays; give the "
+        "points other names ({} RECORDING or {} NAME), the person another name, or "
+        "write a .trc",
+        file, name, OptionText("like"), OptionText("marker-set")));
+  }
+}
+
+// What there is before the points: whose they are, and the names that they can have.
+FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hints,
+                               const Input& input, const ConverterConfig& config, LabelScene* scene,
+                               LabelOptions* options, Warnings* warnings) {
+  const Recording& recording = input.recording;
+  FoundLabels found;
+  NameList names;
+  TrackingSetup own;
+  if (hints.repair) {
+    own = MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference, config,
+                       warnings);
+    AddLabels(own, recording.markers, true, &names);
+    found.setup.marker_set = own.marker_set;
+  }
+  std::optional<Labelled> like;
+  if (!hints.like.empty()) {
+    like = ReadLike(request, hints.like, config, warnings);
+    AddLabels(like->setup, like->input.recording.markers, false, &names);
+    found.setup.marker_set = like->setup.marker_set;
+  }
+  found.person =
+      FindLabelledPerson(request, hints, input, like ? &*like : nullptr, &own, config, warnings);
+  const bool is_of_file = !found.person.subject_file.empty();
+  if (is_of_file || names.empty()) {
+    const std::string marker_set =
+        AddMarkerSet(input, config, is_of_file ? found.person.subject.get() : nullptr, &names);
+    if (found.setup.marker_set.empty()) found.setup.marker_set = marker_set;
+  }
+  found.setup.joints = ResolveJoints(config, *input.reference);
+  found.setup.model = std::make_shared<const KinematicModel>(
+      ScaleModel(*input.reference, ScalingOf(found.person, config)));
+  const std::string name = found.person.subject ? found.person.subject->name : SubjectName(input);
+  if (!hints.other_persons.empty()) found.prefix = name + ":";
+  names.Give(found.prefix, &found.setup, &found.labelling, options);
+  scene->persons.push_back(found.setup);
+  for (const std::string& file : hints.other_persons) {
+    AddPerson(file, name, input, config, &found, scene, options, warnings);
+  }
+  if (!hints.object_models.empty()) {
+    for (const ObjectModel& model : ReadObjectModels(hints.object_models, warnings)) {
+      AddObject(model, name, &found, scene);
+    }
+  }
+  if (!hints.repair) options->stored.clear();
+  CheckAreFree(found.labelling.names, hints.taken, recording.file);
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> FilesOf(const LabelHints& hints) {
+  std::vector<std::string> files = hints.other_persons;
+  if (!hints.like.empty()) files.push_back(hints.like);
+  if (hints.object_models.empty()) return files;
+  for (std::string& model : FilesIn(hints.object_models, ".xml")) files.push_back(std::move(model));
+  return files;
+}
+
+std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found) {
+  std::set<std::string> others;
+  for (const OtherBody& other : found.others) {
+    for (int i = other.first_name; i < other.end_name; ++i) others.insert(found.labelling.names[i]);
+  }
+  std::vector<RelabelledPoint> points;
+  for (const RelabelledPoint& point : found.points) {
+    if (point.label.starts_with('*')) continue;
+    if (point.is_named && others.contains(point.label)) continue;
+    points.push_back(point);
+    if (point.is_named) points.back().label.erase(0, found.prefix.size());
+  }
+  return points;
+}
+
+double LabelDistance(const FoundLabels& found, const MarkerSequence& markers) {
+  constexpr int kFrames = 24, kFewestPoints = 10, kAttempts = 4;
+  const std::vector<MarkerAssignment>& assignments = found.setup.assignments();
+  const MarkerSequence named = Relabelled(PointsOfPerson(found), markers);
+  std::vector<int> columns;
+  columns.reserve(assignments.size());
+  for (const MarkerAssignment& one : assignments) {
+    const std::string& name = found.labelling.names[one.label];
+    columns.push_back(named.FindLabel(name.substr(found.prefix.size())));
+  }
+  const MarkerKinematics kinematics(*found.setup.model, found.setup.joints,
+                                    MarkerIndices(assignments));
+  PostureSearch search(kinematics);
+  PostureFitOptions options;
+  options.robust_distance = 0.1;
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const int k = (2 * i + 1) * named.num_frames() / (2 * kFrames);
+    Eigen::Matrix3Xd z =
+        Eigen::Matrix3Xd::Constant(3, static_cast<Eigen::Index>(columns.size()), kNaN);
+    for (std::size_t m = 0; m < columns.size(); ++m) {
+      if (columns[m] >= 0) z.col(static_cast<Eigen::Index>(m)) = named.frame(k).col(columns[m]);
+    }
+    if (z.row(0).array().isFinite().count() < kFewestPoints) continue;
+    Posture posture;
+    sum += search.Assemble(z, NoiseScales(assignments), options, kAttempts, &posture).mean_distance;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
+}
+
+std::vector<std::string> NamesNotFound(const Labelling& labelling) {
+  std::vector<char> is_found(labelling.names.size(), 0);
+  for (const NamedPiece& piece : labelling.pieces) {
+    if (piece.name >= 0) is_found[piece.name] = 1;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < is_found.size(); ++i) {
+    if (is_found[i] == 0) names.push_back(labelling.names[i]);
+  }
+  return names;
+}
+
+FoundLabels FindNames(const InputRequest& request, const Input& input,
+                      const ConverterConfig& config, Warnings* warnings) {
+  LabelScene scene;
+  LabelOptions options;
+  return FindNamesAndPerson(request, {}, input, config, &scene, &options, warnings);
+}
+
+FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
+                       const ConverterConfig& config, const std::function<bool(int, int)>& progress,
+                       Warnings* warnings) {
+  if (hints.repair && hints.has_others()) {
+    throw Error("labels can be repaired for one person at a time, without objects");
+  }
+  LabelScene scene;
+  LabelOptions options;
+  FoundLabels found = FindNamesAndPerson(request, hints, input, config, &scene, &options, warnings);
+  const Recording& recording = input.recording;
+  found.labelling =
+      LabelRecording(scene, found.labelling.names, recording.markers, options, progress);
+  const std::vector<std::string>& labels = recording.markers.labels();
+  found.points = RelabelledPoints(found.labelling, labels, recording.markers.num_frames());
+  found.changes = ChangesOf(found.labelling, labels);
+  return found;
+}
+
+LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int)>& progress) {
+  LabelReport report;
+  report.output = request.output;
+  Warnings* const warnings = &report.warnings;
+  if (!request.output.empty()) CheckLabelledOutput(request.output, request.hints.has_others());
+  ConverterChoice choice = ChooseConverter(request.converter, warnings);
+  OutputPlan outputs;
+  NameInputs(request.input, &outputs);
+  NameInputs(choice, &outputs);
+  for (const std::string& file : FilesOf(request.hints)) outputs.Read(file);
+  outputs.Rewrite(request.output, request.input.file);
+  for (const std::string& file : request.more_outputs) outputs.Write(file);
+  outputs.Check();
+  request.input.reading.with_unlabelled = true;
+  report.input = ReadInput(request.input, {}, warnings);
+  const Recording& recording = report.input.recording;
+  CheckKeepsRecording(request.output, recording);
+  request.hints.taken = NamesThatStay(request.output, recording);
+  const WarningContext context(warnings, recording.file, recording.motion());
+  MatchModel(request.input, &report.input, &choice.config);
+  report.found =
+      FindLabels(request.input, request.hints, report.input, choice.config, progress, warnings);
+  report.mean_distance = LabelDistance(report.found, recording.markers);
+  report.verdict = JudgeLabels(report);
+  return report;
+}
+
+}  // namespace mmm_converter
