@@ -19,27 +19,21 @@ ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder) 
     request.exports[format] = folder.Full(ExportPath(format, entry.id));
   }
   if (request.self_calibrate) request.subject_output = folder.Full(SubjectPath(entry.id));
+  request.builds_models = false;  // several recordings of an object need the same one
   return request;
 }
 
 ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore& read_before,
                               const std::function<bool()>& goes_on) {
-  const auto progress = [&](int, int) { return goes_on(); };
-  ConversionPlan plan = PlanConversion(request, read_before, progress);
-  // Several recordings of an object need the same model.
-  if (plan.object && plan.object->is_built()) {
-    throw Error(WhyNoModel(request.input.file, plan.motion_name));
-  }
-  CheckOutputs(request, {&plan});
-  return CarryOut(std::move(plan), request.self_calibrate, progress);
+  return RunConversion(request, read_before, [&](int, int) { return goes_on(); });
 }
 
 std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {
-  const Recording& recording = report.input.recording;
-  if (!report.object || !recording.mmm || recording.mmm->model_path.empty()) return {};
+  const Recording& recording = report.plan.input.recording;
+  if (!report.plan.object || !recording.mmm || recording.mmm->model_path.empty()) return {};
   const fs::path folder = fs::path(recording.file).parent_path();
   const std::string named = (folder / recording.mmm->model_path).lexically_normal().string();
-  if (report.input.model_file != named) return {};
+  if (report.plan.input.model_file != named) return {};
   return {{recording.mmm->model_path, InspectFile(named)}};
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/pipeline/conversion_figures.h"
+#include "common/judge/conversion_figures.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -15,12 +15,13 @@ namespace {
 constexpr int kMillisecond = 3;  // decimals of seconds
 
 void TakePerson(const ConversionReport& report, EntryFigures* figures) {
-  if (report.object) return;
-  figures->height = report.person.height.value;
-  figures->height_source = report.person.height.source;
-  figures->mass = report.person.mass.value;
-  figures->mass_source = report.person.mass.source;
-  if (report.person.subject) figures->subject = report.person.subject->name;
+  const ConversionPlan& plan = report.plan;
+  if (plan.object) return;
+  figures->height = plan.person.height.value;
+  figures->height_source = plan.person.height.source;
+  figures->mass = plan.person.mass.value;
+  figures->mass_source = plan.person.mass.source;
+  if (plan.person.subject) figures->subject = plan.person.subject->name;
 }
 
 int ParseCount(const Json& json) {
@@ -75,22 +76,23 @@ EntryFigures ParseFigures(const Json& json) {
 }  // namespace
 
 EntryResult Converted(const ConversionReport& report, double seconds) {
+  const ConversionPlan& plan = report.plan;
   const ConversionFigures& measured = report.figures;
   EntryFigures figures;
   figures.verdict = report.verdict;
-  figures.frames = report.input.recording.markers.num_frames();
-  figures.rate = report.input.recording.markers.rate();
+  figures.frames = plan.input.recording.markers.num_frames();
+  figures.rate = plan.input.recording.markers.rate();
   TakePerson(report, &figures);
-  figures.converter = report.converter.config.type;
-  figures.configuration = std::filesystem::path(report.converter.config.file).stem().string();
-  figures.markers_used = static_cast<int>(report.setup.assignments().size());
-  figures.markers_absent = static_cast<int>(report.setup.mapping.absent_markers.size());
-  figures.markers_ignored = static_cast<int>(report.setup.mapping.ignored_labels.size());
+  figures.converter = plan.converter.config.type;
+  figures.configuration = std::filesystem::path(plan.converter.config.file).stem().string();
+  figures.markers_used = static_cast<int>(plan.setup.assignments().size());
+  figures.markers_absent = static_cast<int>(plan.setup.mapping.absent_markers.size());
+  figures.markers_ignored = static_cast<int>(plan.setup.mapping.ignored_labels.size());
   figures.mean_mm = kMillimetres * measured.distance.mean;
   figures.p95_mm = kMillimetres * measured.distance.p95;
   figures.max_mm = kMillimetres * measured.distance.max;
   if (const int worst = measured.worst_marker; worst >= 0) {
-    figures.worst_marker = LabelOf(report, worst);
+    figures.worst_marker = LabelOf(plan, worst);
     figures.worst_marker_mm =
         kMillimetres * measured.of_markers[static_cast<std::size_t>(worst)].mean;
   }

@@ -235,7 +235,7 @@ int RunConvert(const Arguments& arguments) {
   const ConversionRequest request = MakeRequest(arguments);
   if (request.motion_name == kAllMotions) return ConvertAllMotions(arguments, request);
   ProgressBar bar("frames");
-  ConversionReport report = RunConversion(request, [&](int done, int all) {
+  ConversionReport report = RunConversion(request, {}, [&](int done, int all) {
     bar.Show(done, all);
     return true;
   });

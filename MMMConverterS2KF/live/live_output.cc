@@ -68,15 +68,15 @@ std::vector<ConversionReport> LiveOutput::Finish(
     Warnings warnings;
     JournalContent content = ReadJournal(journal, &warnings);
     if (content.frames > 0) {
-      ConversionReport report{std::move(plans_[i]), {}, {}, {}, {}};
-      report.output = FileOf(i);
-      report.input.recording.markers = std::move(content.markers);
+      ConversionReport report;
+      report.plan = std::move(plans_[i]);
+      report.plan.output = FileOf(i);
+      report.plan.input.recording.markers = std::move(content.markers);
       report.result = std::move(content.result);
       report.warnings = std::move(warnings);
-      if (i == 0) report.calibration = calibration;
-      if (i > 0) report.subject_output.clear();
-      report.figures = MeasureConversion(report);
-      report.verdict = JudgeConversion(report);
+      if (i == 0) report.plan.calibration = calibration;
+      if (i > 0) report.plan.subject_output.clear();
+      MeasureAndJudge(&report);
       WriteConversion(RequestOf(i), &report);
       reports.push_back(std::move(report));
     }

@@ -60,16 +60,17 @@ Conversion Convert(const py::object& recording, const py::dict& options,
     request.input.file = read.recording->file;
   }
   return InBackground(progress, [&](const Progress& on_progress) {
-    ConversionPlan plan = PlanConversion(request, read_before);
-    return Conversion{request, CarryOut(std::move(plan), request.self_calibrate, on_progress)};
+    ConversionSource source = ReadSource(request, read_before);
+    NamePoints(request, on_progress, &source);
+    return Conversion{request, CarryOut(PlanConversion(request, std::move(source)), on_progress)};
   });
 }
 
 void CheckOneOutput(const Conversion& conversion, const std::string& file, bool is_motion) {
   OutputPlan plan;
   NameInputs(conversion.request.input, &plan);
-  NameInputs(conversion.report.converter, &plan);
-  plan.Read(conversion.report.person.subject_file);
+  NameInputs(conversion.report.plan.converter, &plan);
+  plan.Read(conversion.report.plan.person.subject_file);
   if (is_motion) {
     plan.Rewrite(file, conversion.request.input.file);
   } else {
@@ -81,9 +82,9 @@ void CheckOneOutput(const Conversion& conversion, const std::string& file, bool 
 void Save(Conversion* conversion, const std::string& file) {
   const py::gil_scoped_release release;
   conversion->request.output = file;
-  ChooseMotionOutput(conversion->request, false, &conversion->report);
+  ChooseMotionOutput(conversion->request, false, &conversion->report.plan);
   CheckOneOutput(*conversion, file, true);
-  WriteObjectModel(conversion->report);
+  WriteObjectModel(conversion->report.plan);
   WriteMotions(conversion->request, {&conversion->report});
 }
 
@@ -107,7 +108,7 @@ py::array_t<double> TimesOf(const PoseTrajectory& trajectory) {
 
 // Frames and covariances (k, n, n); None where they were not asked for.
 py::object CovariancesOf(const Conversion& conversion) {
-  if (!conversion.report.keeps_covariances) return py::none();
+  if (!conversion.report.plan.keeps_covariances) return py::none();
   const std::vector<PoseCovariance>& all = conversion.report.result.covariances;
   const auto count = static_cast<py::ssize_t>(all.size());
   const auto size = static_cast<py::ssize_t>(6 + conversion.trajectory().joint_names.size());
@@ -127,9 +128,9 @@ py::list IncidentsOf(const Conversion& conversion) {
   for (const MarkerIncident& incident : conversion.report.result.incidents) {
     py::dict one;
     one["kind"] = Name(incident.kind);
-    one["marker"] = LabelOf(conversion.report, incident.assignment);
+    one["marker"] = LabelOf(conversion.report.plan, incident.assignment);
     one["other"] = incident.other < 0 ? py::object(py::none())
-                                      : py::cast(LabelOf(conversion.report, incident.other));
+                                      : py::cast(LabelOf(conversion.report.plan, incident.other));
     one["first_frame"] = incident.first_frame;
     one["last_frame"] = incident.last_frame;
     incidents.append(one);
@@ -165,16 +166,16 @@ py::dict FramesOf(const Conversion& conversion) {
 
 std::vector<std::string> MarkerLabelsOf(const Conversion& conversion) {
   std::vector<std::string> labels;
-  const int count = static_cast<int>(conversion.report.setup.assignments().size());
+  const int count = static_cast<int>(conversion.report.plan.setup.assignments().size());
   labels.reserve(count);
-  for (int i = 0; i < count; ++i) labels.push_back(LabelOf(conversion.report, i));
+  for (int i = 0; i < count; ++i) labels.push_back(LabelOf(conversion.report.plan, i));
   return labels;
 }
 
 PersonModel ModelOf(const Conversion& conversion) {
   const ConversionReport& report = conversion.report;
-  return {report.input.model_file, report.input.model,
-          ScalingOf(report.person, report.converter.config), report.setup.model};
+  return {report.plan.input.model_file, report.plan.input.model,
+          ScalingOf(report.plan.person, report.plan.converter.config), report.plan.setup.model};
 }
 
 }  // namespace

@@ -14,11 +14,12 @@ namespace mmm_converter {
 namespace {
 
 std::string DescribeModel(const ConversionReport& report) {
-  if (!report.object) {
+  if (!report.plan.object) {
     return fmt::format("{} joints", report.result.trajectory.joint_names.size());
   }
-  const std::string file = report.object->is_built() ? ": " + report.input.model_file : "";
-  return "object, " + DescribeObjectModel(*report.object) + file;
+  const std::string file =
+      report.plan.object->is_built() ? ": " + report.plan.input.model_file : "";
+  return "object, " + DescribeObjectModel(*report.plan.object) + file;
 }
 
 std::string DescribeOutcome(const MotionOutcome& outcome) {
@@ -27,9 +28,10 @@ std::string DescribeOutcome(const MotionOutcome& outcome) {
   const ConversionReport& report = *outcome.report;
   const ResidualSummary& distance = report.figures.distance;
   return fmt::format("{} frames, {} markers, mean distance {:.1f} mm, max {:.1f}; {}; {}",
-                     report.input.recording.markers.num_frames(), report.setup.assignments().size(),
-                     kMillimetres * distance.mean, kMillimetres * distance.max,
-                     DescribeModel(report), DescribeVerdict(report.verdict));
+                     report.plan.input.recording.markers.num_frames(),
+                     report.plan.setup.assignments().size(), kMillimetres * distance.mean,
+                     kMillimetres * distance.max, DescribeModel(report),
+                     DescribeVerdict(report.verdict));
 }
 
 }  // namespace

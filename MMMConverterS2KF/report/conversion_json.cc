@@ -5,7 +5,7 @@
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
-#include "common/pipeline/conversion_figures.h"
+#include "common/judge/conversion_figures.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -18,7 +18,7 @@ Json ToJson(const ResidualSummary& distance) {
 }
 
 Json DescribeInput(const ConversionReport& report) {
-  const Recording& recording = report.input.recording;
+  const Recording& recording = report.plan.input.recording;
   return {{"file", recording.file},
           {"format", recording.format},
           {"subject", recording.subject},
@@ -29,49 +29,52 @@ Json DescribeInput(const ConversionReport& report) {
           {"up_axis_stated",
            recording.stated_up_axis ? Json(Name(*recording.stated_up_axis)) : Json(nullptr)},
           {"up_axis_decided_from_markers", recording.up_axis_was_decided},
-          {"first_frame", report.input.first_frame},
+          {"first_frame", report.plan.input.first_frame},
           {"labels", recording.markers.labels()}};
 }
 
 Json DescribePerson(const ConversionReport& report) {
-  if (report.object) return nullptr;
+  const ConversionPlan& plan = report.plan;
+  if (plan.object) return nullptr;
   Json person = {
-      {"height_m", Number(report.person.height.value)},
-      {"height_source", report.person.height.source},
+      {"height_m", Number(plan.person.height.value)},
+      {"height_source", plan.person.height.source},
       {"height_deviation_m",
-       report.person.height_deviation > 0 ? Number(report.person.height_deviation) : Json(nullptr)},
-      {"mass_kg", Number(report.person.mass.value)},
-      {"mass_source", report.person.mass.source}};
-  if (report.person.hand_length) person["hand_length_m"] = Number(*report.person.hand_length);
+       plan.person.height_deviation > 0 ? Number(plan.person.height_deviation) : Json(nullptr)},
+      {"mass_kg", Number(plan.person.mass.value)},
+      {"mass_source", plan.person.mass.source}};
+  if (plan.person.hand_length) person["hand_length_m"] = Number(*plan.person.hand_length);
   return person;
 }
 
 Json DescribeMarkers(const ConversionReport& report, const ConversionFigures& figures) {
+  const ConversionPlan& plan = report.plan;
   Json used = Json::array();
-  for (std::size_t i = 0; i < report.setup.assignments().size(); ++i) {
-    const MarkerAssignment& assignment = report.setup.assignments()[i];
-    used.push_back({{"label", LabelOf(report, static_cast<int>(i))},
-                    {"marker", report.setup.model->markers()[assignment.marker].name},
+  for (std::size_t i = 0; i < plan.setup.assignments().size(); ++i) {
+    const MarkerAssignment& assignment = plan.setup.assignments()[i];
+    used.push_back({{"label", LabelOf(plan, static_cast<int>(i))},
+                    {"marker", plan.setup.model->markers()[assignment.marker].name},
                     {"noise_scale", assignment.noise_scale},
                     {"frames_seen", figures.of_markers[i].seen},
                     {"distance_mm", ToJson(figures.of_markers[i])}});
   }
-  return {{"set", report.setup.marker_set},
+  return {{"set", plan.setup.marker_set},
           {"used", used},
-          {"ignored", report.setup.mapping.ignored_labels},
-          {"absent", report.setup.mapping.absent_markers}};
+          {"ignored", plan.setup.mapping.ignored_labels},
+          {"absent", plan.setup.mapping.absent_markers}};
 }
 
 Json WrongMarkersJson(const ConversionReport& report) {
+  const ConversionPlan& plan = report.plan;
   Json incidents = Json::array();
-  const MarkerSequence& markers = report.input.recording.markers;
+  const MarkerSequence& markers = plan.input.recording.markers;
   for (const MarkerIncident& incident : report.result.incidents) {
-    Json labels = {LabelOf(report, incident.assignment)};
-    if (incident.other >= 0) labels.push_back(LabelOf(report, incident.other));
+    Json labels = {LabelOf(plan, incident.assignment)};
+    if (incident.other >= 0) labels.push_back(LabelOf(plan, incident.other));
     incidents.push_back({{"kind", Name(incident.kind)},
                          {"labels", labels},
-                         {"first_frame", report.input.first_frame + incident.first_frame},
-                         {"last_frame", report.input.first_frame + incident.last_frame},
+                         {"first_frame", plan.input.first_frame + incident.first_frame},
+                         {"last_frame", plan.input.first_frame + incident.last_frame},
                          {"first_s", Number(markers.time(incident.first_frame))},
                          {"last_s", Number(markers.time(incident.last_frame))}});
   }
@@ -79,24 +82,25 @@ Json WrongMarkersJson(const ConversionReport& report) {
 }
 
 Json ObjectJson(const ConversionReport& report) {
-  if (!report.object) return nullptr;
-  return {
-      {"model_source", report.object->source},
-      {"model_is_new", report.object->is_built()},
-      {"shape_distance_mm",
-       report.object->is_built() ? Number(kMillimetres * report.object->distance) : Json(nullptr)}};
+  const ConversionPlan& plan = report.plan;
+  if (!plan.object) return nullptr;
+  return {{"model_source", plan.object->source},
+          {"model_is_new", plan.object->is_built()},
+          {"shape_distance_mm",
+           plan.object->is_built() ? Number(kMillimetres * plan.object->distance) : Json(nullptr)}};
 }
 
 Json SubjectJson(const ConversionReport& report) {
-  if (!report.person.subject) return nullptr;
-  Json json = {{"file", report.person.subject_file},
-               {"subject_output", report.subject_output},
-               {"model_output", report.model_output},
+  const ConversionPlan& plan = report.plan;
+  if (!plan.person.subject) return nullptr;
+  Json json = {{"file", plan.person.subject_file},
+               {"subject_output", plan.subject_output},
+               {"model_output", plan.model_output},
                {"calibration", nullptr}};
-  if (report.calibration) {
-    json["calibration"] = ToJson(*report.calibration);
+  if (plan.calibration) {
+    json["calibration"] = ToJson(*plan.calibration);
   }
-  json.update(ToJson(*report.person.subject));
+  json.update(ToJson(*plan.person.subject));
   return json;
 }
 
@@ -107,25 +111,26 @@ Json ToJson(const Verdict& verdict) {
 }
 
 Json ToJson(const ConversionReport& report) {
-  const MarkerSequence& markers = report.input.recording.markers;
+  const ConversionPlan& plan = report.plan;
+  const MarkerSequence& markers = plan.input.recording.markers;
   const ConversionFigures& figures = report.figures;
   return {
       {"verdict", ToJson(report.verdict)},
       {"input", DescribeInput(report)},
       {"frames", markers.num_frames()},
       {"rate_hz", markers.rate()},
-      {"output", report.output},
-      {"output_format", report.output_format},
-      {"motion", report.motion_name},
-      {"model", report.input.model_file},
+      {"output", plan.output},
+      {"output_format", plan.output_format},
+      {"motion", plan.motion_name},
+      {"model", plan.input.model_file},
       {"person", DescribePerson(report)},
       {"object", ObjectJson(report)},
       {"subject", SubjectJson(report)},
-      {"labels", report.labels ? LabelsJson(*report.labels, markers, report.input.first_frame)
-                               : Json(nullptr)},
-      {"converter", report.converter.config.type},
-      {"plugin", report.converter.plugin->path()},
-      {"configuration", report.converter.config.file},
+      {"labels",
+       plan.labels ? LabelsJson(*plan.labels, markers, plan.input.first_frame) : Json(nullptr)},
+      {"converter", plan.converter.config.type},
+      {"plugin", plan.converter.plugin->path()},
+      {"configuration", plan.converter.config.file},
       {"joints", report.result.trajectory.joint_names},
       {"markers", DescribeMarkers(report, figures)},
       {"distance_mm", ToJson(figures.distance)},

@@ -14,29 +14,31 @@ namespace {
 
 // The verdict and, where there was one, the calibration.
 std::string DescribeForPage(const ConversionReport& report) {
+  const ConversionPlan& plan = report.plan;
   std::string text = fmt::format("Verdict: {}.", DescribeVerdict(report.verdict));
-  if (!report.calibration) return text;
+  if (!plan.calibration) return text;
   return text + fmt::format(
                     "\n\nThe person \"{}\" was calibrated on {} frames of this recording: the best "
                     "postures leave "
                     "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
-                    report.person.subject->name, report.calibration->frames,
-                    kMillimetres * report.calibration->distance_after,
-                    kMillimetres * report.calibration->distance_before);
+                    plan.person.subject->name, plan.calibration->frames,
+                    kMillimetres * plan.calibration->distance_after,
+                    kMillimetres * plan.calibration->distance_before);
 }
 
 Comparison MakeComparison(const ConversionReport& report) {
+  const ConversionPlan& plan = report.plan;
   Trial trial;
-  trial.name = std::filesystem::path(report.input.recording.file).filename().string();
-  trial.markers = report.input.recording.markers;
-  trial.model = report.setup.model;
-  trial.subject = report.person.subject;
+  trial.name = std::filesystem::path(plan.input.recording.file).filename().string();
+  trial.markers = plan.input.recording.markers;
+  trial.model = plan.setup.model;
+  trial.subject = plan.person.subject;
   Contender contender;
-  contender.name = std::filesystem::path(report.converter.config.file).stem().string();
-  contender.configuration = report.converter.text;
-  contender.config = report.converter.config;
+  contender.name = std::filesystem::path(plan.converter.config.file).stem().string();
+  contender.configuration = plan.converter.text;
+  contender.config = plan.converter.config;
   return CompareFinished(std::move(trial), {contender},
-                         {{report.setup.mapping, report.warnings, report.result}});
+                         {{plan.setup.mapping, report.warnings, report.result}});
 }
 
 }  // namespace
@@ -48,12 +50,12 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
   sections.reserve(reports.size());
   for (const ConversionReport* report : reports) {
     comparisons.push_back(MakeComparison(*report));
-    sections.push_back({report->motion_name, DescribeForPage(*report), &comparisons.back()});
+    sections.push_back({report->plan.motion_name, DescribeForPage(*report), &comparisons.back()});
   }
   const std::string title =
       reports.size() == 1
-          ? reports.front()->motion_name
-          : std::filesystem::path(reports.front()->input.recording.file).filename().string();
+          ? reports.front()->plan.motion_name
+          : std::filesystem::path(reports.front()->plan.input.recording.file).filename().string();
   return FormatReport(title, sections);
 }
 

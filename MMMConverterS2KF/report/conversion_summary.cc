@@ -8,7 +8,7 @@
 
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
-#include "common/pipeline/conversion_figures.h"
+#include "common/judge/conversion_figures.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -20,7 +20,7 @@ std::string WorstMarkers(const ConversionReport& report, const ConversionFigures
   std::vector<std::pair<double, std::string>> means;
   for (std::size_t i = 0; i < figures.of_markers.size(); ++i) {
     const double mean = kMillimetres * figures.of_markers[i].mean;
-    if (!std::isnan(mean)) means.emplace_back(mean, LabelOf(report, static_cast<int>(i)));
+    if (!std::isnan(mean)) means.emplace_back(mean, LabelOf(report.plan, static_cast<int>(i)));
   }
   std::sort(means.rbegin(), means.rend());
   means.resize(std::min<std::size_t>(means.size(), 3));
@@ -32,6 +32,7 @@ std::string WorstMarkers(const ConversionReport& report, const ConversionFigures
 
 // A line for each incident, the longest first.
 std::string DescribeWrongMarkers(const ConversionReport& report) {
+  const ConversionPlan& plan = report.plan;
   constexpr std::size_t kMostLines = 8;
   std::vector<MarkerIncident> incidents = report.result.incidents;
   const auto length = [](const MarkerIncident& i) { return i.last_frame - i.first_frame; };
@@ -39,15 +40,15 @@ std::string DescribeWrongMarkers(const ConversionReport& report) {
       incidents.begin(), incidents.end(),
       [&](const MarkerIncident& a, const MarkerIncident& b) { return length(a) > length(b); });
   std::string text;
-  const MarkerSequence& markers = report.input.recording.markers;
+  const MarkerSequence& markers = plan.input.recording.markers;
   for (std::size_t i = 0; i < std::min(incidents.size(), kMostLines); ++i) {
     const MarkerIncident& incident = incidents[i];
-    std::string names = LabelOf(report, incident.assignment);
-    if (incident.other >= 0) names += " and " + LabelOf(report, incident.other);
+    std::string names = LabelOf(plan, incident.assignment);
+    if (incident.other >= 0) names += " and " + LabelOf(plan, incident.other);
     text += fmt::format("{}  {} {}, frames {} to {} ({:.2f} to {:.2f} s)\n",
                         i == 0 ? "wrong    " : "         ", names, Name(incident.kind),
-                        report.input.first_frame + incident.first_frame,
-                        report.input.first_frame + incident.last_frame,
+                        plan.input.first_frame + incident.first_frame,
+                        plan.input.first_frame + incident.last_frame,
                         markers.time(incident.first_frame), markers.time(incident.last_frame));
   }
   if (incidents.size() > kMostLines) {
@@ -59,9 +60,10 @@ std::string DescribeWrongMarkers(const ConversionReport& report) {
 }
 
 std::string DescribePersonShortly(const ConversionReport& report) {
-  if (report.person.height.value <= 0) return report.person.height.source;
-  return fmt::format("{}, {:.4g} kg ({})", DescribeHeight(report.person), report.person.mass.value,
-                     report.person.mass.source);
+  const ConversionPlan& plan = report.plan;
+  if (plan.person.height.value <= 0) return plan.person.height.source;
+  return fmt::format("{}, {:.4g} kg ({})", DescribeHeight(plan.person), plan.person.mass.value,
+                     plan.person.mass.source);
 }
 
 std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
@@ -77,51 +79,53 @@ std::string DescribeMarkersShortly(const MarkerMapping& mapping) {
 }
 
 std::string DescribeSubject(const ConversionReport& report) {
-  if (!report.person.subject) return "";
-  const Subject& subject = *report.person.subject;
+  const ConversionPlan& plan = report.plan;
+  if (!plan.person.subject) return "";
+  const Subject& subject = *plan.person.subject;
   std::string text = fmt::format("subject    \"{}\": {} segments, {} markers", subject.name,
                                  subject.scales.size(), subject.offsets.size());
-  if (!report.calibration) return text + ", from " + report.person.subject_file + "\n";
+  if (!plan.calibration) return text + ", from " + plan.person.subject_file + "\n";
   return text +
          fmt::format(
              ", from this recording: best postures of {} frames {:.1f} mm from the markers, "
              "{:.1f} without\n",
-             report.calibration->frames, kMillimetres * report.calibration->distance_after,
-             kMillimetres * report.calibration->distance_before) +
+             plan.calibration->frames, kMillimetres * plan.calibration->distance_after,
+             kMillimetres * plan.calibration->distance_before) +
          FormatSubjectSummary(subject);
 }
 
 // What an MMM program does with the motion.
 std::string DescribeSubjectOutput(const ConversionReport& report) {
-  if (!report.person.subject) return "";
+  const ConversionPlan& plan = report.plan;
+  if (!plan.person.subject) return "";
   std::string text =
       "played     the angles are the subject's; on the model scaled by height and mass, which the "
       "motion\n           names, segments and markers differ";
-  if (report.model_output.empty()) return text + "; --model-out writes the subject's model\n";
-  return text + ". The subject's model: " + report.model_output + "\n";
+  if (plan.model_output.empty()) return text + "; --model-out writes the subject's model\n";
+  return text + ". The subject's model: " + plan.model_output + "\n";
 }
 
 }  // namespace
 
 std::string FormatSummary(const ConversionReport& report) {
-  const Recording& recording = report.input.recording;
+  const ConversionPlan& plan = report.plan;
+  const Recording& recording = plan.input.recording;
   const MarkerSequence& markers = recording.markers;
   const ConversionFigures& figures = report.figures;
   std::string text;
   text += fmt::format("recording  {}: {}, {} frames at {:.6g} Hz, {}{}, up is {}\n", recording.file,
                       recording.format, markers.num_frames(), markers.rate(), recording.unit,
                       recording.unit_was_guessed ? " (guessed)" : "", Name(recording.up_axis));
-  if (report.labels) text += fmt::format("labels     {}\n", DescribeLabels(*report.labels));
-  text += report.object ? fmt::format("object     rigid, {}\n", DescribeObjectModel(*report.object))
-                        : fmt::format("person     {}\n", DescribePersonShortly(report));
+  if (plan.labels) text += fmt::format("labels     {}\n", DescribeLabels(*plan.labels));
+  text += plan.object ? fmt::format("object     rigid, {}\n", DescribeObjectModel(*plan.object))
+                      : fmt::format("person     {}\n", DescribePersonShortly(report));
   text += DescribeSubject(report);
-  text += fmt::format("model      {}, {} joints tracked\n", report.input.model_file,
+  text += fmt::format("model      {}, {} joints tracked\n", plan.input.model_file,
                       report.result.trajectory.joint_names.size());
-  text += fmt::format("converter  {}, {}\n", report.converter.config.type,
-                      report.converter.config.file);
   text +=
-      fmt::format("markers    {}{}\n", DescribeMarkersShortly(report.setup.mapping),
-                  report.setup.marker_set.empty() ? "" : ", marker set " + report.setup.marker_set);
+      fmt::format("converter  {}, {}\n", plan.converter.config.type, plan.converter.config.file);
+  text += fmt::format("markers    {}{}\n", DescribeMarkersShortly(plan.setup.mapping),
+                      plan.setup.marker_set.empty() ? "" : ", marker set " + plan.setup.marker_set);
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
                       kMillimetres * figures.distance.mean, kMillimetres * figures.distance.p95,
                       kMillimetres * figures.distance.max, WorstMarkers(report, figures));
@@ -135,8 +139,8 @@ std::string FormatSummary(const ConversionReport& report) {
   text += DescribeWrongMarkers(report);
   text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", figures.median_ms,
                       figures.p99_ms);
-  text += fmt::format("motion     {} (MMM {}, \"{}\")\n", report.output, report.output_format,
-                      report.motion_name);
+  text += fmt::format("motion     {} (MMM {}, \"{}\")\n", plan.output, plan.output_format,
+                      plan.motion_name);
   text += DescribeSubjectOutput(report);
   return text + FormatVerdict(report.verdict);
 }

@@ -12,7 +12,7 @@
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/page_sources.h"
 #include "common/io/recording/marker_labels.h"
-#include "common/pipeline/verdict.h"
+#include "common/judge/verdict.h"
 
 namespace mmm_converter {
 namespace {

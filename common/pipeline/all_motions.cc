@@ -51,7 +51,7 @@ PlannedMotion PlanMotion(const ConversionRequest& request, const ReadBefore& rea
   planned.name = recording.motion();
   if (recording.markers.num_labels() == 0) return planned;
   try {
-    planned.plan = PlanConversion(request, read_before);
+    planned.plan = PlanConversion(request, ReadSource(request, read_before));
   } catch (const Error& error) {
     planned.failure = WithAdvice(error);
   }
@@ -70,12 +70,11 @@ void CheckModelIsOwn(std::set<std::string>* models, PlannedMotion* planned) {
   planned->plan.reset();
 }
 
-MotionOutcome Convert(PlannedMotion planned, bool self_calibrate,
-                      const std::function<bool(int, int)>& progress) {
+MotionOutcome Convert(PlannedMotion planned, const std::function<bool(int, int)>& progress) {
   MotionOutcome outcome = {planned.name, std::nullopt, planned.failure};
   if (!planned.plan) return outcome;
   try {
-    outcome.report = CarryOut(std::move(*planned.plan), self_calibrate, progress);
+    outcome.report = CarryOut(std::move(*planned.plan), progress);
   } catch (const Error& error) {
     outcome.failure = WithAdvice(error);
   }
@@ -125,14 +124,14 @@ AllMotions RunAllMotions(const ConversionRequest& request,
   }
   if (!plans.empty()) CheckOutputs(request, plans);
   for (PlannedMotion& motion : motions) {
-    all.motions.push_back(Convert(std::move(motion), request.self_calibrate, progress));
+    all.motions.push_back(Convert(std::move(motion), progress));
   }
   const std::vector<const ConversionReport*> reports = ReportsOf(all);
   if (reports.empty()) {
     throw Error(
         fmt::format("{}: no motion could be converted{}", request.input.file, WhyNone(all)));
   }
-  all.output = reports.front()->output;
+  all.output = reports.front()->plan.output;
   return all;
 }
 
@@ -140,7 +139,7 @@ void WriteAllMotions(const ConversionRequest& request, AllMotions* all) {
   std::vector<ConversionReport*> reports;
   for (MotionOutcome& outcome : all->motions) {
     if (!outcome.report) continue;
-    WriteObjectModel(*outcome.report);
+    WriteObjectModel(outcome.report->plan);
     reports.push_back(&*outcome.report);
   }
   WriteMotions(request, reports);

@@ -8,6 +8,7 @@
 
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
+#include "common/judge/conversion_verdict.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
@@ -19,19 +20,20 @@ namespace {
 
 // The person as the recording itself shows them. No frame is done meanwhile.
 void SelfCalibrate(const std::function<bool(int, int)>& progress, ConversionReport* report) {
-  const Recording& recording = report->input.recording;
+  ConversionPlan& plan = report->plan;
+  const Recording& recording = plan.input.recording;
   const std::string file = std::filesystem::path(recording.file).filename().string();
-  TrackingSetup& setup = report->setup;
-  report->calibration =
+  TrackingSetup& setup = plan.setup;
+  plan.calibration =
       CalibratePerson(*setup.model, setup.joints, {{file, &recording.markers, setup.assignments()}},
-                      report->person, SubjectName(report->input), &report->warnings, [&] {
+                      plan.person, SubjectName(plan.input), &report->warnings, [&] {
                         if (progress && !progress(0, recording.markers.num_frames())) {
                           throw Error(file + ": cancelled");
                         }
                       });
-  report->person.subject = std::make_shared<Subject>(report->calibration->subject);
+  plan.person.subject = std::make_shared<Subject>(plan.calibration->subject);
   setup.model =
-      std::make_shared<KinematicModel>(FitToSubject(*setup.model, report->calibration->subject));
+      std::make_shared<KinematicModel>(FitToSubject(*setup.model, plan.calibration->subject));
 }
 
 void CheckHasSubject(const ConversionRequest& request, const ConversionPlan& plan) {
@@ -62,8 +64,9 @@ ObjectRequest ObjectRequestOf(const ConversionRequest& request, const Conversion
       !is_one_of_several && (IsGiven(request.input.person) || request.self_calibrate);
   object.name = plan.motion_name;
   object.models = request.object_models;
-  object.new_models = request.object_models;
-  if (object.new_models.empty() && !std::filesystem::is_other(plan.output, failure)) {
+  if (request.builds_models) object.new_models = request.object_models;
+  if (request.builds_models && object.new_models.empty() &&
+      !std::filesystem::is_other(plan.output, failure)) {
     object.new_models =
         std::filesystem::path(plan.output).replace_extension().string() + "_objects";
   }
@@ -71,36 +74,24 @@ ObjectRequest ObjectRequestOf(const ConversionRequest& request, const Conversion
   return object;
 }
 
-// The input's points under the names that are found for them; the others are left out.
-void LabelInput(const ConversionRequest& request, const ConverterConfig& config,
-                const std::function<bool(int, int)>& progress, ConversionPlan* plan) {
-  MarkerSequence& markers = plan->input.recording.markers;
-  plan->labels = FindLabels(request.input, request.label_hints, plan->input, config, progress,
-                            &plan->warnings);
-  markers = Relabelled(PointsOfPerson(*plan->labels), markers);
-}
-
-void WritePerson(const ConversionReport& report) {
-  if (!report.subject_output.empty()) {
-    WriteFileAtomically(report.subject_output,
-                        FormatSubject(*report.person.subject, SubjectProgram()));
+void WritePerson(const ConversionPlan& plan) {
+  if (!plan.subject_output.empty()) {
+    WriteFileAtomically(plan.subject_output, FormatSubject(*plan.person.subject, SubjectProgram()));
   }
-  if (!report.model_output.empty()) {
-    WriteFileAtomically(report.model_output,
-                        ReadModelForSubject(report.input.model_file, *report.person.subject));
+  if (!plan.model_output.empty()) {
+    WriteFileAtomically(plan.model_output,
+                        ReadModelForSubject(plan.input.model_file, *plan.person.subject));
   }
 }
 
 // Errors name the file.
-ConversionResult Track(const ConversionReport& report,
-                       const std::function<bool(int, int)>& progress) {
-  const Recording& recording = report.input.recording;
+ConversionResult Track(const ConversionPlan& plan, const std::function<bool(int, int)>& progress) {
+  const Recording& recording = plan.input.recording;
   const int frames = recording.markers.num_frames();
-  const auto converter =
-      report.converter.plugin->factory().Create(report.setup, report.converter.config);
-  if (report.keeps_covariances && !converter->KeepCovariances()) {
+  const auto converter = plan.converter.plugin->factory().Create(plan.setup, plan.converter.config);
+  if (plan.keeps_covariances && !converter->KeepCovariances()) {
     throw Error(fmt::format("{} tells no covariances; use S2KFConverter, or do without them",
-                            report.converter.config.type));
+                            plan.converter.config.type));
   }
   try {
     return converter->Convert(recording.markers,
@@ -112,24 +103,47 @@ ConversionResult Track(const ConversionReport& report,
 
 }  // namespace
 
-ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before,
-                              const std::function<bool(int, int)>& progress) {
-  ConversionPlan plan;
-  Warnings* warnings = &plan.warnings;
+const std::string& LabelOf(const ConversionPlan& plan, int assignment) {
+  return plan.input.recording.markers.labels()[plan.setup.assignments()[assignment].label];
+}
+
+ConversionSource ReadSource(const ConversionRequest& request, const ReadBefore& read_before) {
+  ConversionSource source;
   InputRequest input = request.input;
   input.reading.with_unlabelled = request.label;
-  plan.input = ReadInput(input, read_before, warnings);
+  source.input = ReadInput(input, read_before, &source.warnings);
+  const Recording& recording = source.input.recording;
+  const WarningContext context(&source.warnings, recording.file, recording.motion());
+  source.converter = TakeConverter(request.converter, read_before, &source.warnings);
+  MatchModel(request.input, &source.input, &source.converter.config);
+  if (request.self_calibrate) source.converter.config.subject_file.clear();
+  source.is_one_of_several = read_before.motion.value != nullptr;
+  return source;
+}
+
+void NamePoints(const ConversionRequest& request, const std::function<bool(int, int)>& progress,
+                ConversionSource* source) {
+  if (!request.label) return;
+  Recording& recording = source->input.recording;
+  const WarningContext context(&source->warnings, recording.file, recording.motion());
+  source->labels = FindLabels(request.input, request.label_hints, source->input,
+                              source->converter.config, progress, &source->warnings);
+  recording.markers = Relabelled(PointsOfPerson(*source->labels), recording.markers);
+}
+
+ConversionPlan PlanConversion(const ConversionRequest& request, ConversionSource source) {
+  ConversionPlan plan;
+  plan.input = std::move(source.input);
+  plan.labels = std::move(source.labels);
+  plan.converter = std::move(source.converter);
+  plan.warnings = std::move(source.warnings);
+  Warnings* warnings = &plan.warnings;
   const Recording& recording = plan.input.recording;
   const WarningContext context(warnings, recording.file, recording.motion());
-  plan.converter = TakeConverter(request.converter, read_before, warnings);
   ConverterConfig& config = plan.converter.config;
-  MatchModel(request.input, &plan.input, &config);
-  if (request.self_calibrate) config.subject_file.clear();
-  if (request.label) LabelInput(request, config, progress, &plan);
-  const bool is_one_of_several = read_before.motion.value != nullptr;
-  ChooseMotionOutput(request, is_one_of_several, &plan);
-  plan.object =
-      FindObject(ObjectRequestOf(request, plan, is_one_of_several), plan.input, config, warnings);
+  ChooseMotionOutput(request, source.is_one_of_several, &plan);
+  plan.object = FindObject(ObjectRequestOf(request, plan, source.is_one_of_several), plan.input,
+                           config, warnings);
   if (plan.object) {
     UseModel(*plan.object, &plan.input);
     config = ConfigOfObject(plan.input, config);
@@ -146,6 +160,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   CheckHasSubject(request, plan);
   plan.subject_output = request.subject_output;
   plan.model_output = request.model_output;
+  plan.self_calibrates = request.self_calibrate && !plan.object;
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   return plan;
 }
@@ -174,41 +189,54 @@ void CheckOutputs(const ConversionRequest& request,
   outputs.Check();
 }
 
-ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
-                          const std::function<bool(int, int)>& progress) {
-  ConversionReport report{std::move(plan), {}, {}, {}, {}};
-  const WarningContext context(&report.warnings, report.input.recording.file,
-                               report.input.recording.motion());
-  if (self_calibrate && !report.object) SelfCalibrate(progress, &report);
-  report.result = Track(report, progress);
-  if (report.object) {
-    WarnOfUnknownTurns(report.input, report.setup.mapping, report.result.residuals,
+ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int)>& progress) {
+  ConversionReport report;
+  report.plan = std::move(plan);
+  report.warnings = report.plan.warnings;
+  const Recording& recording = report.plan.input.recording;
+  const WarningContext context(&report.warnings, recording.file, recording.motion());
+  if (report.plan.self_calibrates) SelfCalibrate(progress, &report);
+  report.result = Track(report.plan, progress);
+  if (report.plan.object) {
+    WarnOfUnknownTurns(report.plan.input, report.plan.setup.mapping, report.result.residuals,
                        &report.warnings);
   }
-  report.figures = MeasureConversion(report);
-  report.verdict = JudgeConversion(report);
+  MeasureAndJudge(&report);
   return report;
 }
 
-ConversionReport RunConversion(const ConversionRequest& request,
-                               const std::function<bool(int, int)>& progress) {
-  ConversionPlan plan = PlanConversion(request, {}, progress);
-  CheckOutputs(request, {&plan});
-  return CarryOut(std::move(plan), request.self_calibrate, progress);
+void MeasureAndJudge(ConversionReport* report) {
+  const ConversionPlan& plan = report->plan;
+  const bool is_height_stated = plan.person.height.value > 0 && plan.person.height_deviation == 0;
+  report->figures = MeasureConversion(report->result);
+  report->verdict = JudgeConversion(
+      {plan.input.recording, plan.input.first_frame, plan.setup, plan.input.reference,
+       plan.input.model_file, plan.object.has_value(),
+       ScalingOf(plan.person, plan.converter.config),
+       is_height_stated ? plan.person.height.source : "", report->result, report->figures});
 }
 
-void WriteObjectModel(const ConversionReport& report) {
-  if (!report.object || !report.object->is_built()) return;
+ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,
+                               const std::function<bool(int, int)>& progress) {
+  ConversionSource source = ReadSource(request, read_before);
+  NamePoints(request, progress, &source);
+  ConversionPlan plan = PlanConversion(request, std::move(source));
+  CheckOutputs(request, {&plan});
+  return CarryOut(std::move(plan), progress);
+}
+
+void WriteObjectModel(const ConversionPlan& plan) {
+  if (!plan.object || !plan.object->is_built()) return;
   std::error_code failure;  // writing says what is wrong
-  std::filesystem::create_directory(std::filesystem::path(report.input.model_file).parent_path(),
+  std::filesystem::create_directory(std::filesystem::path(plan.input.model_file).parent_path(),
                                     failure);
-  WriteFileAtomically(report.input.model_file, report.object->text);
+  WriteFileAtomically(plan.input.model_file, plan.object->text);
 }
 
 void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
-  WriteObjectModel(*report);
+  WriteObjectModel(report->plan);
   WriteMotions(request, {report});
-  WritePerson(*report);
+  WritePerson(report->plan);
   WriteExports(request.exports, *report);
 }
 

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "common/convert/motion_converter.h"
-#include "common/pipeline/conversion_figures.h"
+#include "common/judge/conversion_figures.h"
+#include "common/judge/verdict.h"
 #include "common/pipeline/exporters.h"
 #include "common/pipeline/input/converter_choice.h"
 #include "common/pipeline/input/input.h"
@@ -15,7 +16,6 @@
 #include "common/pipeline/object.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
-#include "common/pipeline/verdict.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -39,53 +39,79 @@ struct ConversionRequest {
   bool keeps_covariances = false;         ///< also where no export is of them
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
+  bool builds_models = true;  ///< of objects that have none
+};
+
+/// A recording with the model and the configuration that it is converted with.
+struct ConversionSource {
+  Input input;
+  std::optional<FoundLabels> labels;  ///< where the input has got its labels by the body
+  ConverterChoice converter;
+  bool is_one_of_several = false;  ///< of the motions of a file that are all converted
+  Warnings warnings;
 };
 
 /// All that is decided before the first frame is tracked.
 struct ConversionPlan {
   Input input;
-  std::optional<FoundLabels> labels;  ///< where the input has got its labels by the body
+  std::optional<FoundLabels> labels;  ///< as of the source
   ConverterChoice converter;
   Person person;
-  std::optional<ObjectModel> object;  ///< what is tracked, where it is no person
+  std::optional<CalibrationResult> calibration;  ///< of the person, by this recording
+  std::optional<ObjectModel> object;             ///< what is tracked, where it is no person
   TrackingSetup setup;
   std::string output, output_format, motion_name;
   std::string subject_output, model_output;  ///< empty: not written
+  bool self_calibrates = false;              ///< before it is tracked
   bool keeps_covariances = false;
   Warnings warnings;
 };
 
 /// A plan that has been carried out.
-struct ConversionReport : ConversionPlan {
-  std::optional<CalibrationResult> calibration;  ///< of this recording
+struct ConversionReport {
+  ConversionPlan plan;
   ConversionResult result;
   ConversionFigures figures;
   Verdict verdict;
+  Warnings warnings;  ///< those of the plan, and what was noticed since
 };
 
-/// Reads the recording, the model and the configuration, finds labels where asked to, matches the
-/// markers and finds the person. progress: of the labels, as of CarryOut.
+/// The recording's label of an assignment.
+const std::string& LabelOf(const ConversionPlan& plan, int assignment);
+
+/// Reads the recording, the model and the configuration, and matches these two.
 /// @throws Error
-ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before,
-                              const std::function<bool(int, int)>& progress = {});
+ConversionSource ReadSource(const ConversionRequest& request, const ReadBefore& read_before);
+
+/// Finds the names of the source's points where the request asks for it: minutes of a long
+/// recording. progress: as of CarryOut.
+/// @throws Error
+void NamePoints(const ConversionRequest& request, const std::function<bool(int, int)>& progress,
+                ConversionSource* source);
+
+/// Matches the markers, finds the person or the object, and what is written where.
+/// @throws Error
+ConversionPlan PlanConversion(const ConversionRequest& request, ConversionSource source);
 
 /// Before any further work, of one motion or of all of a file.
 /// @throws Error where an output is a file that is read, two are the same, or one can't be written.
 void CheckOutputs(const ConversionRequest& request,
                   const std::vector<const ConversionPlan*>& plans);
 
-/// Calibrates where asked to, and tracks; writes nothing. progress(done, all): frames; may be
-/// empty; returning false ends it with an Error.
+/// Calibrates where that is planned, tracks and judges; writes nothing. progress(done, all):
+/// frames; may be empty; returning false ends it with an Error.
 /// @throws Error
-ConversionReport CarryOut(ConversionPlan plan, bool self_calibrate,
-                          const std::function<bool(int, int)>& progress);
+ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int)>& progress);
 
-/// PlanConversion, CheckOutputs and CarryOut.
-ConversionReport RunConversion(const ConversionRequest& request,
+/// The figures and the verdict of a report that has all else.
+void MeasureAndJudge(ConversionReport* report);
+
+/// All of the above in turn.
+ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,
                                const std::function<bool(int, int)>& progress);
 
 /// Writes the model of an object, where that is new. @throws Error
-void WriteObjectModel(const ConversionReport& report);
+void WriteObjectModel(const ConversionPlan& plan);
 
 /// Writes the motion and what else is asked for.
 /// @throws Error; each file is then as it was before, or whole.

@@ -22,30 +22,31 @@ void WriteCsv(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteTrc(const std::string& file, const ConversionReport& report) {
-  const Recording& recording = report.input.recording;
+  const ConversionPlan& plan = report.plan;
+  const Recording& recording = plan.input.recording;
   TrcOutput output;
   output.file_name = std::filesystem::path(file).filename().string();
-  output.first_frame = recording.first_frame + report.input.first_frame;
+  output.first_frame = recording.first_frame + plan.input.first_frame;
   output.measured = &recording.markers;
-  output.model_markers.reserve(report.setup.assignments().size());
-  for (const MarkerAssignment& one : report.setup.assignments()) {
+  output.model_markers.reserve(plan.setup.assignments().size());
+  for (const MarkerAssignment& one : plan.setup.assignments()) {
     output.model_markers.push_back({one.label, one.marker});
   }
-  output.model = report.setup.model.get();
+  output.model = plan.setup.model.get();
   output.trajectory = &report.result.trajectory;
   WriteFileAtomically(file, FormatTrc(output));
 }
 
 void WriteMot(const std::string& file, const ConversionReport& report) {
-  const std::string& root = report.setup.model->segments().front().name;
+  const std::string& root = report.plan.setup.model->segments().front().name;
   WriteFileAtomically(file, FormatMot(report.result.trajectory, root));
 }
 
 void WritePoses(const std::string& file, const ConversionReport& report) {
-  const KinematicModel& model = *report.setup.model;
+  const KinematicModel& model = *report.plan.setup.model;
   const PoseChoice choice;
   BodySelection selection = SelectBodies(model, choice);
-  const Recording& recording = report.input.recording;
+  const Recording& recording = report.plan.input.recording;
   if (recording.mmm && recording.mmm->num_motions > 1) {
     selection.objects = ObjectsBeside(recording.file, recording.motion());
   }
@@ -54,12 +55,12 @@ void WritePoses(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteBvh(const std::string& file, const ConversionReport& report) {
-  WriteFileAtomically(file, FormatBvh(*report.setup.model, report.result.trajectory));
+  WriteFileAtomically(file, FormatBvh(*report.plan.setup.model, report.result.trajectory));
 }
 
 void WriteBvhInMetres(const std::string& file, const ConversionReport& report) {
-  WriteFileAtomically(file,
-                      FormatBvh(*report.setup.model, report.result.trajectory, BvhUnit::kMetres));
+  WriteFileAtomically(
+      file, FormatBvh(*report.plan.setup.model, report.result.trajectory, BvhUnit::kMetres));
 }
 
 void WriteCovariances(const std::string& file, const ConversionReport& report) {

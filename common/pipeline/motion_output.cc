@@ -36,22 +36,23 @@ std::string SubjectComment(const ConversionPlan& plan) {
 }
 
 MmmMotionOutput MotionOf(const ConversionRequest& request, const ConversionReport& report) {
-  MmmMotionOutput output = DescribeMotion(request, report);
+  MmmMotionOutput output = DescribeMotion(request, report.plan);
   output.trajectory = &report.result.trajectory;
-  output.markers = &report.input.recording.markers;
+  output.markers = &report.plan.input.recording.markers;
   return output;
 }
 
 TextPieces Format(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
   ConversionReport& first = *reports.front();
-  const Recording& recording = first.input.recording;
-  if (first.output_format == "2.0" && IsMmm2(recording)) {
+  const Recording& recording = first.plan.input.recording;
+  if (first.plan.output_format == "2.0" && IsMmm2(recording)) {
     std::vector<MmmMotionOutput> outputs;
     outputs.reserve(reports.size());
     for (const ConversionReport* report : reports) {
       MmmMotionOutput output = MotionOf(request, *report);
-      output.motion_name = report->input.recording.motion();
-      if (AreMarkersAsInFile(report->input.recording) && !report->labels) output.markers = nullptr;
+      output.motion_name = report->plan.input.recording.motion();
+      if (AreMarkersAsInFile(report->plan.input.recording) && !report->plan.labels)
+        output.markers = nullptr;
       outputs.push_back(std::move(output));
     }
     return WithConvertedMotions(BytesOfFile(request.input.file), request.input.file, outputs);
@@ -63,7 +64,7 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
                     request.input.file, recording.mmm->num_motions));
   }
   const MmmMotionOutput output = MotionOf(request, first);
-  return first.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
+  return first.plan.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
 std::string DefaultOutput(const fs::path& input) {
@@ -111,7 +112,7 @@ MmmMotionOutput DescribeMotion(const ConversionRequest& request, const Conversio
 }
 
 void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
-  WriteFileAtomically(reports.front()->output, Format(request, reports));
+  WriteFileAtomically(reports.front()->plan.output, Format(request, reports));
 }
 
 }  // namespace mmm_converter

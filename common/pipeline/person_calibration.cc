@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "common/io/mmm/subject_file.h"
+#include "common/judge/calibration_verdict.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -149,7 +150,11 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   report.person.subject = std::make_shared<Subject>(report.result.subject);
   report.model =
       std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));
-  report.verdict = JudgeCalibration(report, config);
+  CalibrationEvidence evidence = {report.result, ScalingOf(report.person, config), {}};
+  for (const CalibrationInput& one : report.recordings) {
+    evidence.recordings.push_back({one.input.recording, one.setup, one.input.reference});
+  }
+  report.verdict = JudgeCalibration(evidence);
   return report;
 }
 

@@ -8,10 +8,10 @@
 
 #include "common/calibrate/calibration.h"
 #include "common/convert/tracking_setup.h"
+#include "common/judge/verdict.h"
 #include "common/pipeline/input/converter_choice.h"
 #include "common/pipeline/input/input.h"
 #include "common/pipeline/input/person.h"
-#include "common/pipeline/verdict.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

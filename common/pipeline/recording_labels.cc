@@ -10,6 +10,7 @@
 
 #include "common/convert/marker_set.h"
 #include "common/fit/posture_search.h"
+#include "common/judge/label_verdict.h"
 #include "common/label/track/label_recording.h"
 #include "common/pipeline/labelled_output.h"
 #include "common/pipeline/object.h"
@@ -330,18 +331,6 @@ double LabelDistance(const FoundLabels& found, const MarkerSequence& markers) {
   return count > 0 ? sum / count : kNaN;
 }
 
-std::vector<std::string> NamesNotFound(const Labelling& labelling) {
-  std::vector<char> is_found(labelling.names.size(), 0);
-  for (const NamedPiece& piece : labelling.pieces) {
-    if (piece.name >= 0) is_found[piece.name] = 1;
-  }
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < is_found.size(); ++i) {
-    if (is_found[i] == 0) names.push_back(labelling.names[i]);
-  }
-  return names;
-}
-
 FoundLabels FindNames(const InputRequest& request, const Input& input,
                       const ConverterConfig& config, Warnings* warnings) {
   LabelScene scene;
@@ -390,7 +379,8 @@ LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int
   report.found =
       FindLabels(request.input, request.hints, report.input, choice.config, progress, warnings);
   report.mean_distance = LabelDistance(report.found, recording.markers);
-  report.verdict = JudgeLabels(report);
+  report.verdict = JudgeLabels({recording, report.found.labelling, report.mean_distance,
+                                report.found.person.subject != nullptr});
   return report;
 }
 

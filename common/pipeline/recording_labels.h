@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
+#include "common/judge/verdict.h"
 #include "common/label/track/labelling.h"
 #include "common/label/track/relabelled.h"
 #include "common/pipeline/input/input.h"
 #include "common/pipeline/input/person.h"
-#include "common/pipeline/verdict.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -70,9 +70,6 @@ std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found);
 /// The mean distance of named points from the person's markers in the best postures of some frames
 /// [m]; NaN: too few are named.
 double LabelDistance(const FoundLabels& found, const MarkerSequence& markers);
-
-/// Those that no point has in any frame.
-std::vector<std::string> NamesNotFound(const Labelling& labelling);
 
 /// As FindLabels without hints, of points that are still to come: person, setup and the names
 /// (Labelling::names) alone.

@@ -34,12 +34,12 @@ constexpr const char* kConverted =
 // A conversion of three frames with two markers, the second of which is 2 mm off.
 ConversionReport Report() {
   ConversionReport report;
-  report.input.recording.markers = MarkerSequence({"A", "B"}, 3, 100, 0);
-  report.setup.mapping.assignments = {{LabelIx(0), MarkerIx(0)}, {LabelIx(1), MarkerIx(1)}};
+  report.plan.input.recording.markers = MarkerSequence({"A", "B"}, 3, 100, 0);
+  report.plan.setup.mapping.assignments = {{LabelIx(0), MarkerIx(0)}, {LabelIx(1), MarkerIx(1)}};
   report.result.frames.resize(3);
   report.result.residuals.resize(2, 3);
   report.result.residuals << 0.001, 0.001, 0.001, 0.002, 0.002, 0.002;
-  report.figures = MeasureConversion(report);
+  report.figures = MeasureConversion(report.result);
   return report;
 }
 
@@ -61,7 +61,7 @@ TEST(EntryResult, TheWorstMarkerIsTheOneFarthestOff) {
 
 TEST(EntryResult, AnObjectHasNoHeight) {
   ConversionReport report = Report();
-  report.object = ObjectModel();
+  report.plan.object = ObjectModel();
   const Json json = ToJson(Converted(report, 0));
   for (const char* key : {"height_m", "height_source", "mass_kg", "mass_source", "subject"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;
@@ -72,7 +72,7 @@ TEST(EntryResult, AnObjectHasNoHeight) {
 TEST(EntryResult, NothingSeenHasNoDistance) {
   ConversionReport report = Report();
   report.result.residuals.setConstant(kNaN);
-  report.figures = MeasureConversion(report);
+  report.figures = MeasureConversion(report.result);
   const Json json = ToJson(Converted(report, 0));
   EXPECT_TRUE(json.at("worst_marker").is_null());
   EXPECT_TRUE(json.at("distance_mm").at("mean").is_null());

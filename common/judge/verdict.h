@@ -26,21 +26,4 @@ Verdict::Level ParseVerdictLevel(const std::string& text);
 /// As one line: "check: REASON; REASON".
 std::string DescribeVerdict(const Verdict& verdict);
 
-struct ConversionReport;
-
-/// By what the recording's markers, the person and the track are, beside what right recordings
-/// have; verdict.cc has the limits. The report's own verdict does not count.
-Verdict JudgeConversion(const ConversionReport& report);
-
-struct CalibrationReport;
-struct ConverterConfig;
-
-/// Likewise by what was estimated. config: what the person is scaled by.
-Verdict JudgeCalibration(const CalibrationReport& report, const ConverterConfig& config);
-
-struct LabelReport;
-
-/// Likewise of names that were found; label_verdict.cc has the limits.
-Verdict JudgeLabels(const LabelReport& report);
-
 }  // namespace mmm_converter

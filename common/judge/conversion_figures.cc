@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/pipeline/conversion_figures.h"
-
-#include "common/pipeline/conversion.h"
+#include "common/judge/conversion_figures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,15 +22,15 @@ int WorstMarker(const std::vector<ResidualSummary>& of_markers) {
 
 }  // namespace
 
-ConversionFigures MeasureConversion(const ConversionReport& report) {
+ConversionFigures MeasureConversion(const ConversionResult& result) {
   ConversionFigures figures;
-  figures.distance = SummarizeResiduals(report.result.residuals);
-  figures.of_markers = SummarizeEachMarker(report.result.residuals);
+  figures.distance = SummarizeResiduals(result.residuals);
+  figures.of_markers = SummarizeEachMarker(result.residuals);
   figures.worst_marker = WorstMarker(figures.of_markers);
-  figures.frames_with_missing_markers = FramesWithMissingMarkers(report.result.residuals);
+  figures.frames_with_missing_markers = FramesWithMissingMarkers(result.residuals);
   std::vector<double> times;
   std::vector<double> nis;
-  for (const FrameDiagnostic& frame : report.result.frames) {
+  for (const FrameDiagnostic& frame : result.frames) {
     figures.frames_not_converged += frame.converged ? 0 : 1;
     figures.frames_reassembled += frame.reassembled ? 1 : 0;
     if (frame.nis > 0) nis.push_back(frame.nis);
@@ -42,11 +40,6 @@ ConversionFigures MeasureConversion(const ConversionReport& report) {
   figures.median_ms = Median(times);
   figures.p99_ms = Percentile(times, 99);
   return figures;
-}
-
-const std::string& LabelOf(const ConversionReport& report, int assignment) {
-  const int label = report.setup.assignments()[assignment].label;
-  return report.input.recording.markers.labels()[label];
 }
 
 }  // namespace mmm_converter

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "common/judge/label_verdict.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "common/pipeline/judgement.h"
-#include "common/pipeline/recording_labels.h"
-#include "common/pipeline/verdict.h"
+#include "common/judge/evidence.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -21,14 +21,26 @@ constexpr Limit kUnsure = {0.08, 0.4};
 
 }  // namespace
 
-Verdict JudgeLabels(const LabelReport& report) {
-  const FoundLabels& found = report.found;
-  const MarkerSequence& markers = report.input.recording.markers;
-  VerdictReasons judgement;
-  JudgeReading(report.input.recording, &judgement);
+std::vector<std::string> NamesNotFound(const Labelling& labelling) {
+  std::vector<char> is_found(labelling.names.size(), 0);
+  for (const NamedPiece& piece : labelling.pieces) {
+    if (piece.name >= 0) is_found[piece.name] = 1;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < is_found.size(); ++i) {
+    if (is_found[i] == 0) names.push_back(labelling.names[i]);
+  }
+  return names;
+}
+
+Verdict JudgeLabels(const LabelEvidence& evidence) {
+  const MarkerSequence& markers = evidence.recording.markers;
+  const Labelling& labelling = evidence.labelling;
+  VerdictReasons reasons;
+  JudgeReading(evidence.recording, &reasons);
   std::vector<int> unnamed(static_cast<std::size_t>(markers.num_labels()), 0);  // frames, by point
   double unsure = 0, named = 0;
-  for (const NamedPiece& piece : found.labelling.pieces) {
+  for (const NamedPiece& piece : labelling.pieces) {
     const int length = piece.end - piece.begin;
     if (piece.name < 0) {
       unnamed[piece.point] += length;
@@ -37,34 +49,33 @@ Verdict JudgeLabels(const LabelReport& report) {
       unsure += (1 - piece.probability) * length;
     }
   }
-  const std::vector<std::string> missing = NamesNotFound(found.labelling);
-  const std::size_t names = found.labelling.names.size();
+  const std::vector<std::string> missing = NamesNotFound(labelling);
+  const std::size_t names = labelling.names.size();
   const auto spare = std::count_if(unnamed.begin(), unnamed.end(),
                                    [&](int n) { return 2 * n > markers.num_frames(); });
   const std::string not_found =
       fmt::format("{} of {} names {} not found ({})", missing.size(), names,
                   missing.size() == 1 ? "was" : "were", FirstNames(missing));
-  const bool is_few = judgement.AddBeyond(
+  const bool is_few = reasons.AddBeyond(
       kNamesNotFound, static_cast<double>(missing.size()) / static_cast<double>(names), not_found);
   if (!is_few && !missing.empty() && spare > 0) {
-    judgement.Add(
+    reasons.Add(
         Level::kCheck,
         fmt::format("{}, though {} without a name nearly all along: markers may be worn "
                     "elsewhere",
                     not_found, spare == 1 ? "one point is" : fmt::format("{} points are", spare)));
   }
-  const bool is_calibrated = found.person.subject != nullptr;
-  judgement.AddBeyond(
-      is_calibrated ? kCalibratedMeanDistance : kMeanDistance, report.mean_distance,
+  reasons.AddBeyond(
+      evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance, evidence.mean_distance,
       fmt::format("the named points are {:.0f} mm from the markers of {}",
-                  1000 * report.mean_distance,
-                  is_calibrated ? "the subject: another person's, or put on anew since"
-                                : "the model of that height"));
+                  1000 * evidence.mean_distance,
+                  evidence.is_calibrated ? "the subject: another person's, or put on anew since"
+                                         : "the model of that height"));
   if (named > 0) {
-    judgement.AddBeyond(kUnsure, unsure / named,
-                        fmt::format("names are sure to {:.0f} % only", 100 * (1 - unsure / named)));
+    reasons.AddBeyond(kUnsure, unsure / named,
+                      fmt::format("names are sure to {:.0f} % only", 100 * (1 - unsure / named)));
   }
-  return judgement.Take();
+  return reasons.Take();
 }
 
 }  // namespace mmm_converter

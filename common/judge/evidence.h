@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the verdicts of a conversion and of a calibration have in common.
+// What more than one verdict looks at.
 #pragma once
 
 #include <limits>
@@ -11,8 +11,8 @@
 #include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
 #include "common/judge/coverage.h"
+#include "common/judge/verdict.h"
 #include "common/model/subject.h"
-#include "common/pipeline/verdict.h"
 
 namespace mmm_converter {
 
@@ -55,21 +55,20 @@ class VerdictReasons {
 };
 
 /// Unit, axis and length of the file.
-void JudgeReading(const Recording& recording, VerdictReasons* judgement);
+void JudgeReading(const Recording& recording, VerdictReasons* reasons);
 
 /// limbs: LimbsOf(setup).
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                   VerdictReasons* judgement);
+                   VerdictReasons* reasons);
 
-void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
-                VerdictReasons* judgement);
+void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, VerdictReasons* reasons);
 
 /// True where a calibrated person's markers sit too far from where the model has them.
-bool JudgeOffsets(const Subject& subject, VerdictReasons* judgement);
+bool JudgeOffsets(const Subject& subject, VerdictReasons* reasons);
 
 /// Whether labels of the left and the right are exchanged, on the reference scaled to the person
 /// without its subject.
 void JudgeSides(TrackingSetup setup, std::shared_ptr<const KinematicModel> reference,
-                PersonScaling person, const MarkerSequence& markers, VerdictReasons* judgement);
+                PersonScaling person, const MarkerSequence& markers, VerdictReasons* reasons);
 
 }  // namespace mmm_converter

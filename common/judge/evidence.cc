@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/pipeline/judgement.h"
+#include "common/judge/evidence.h"
 
 #include <fmt/format.h>
 
@@ -42,14 +42,14 @@ Verdict VerdictReasons::Take() {
   return verdict;
 }
 
-void JudgeReading(const Recording& recording, VerdictReasons* judgement) {
+void JudgeReading(const Recording& recording, VerdictReasons* reasons) {
   for (const ReadingDoubt& doubt : recording.doubts) {
-    judgement->Add(Level::kCheck, WithAdvice(doubt.text, doubt.remedy));
+    reasons->Add(Level::kCheck, WithAdvice(doubt.text, doubt.remedy));
   }
 }
 
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                   VerdictReasons* judgement) {
+                   VerdictReasons* reasons) {
   std::vector<std::string> unseen;
   for (const Limb& limb : limbs) {
     const int markers = static_cast<int>(limb.labels.size());
@@ -57,34 +57,33 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
       unseen.push_back(
           fmt::format("the {} ({} {})", limb.name, markers, markers == 1 ? "marker" : "markers"));
     } else if (limb.free_joints > 0) {
-      judgement->Add(Level::kCheck, fmt::format("{}: no marker shows {} of its {} joints",
-                                                limb.name, limb.free_joints, limb.num_joints));
+      reasons->Add(Level::kCheck, fmt::format("{}: no marker shows {} of its {} joints", limb.name,
+                                              limb.free_joints, limb.num_joints));
     }
   }
-  judgement->AddBeyond(kUnseenLimbs, static_cast<double>(unseen.size()),
-                       fmt::format("too few markers to know {}", JoinNames(unseen, " and ")));
+  reasons->AddBeyond(kUnseenLimbs, static_cast<double>(unseen.size()),
+                     fmt::format("too few markers to know {}", JoinNames(unseen, " and ")));
   const auto coordinates = 3 * setup.assignments().size();
   const auto degrees = 6 + setup.joints.size();
   if (coordinates >= degrees) return;
-  judgement->Add(Level::kCheck,
-                 fmt::format("{} markers are too few for the {} degrees of freedom of the body",
-                             setup.assignments().size(), degrees));
+  reasons->Add(Level::kCheck,
+               fmt::format("{} markers are too few for the {} degrees of freedom of the body",
+                           setup.assignments().size(), degrees));
 }
 
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
-                VerdictReasons* judgement) {
+                VerdictReasons* reasons) {
   const double noise = MeasureMarkerNoise(markers, LabelIndices(setup.assignments()));
-  judgement->AddBeyond(
-      kNoise, noise,
-      fmt::format("marker positions have noise of {:.1f} mm, a capture less than 1",
-                  kMillimetres * noise));
+  reasons->AddBeyond(kNoise, noise,
+                     fmt::format("marker positions have noise of {:.1f} mm, a capture less than 1",
+                                 kMillimetres * noise));
 }
 
-bool JudgeOffsets(const Subject& subject, VerdictReasons* judgement) {
+bool JudgeOffsets(const Subject& subject, VerdictReasons* reasons) {
   std::vector<double> offsets;
   for (const MarkerOffset& offset : subject.offsets) offsets.push_back(offset.offset.norm());
   const double most = Percentile(offsets, 95);
-  return judgement->AddBeyond(
+  return reasons->AddBeyond(
       kOffset, most,
       fmt::format("one in twenty markers sits more than {:.0f} mm from where the model has it, "
                   "of a person of that height at most {:.0f}",
@@ -92,17 +91,17 @@ bool JudgeOffsets(const Subject& subject, VerdictReasons* judgement) {
 }
 
 void JudgeSides(TrackingSetup setup, std::shared_ptr<const KinematicModel> reference,
-                PersonScaling person, const MarkerSequence& markers, VerdictReasons* judgement) {
+                PersonScaling person, const MarkerSequence& markers, VerdictReasons* reasons) {
   setup.model = std::move(reference);  // a subject's markers may have taken it up
   person.subject = nullptr;
   ScaleToPerson(person, &setup);
   const auto exchanged = FindExchangedSides(setup, markers);
   if (!exchanged) return;
-  judgement->Add(Level::kFailed,
-                 fmt::format("left and right labels of {} are exchanged, or coordinates mirrored: "
-                             "exchanged, markers are {:.0f} mm from the model, else {:.0f}",
-                             exchanged->part, kMillimetres * exchanged->exchanged_distance,
-                             kMillimetres * exchanged->distance));
+  reasons->Add(Level::kFailed,
+               fmt::format("left and right labels of {} are exchanged, or coordinates mirrored: "
+                           "exchanged, markers are {:.0f} mm from the model, else {:.0f}",
+                           exchanged->part, kMillimetres * exchanged->exchanged_distance,
+                           kMillimetres * exchanged->distance));
 }
 
 }  // namespace mmm_converter

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "common/convert/motion_converter.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
-
-struct ConversionReport;
 
 /// Figures of a conversion that its verdict, its summary and the results of a batch have alike.
 struct ConversionFigures {
@@ -25,10 +23,6 @@ struct ConversionFigures {
   double median_ms = 0, p99_ms = 0;  ///< time of a frame
 };
 
-/// The report's own figures do not count.
-ConversionFigures MeasureConversion(const ConversionReport& report);
-
-/// The recording's label of an assignment.
-const std::string& LabelOf(const ConversionReport& report, int assignment);
+ConversionFigures MeasureConversion(const ConversionResult& result);
 
 }  // namespace mmm_converter
