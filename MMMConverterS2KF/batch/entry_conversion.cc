@@ -25,7 +25,8 @@ ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder) 
 
 ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore& read_before,
                               const std::function<bool()>& goes_on) {
-  return RunConversion(request, read_before, [&](int, int) { return goes_on(); });
+  const auto progress = [&](int, int) { return goes_on(); };
+  return RunConversion(request, LabelFirst(request, read_before, progress), progress);
 }
 
 std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {

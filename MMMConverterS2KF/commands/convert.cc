@@ -235,10 +235,11 @@ int RunConvert(const Arguments& arguments) {
   const ConversionRequest request = MakeRequest(arguments);
   if (request.motion_name == kAllMotions) return ConvertAllMotions(arguments, request);
   ProgressBar bar("frames");
-  ConversionReport report = RunConversion(request, {}, [&](int done, int all) {
+  const auto progress = [&](int done, int all) {
     bar.Show(done, all);
     return true;
-  });
+  };
+  ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
   bar.Clear();
   WriteConversion(request, &report);
   LogWarnings(report.warnings);

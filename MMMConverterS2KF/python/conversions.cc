@@ -60,9 +60,8 @@ Conversion Convert(const py::object& recording, const py::dict& options,
     request.input.file = read.recording->file;
   }
   return InBackground(progress, [&](const Progress& on_progress) {
-    ConversionSource source = ReadSource(request, read_before);
-    NamePoints(request, on_progress, &source);
-    return Conversion{request, CarryOut(PlanConversion(request, std::move(source)), on_progress)};
+    ConversionPlan plan = PlanConversion(request, LabelFirst(request, read_before, on_progress));
+    return Conversion{request, CarryOut(std::move(plan), on_progress)};
   });
 }
 

@@ -51,7 +51,7 @@ PlannedMotion PlanMotion(const ConversionRequest& request, const ReadBefore& rea
   planned.name = recording.motion();
   if (recording.markers.num_labels() == 0) return planned;
   try {
-    planned.plan = PlanConversion(request, ReadSource(request, read_before));
+    planned.plan = PlanConversion(request, read_before);
   } catch (const Error& error) {
     planned.failure = WithAdvice(error);
   }

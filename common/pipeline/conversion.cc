@@ -107,43 +107,46 @@ const std::string& LabelOf(const ConversionPlan& plan, int assignment) {
   return plan.input.recording.markers.labels()[plan.setup.assignments()[assignment].label];
 }
 
-ConversionSource ReadSource(const ConversionRequest& request, const ReadBefore& read_before) {
-  ConversionSource source;
-  InputRequest input = request.input;
-  input.reading.with_unlabelled = request.label;
-  source.input = ReadInput(input, read_before, &source.warnings);
-  const Recording& recording = source.input.recording;
-  const WarningContext context(&source.warnings, recording.file, recording.motion());
-  source.converter = TakeConverter(request.converter, read_before, &source.warnings);
-  MatchModel(request.input, &source.input, &source.converter.config);
-  if (request.self_calibrate) source.converter.config.subject_file.clear();
-  source.is_one_of_several = read_before.motion.value != nullptr;
-  return source;
+ReadBefore LabelFirst(const ConversionRequest& request, ReadBefore read_before,
+                      const std::function<bool(int, int)>& progress) {
+  if (!request.label) return read_before;
+  LabelRequest labels;
+  labels.input = request.input;
+  labels.converter = request.converter;
+  labels.hints = request.label_hints;
+  labels.ignores_subject = request.self_calibrate;
+  LabelReport report = LabelPoints(labels, read_before, progress);
+  auto named = std::make_shared<NamedRecording>(
+      NamedRecording{std::move(report.input), std::move(report.found)});
+  MarkerSequence& markers = named->input.recording.markers;
+  markers = Relabelled(PointsOfPerson(named->labels), markers);
+  read_before.named = {std::move(named), std::move(report.warnings)};
+  return read_before;
 }
 
-void NamePoints(const ConversionRequest& request, const std::function<bool(int, int)>& progress,
-                ConversionSource* source) {
-  if (!request.label) return;
-  Recording& recording = source->input.recording;
-  const WarningContext context(&source->warnings, recording.file, recording.motion());
-  source->labels = FindLabels(request.input, request.label_hints, source->input,
-                              source->converter.config, progress, &source->warnings);
-  recording.markers = Relabelled(PointsOfPerson(*source->labels), recording.markers);
-}
-
-ConversionPlan PlanConversion(const ConversionRequest& request, ConversionSource source) {
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
   ConversionPlan plan;
-  plan.input = std::move(source.input);
-  plan.labels = std::move(source.labels);
-  plan.converter = std::move(source.converter);
-  plan.warnings = std::move(source.warnings);
   Warnings* warnings = &plan.warnings;
+  const NamedRecording* named = read_before.named.value.get();
+  if (named != nullptr) {
+    plan.input = named->input;
+    plan.labels = named->labels;
+    warnings->Append(read_before.named.warnings);
+  } else if (request.label) {
+    throw Error(request.input.file + ": the points are to be named first (LabelFirst)");
+  } else {
+    plan.input = ReadInput(request.input, read_before, warnings);
+  }
   const Recording& recording = plan.input.recording;
   const WarningContext context(warnings, recording.file, recording.motion());
+  plan.converter = TakeConverter(request.converter, read_before, named ? nullptr : warnings);
   ConverterConfig& config = plan.converter.config;
-  ChooseMotionOutput(request, source.is_one_of_several, &plan);
-  plan.object = FindObject(ObjectRequestOf(request, plan, source.is_one_of_several), plan.input,
-                           config, warnings);
+  MatchModel(request.input, &plan.input, &config);
+  if (request.self_calibrate) config.subject_file.clear();
+  const bool is_one_of_several = read_before.motion.value != nullptr;
+  ChooseMotionOutput(request, is_one_of_several, &plan);
+  plan.object =
+      FindObject(ObjectRequestOf(request, plan, is_one_of_several), plan.input, config, warnings);
   if (plan.object) {
     UseModel(*plan.object, &plan.input);
     config = ConfigOfObject(plan.input, config);
@@ -218,9 +221,7 @@ void MeasureAndJudge(ConversionReport* report) {
 
 ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,
                                const std::function<bool(int, int)>& progress) {
-  ConversionSource source = ReadSource(request, read_before);
-  NamePoints(request, progress, &source);
-  ConversionPlan plan = PlanConversion(request, std::move(source));
+  ConversionPlan plan = PlanConversion(request, read_before);
   CheckOutputs(request, {&plan});
   return CarryOut(std::move(plan), progress);
 }

@@ -42,19 +42,10 @@ struct ConversionRequest {
   bool builds_models = true;  ///< of objects that have none
 };
 
-/// A recording with the model and the configuration that it is converted with.
-struct ConversionSource {
-  Input input;
-  std::optional<FoundLabels> labels;  ///< where the input has got its labels by the body
-  ConverterChoice converter;
-  bool is_one_of_several = false;  ///< of the motions of a file that are all converted
-  Warnings warnings;
-};
-
 /// All that is decided before the first frame is tracked.
 struct ConversionPlan {
   Input input;
-  std::optional<FoundLabels> labels;  ///< as of the source
+  std::optional<FoundLabels> labels;  ///< where the input has got its labels by the body
   ConverterChoice converter;
   Person person;
   std::optional<CalibrationResult> calibration;  ///< of the person, by this recording
@@ -79,19 +70,16 @@ struct ConversionReport {
 /// The recording's label of an assignment.
 const std::string& LabelOf(const ConversionPlan& plan, int assignment);
 
-/// Reads the recording, the model and the configuration, and matches these two.
+/// Names the recording's points where the request asks for it (LabelPoints), which is to be done
+/// before it is planned. The recording is then ReadBefore::named.
 /// @throws Error
-ConversionSource ReadSource(const ConversionRequest& request, const ReadBefore& read_before);
+ReadBefore LabelFirst(const ConversionRequest& request, ReadBefore read_before,
+                      const std::function<bool(int, int)>& progress);
 
-/// Finds the names of the source's points where the request asks for it: minutes of a long
-/// recording. progress: as of CarryOut.
+/// Reads the recording, the model and the configuration, matches the markers, finds the person or
+/// the object, and what is written where.
 /// @throws Error
-void NamePoints(const ConversionRequest& request, const std::function<bool(int, int)>& progress,
-                ConversionSource* source);
-
-/// Matches the markers, finds the person or the object, and what is written where.
-/// @throws Error
-ConversionPlan PlanConversion(const ConversionRequest& request, ConversionSource source);
+ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before);
 
 /// Before any further work, of one motion or of all of a file.
 /// @throws Error where an output is a file that is read, two are the same, or one can't be written.
@@ -106,7 +94,7 @@ ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int
 /// The figures and the verdict of a report that has all else.
 void MeasureAndJudge(ConversionReport* report);
 
-/// All of the above in turn.
+/// PlanConversion, CheckOutputs and CarryOut. read_before: by LabelFirst.
 ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,
                                const std::function<bool(int, int)>& progress);
 

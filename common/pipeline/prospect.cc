@@ -16,7 +16,7 @@ Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recordi
   ReadBefore read_before;
   read_before.motion.value = std::move(recording);
   try {
-    const ConversionPlan plan = PlanConversion(conversion, ReadSource(conversion, read_before));
+    const ConversionPlan plan = PlanConversion(conversion, read_before);
     prospect.marker_set = plan.setup.marker_set;
     prospect.mapping = plan.setup.mapping;
     prospect.person = plan.person;

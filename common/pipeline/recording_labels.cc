@@ -356,28 +356,40 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   return found;
 }
 
-LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int)>& progress) {
+LabelReport LabelPoints(const LabelRequest& request, const ReadBefore& read_before,
+                        const std::function<bool(int, int)>& progress) {
   LabelReport report;
   report.output = request.output;
   Warnings* const warnings = &report.warnings;
+  InputRequest input = request.input;
+  input.reading.with_unlabelled = true;
+  report.input = ReadInput(input, read_before, warnings);
+  const Recording& recording = report.input.recording;
+  const WarningContext context(warnings, recording.file, recording.motion());
+  ConverterConfig config = TakeConverter(request.converter, read_before, warnings).config;
+  if (request.ignores_subject) config.subject_file.clear();
+  CheckKeepsRecording(request.output, recording);
+  LabelHints hints = request.hints;
+  hints.taken = NamesThatStay(request.output, recording);
+  MatchModel(request.input, &report.input, &config);
+  report.found = FindLabels(request.input, hints, report.input, config, progress, warnings);
+  return report;
+}
+
+LabelReport RunLabelling(const LabelRequest& request,
+                         const std::function<bool(int, int)>& progress) {
   if (!request.output.empty()) CheckLabelledOutput(request.output, request.hints.has_others());
-  ConverterChoice choice = ChooseConverter(request.converter, warnings);
+  ReadBefore read_before;
+  read_before.choice = ChooseOnce(request.converter);
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
-  NameInputs(choice, &outputs);
+  NameInputs(*read_before.choice.value, &outputs);
   for (const std::string& file : FilesOf(request.hints)) outputs.Read(file);
   outputs.Rewrite(request.output, request.input.file);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   outputs.Check();
-  request.input.reading.with_unlabelled = true;
-  report.input = ReadInput(request.input, {}, warnings);
+  LabelReport report = LabelPoints(request, read_before, progress);
   const Recording& recording = report.input.recording;
-  CheckKeepsRecording(request.output, recording);
-  request.hints.taken = NamesThatStay(request.output, recording);
-  const WarningContext context(warnings, recording.file, recording.motion());
-  MatchModel(request.input, &report.input, &choice.config);
-  report.found =
-      FindLabels(request.input, request.hints, report.input, choice.config, progress, warnings);
   report.mean_distance = LabelDistance(report.found, recording.markers);
   report.verdict = JudgeLabels({recording, report.found.labelling, report.mean_distance,
                                 report.found.person.subject != nullptr});

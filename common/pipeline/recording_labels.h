@@ -77,11 +77,18 @@ double LabelDistance(const FoundLabels& found, const MarkerSequence& markers);
 FoundLabels FindNames(const InputRequest& request, const Input& input,
                       const ConverterConfig& config, Warnings* warnings);
 
+/// A recording under the names that were found; points without one are left out.
+struct NamedRecording {
+  Input input;
+  FoundLabels labels;
+};
+
 /// What was asked for.
 struct LabelRequest {
   InputRequest input;
   ConverterRequest converter;  ///< its configuration names markers and joints
   LabelHints hints;
+  bool ignores_subject = false;           ///< of the configuration
   std::string output;                     ///< empty: nothing is written
   std::vector<std::string> more_outputs;  ///< that the caller writes
 };
@@ -96,8 +103,15 @@ struct LabelReport {
   Warnings warnings;
 };
 
-/// Reads, checks the outputs, and names the points; writes nothing.
+/// Reads, and names the points: minutes of a long recording. The report has no verdict yet.
+/// progress: as of FindLabels; returning false ends it with an Error.
 /// @throws Error
-LabelReport RunLabelling(LabelRequest request, const std::function<bool(int, int)>& progress);
+LabelReport LabelPoints(const LabelRequest& request, const ReadBefore& read_before,
+                        const std::function<bool(int, int)>& progress);
+
+/// Checks the outputs, names the points and judges; writes nothing.
+/// @throws Error
+LabelReport RunLabelling(const LabelRequest& request,
+                         const std::function<bool(int, int)>& progress);
 
 }  // namespace mmm_converter

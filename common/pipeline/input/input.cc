@@ -84,7 +84,7 @@ Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warn
 ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
                               Warnings* warnings) {
   if (!read_before.choice.value) return ChooseConverter(request, warnings);
-  warnings->Append(read_before.choice.warnings);
+  if (warnings != nullptr) warnings->Append(read_before.choice.warnings);
   return *read_before.choice.value;
 }
 

@@ -28,13 +28,16 @@ struct InputRequest {
   PersonRequest person;
 };
 
+struct NamedRecording;
+
 /// What has been read for a request before: for all recordings of a batch, or for all motions of a
 /// file. Null: is read.
 struct ReadBefore {
   WithWarnings<std::shared_ptr<const LoadedModel>> model = {};
   WithWarnings<std::shared_ptr<const ConverterChoice>> choice = {};
-  WithWarnings<std::shared_ptr<const Recording>> motion = {};     ///< one of several of the file
-  WithWarnings<std::shared_ptr<const Recording>> recording = {};  ///< the whole of the file
+  WithWarnings<std::shared_ptr<const Recording>> motion = {};      ///< one of several of the file
+  WithWarnings<std::shared_ptr<const Recording>> recording = {};   ///< the whole of the file
+  WithWarnings<std::shared_ptr<const NamedRecording>> named = {};  ///< see LabelFirst
 };
 
 struct Input {
