@@ -92,7 +92,7 @@ someone 'man MMMConverterS2KF-convert | grep -q "^EXAMPLES"
   MMM_CONVERTER_PLUGIN_PATH=plugin/lib/MMMConverterS2KF/plugins MMMConverterS2KF convert handstand.c3d --height 1.8 \
     --frames 0:40 --converter RigidFitConverter -o by_plugin.xml > /dev/null
   g++ -o a.out consumer/consumer.cc $(pkg-config --cflags --libs MMMConverterS2KF)
-  ./a.out'
+  ./a.out handstand.c3d consumed.xml'
 
 part "Removed"
 apt purge --autoremove mmm-converter-s2kf
