@@ -11,12 +11,12 @@
 
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/batch/subjects_table.h"
+#include "MMMConverterS2KF/terminal/advice.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/processor_config.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/io/xml/xml_text.h"
-#include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/folder.h"
 #include "common/support/text.h"

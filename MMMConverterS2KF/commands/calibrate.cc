@@ -114,7 +114,7 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
   Contender contender = MakeContender(arguments.Get("config").value_or(""));
   InputRequest request;
   request.marker_set = arguments.Get("marker-set").value_or("");
-  TakeMarkerSet(request, &contender.config);
+  UseMarkerSet(request, &contender.config);
   const std::string text = fmt::format(
       "The person \"{}\", calibrated on {} frames: the best postures leave {:.1f} mm to the "
       "markers "

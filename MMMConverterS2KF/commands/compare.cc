@@ -142,7 +142,7 @@ int RunCompare(const Arguments& arguments) {
   const ComparisonOptions options = MakeOptions(arguments);
   std::vector<Contender> contenders = MakeContenders(arguments);
   const InputRequest request = MakeInputRequest(arguments.ForPositional(0, kPerRecording), "");
-  for (Contender& contender : contenders) TakeMarkerSet(request, &contender.config);
+  for (Contender& contender : contenders) UseMarkerSet(request, &contender.config);
   CheckOutputs(arguments, contenders);
   std::vector<Trial> trials = MakeTrials(arguments, contenders.front().config);
   MakeNamesUnique(&trials, &contenders);

@@ -101,7 +101,7 @@ std::string FormatLearnedReport(const LearnRequest& request, const LearnReport& 
   Warnings told_when_learnt;
   for (InputRequest input : request.inputs) {
     input.marker_set = learnt.output;
-    TakeMarkerSet(input, &contender.config);
+    UseMarkerSet(input, &contender.config);
     trials.push_back(MakeTrial(std::move(input), "", contender.config, &told_when_learnt));
   }
   return FormatPageOfRuns("Marker set " + learnt.name, DescribeLearntSet(learnt), std::move(trials),

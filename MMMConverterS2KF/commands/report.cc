@@ -80,7 +80,7 @@ Comparison CompareSolutions(const Arguments& arguments) {
   if (!trial.failure.empty()) throw Error(trial.failure);
   LogWarnings(warnings);
   ConverterConfig config;
-  TakeMarkerSet(request, &config);
+  UseMarkerSet(request, &config);
   Finished unsolved;
   unsolved.mapping =
       MatchMarkers(LabelsOf(trial.markers, request.file), trial.model, config, &unsolved.warnings)

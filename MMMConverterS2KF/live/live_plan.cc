@@ -26,7 +26,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   Warnings* warnings = &plan.warnings;
   plan.input = ReadModel(request.input, {}, warnings);
   plan.input.recording = head;
-  plan.converter = TakeConverter(request.converter, {}, warnings);
+  plan.converter = ChosenConverter(request.converter, {}, warnings);
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
   if (request.calibration_time > 0) config.subject_file.clear();

@@ -115,7 +115,7 @@ Comparing CompareAll(const py::list& inputs, const std::vector<std::string>& con
     std::vector<Contender> contenders;
     for (const std::string& config : configs) {
       contenders.push_back(MakeContender(config));
-      if (!result.inputs.empty()) TakeMarkerSet(result.inputs.front(), &contenders.back().config);
+      if (!result.inputs.empty()) UseMarkerSet(result.inputs.front(), &contenders.back().config);
     }
     std::vector<Trial> trials;
     Warnings warnings;

@@ -32,7 +32,7 @@ Verdict JudgeCalibration(const CalibrationEvidence& evidence) {
       JudgeSides(one.setup, one.reference, evidence.person, one.recording.markers, &reasons);
     }
   }
-  return reasons.Take();
+  return reasons.Conclude();
 }
 
 }  // namespace mmm_converter

@@ -51,7 +51,7 @@ class Judge {
     if (evidence_.is_object) {
       JudgeObjectsDistance();
       JudgeGaps();
-      return reasons_.Take();
+      return reasons_.Conclude();
     }
     const bool is_far = JudgeDistances();
     JudgeMarkers();
@@ -64,7 +64,7 @@ class Judge {
     if (is_far) {
       JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);
     }
-    return reasons_.Take();
+    return reasons_.Conclude();
   }
 
  private:

@@ -33,7 +33,7 @@ bool VerdictReasons::AddBeyond(const Limit& limit, double value, const std::stri
   return true;
 }
 
-Verdict VerdictReasons::Take() {
+Verdict VerdictReasons::Conclude() {
   std::stable_sort(reasons_.begin(), reasons_.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   Verdict verdict;

@@ -48,7 +48,7 @@ class VerdictReasons {
   bool AddBeyond(const Limit& limit, double value, const std::string& reason);
 
   /// The gravest reasons first.
-  Verdict Take();
+  Verdict Conclude();
 
  private:
   std::vector<std::pair<Verdict::Level, std::string>> reasons_;

@@ -75,7 +75,7 @@ Verdict JudgeLabels(const LabelEvidence& evidence) {
     reasons.AddBeyond(kUnsure, unsure / named,
                       fmt::format("names are sure to {:.0f} % only", 100 * (1 - unsure / named)));
   }
-  return reasons.Take();
+  return reasons.Conclude();
 }
 
 }  // namespace mmm_converter

@@ -312,8 +312,8 @@ std::pair<double, int> Peak(const Eigen::MatrixXd& values, Eigen::Index row) {
   return peak;
 }
 
-void TakeFreeJoints(const KinematicModel& model, const MotionDynamics& dynamics,
-                    Plausibility* judged) {
+void MeasureFreeJoints(const KinematicModel& model, const MotionDynamics& dynamics,
+                       Plausibility* judged) {
   const Eigen::MatrixXi loaded = ContactsBelow(model, dynamics) * dynamics.contacts;
   judged->torques = (loaded.array() > 0).select(kNaN, dynamics.joint_torques);
   judged->powers = (loaded.array() > 0).select(kNaN, dynamics.joint_power);
@@ -352,7 +352,7 @@ const char* Name(DynamicsJudgement judgement) {
 Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics) {
   Plausibility judged;
   judged.differentiation = WhyNoForces(dynamics);
-  if (judged.differentiation.empty()) TakeFreeJoints(model, dynamics, &judged);
+  if (judged.differentiation.empty()) MeasureFreeJoints(model, dynamics, &judged);
   judged.checks = {CheckKinematics(dynamics), CheckMeanForce(dynamics)};
   AddGroundChecks(dynamics, judged.differentiation, &judged.checks);
   AddFlightChecks(dynamics, judged.differentiation, &judged.checks);

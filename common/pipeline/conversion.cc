@@ -139,7 +139,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   }
   const Recording& recording = plan.input.recording;
   const WarningContext context(warnings, recording.file, recording.motion());
-  plan.converter = TakeConverter(request.converter, read_before, named ? nullptr : warnings);
+  plan.converter = ChosenConverter(request.converter, read_before, named ? nullptr : warnings);
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
   if (request.self_calibrate) config.subject_file.clear();

@@ -43,8 +43,8 @@ class NameList {
   bool empty() const { return names_.empty(); }
 
   /// The setup's assignments, and what LabelRecording asks for. prefix: of the names.
-  void Give(const std::string& prefix, TrackingSetup* setup, Labelling* labelling,
-            LabelOptions* options) {
+  void AssignTo(const std::string& prefix, TrackingSetup* setup, Labelling* labelling,
+                LabelOptions* options) {
     std::sort(names_.begin(), names_.end(), [](const PossibleName& a, const PossibleName& b) {
       return a.marker.marker < b.marker.marker;
     });
@@ -184,7 +184,7 @@ void AddPerson(const std::string& file, const std::string& first, const Input& i
   setup.model = std::make_shared<const KinematicModel>(
       ScaleModel(*input.reference, ScalingOf(person, config)));
   other.first_name = static_cast<int>(found->labelling.names.size());
-  names.Give(other.name + ":", &setup, &found->labelling, options);
+  names.AssignTo(other.name + ":", &setup, &found->labelling, options);
   other.end_name = static_cast<int>(found->labelling.names.size());
   found->others.push_back(std::move(other));
   scene->persons.push_back(std::move(setup));
@@ -259,7 +259,7 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
       ScaleModel(*input.reference, ScalingOf(found.person, config)));
   const std::string name = found.person.subject ? found.person.subject->name : SubjectName(input);
   if (!hints.other_persons.empty()) found.prefix = name + ":";
-  names.Give(found.prefix, &found.setup, &found.labelling, options);
+  names.AssignTo(found.prefix, &found.setup, &found.labelling, options);
   scene->persons.push_back(found.setup);
   for (const std::string& file : hints.other_persons) {
     AddPerson(file, name, input, config, &found, scene, options, warnings);
@@ -366,7 +366,7 @@ LabelReport LabelPoints(const LabelRequest& request, const ReadBefore& read_befo
   report.input = ReadInput(input, read_before, warnings);
   const Recording& recording = report.input.recording;
   const WarningContext context(warnings, recording.file, recording.motion());
-  ConverterConfig config = TakeConverter(request.converter, read_before, warnings).config;
+  ConverterConfig config = ChosenConverter(request.converter, read_before, warnings).config;
   if (request.ignores_subject) config.subject_file.clear();
   CheckKeepsRecording(request.output, recording);
   LabelHints hints = request.hints;

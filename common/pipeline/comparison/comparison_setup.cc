@@ -26,8 +26,8 @@ void NumberRepeatedNames(std::vector<Named>* items) {
   }
 }
 
-void TakeModel(const InputRequest& request, ConverterConfig config, Input* read, Trial* trial,
-               Warnings* warnings) {
+void ScaleTrialsModel(const InputRequest& request, ConverterConfig config, Input* read,
+                      Trial* trial, Warnings* warnings) {
   MatchModel(request, read, &config);
   const Input& input = *read;
   const Recording& recording = input.recording;
@@ -77,7 +77,7 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
         if (!request.person.size.mass) request.person.size.mass = truth.size.mass;
       }
     }
-    TakeModel(request, config, &input, &trial, warnings);
+    ScaleTrialsModel(request, config, &input, &trial, warnings);
     trial.markers = std::move(input.recording.markers);
   } catch (const Error& error) {
     trial.failure = WithAdvice(error);

@@ -114,7 +114,7 @@ class Stages {
         {name, title, text, Compare(std::move(trials), std::move(contenders), options, progress)});
   }
 
-  std::vector<Experiment> Take() { return std::move(experiments_); }
+  std::vector<Experiment> Results() { return std::move(experiments_); }
 
  private:
   const std::function<void(const std::string&, int, int)>& progress_;
@@ -185,7 +185,7 @@ std::vector<Experiment> Evaluate(
                                   "jacobian_least_squares", "jacobian_pull"}),
                complete);
   }
-  return stages.Take();
+  return stages.Results();
 }
 
 std::string FormatPaperTable(const std::vector<Experiment>& experiments) {

@@ -83,7 +83,7 @@ bool IsKnown(const Posture& posture) {
 }
 
 // Frames next to those that are checked stay, for the derivatives' sake.
-void TakeFrames(const InputRequest& request, CheckedMotion* checked) {
+void KeepFrames(const InputRequest& request, CheckedMotion* checked) {
   PoseTrajectory& trajectory = checked->trajectory;
   std::vector<Posture>& postures = trajectory.postures;
   const int begin = request.first_frame.value_or(0);
@@ -157,7 +157,7 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
                            ScaleModel(*setup.model, ScalingOf(person, config)),
                            std::move(motion.trajectory),
                            std::move(warnings)};
-  TakeFrames(request, &checked);
+  KeepFrames(request, &checked);
   return checked;
 }
 

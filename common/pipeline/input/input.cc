@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kDefaultModel = "models/mmm.xml";
 
-void TakeFrames(const InputRequest& request, Input* input) {
+void KeepFrames(const InputRequest& request, Input* input) {
   MarkerSequence& markers = input->recording.markers;
   const int begin = request.first_frame.value_or(0);
   const int end = std::min(request.end_frame.value_or(markers.num_frames()), markers.num_frames());
@@ -77,18 +77,18 @@ Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warn
   }
   Input input = ReadModel(request, read_before, warnings);
   input.recording = std::move(recording);
-  TakeFrames(request, &input);
+  KeepFrames(request, &input);
   return input;
 }
 
-ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
-                              Warnings* warnings) {
+ConverterChoice ChosenConverter(const ConverterRequest& request, const ReadBefore& read_before,
+                                Warnings* warnings) {
   if (!read_before.choice.value) return ChooseConverter(request, warnings);
   if (warnings != nullptr) warnings->Append(read_before.choice.warnings);
   return *read_before.choice.value;
 }
 
-void TakeMarkerSet(const InputRequest& request, ConverterConfig* config) {
+void UseMarkerSet(const InputRequest& request, ConverterConfig* config) {
   if (request.marker_set.empty()) return;
   namespace fs = std::filesystem;
   std::error_code failure;
@@ -99,7 +99,7 @@ void TakeMarkerSet(const InputRequest& request, ConverterConfig* config) {
 }
 
 void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config) {
-  TakeMarkerSet(request, config);
+  UseMarkerSet(request, config);
   if (!input->model->is_reference) config->model_processor = "None";
   const auto set = ReadOwnMarkerSet(*config);
   if (!set || set->places.empty()) return;

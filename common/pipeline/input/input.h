@@ -66,13 +66,13 @@ WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputReques
 Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
 
 /// ChooseConverter. @throws Error
-ConverterChoice TakeConverter(const ConverterRequest& request, const ReadBefore& read_before,
-                              Warnings* warnings);
+ConverterChoice ChosenConverter(const ConverterRequest& request, const ReadBefore& read_before,
+                                Warnings* warnings);
 
 /// The request's marker set instead of the configuration's, where it names one.
-void TakeMarkerSet(const InputRequest& request, ConverterConfig* config);
+void UseMarkerSet(const InputRequest& request, ConverterConfig* config);
 
-/// Brings model and configuration together: TakeMarkerSet; the reference gets the markers that the
+/// Brings model and configuration together: UseMarkerSet; the reference gets the markers that the
 /// configuration's marker set places; a model that is not of a person of 1 m is not scaled.
 /// @throws Error as ReadMarkerSet and PlaceMarkers.
 void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config);

@@ -50,8 +50,8 @@ void CheckLength(const char* what, const std::optional<double>& given, std::opti
 }
 
 // Another mass changes no length.
-void TakeSubject(const PersonRequest& request, const BodySize& processor,
-                 const Recording& recording, Person* person, Warnings* warnings) {
+void UseSubject(const PersonRequest& request, const BodySize& processor, const Recording& recording,
+                Person* person, Warnings* warnings) {
   const Subject& subject = *person->subject;
   const std::string& file = person->subject_file;
   const auto height = request.size.height ? request.size.height : processor.height;
@@ -77,8 +77,8 @@ void TakeSubject(const PersonRequest& request, const BodySize& processor,
 }
 
 // Height, mass and hand length from where they are known, else estimated and assumed.
-void TakeNumbers(const PersonRequest& request, const BodySize& processor,
-                 const Recording& recording, Person* person) {
+void UseNumbers(const PersonRequest& request, const BodySize& processor, const Recording& recording,
+                Person* person) {
   const std::string& file = request.processor_file;
   const auto height = Choose(request.size.height, processor.height, file, recording.size().height);
   const auto mass = Choose(request.size.mass, processor.mass, file, recording.size().mass);
@@ -98,10 +98,10 @@ Person Find(const PersonRequest& request, const KinematicModel& reference,
   person.subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
   if (!person.subject_file.empty()) {
     person.subject = std::make_shared<Subject>(ReadSubject(person.subject_file, reference));
-    TakeSubject(request, processor, recording, &person, warnings);
+    UseSubject(request, processor, recording, &person, warnings);
     return person;
   }
-  TakeNumbers(request, processor, recording, &person);
+  UseNumbers(request, processor, recording, &person);
   if (person.height.source.empty()) estimate_height(&person);
   return person;
 }

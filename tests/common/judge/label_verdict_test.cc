@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "common/judge/label_verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr int kFrames = 10;
+constexpr double kNear = 0.005;  // [m]
+
+// Points 0, 1, ... have the names of the same numbers in all frames, those beyond the names none.
+struct Case {
+  Recording recording;
+  Labelling labelling;
+};
+
+Case MakeCase(int points, int found, int names, double probability = 1) {
+  Case made;
+  std::vector<std::string> labels;
+  for (int i = 0; i < points; ++i) {
+    labels.push_back("*" + std::to_string(i));
+    made.labelling.pieces.push_back(
+        {LabelIx(i), 0, kFrames, i < found ? i : -1, i < found ? probability : 0.9});
+  }
+  for (int i = 0; i < names; ++i) made.labelling.names.push_back("N" + std::to_string(i));
+  made.recording.markers = MarkerSequence(labels, kFrames, 100, 0);
+  return made;
+}
+
+Verdict Judge(const Case& judged, double distance = kNear, bool is_calibrated = true) {
+  return JudgeLabels({judged.recording, judged.labelling, distance, is_calibrated});
+}
+
+TEST(LabelVerdict, IsGoodWhereEveryNameIsSurelyFound) {
+  const Verdict verdict = Judge(MakeCase(4, 4, 4));
+  EXPECT_EQ(verdict.level, Verdict::Level::kGood);
+  EXPECT_THAT(verdict.reasons, IsEmpty());
+}
+
+TEST(LabelVerdict, CountsNamesThatAreNotFound) {
+  // A marker that is not worn is no fault, a point that stays without a name beside it is.
+  EXPECT_EQ(Judge(MakeCase(4, 4, 5)).level, Verdict::Level::kGood);
+  const Case spare = MakeCase(5, 4, 5);
+  EXPECT_THAT(NamesNotFound(spare.labelling), ElementsAre("N4"));
+  EXPECT_EQ(Judge(spare).level, Verdict::Level::kCheck);
+  EXPECT_THAT(Judge(spare).reasons, ElementsAre(HasSubstr("worn elsewhere")));
+  EXPECT_EQ(Judge(MakeCase(4, 4, 8)).level, Verdict::Level::kCheck);
+  EXPECT_EQ(Judge(MakeCase(3, 3, 8)).level, Verdict::Level::kFailed);
+}
+
+TEST(LabelVerdict, KnowsADistanceByWhoIsCalibrated) {
+  const Case right = MakeCase(4, 4, 4);
+  EXPECT_EQ(Judge(right, 0.04, false).level, Verdict::Level::kGood);
+  EXPECT_EQ(Judge(right, 0.04, true).level, Verdict::Level::kCheck);
+  EXPECT_EQ(Judge(right, 0.2, false).level, Verdict::Level::kFailed);
+}
+
+TEST(LabelVerdict, AddsUpHowSureNamesAre) {
+  EXPECT_EQ(Judge(MakeCase(4, 4, 4, 0.95)).level, Verdict::Level::kGood);
+  EXPECT_THAT(Judge(MakeCase(4, 4, 4, 0.8)).reasons, ElementsAre("names are sure to 80 % only"));
+  EXPECT_EQ(Judge(MakeCase(4, 4, 4, 0.5)).level, Verdict::Level::kFailed);
+}
+
+TEST(LabelVerdict, HasTheGravestReasonFirst) {
+  const Verdict verdict = Judge(MakeCase(4, 4, 4, 0.8), 1);
+  EXPECT_EQ(verdict.level, Verdict::Level::kFailed);
+  EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr("mm from the markers"), HasSubstr("sure to")));
+}
+
+}  // namespace
+}  // namespace mmm_converter
