@@ -11,7 +11,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr int kFrames = 10;
+constexpr int kLength = 10;
 constexpr double kNear = 0.005;  // [m]
 
 // Points 0, 1, ... have the names of the same numbers in all frames, those beyond the names none.
@@ -26,10 +26,10 @@ Case MakeCase(int points, int found, int names, double probability = 1) {
   for (int i = 0; i < points; ++i) {
     labels.push_back("*" + std::to_string(i));
     made.labelling.pieces.push_back(
-        {LabelIx(i), 0, kFrames, i < found ? i : -1, i < found ? probability : 0.9});
+        {LabelIx(i), 0, kLength, i < found ? i : -1, i < found ? probability : 0.9});
   }
   for (int i = 0; i < names; ++i) made.labelling.names.push_back("N" + std::to_string(i));
-  made.recording.markers = MarkerSequence(labels, kFrames, 100, 0);
+  made.recording.markers = MarkerSequence(labels, kLength, 100, 0);
   return made;
 }
 
