@@ -53,7 +53,7 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 /// and hand length are the subject's, or else are taken from the request, the processor file, or
 /// the recording, in this order; then the height is estimated from the markers of the setup, which
 /// MatchMarkers made, and the mass assumed. Nothing of these where the model is not scaled
-/// (<Model name="None">; MatchModel).
+/// (`<Model name="None">`; MatchModel).
 /// @throws Error; also where the user gives another height or hand length than the subject's, which
 ///         its segment scales are relative to.
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
