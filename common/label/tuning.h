@@ -8,17 +8,20 @@
 namespace mmm_converter {
 
 // Every number of this room that was chosen and not derived, with its unit and what it is for.
-// Costs have no unit: a squared distance in standard deviations. "Noticed by" names the tests that
-// fail when the number is halved or doubled; where there is none, label_benchmark has to be looked
-// at (common/label/README.md).
+// Costs have no unit: a squared distance in standard deviations. Before each part stand the tests
+// that look at it; a change also needs the rows of label_benchmark, with seeds that were not looked
+// at before (tests/benchmark/RESULTS.md, Labels).
 
 /// Bodies that can be named at all.
+// Tests: LabelRecordingTest.TooManyPointsAreAnError, SceneStartTest, LearnMarkersTest.
 struct BodyLimits {
   static constexpr int kFewestMarkers = 10;  ///< of a body, and points to look for one among
   static constexpr int kMostPoints = 1000;   ///< of a frame: time grows with their square
+  static constexpr int kMostLabels = 1000;   ///< that a set is learnt of, for the same reason
 };
 
 /// How far from the model's place a marker may be worn, and slide (LabelBody).
+// Tests: LabelBodyTest.
 struct PlaceTuning {
   static constexpr double kByHeight = 0.03;  ///< [m] of one with noise scale 1, not calibrated
   static constexpr double kMost = 0.06;      ///< [m]: beyond, a neighbour is as likely
@@ -31,6 +34,7 @@ struct PlaceTuning {
 };
 
 /// What a posture with points costs (BodyMatch).
+// Tests: PointFitTest, LimbSearchTest.
 struct MatchCosts {
   static constexpr double kUnmatched = 9;        ///< of a marker without point: three deviations
   static constexpr double kSettled = 0.015;      ///< [m] what a posture may still be off
@@ -39,6 +43,7 @@ struct MatchCosts {
 };
 
 /// A step of a posture towards targets (StepTowards, LimbSearch).
+// Tests: PostureStepTest.
 struct StepTuning {
   static constexpr double kDamping = 0.01;          ///< of the diagonal (Levenberg-Marquardt)
   static constexpr double kLeastCurvature = 1e-3;   ///< [1/m^2], [1/rad^2] where nothing is seen
@@ -48,8 +53,9 @@ struct StepTuning {
 };
 
 /// Shares of points for markers (SoftAssignment).
+// Tests: SoftAssignmentTest.
 struct SoftTuning {
-  static constexpr int kRounds = 4;  ///< of Sinkhorn's balancing: more change no start
+  static constexpr int kRounds = 4;                       ///< of Sinkhorn's balancing
   static constexpr double kSlack = 0.011108996538242306;  ///< exp(-9/2): three deviations off
   static constexpr double kLeastExponent = -14;  ///< of a share: a ten-thousandth of the slack
   static constexpr double kLeastWeight = 1e-3;   ///< of a marker that has a target at all
@@ -62,6 +68,7 @@ struct Annealing {
 };
 
 /// A fit to points without names (PointFit).
+// Tests: PointFitTest.
 struct FitTuning {
   static constexpr double kLeastGain = 0.1;     ///< of a turn of assignment and step that goes on
   static constexpr int kMostTurns = 6;          ///< of a whole body
@@ -69,6 +76,7 @@ struct FitTuning {
 };
 
 /// The body in one frame, from nothing (BodySearch).
+// Tests: BodySearchTest; label_benchmark starts, starts-hard.
 struct SearchTuning {
   static constexpr int kYaws = 24;  ///< turns about the vertical: 15 degrees apart
   /// Distances from the nearest point, on a grid about the person and their reach.
@@ -97,6 +105,7 @@ struct SearchTuning {
 };
 
 /// Limbs at random angles (LimbSearch, and with the whole body BodySearch).
+// Tests: LimbSearchTest, RandomizeJointsTest; label_benchmark starts-hard.
 struct LimbTuning {
   /// Tries: for each posture of the last stage, for the best of these, and for that as long as it
   /// is not good.
@@ -106,8 +115,8 @@ struct LimbTuning {
   static constexpr Tries kTriesAlone = {40, 100, 300};
   static constexpr Tries kTriesWithBody = {0, 40, 120};
   static constexpr Annealing kAnnealing = {0.12, 0.03, 8};
-  static constexpr double kNearby = 0.5;           ///< [rad] deviation of angles that stay nearby
-  static constexpr double kNearbyShare = 0.5;      ///< of the tries
+  static constexpr double kNearby = 0.5;          ///< [rad] deviation of angles that stay nearby
+  static constexpr double kNearbyShare = 0.5;     ///< of the tries
   static constexpr double kAllJointsShare = 0.5;  ///< of the tries; else the second half
   static constexpr double kReach = 0.5;      ///< [m]: a free point farther off is not a marker's
   static constexpr double kBeside = 0.25;    ///< [m] of limbs that may have each other's points
@@ -122,13 +131,15 @@ struct LimbTuning {
 };
 
 /// Several bodies in one frame (FindScene).
+// Tests: SceneStartTest.
 struct SceneTuning {
   static constexpr int kFrames = 8;        ///< that bodies are looked for in
-  static constexpr int kMedianTurns = 20;  ///< of k-medians: more change nothing
+  static constexpr int kMedianTurns = 20;  ///< of k-medians
   static constexpr int kFullestShare = 3;  ///< one of so many frames is full enough
 };
 
 /// Rigid objects (RigidFinder, FindObjectTracks).
+// Tests: RigidFinder, ObjectTracksTest; label_benchmark together.
 struct ObjectTuning {
   static constexpr int kMostPoints = 300;          ///< of a frame: time grows with their square
   static constexpr double kInPlace = 0.01;         ///< [m] of a point from its marker's place
@@ -137,7 +148,7 @@ struct ObjectTuning {
   static constexpr double kAsBefore = 0.06;        ///< [m] where it is not known how it moves
   static constexpr int kFewest = 3;                ///< markers that tell a pose
   static constexpr int kFewestAnywhere = 4;        ///< or all: three points are alike by chance
-  static constexpr long kMostChecks = 4'000'000;   ///< of points, then a search is given up: 40 ms
+  static constexpr long kMostChecks = 4'000'000;   ///< of points, then a search is given up
   static constexpr long kChecksOfATry = 1000;      ///< that a try of three points counts as
   static constexpr std::size_t kMostTriples = 60;  ///< of markers that are tried, the widest first
   static constexpr double kTrackShare = 0.5;       ///< of a track's frames that make it an object's
@@ -145,6 +156,7 @@ struct ObjectTuning {
 };
 
 /// Which points follow each other (PointFollower).
+// Tests: PointTracksTest.
 struct FollowTuning {
   static constexpr double kAcceleration = 80;  ///< [m/s^2] of a quick hand or foot
   static constexpr double kNearby = 0.006;     ///< [m] of slack: noise, and skin
@@ -153,6 +165,7 @@ struct FollowTuning {
 };
 
 /// How a body is expected to move (LabelBelief).
+// Tests: LabelBeliefTest; label_benchmark online-hard.
 struct MovementTuning {
   struct Kind {
     double speed;  ///< standard deviation where nothing is known [m/s], [rad/s]
@@ -166,6 +179,7 @@ struct MovementTuning {
 };
 
 /// Frame by frame (LabelTracker).
+// Tests: LabelTrackerTest; label_benchmark online-hard.
 struct TrackTuning {
   static constexpr double kUnassigned = 21.1;       ///< chi-square of three: once in 10,000
   static constexpr double kGate = 2 * kUnassigned;  ///< beyond, a pair is not thought of
@@ -179,12 +193,13 @@ struct TrackTuning {
   static constexpr double kLinear = 0.02;        ///< [m]: a step so short is as good as linear
   static constexpr double kContinued = 0.15;     ///< [m] from where it should be: skin in a throw
   static constexpr double kOffsetMemory = 1;     ///< [s] in which a hidden marker's is forgotten
-  static constexpr double kOffsetDrift = 0.004;  ///< [m / sqrt(s)] of a seen one: skin, sweat
+  static constexpr double kOffsetDrift = 0.004;  ///< [m / sqrt(s)] of a seen one
   static constexpr double kNearby = 0.06;        ///< [m] that another posture is looked for within
   static constexpr int kLimbTries = 20;          ///< of that look
 };
 
 /// What points are nobody's (FreePoints).
+// Tests: FreePointsTest.
 struct FreePointTuning {
   static constexpr double kUsual = 5;        ///< [points] of a frame, before any was seen
   static constexpr double kMemory = 0.5;     ///< [s] of the mean
@@ -203,6 +218,7 @@ struct WatchPolicy {
   int other_names = 0;  ///< that it has to give
   int running = 1;      ///< looks that have to say so
 };
+// Tests: LabelledPersonTest, LabelRecordingTest.WhoLeavesAndReturnsIsFoundAgain, LiveLabellerTest.
 struct WatchTuning {
   /// Nearby. The gain is a little less than a marker without point costs: a lone one says as much.
   static constexpr WatchPolicy kNearby = {.every = 0.1, .gain = 8.5};
@@ -220,12 +236,14 @@ struct WatchTuning {
 };
 
 /// A recording (LabelRecording, LabelledPerson).
+// Tests: LabelRecordingTest, LabelledPersonTest; label_benchmark offline-hard.
 struct RecordingTuning {
   static constexpr double kLeastShare = 0.25;  ///< of the votes that gives a name
   static constexpr double kSureName = 0.7;     ///< of the votes: a name that is sure
   static constexpr double kVote = 0.25;        ///< of a way; of both together twice that
   static constexpr double kHint = 6;           ///< cost that a sure name of the last time is worth
   static constexpr int kStartsTried = 3;       ///< where somebody is not calibrated
+  static constexpr int kMostVainSearches = 4;  ///< for a person: who is there is found
   static constexpr int kMostFramesTried = 3000;  ///< of longer recordings one start is tried
   static constexpr int kPart = 256;              ///< frames whose predictions are kept: memory
   static constexpr double kKnown = 0.02;     ///< [m] of a link that tells where a marker is worn
@@ -234,8 +252,9 @@ struct RecordingTuning {
 };
 
 /// Markers far from their places (WornElsewhere).
+// Tests: WornElsewhereTest.
 struct ElsewhereTuning {
-  static constexpr double kReach = 0.2;             ///< [m] by height alone: shins are long
+  static constexpr double kReach = 0.2;             ///< [m] by height alone, as shin markers may be
   static constexpr double kReachCalibrated = 0.08;  ///< [m] put on anew since
   static constexpr double kShare = 0.9;             ///< of the votes, as what is found so counts
   static constexpr int kLeastFrames = 10;         ///< of a track; of shorter ones nothing is known
@@ -247,6 +266,7 @@ struct ElsewhereTuning {
 };
 
 /// Names tried the other way round (ExchangedNames).
+// Tests: ExchangedNamesTest.
 struct ExchangeTuning {
   static constexpr double kModelScatter = 0.008;   ///< [m] of a place, besides skin
   static constexpr double kFarthest = 25;          ///< cost of a marker in a frame, at most
@@ -262,6 +282,7 @@ struct ExchangeTuning {
 };
 
 /// The frames that a marker set is learnt on (ChooseLearnFrames).
+// Tests: LearnFramesTest.
 struct LearnFrameTuning {
   static constexpr int kFrames = 60;         ///< time grows with their number
   static constexpr std::size_t kFewest = 5;  ///< in which two labels are seen together
@@ -270,6 +291,7 @@ struct LearnFrameTuning {
 };
 
 /// Where labels are worn (LearnedPlaces).
+// Tests: LearnedPlacesTest, LearnMarkersTest.
 struct LearnPlaceTuning {
   static constexpr double kSkin = 0.008;          ///< [m] each coordinate
   static constexpr double kSkinAtJoints = 0.017;  ///< [m] more, over which it slides
@@ -292,6 +314,7 @@ struct LearnPlaceTuning {
 };
 
 /// The postures of these (LearnedPlaces).
+// Tests: LearnedPlacesTest, LearnMarkersTest.
 struct LearnFitTuning {
   static constexpr double kRobustDistance = 0.04;  ///< [m]: beyond, a label only pulls
   static constexpr double kNoiseUnit = 0.01;       ///< [m] of noise scale 1
@@ -302,6 +325,7 @@ struct LearnFitTuning {
 };
 
 /// The search among starts and sites (LearnMarkers).
+// Tests: LearnMarkersTest.
 struct LearnTuning {
   static constexpr int kSearched = 8;         ///< frames that the body is looked for in
   static constexpr double kAnyPlace = 0.045;  ///< [m] of others' markers from the model's
@@ -318,6 +342,7 @@ struct LearnTuning {
 };
 
 /// What is left out (LeaveOutDoubtful).
+// Tests: LearnedPlacesTest, LearnMarkersTest.
 struct DoubtTuning {
   static constexpr double kSure = 0.9;       ///< probability of a site that is believed
   static constexpr double kClearly = 1;      ///< of cost, by which another place is likelier
@@ -327,6 +352,7 @@ struct DoubtTuning {
 };
 
 /// Points that are no markers (WhyNoMarkers).
+// Tests: ComputedPointsTest.
 struct ComputedTuning {
   static constexpr int kFewestCompared = 10;    ///< frames
   static constexpr double kExactly = 1e-4;      ///< [m], rounding in files included

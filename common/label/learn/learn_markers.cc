@@ -206,6 +206,10 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
                             const std::vector<const MarkerSequence*>& recordings,
                             const std::function<void(int, int)>& progress) {
   const CommonLabels labels = FindCommonLabels(recordings);
+  if (labels.names.size() > BodyLimits::kMostLabels) {
+    throw Error(fmt::format("{} labels are too many to learn a marker set of; at most {}",
+                            labels.names.size(), BodyLimits::kMostLabels));
+  }
   std::vector<LearnFrame> frames = ChooseLearnFrames(recordings, labels);
   const std::vector<std::string> computed = WhyNoMarkers(labels.names, frames);
   LeaveOut(computed, &frames);

@@ -34,7 +34,7 @@ struct LearnedMarkers {
 /// count where what is seen leaves a choice. Points that are computed from others are told apart.
 /// model: of the person's size, with its own markers; joints: tracked. Labels are the same thing in
 /// all recordings. progress(done, all) may be empty.
-/// @throws Error where there are fewer than ten markers, or no person is found.
+/// @throws Error where there are fewer than ten markers, more than a thousand labels, or nobody.
 LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>& joints,
                             const std::vector<const MarkerSequence*>& recordings,
                             const std::function<void(int, int)>& progress);

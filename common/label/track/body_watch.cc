@@ -5,11 +5,15 @@
 
 namespace mmm_converter {
 
+bool BodyWatch::Fits(int matched, int points, int markers) const {
+  const int possible = std::max(policy_.fewest_points, std::min(points, markers));
+  return matched >= policy_.fitting * possible;
+}
+
 void BodyWatch::Count(int matched, int points, int markers, double dt) {
   const int possible = std::max(policy_.fewest_points, std::min(points, markers));
   const bool is_there = policy_.counts_absence || 2 * possible > markers;
-  const bool fits = matched >= policy_.fitting * possible;
-  unfit_ = is_there && !fits ? unfit_ + dt : 0;
+  unfit_ = is_there && !Fits(matched, points, markers) ? unfit_ + dt : 0;
 }
 
 bool BodyWatch::IsLookDue(double dt) {

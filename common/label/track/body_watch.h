@@ -13,6 +13,8 @@ class BodyWatch {
 
   const WatchPolicy& policy() const { return policy_; }
 
+  /// Whether so many markers with a point are enough, of so many points.
+  bool Fits(int matched, int points, int markers) const;
   /// A frame, dt [s] after the last one: so many of the markers have one of its points.
   void Count(int matched, int points, int markers, double dt);
   /// Too few had a point for too long.

@@ -35,7 +35,7 @@ class RecordingLabeller {
         dt_(1 / recording.rate()),
         stored_(recording.num_labels(), -1),
         progress_(progress) {
-    MakePersons();
+    persons_ = MakePersons();
     for (const TrackingSetup& setup : scene.persons) {
       for (const MarkerAssignment& one : setup.assignments()) name_of_marker_.push_back(one.label);
     }
@@ -63,9 +63,11 @@ class RecordingLabeller {
     TrackNames names = NamesFrom(starts.front());
     const std::size_t tried = std::min<std::size_t>(starts.size(), StartsTried());
     for (std::size_t i = 1; i < tried; ++i) {
-      std::vector<LabelledPerson> others;
+      std::vector<LabelledPerson> others = MakePersons();
       others.swap(persons_);
-      MakePersons();
+      for (std::size_t p = 0; p < others.size(); ++p) {
+        persons_[p].set_vain_searches(others[p].vain_searches());
+      }
       TrackNames other = NamesFrom(starts[i]);
       if (VotesOf(other) > VotesOf(names)) {
         names = std::move(other);
@@ -83,13 +85,14 @@ class RecordingLabeller {
   }
 
  private:
-  void MakePersons() {
-    persons_.clear();
+  std::vector<LabelledPerson> MakePersons() const {
+    std::vector<LabelledPerson> persons;
     int marker = 0;
     for (const TrackingSetup& setup : scene_.persons) {
-      persons_.emplace_back(setup, marker, tracks_, dt_);
-      marker += persons_.back().body().num_markers();
+      persons.emplace_back(setup, marker, tracks_, dt_);
+      marker += persons.back().body().num_markers();
     }
+    return persons;
   }
 
   std::vector<SceneStart> FindStarts() const {

@@ -52,8 +52,12 @@ const std::vector<int>& LabelledPerson::Follow() {
                dt_);
   if (!watch_.IsLost()) return found;
   watch_.Restart();
+  if (vain_searches_ >= RecordingTuning::kMostVainSearches) return found;
   BodySearch search(*body_);
   const BodyMatch anew = search.SettleFinely(points, search.Find(points).posture);
+  const bool fits =
+      watch_.Fits(anew.matched, static_cast<int>(points.cols()), body_->num_markers());
+  if (!fits) ++vain_searches_;
   const double now = search.SettleFinely(points, tracker_->belief().posture).cost;
   if (watch_.IsReplaced(now, anew.cost)) tracker_->Start(anew);
   return found;

@@ -35,6 +35,12 @@ class LabelledPerson {
   bool IsMarker(int marker) const {
     return marker >= first_marker_ && marker < first_marker_ + body_->num_markers();
   }
+  /// Searches for the body, where it was lost, that found nothing that fits. After a few no more
+  /// are made: who is there would have been found, and a wrong recording would be searched all
+  /// along.
+  int vain_searches() const { return vain_searches_; }
+  void set_vain_searches(int before) { vain_searches_ = before; }
+
   /// Takes the person up with a tracker of their own.
   void Start(const BodyMatch& match);
 
@@ -77,6 +83,7 @@ class LabelledPerson {
   int kept_every_;  ///< frames
   std::unique_ptr<LabelBody> body_;
   std::unique_ptr<LabelTracker> tracker_;
+  int vain_searches_ = 0;
   BodyWatch watch_ = BodyWatch(WatchTuning::kRecorded);
   std::vector<std::pair<int, Posture>> kept_;  ///< frames of this pass
   WornElsewhere elsewhere_;

@@ -154,5 +154,14 @@ TEST(LearnMarkersTest, NothingIsSeen) {
   EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
 }
 
+TEST(LearnMarkersTest, TooManyLabelsAreAnErrorAtOnce) {
+  std::vector<std::string> labels;
+  for (int i = 0; i < 65535; ++i) labels.push_back("m" + std::to_string(i));
+  MarkerSequence recording(labels, 1, 100, 0);
+  recording.frame(0).setOnes();
+  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
+  EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
+}
+
 }  // namespace
 }  // namespace mmm_converter::testing

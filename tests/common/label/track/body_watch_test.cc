@@ -18,6 +18,13 @@ TEST(BodyWatchTest, ABodyIsLostWhereTooFewFitForTooLong) {
   EXPECT_FALSE(watch.IsLost());
 }
 
+TEST(BodyWatchTest, WhatFitsIsAShareOfWhatCould) {
+  const BodyWatch watch({.fitting = 0.75});
+  EXPECT_TRUE(watch.Fits(30, 45, 40));
+  EXPECT_FALSE(watch.Fits(29, 45, 40));
+  EXPECT_TRUE(watch.Fits(18, 24, 40));
+}
+
 TEST(BodyWatchTest, WhereFewerPointsThanMarkersAreSeenTheseCount) {
   BodyWatch watch({.fitting = 0.75, .patience = kFrame});
   watch.Count(18, 24, 40, kFrame);

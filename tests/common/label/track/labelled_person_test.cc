@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "common/math/seeded_random.h"
 #include "tests/common/label/made_person.h"
 
 namespace mmm_converter::testing {
@@ -78,6 +79,18 @@ TEST_F(LabelledPersonTest, ABodyThatIsLostIsFoundAnew) {
     }
   }
   EXPECT_EQ(own, made_.body.num_markers());
+}
+
+TEST_F(LabelledPersonTest, AmongNoiseTheBodyIsNotSearchedForAllAlong) {
+  person_.Start(MatchAt(0));
+  SeededRandom random(72);
+  person_.set_vain_searches(3);
+  for (int k = 0; k < 120; ++k) {  // 1.2 s: one more search, and no second one
+    Offer(0);
+    for (double& x : person_.points.reshaped()) x = 4 * random.Uniform();
+    person_.Follow();
+  }
+  EXPECT_EQ(person_.vain_searches(), 4);
 }
 
 TEST_F(LabelledPersonTest, AHeightIsCalibratedOnceOnSureNames) {
