@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Which lines and branches of the program the tests have run, by folder (gcovr, a Debian package):
 
-cmake --preset asan && cmake --build --preset asan && ctest --preset asan && tests/coverage.py
+cmake --preset coverage && cmake --build --preset coverage && ctest --preset coverage && tests/coverage.py
 
-Writes build-asan/coverage.txt, whose table it prints; coverage_lines.txt beside it lists, file
+Writes build-coverage/coverage.txt, whose table it prints; coverage_lines.txt beside it lists, file
 by file, the lines that no test runs.
 """
 import json
@@ -14,7 +14,7 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-BUILD = ROOT / "build-asan"
+BUILD = ROOT / "build-coverage"
 PROGRAM = ["common", "plugins", "MMMConverterS2KF"]
 
 

@@ -25,6 +25,7 @@
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/benchmark/truth_figures.h"
 #include "tests/plugins/s2kf/session.h"
+#include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/shared_data.h"
 
@@ -57,7 +58,8 @@ class Runs {
     for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
       const KinematicModel model = is_calibrated ? session.Calibrate() : session.model;
-      for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+      for (const NamedMotion& named :
+           SessionMotionsWithRecordedOnes(session.model, kFrames, seed)) {
         const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
         const PoseTrajectory clean = Convert(model, session.joints, seen);
         for (const Limb limb : {Limb::kLeg, Limb::kArm}) {
@@ -80,7 +82,8 @@ class Runs {
     Damages damages(kMostDamage);
     for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
-      for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+      for (const NamedMotion& named :
+           SessionMotionsWithRecordedOnes(session.model, kFrames, seed)) {
         const MarkerSequence all = HideBlocks(session.Record(named.motion), seed);
         const MarkerSequence hidden = OccludeShare(all, kMissingShare, 10 * kMissingFrames, seed);
         MarkerSequence seen = all;
@@ -102,7 +105,8 @@ class Runs {
       const Session session(seed);
       const KinematicModel model = is_calibrated ? session.Calibrate() : session.model;
       SeededRandom random(seed);
-      for (const NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+      for (const NamedMotion& named :
+           SessionMotionsWithRecordedOnes(session.model, kFrames, seed)) {
         const MarkerSequence seen = HideBlocks(session.Record(named.motion), seed);
         const ConversionResult clean = Result(model, session.joints, seen);
         for (int i = 0; i < kLabelsOfAMotion; ++i) {
@@ -131,7 +135,7 @@ class Runs {
     for (int seed = first_; seed <= last_; ++seed) {
       const Session session(seed);
       const KinematicModel calibrated = session.Calibrate();
-      for (NamedMotion& named : SessionMotions(session.model, kFrames, seed)) {
+      for (NamedMotion& named : SessionMotionsWithRecordedOnes(session.model, kFrames, seed)) {
         const MarkerSequence all = session.Record(named.motion);
         Differentiate(&named.motion);
         const auto add = [&](const std::string& what, const KinematicModel& model,
@@ -225,7 +229,8 @@ class Runs {
 
   CentreErrors OverAllMotions(const Session& session, const KinematicModel& model) const {
     CentreErrors errors;
-    for (const NamedMotion& named : SessionMotions(session.model, kFrames, session.seed)) {
+    for (const NamedMotion& named :
+         SessionMotionsWithRecordedOnes(session.model, kFrames, session.seed)) {
       errors.Add(session.person, named.motion, model,
                  Convert(model, session.joints, session.Record(named.motion)), session.joints);
     }
@@ -237,7 +242,8 @@ class Runs {
         {"uncalibrated", session.model},
         {"the true person", session.person},
         {"on 40 s range of motion", session.Calibrate()}};
-    for (const NamedMotion& named : SessionMotions(session.model, 10 * kSecond, session.seed)) {
+    for (const NamedMotion& named :
+         SessionMotionsWithRecordedOnes(session.model, 10 * kSecond, session.seed)) {
       if (named.name != "walking" && named.name != "waving") continue;
       const MarkerSequence trial = session.Record(named.motion);
       const CalibrationRecording recording = {"trial", &trial, AssignAll(session.model, trial)};

@@ -124,7 +124,7 @@ TEST(Calibrate, SelfCalibrationIsCalibratingAndConverting) {
 }
 
 // The markers of both were put on once: those of Cut and Stir sit elsewhere.
-TEST(Calibrate, AnotherRecordingOfTheSessionComesNear) {
+TEST(CalibrateRealFiles, AnotherRecordingOfTheSessionComesNear) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string subject = TestFolder() + "/1723.xml";
   const auto run = RunProgram(
@@ -137,7 +137,7 @@ TEST(Calibrate, AnotherRecordingOfTheSessionComesNear) {
   EXPECT_LT(MeanDistance({Kit("Close_1723.c3d"), "--subject-file", subject}), 0.35 * plain);
 }
 
-TEST(Calibrate, SeveralRecordingsMakeOneSubject) {
+TEST(CalibrateRealFiles, SeveralRecordingsMakeOneSubject) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string json_file = TestFolder() + "/s.json";
   const auto run = RunProgram({"calibrate", Kit("Peel_1723.c3d"), Kit("Close_1723.c3d"), "--height",
@@ -150,14 +150,14 @@ TEST(Calibrate, SeveralRecordingsMakeOneSubject) {
             0.35 * json["calibration"]["distance_before_mm"].get<double>());
 }
 
-TEST(Calibrate, SelfCalibratesOtherMarkerSets) {
+TEST(CalibrateRealFiles, SelfCalibratesOtherMarkerSets) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file = SharedData("recordings/whole_body/cmu_02_05.c3d");
   const double plain = MeanDistance({file, "--frames", ":600"});
   EXPECT_LT(MeanDistance({file, "--frames", ":600", "--self-calibrate"}), 0.5 * plain);
 }
 
-TEST(Calibrate, MarksEachRecordingsOwnOptions) {
+TEST(CalibrateRealFiles, MarksEachRecordingsOwnOptions) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string subject = TestFolder() + "/s.xml";
   const auto run = RunProgram({"calibrate", Kit("Cut_1723.c3d"), Kit("Peel_1723.c3d"), "--frames",

@@ -239,7 +239,7 @@ TEST(Convert, SaysThatMmm1KeepsOneMotionOnly) {
   EXPECT_THAT(ReadMmmMotionFile(TestFolder() + "/o.xml").motions, SizeIs(1));
 }
 
-TEST(Convert, RealKitFileInPlace) {
+TEST(ConvertRealFiles, RealKitFileInPlace) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file = TestFolder() + "/peel.xml";
   WriteText(file,

@@ -336,7 +336,7 @@ TEST(CheckDynamics, RatesThatAreTooLowAreNotJudged) {
               HasSubstr("is not judged: the rate shows nothing faster than 4 Hz"));
 }
 
-TEST(CheckDynamics, WalkingCarriesTheBodyWeight) {
+TEST(CheckDynamicsRealFiles, WalkingCarriesTheBodyWeight) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string summary = TestFolder() + "/s.json";
   const std::string page = TestFolder() + "/walk.html";
@@ -365,7 +365,7 @@ TEST(CheckDynamics, WalkingCarriesTheBodyWeight) {
 
 // CMU's 85_02: a somersault of 0.5 s. Gravity is what markers at 120 Hz show of it, through the
 // person's masses.
-TEST(CheckDynamics, ACalibratedJumpFallsFreely) {
+TEST(CheckDynamicsRealFiles, ACalibratedJumpFallsFreely) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string motion = TestFolder() + "/jump.xml";
   const std::string subject = TestFolder() + "/subject.xml";

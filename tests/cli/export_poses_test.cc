@@ -150,7 +150,7 @@ TEST(ExportPoses, WhatIsNotThereIsSaid) {
   refused({"export-poses", motion, "-o", linked}, "is read, and would be lost");
 }
 
-TEST(ExportPoses, ObjectsOfTheFileAreThere) {
+TEST(ExportPosesRealFiles, ObjectsOfTheFileAreThere) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file = testing::SharedData(
       "mmm/kit_bimanual_10hz/Close_files_motions_3072_Close1_aj_180_30h_08.xml");

@@ -93,7 +93,7 @@ TEST(Info, ConfigurationAndPlugin) {
   EXPECT_EQ(plugin["version"], kConverterInterfaceVersion);
 }
 
-TEST(Info, RealFiles) {
+TEST(InfoRealFiles, RealFiles) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const auto recording = InfoOf(testing::SharedData("recordings/whole_body/85_02.c3d"));
   EXPECT_EQ(recording["rate_hz"], 120);
@@ -208,7 +208,7 @@ TEST(Info, C3dOfAnalogChannelsOnly) {
   EXPECT_EQ(json["parameters"]["ANALOG"]["OFFSET"][0], -1);
 }
 
-TEST(Info, C3dOfSeveralSubjects) {
+TEST(InfoRealFiles, C3dOfSeveralSubjects) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file =
       testing::SharedData("recordings/synthetic/kit53_two_subjects_same_labels.c3d");
@@ -217,7 +217,7 @@ TEST(Info, C3dOfSeveralSubjects) {
   EXPECT_EQ(RunProgram({"info", file, "--subject", "C"}).exit_code, 1);
 }
 
-TEST(Info, C3dContents) {
+TEST(InfoRealFiles, C3dContents) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file = testing::SharedData("forces/walking2.c3d");
   const auto json = InfoOf(file);
@@ -231,7 +231,7 @@ TEST(Info, C3dContents) {
               SizeIs(3));
 }
 
-TEST(Info, EveryRealFileIsDescribedOrRefused) {
+TEST(InfoRealFiles, EveryRealFileIsDescribedOrRefused) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const auto& entry : std::filesystem::recursive_directory_iterator(testing::SharedData(""))) {
     if (!entry.is_regular_file()) continue;

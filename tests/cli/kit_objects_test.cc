@@ -88,7 +88,7 @@ double AxisDeviation(const std::vector<Isometry3d>& ours, const std::vector<Isom
 
 // KIT's recordings at 10 Hz. The models of their objects are not public, so that their frames are
 // unknown: one constant transform of each object is taken out.
-class KitObjects : public ::testing::TestWithParam<const char*> {
+class RealKitObjects : public ::testing::TestWithParam<const char*> {
  protected:
   // Frames in which the stored pose is farther from the markers than ours, by more than what is
   // asked for, are wrong in the file: 1 of Cut's cucumber (by 144 degrees), 18 of Peel's (by 169).
@@ -121,7 +121,7 @@ class KitObjects : public ::testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(KitObjects, HaveTheStoredPosesUpToOneTransform) {
+TEST_P(RealKitObjects, HaveTheStoredPosesUpToOneTransform) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string input = testing::SharedData("mmm/kit_bimanual_10hz/") + GetParam();
   const std::string output = TestFolder() + "/out.xml";
@@ -142,7 +142,7 @@ TEST_P(KitObjects, HaveTheStoredPosesUpToOneTransform) {
 }
 
 // Its knife is reinitialised, from where the smoothed track goes back in search of a better one.
-TEST(KitObjectsSmoothed, ATrackTakenUpAnewIsFollowedBackwards) {
+TEST(RealKitObjectsSmoothed, ATrackTakenUpAnewIsFollowedBackwards) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string summary = TestFolder() + "/out.json";
   const auto run = RunProgram(
@@ -157,7 +157,7 @@ TEST(KitObjectsSmoothed, ATrackTakenUpAnewIsFollowedBackwards) {
   EXPECT_LT(json["distance_mm"]["mean"], 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Recordings, KitObjects,
+INSTANTIATE_TEST_SUITE_P(Recordings, RealKitObjects,
                          ::testing::Values("Close_files_motions_3072_Close1_aj_180_30h_08.xml",
                                            "Cut_files_motions_3021_Cut1_c_0_05cm_03.xml",
                                            "Peel_files_motions_3109_Peel1_cucumber_cb_07.xml",

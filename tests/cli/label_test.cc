@@ -72,7 +72,7 @@ void ExpectLabelled(const std::string& file) {
   EXPECT_GE(score.right, 0.97 * 53 * found.num_frames()) << file;
 }
 
-TEST(Label, NamesByAnotherRecordingOfThePerson) {
+TEST(LabelRealFiles, NamesByAnotherRecordingOfThePerson) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string output = InFolder("out.xml");
   const ProgramRun run = RunProgram({"label", Unlabelled(), "--like", Labelled(), "-o", output});
@@ -83,7 +83,7 @@ TEST(Label, NamesByAnotherRecordingOfThePerson) {
 }
 
 // Half of a file, by the subject file of somebody else.
-TEST(Label, TheVerdictTellsWhatIsWrong) {
+TEST(LabelRealFiles, TheVerdictTellsWhatIsWrong) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string other = SharedData("recordings/kit_bimanual_c3d/Cut_1723.c3d");
   const std::string subject = InFolder("subject.xml"), summary = InFolder("summary.json");
@@ -103,7 +103,7 @@ TEST(Label, TheVerdictTellsWhatIsWrong) {
   EXPECT_THAT(RunProgram({"info", summary}).out, HasSubstr("summary of labels"));
 }
 
-TEST(Label, NamesByTheHeightAlone) {
+TEST(LabelRealFiles, NamesByTheHeightAlone) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string output = InFolder("out.trc");
   const std::string summary = InFolder("summary.json");
@@ -120,7 +120,7 @@ TEST(Label, NamesByTheHeightAlone) {
 }
 
 // The knees exchanged in 20 frames.
-TEST(Label, RepairTellsAndMendsWhatIsWrong) {
+TEST(LabelRealFiles, RepairTellsAndMendsWhatIsWrong) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const C3dFile file(Labelled());
   const int frames = file.layout().frames;
@@ -159,7 +159,7 @@ TEST(Label, RepairTellsAndMendsWhatIsWrong) {
   }
 }
 
-TEST(Label, ConvertLabelsInOneStep) {
+TEST(LabelRealFiles, ConvertLabelsInOneStep) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string output = InFolder("motion.xml");
   const std::string summary = InFolder("motion.json");
@@ -171,7 +171,7 @@ TEST(Label, ConvertLabelsInOneStep) {
   EXPECT_EQ(nlohmann::json::parse(ReadText(summary)).at("labels").at("names").size(), 53);
 }
 
-TEST(Label, ConvertTakesTheNamesOfAnotherRecording) {
+TEST(LabelRealFiles, ConvertTakesTheNamesOfAnotherRecording) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string output = InFolder("motion.xml");
   const ProgramRun run = RunProgram(
@@ -180,7 +180,7 @@ TEST(Label, ConvertTakesTheNamesOfAnotherRecording) {
   ExpectLabelled(output);
 }
 
-TEST(Label, BatchesLabelToo) {
+TEST(LabelRealFiles, BatchesLabelToo) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string manifest =
       WriteManifest(0, "label='true' labelLike='" + Labelled() + "'",
@@ -192,7 +192,7 @@ TEST(Label, BatchesLabelToo) {
 }
 
 // Plug-in Gait's bone axes have a point LTIP, as KIT's shin marker is called.
-TEST(Label, NamesThatAnotherPointKeepsAreRefusedBeforeTheWork) {
+TEST(LabelRealFiles, NamesThatAnotherPointKeepsAreRefusedBeforeTheWork) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string trial = SharedData("recordings/whole_body/pycgm_movement_trial.c3d");
   const std::string output = InFolder("named.c3d");
@@ -202,7 +202,7 @@ TEST(Label, NamesThatAnotherPointKeepsAreRefusedBeforeTheWork) {
   EXPECT_FALSE(std::filesystem::exists(output));
 }
 
-TEST(Label, WhatIsMissingIsSaid) {
+TEST(LabelRealFiles, WhatIsMissingIsSaid) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string input = Unlabelled();
   const std::string bytes = ReadText(input);

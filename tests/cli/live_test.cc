@@ -65,7 +65,7 @@ TEST(Live, AReplayGivesWhatAConversionGives) {
   ExpectReplayIsConversion(Handstand(), {"--height", "1.8"});
 }
 
-TEST(Live, RealReplaysGiveWhatConversionsGive) {
+TEST(LiveRealFiles, RealReplaysGiveWhatConversionsGive) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* file : {"kit_bimanual_c3d/Cut_1723.c3d", "kit_bimanual_c3d/Pour_1480.c3d"}) {
     SCOPED_TRACE(file);

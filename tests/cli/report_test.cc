@@ -62,7 +62,7 @@ TEST(Report, GoesBesideTheRecording) {
   EXPECT_TRUE(std::filesystem::exists(TestFolder() + "/walk_report.html"));
 }
 
-TEST(Report, KitsOwnSolutionIsShownOnItsRecording) {
+TEST(ReportRealFiles, KitsOwnSolutionIsShownOnItsRecording) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file =
       testing::SharedData("mmm/kit_bimanual_10hz/Cut_files_motions_3021_Cut1_c_0_05cm_03.xml");

@@ -173,7 +173,7 @@ TEST(Verdict, NoCalibrationOnOthersMarkers) {
   EXPECT_THAT(run.err, HasSubstr("are not of one person with these labels: 8 of 53 markers"));
 }
 
-TEST(Verdict, RealRecordingsAreGood) {
+TEST(VerdictRealFiles, RealRecordingsAreGood) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* file :
        {"kit_bimanual_c3d/Close_1723.c3d", "kit_bimanual_c3d/Cut_1723.c3d",

@@ -1,4 +1,4 @@
-# cmake -DPROGRAM=<GoogleTest program> -DOUTPUT=<file> [-DLABELS=<label>] [-DLAUNCHER=<program>] -P list_suites.cmake
+# cmake -DPROGRAM=<GoogleTest program> -DOUTPUT=<file> [-DLABELS=<label>] -P list_suites.cmake
 #
 # Writes a ctest entry for each test suite of a program. A process for each case would start a program some 900 times, and
 # make again what the cases of a suite share.
@@ -9,9 +9,6 @@ execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMA
 string(REGEX MATCHALL "\n[^ \n]+\\.[^\n]*" suites "\n${list}")
 get_filename_component(program ${PROGRAM} NAME)
 set(entries "")
-if(LAUNCHER)
-  set(LAUNCHER "[=[${LAUNCHER}]=] ")
-endif()
 # The long ones begin first, so that none runs alone at the end.
 set(cost 1)
 if(program MATCHES "_accuracy_test$")
@@ -19,9 +16,14 @@ if(program MATCHES "_accuracy_test$")
 endif()
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n([^ ]+)\\..*$" "\\1" suite "${suite}")
-  string(APPEND entries "add_test([=[${program}.${suite}]=] ${LAUNCHER}[=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
+  # Those of real files, which are skipped where these are missing (support/shared_data.h).
+  set(labels "${LABELS}")
+  if(suite MATCHES "Real")
+    list(APPEND labels real)
+  endif()
+  string(APPEND entries "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
     # Skipped are suites of which nothing was run, and nothing failed.
-    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES COST ${cost} LABELS \"${LABELS}\" SKIP_REGULAR_EXPRESSION "
+    "set_tests_properties([=[${program}.${suite}]=] PROPERTIES COST ${cost} LABELS \"${labels}\" SKIP_REGULAR_EXPRESSION "
     "[=[\\[  PASSED  \\] 0 tests\\.\n\\[  SKIPPED \\] [0-9]+ tests?, listed below:\n(\\[  SKIPPED \\] [^\n]*\n)*$]=])\n")
 endforeach()
 file(WRITE ${OUTPUT} "${entries}")

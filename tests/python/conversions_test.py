@@ -10,7 +10,7 @@ import unittest.mock
 import numpy as np
 
 import mmmconverter
-from support import Case, SAMPLE, SHARED, needs_shared_data, run_program
+from support import Case, SAMPLE, run_program
 
 
 def without_times(summary):
@@ -93,17 +93,6 @@ class Conversions(Case):
         self.expect_the_programs(
             SAMPLE, ["--height", "1.8", "--self-calibrate", "--frames", ":200", "-c", "jacobian_pull"],
             height=1.8, self_calibrate=True, frames=(None, 200), config="jacobian_pull")
-
-    @needs_shared_data
-    def test_real_recordings(self):
-        for file, height in (("kit_bimanual_c3d/Close_1723.c3d", 1.68),
-                             ("kit_bimanual_c3d/Pour_1480.c3d", 1.75),
-                             ("whole_body/cmu_02_05.c3d", 1.75),
-                             ("whole_body/pycgm_movement_trial.c3d", 1.8)):
-            with self.subTest(file=file):
-                self.expect_the_programs(
-                    SHARED / "recordings" / file, ["--height", str(height), "--frames", ":80"],
-                    height=height, frames=(None, 80))
 
     def test_a_recording_is_read_once(self):
         recording = mmmconverter.read(SAMPLE)

@@ -6,7 +6,7 @@ import zipfile
 import numpy as np
 
 import mmm_chain
-from support import Case, ROOT, SAMPLE, SHARED, needs_shared_data
+from support import Case, ROOT, SAMPLE
 
 MODEL = ROOT / "xml_config/models/mmm.xml"
 
@@ -48,18 +48,6 @@ class Poses(Case):
             expected = chain.pose(joint, *frames[4])[:3, 3]
             np.testing.assert_allclose(poses["point_positions"][4, i], expected, atol=1e-9)
 
-    @needs_shared_data
-    def test_joints_of_kits_motions(self):
-        model = SHARED / "mmm/models/mmm_v2.2_133nodes_53markers.xml"
-        for file, read in (
-                ("motions_legacy/walking_medium01_motion395.xml", mmm_chain.read_legacy),
-                ("motions_mmm2/wave_left01.xml", mmm_chain.read_sensors)):
-            with self.subTest(file=file):
-                height, frames = read(SHARED / "mmm" / file)
-                poses = self.export(SHARED / "mmm" / file, "--model", model)
-                # A millimetre is what is asked for; the numbers are the file's.
-                self.expect_points(poses, mmm_chain.Chain(model, height), frames, 1e-6)
-
     def test_forms_of_rotations_agree(self):
         motion = ROOT / "examples/handstand_true.xml"
         options = ("--frames", "100:110", "--segments", "LWx_joint,RFx_joint")
@@ -76,15 +64,6 @@ class Poses(Case):
                 of_vector = mmm_chain._turn(vectors[k, i] / angle, angle)[:3, :3]
                 np.testing.assert_allclose(of_quaternion, matrices[k, i], atol=1e-12)
                 np.testing.assert_allclose(of_vector, matrices[k, i], atol=1e-12)
-
-    @needs_shared_data
-    def test_objects_stand_beside_the_person(self):
-        file = SHARED / "mmm/kit_bimanual_10hz/Close_files_motions_3072_Close1_aj_180_30h_08.xml"
-        poses = self.export(file, "--motion", "true_1723", "--relative-to", "root")
-        self.assertIn("true_apple_juice", poses["objects"])
-        self.assertEqual(poses["object_positions"].shape, (len(poses["time"]), 5, 3))
-        self.assertEqual(str(poses["frame"]), "root")
-        np.testing.assert_array_equal(poses["segment_positions"][:, 0], 0)
 
     def test_a_conversion_says_what_its_motion_says(self):
         self.run_program("convert", SAMPLE, "--height", "1.8", "--frames", ":30", "-c",

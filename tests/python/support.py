@@ -10,8 +10,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLE = str(ROOT / "examples/handstand.c3d")
 SHARED = pathlib.Path(os.environ.get("MMM_CONVERTER_SHARED_DATA", ROOT / "../shared")) / "data"
 
-needs_shared_data = unittest.skipUnless(SHARED.exists(), f"needs the real files in {SHARED}")
-
 
 def run_program(*arguments):
     """What the program prints; its errors as an exception."""

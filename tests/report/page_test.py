@@ -20,8 +20,7 @@ image.src = "data:image/png;base64," + png;
 """
 
 
-class ReportPage(PageCase):
-    webgl = True
+class ReportCase(PageCase):
 
     def frame(self):
         return self.run_script("return mmmReport.frame")
@@ -32,6 +31,12 @@ class ReportPage(PageCase):
         self.run_script("arguments[0].scrollIntoView({block: 'center'})", element)
         self.browser.settle()
         return self.browser.driver.execute_async_script(COUNT_SHOWN, element.screenshot_as_base64, colour)
+
+
+class Scene(ReportCase):
+    """Where pictures are drawn: in software, which takes most of the time."""
+
+    webgl = True
 
     def test_scene_is_drawn(self):
         for name in ("compare.html", "convert.html"):
@@ -51,6 +56,37 @@ class ReportPage(PageCase):
         self.browser.settle()
         self.assertEqual(self.frame(), frame)
         self.assertIn(f"frame {frame} of 675", self.text("#now"))
+
+    def test_hidden_markers_are_shown_as_hidden(self):
+        self.open("compare.html")
+        self.assertTrue(self.find("#hidden-legend").is_displayed())
+        self.find("#show-body").click()  # bones blend into many colours
+        self.assertIn(" 0 markers hidden", self.text("#now"))
+        filled, grey = self.pixels("#scene", "--text"), self.pixels("#scene", "--muted")
+        self.run_script("mmmReport.seek(400)")
+        self.assertIn(" 26 markers hidden", self.text("#now"))
+        filled_then, grey_then = self.pixels("#scene", "--text"), self.pixels("#scene", "--muted")
+        # Of 50 full discs 24 are left; the edges of discs have grey pixels too.
+        self.assertLess(filled_then, 0.75 * filled)
+        self.assertGreater(grey_then / filled_then, 1.8 * grey / filled)
+        self.open("convert.html")
+        self.assertFalse(self.find("#hidden-legend").is_displayed())
+
+    def test_stills_jump(self):
+        self.open("compare.html")
+        stills = self.browser.driver.find_elements(By.CSS_SELECTOR, ".still")
+        self.assertEqual(len(stills), 6)
+        for still in stills:
+            still.click()
+            self.assertIn(f"frame {self.frame()}", still.get_attribute("aria-label"))
+        self.assertEqual(self.frame(), 674)
+        shades = self.run_script(
+            PIXELS + "return Array.from(document.querySelectorAll('.still canvas'), shadesOf)")
+        self.assertGreater(min(shades), 500)
+
+
+class ReportPage(ReportCase):
+    """What needs no picture of the body, in a browser without WebGL."""
 
     def test_player_stops_at_the_end_and_starts_anew(self):
         self.open("convert.html")
@@ -204,33 +240,6 @@ class ReportPage(PageCase):
             "return Array.from(document.querySelectorAll('#heat-names .name'), (one) => one.textContent)")
         self.assertRegex(self.text("#heat-readout"), rf"^{names[26]} · 3\.\d\d s · \d+\.\d mm")
 
-    def test_hidden_markers_are_shown_as_hidden(self):
-        self.open("compare.html")
-        self.assertTrue(self.find("#hidden-legend").is_displayed())
-        self.find("#show-body").click()  # bones blend into many colours
-        self.assertIn(" 0 markers hidden", self.text("#now"))
-        filled, grey = self.pixels("#scene", "--text"), self.pixels("#scene", "--muted")
-        self.run_script("mmmReport.seek(400)")
-        self.assertIn(" 26 markers hidden", self.text("#now"))
-        filled_then, grey_then = self.pixels("#scene", "--text"), self.pixels("#scene", "--muted")
-        # Of 50 full discs 24 are left; the edges of discs have grey pixels too.
-        self.assertLess(filled_then, 0.75 * filled)
-        self.assertGreater(grey_then / filled_then, 1.8 * grey / filled)
-        self.open("convert.html")
-        self.assertFalse(self.find("#hidden-legend").is_displayed())
-
-    def test_stills_jump(self):
-        self.open("compare.html")
-        stills = self.browser.driver.find_elements(By.CSS_SELECTOR, ".still")
-        self.assertEqual(len(stills), 6)
-        for still in stills:
-            still.click()
-            self.assertIn(f"frame {self.frame()}", still.get_attribute("aria-label"))
-        self.assertEqual(self.frame(), 674)
-        shades = self.run_script(
-            PIXELS + "return Array.from(document.querySelectorAll('.still canvas'), shadesOf)")
-        self.assertGreater(min(shades), 500)
-
     def test_light_and_dark(self):
         shown = {}
         for scheme in ("light", "dark"):
@@ -301,10 +310,7 @@ class ReportPage(PageCase):
     def test_injected_scripts_do_not_run(self):
         self.check_injected_scripts_do_not_run("finished.html")
 
-
-class ReportPageWithoutWebgl(PageCase):
-
-    def test_the_rest_works(self):
+    def test_what_needs_no_webgl_works_without(self):
         self.open("compare.html")
         self.assertIn("WebGL", self.text("#no-webgl"))
         self.assertTrue(self.find("#no-webgl").is_displayed())

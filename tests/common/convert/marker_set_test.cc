@@ -108,7 +108,7 @@ TEST(MarkerSet, PlacesThatCanNotBeReadAreNamed) {
             HasSubstr("set.xml:3: marker A is placed twice")));
 }
 
-TEST(MarkerSet, MapsRealRecordings) {
+TEST(MarkerSetRealFiles, MapsRealRecordings) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   struct {
     const char* file;
@@ -136,7 +136,7 @@ TEST(MarkerSet, MapsRealRecordings) {
   }
 }
 
-TEST(MarkerSet, TrustsLessWhatIsWornElsewhereAndSaysSo) {
+TEST(MarkerSetRealFiles, TrustsLessWhatIsWornElsewhereAndSaysSo) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   std::string set;
   Warnings warnings;

@@ -233,7 +233,7 @@ TEST(MotionDynamics, AHandstandStandsOnItsHands) {
   }
 }
 
-TEST(MotionDynamics, ARealWalkIsCarriedByTheFeet) {
+TEST(MotionDynamicsRealFiles, ARealWalkIsCarriedByTheFeet) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile file =
       ReadMmmMotionFile(testing::SharedData("mmm/motions_legacy/walking_medium01_motion395.xml"));

@@ -51,7 +51,7 @@ TEST(SimbodyModel, AgreesOnTheReferenceModel) {
   ExpectSimbodyAgrees(ScaleWinter(read, {1.75, 70, 0.2}));
 }
 
-TEST(SimbodyModel, AgreesOnRealModels) {
+TEST(SimbodyModelRealFiles, AgreesOnRealModels) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* file : {"mmm/models/mmm_2014_82nodes_52markers.xml",
                            "mmm/models/mmm_v2.2_133nodes_53markers.xml"}) {

@@ -14,7 +14,7 @@
 namespace mmm_converter {
 namespace {
 
-class RecordedForcesTest : public ::testing::Test {
+class RealForcesTest : public ::testing::Test {
  protected:
   void SetUp() override { MMM_CONVERTER_NEEDS_SHARED_DATA(); }
 
@@ -40,7 +40,7 @@ std::vector<std::vector<double>> StorageRows(const std::string& path) {
   return rows;
 }
 
-TEST_F(RecordedForcesTest, AreThoseThatOpenSimStored) {
+TEST_F(RealForcesTest, AreThoseThatOpenSimStored) {
   const RecordedForces forces = Read("forces/walking2.c3d");
   const auto rows = StorageRows(testing::SharedData("forces/std_cop_walking2_grfs.sto"));
   ASSERT_EQ(rows.size(), 101U);
@@ -57,7 +57,7 @@ TEST_F(RecordedForcesTest, AreThoseThatOpenSimStored) {
   }
 }
 
-TEST_F(RecordedForcesTest, LoadsOfTheWalk) {
+TEST_F(RealForcesTest, LoadsOfTheWalk) {
   const RecordedForces forces = Read("forces/walking2.c3d");
   const auto time = [&](int sample) { return sample / forces.rate; };
   ASSERT_EQ(forces.plates[1].loads.size(), 1U);
@@ -68,7 +68,7 @@ TEST_F(RecordedForcesTest, LoadsOfTheWalk) {
   EXPECT_NEAR(time(forces.plates[0].loads[0].end), 3.249, 0.005);
 }
 
-TEST_F(RecordedForcesTest, APlateOfEightForces) {
+TEST_F(RealForcesTest, APlateOfEightForces) {
   const RecordedForces forces = Read("forces/FP_Type3.c3d");
   const PlateForces& plate = forces.plates.at(0);
   const Eigen::Vector3d stored(1.87, -2.86, 886.40);
@@ -76,7 +76,7 @@ TEST_F(RecordedForcesTest, APlateOfEightForces) {
   EXPECT_LT((1e3 * plate.cop.col(0) - Eigen::Vector3d(446.65, 291.15, -5.75)).norm(), 0.06);
 }
 
-TEST_F(RecordedForcesTest, TwoCalibrationsOfATrial) {
+TEST_F(RealForcesTest, TwoCalibrationsOfATrial) {
   const Eigen::Vector3d moments_force(-1.0, -4.4, 229.1);
   const Eigen::Vector3d calibrated_force(-1.0, -4.9, 226.4);
   const RecordedForces moments = Read("forces/TYPE-2.C3D");
@@ -92,7 +92,7 @@ TEST_F(RecordedForcesTest, TwoCalibrationsOfATrial) {
       0.1);
 }
 
-TEST_F(RecordedForcesTest, TheSameTrialInThreeEncodings) {
+TEST_F(RealForcesTest, TheSameTrialInThreeEncodings) {
   const RecordedForces integers = Read("recordings/conformance/Eb015pi.c3d");
   for (const char* file :
        {"recordings/conformance/Eb015pr.c3d", "recordings/conformance/Eb015si.c3d"}) {

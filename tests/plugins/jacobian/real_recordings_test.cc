@@ -18,7 +18,7 @@ namespace mmm_converter::jacobian {
 namespace {
 
 // KIT's own solution is in the same file, for the same markers; all are measured on one model.
-TEST(KitBimanualTest, LeastSquaresIsBelowKitsOwnSolutionAndNotAboveTheFilter) {
+TEST(RealKitBimanualTest, LeastSquaresIsBelowKitsOwnSolutionAndNotAboveTheFilter) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile file = ReadMmmMotionFile(
       testing::SharedData("mmm/kit_bimanual_10hz/Cut_files_motions_3021_Cut1_c_0_05cm_03.xml"));

@@ -20,11 +20,11 @@ struct KitRecording {
   const char* motion;
 };
 
-class KitBimanualTest : public ::testing::TestWithParam<KitRecording> {};
+class RealKitBimanualTest : public ::testing::TestWithParam<KitRecording> {};
 
 // KIT's own solution is in the same file, for the same markers; both are measured on the same
 // model.
-TEST_P(KitBimanualTest, IsNearerToTheMarkersThanKitsOwnSolution) {
+TEST_P(RealKitBimanualTest, IsNearerToTheMarkersThanKitsOwnSolution) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile file = ReadMmmMotionFile(
       testing::SharedData(std::string("mmm/kit_bimanual_10hz/") + GetParam().file));
@@ -59,7 +59,7 @@ TEST_P(KitBimanualTest, IsNearerToTheMarkersThanKitsOwnSolution) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Recordings, KitBimanualTest,
+    Recordings, RealKitBimanualTest,
     ::testing::Values(KitRecording{"Close_files_motions_3072_Close1_aj_180_30h_08.xml",
                                    "true_1723"},
                       KitRecording{"Cut_files_motions_3021_Cut1_c_0_05cm_03.xml", "true_1723"},
@@ -76,9 +76,9 @@ struct PluginGaitRecording {
   double bad_share;  ///< of frames that may be beyond 10 % + 1 mm of their optimum
 };
 
-class PluginGaitTest : public ::testing::TestWithParam<PluginGaitRecording> {};
+class RealPluginGaitTest : public ::testing::TestWithParam<PluginGaitRecording> {};
 
-TEST_P(PluginGaitTest, FollowsTheOptimum) {
+TEST_P(RealPluginGaitTest, FollowsTheOptimum) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Recording recording = ReadRecording(
       testing::SharedData(std::string("recordings/whole_body/") + GetParam().file + ".c3d"), {});
@@ -100,7 +100,7 @@ TEST_P(PluginGaitTest, FollowsTheOptimum) {
 
 // In the serve, at 50 Hz, the straight arm passes the shoulder's singularity: the filter keeps to
 // its branch until recovery finds the better one.
-INSTANTIATE_TEST_SUITE_P(Recordings, PluginGaitTest,
+INSTANTIATE_TEST_SUITE_P(Recordings, RealPluginGaitTest,
                          ::testing::Values(PluginGaitRecording{"85_02", 0.01},
                                            PluginGaitRecording{"cmu_02_05", 0.01},
                                            PluginGaitRecording{"pycgm_movement_trial", 0.01},

@@ -16,6 +16,7 @@
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/coverage.h"
 #include "tests/plugins/s2kf/session.h"
+#include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/test_models.h"
 

@@ -13,17 +13,6 @@
 
 namespace mmm_converter::s2kf {
 
-struct NamedMotion {
-  std::string name;
-  PoseTrajectory motion;
-};
-
-/// Walking, a range-of-motion trial, a quick motion, waving and a cartwheel at 100 Hz, of at most
-/// `frames` frames. Made ones are others with another seed; walking and the quick motion are
-/// recorded ones of /shared, low-passed, and are missing where that is.
-std::vector<NamedMotion> SessionMotions(const KinematicModel& model, int frames,
-                                        std::uint64_t seed);
-
 /// What a laboratory sees of a person whom the model does not know: the lengths of segments +-5 %,
 /// markers 20 to 28 mm (rms per axis, drawn with the person) beside the model's places throughout.
 struct Session {

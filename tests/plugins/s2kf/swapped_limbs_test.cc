@@ -14,6 +14,7 @@
 #include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/session.h"
+#include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/shared_data.h"
 
@@ -105,7 +106,6 @@ TEST_P(SwappedLimbTest, FeetMayStandBesideEachOther) {
 
 // They move by 60 mm from frame to frame, where feet are 100 mm apart.
 TEST_P(SwappedLimbTest, LegsMayMoveFast) {
-  MMM_CONVERTER_NEEDS_SHARED_DATA();
   const S2kfSettings settings = Preset(GetParam());
   for (const int seed : {103, 107, 113}) {
     const SwapScene scene("quick motion", seed);

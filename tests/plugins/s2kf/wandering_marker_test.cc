@@ -11,6 +11,7 @@
 #include "common/motion/marker_synthesis.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/session.h"
+#include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 
 namespace mmm_converter::s2kf {

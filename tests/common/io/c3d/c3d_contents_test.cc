@@ -192,7 +192,7 @@ TEST(C3dContents, MarksOfPoints) {
   EXPECT_EQ(points[0].residual, 6);
 }
 
-TEST(C3dContents, SeesWhatTheReaderSees) {
+TEST(C3dContentsRealFiles, SeesWhatTheReaderSees) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* name : {"whole_body/pycgm_movement_trial.c3d", "conformance/Eb015si.c3d",
                            "synthetic/kit53_gaps_nan_residual0.c3d"}) {
@@ -241,7 +241,7 @@ TEST(C3dContents, AnalogSamplesWithoutScales) {
 }
 
 // The same trial as its maker stored it, in floats and in words, for two processors.
-TEST(C3dContents, AnalogSamplesAreTheSameHoweverStored) {
+TEST(C3dContentsRealFiles, AnalogSamplesAreTheSameHoweverStored) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const auto read = [](const char* name) {
     C3dFile file(SharedData(std::string("recordings/conformance/") + name));
@@ -258,7 +258,7 @@ TEST(C3dContents, AnalogSamplesAreTheSameHoweverStored) {
   }
 }
 
-TEST(C3dContents, RealFiles) {
+TEST(C3dContentsRealFiles, RealFiles) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const struct {
     const char* name;

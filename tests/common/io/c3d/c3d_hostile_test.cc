@@ -107,7 +107,7 @@ TEST(HostileC3d, SaysWhereItIsCut) {
   EXPECT_THAT(C3dMessageOf(file.substr(0, 1024)), HasSubstr("no whole frame"));
 }
 
-TEST(HostileC3d, HasFlippedBytes) {
+TEST(HostileC3dRealFiles, HasFlippedBytes) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file = Synthetic("kit53_intel_int.c3d");
   const std::size_t data = 512 * (static_cast<unsigned char>(file[16]) - 1);
@@ -134,7 +134,7 @@ TEST(HostileC3d, HasNoise) {
   }
 }
 
-TEST(HostileC3d, TakesTheNumberOfPointsThatFitsTheFile) {
+TEST(HostileC3dRealFiles, TakesTheNumberOfPointsThatFitsTheFile) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Warnings warnings;
   C3dReader reader(SharedData("recordings/synthetic/bad_hdr_points65535.c3d"), &warnings);

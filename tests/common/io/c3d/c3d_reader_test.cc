@@ -105,7 +105,7 @@ void ExpectAllPoints(C3dReader& reader, const json& expected) {
   }
 }
 
-TEST(C3dReader, ReadsEveryRealFileAsAnIndependentReaderDoes) {
+TEST(C3dReaderRealFiles, ReadsEveryRealFileAsAnIndependentReaderDoes) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   int files = 0;
   const json all = Expected();

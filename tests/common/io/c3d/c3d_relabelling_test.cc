@@ -59,7 +59,7 @@ std::vector<std::string> RealFiles() {
   return files;
 }
 
-TEST(C3dRelabelling, WhatChangesNothingGivesTheSameBytes) {
+TEST(C3dRelabellingRealFiles, WhatChangesNothingGivesTheSameBytes) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::vector<std::string> files = RealFiles();
   EXPECT_GE(files.size(), 30);
@@ -90,7 +90,7 @@ void ExpectTheRestKept(const StrictC3d& before, const StrictC3d& after) {
 }
 
 // Points in the opposite order, every third of them under a name that needs more room.
-TEST(C3dRelabelling, PointsOfRealFilesInAnotherOrder) {
+TEST(C3dRelabellingRealFiles, PointsOfRealFilesInAnotherOrder) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   int files = 0;
   for (const std::string& file : RealFiles()) {
@@ -127,7 +127,7 @@ TEST(C3dRelabelling, PointsOfRealFilesInAnotherOrder) {
 
 // Half of the first point under a name of its own, the other half goes on as the second's, which
 // ends there; the third is left out.
-TEST(C3dRelabelling, OtherNumbersOfPointsForEveryProcessor) {
+TEST(C3dRelabellingRealFiles, OtherNumbersOfPointsForEveryProcessor) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const std::string name :
        {"intel_float", "intel_int", "dec_float", "dec_int", "mips_float", "mips_int"}) {

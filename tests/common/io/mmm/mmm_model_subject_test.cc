@@ -84,7 +84,7 @@ TEST(SubjectModel, WinterGivesThePersonsModelOfTheShippedOne) {
   ExpectAnyToolHasThePersonsModel(file, 0.19);
 }
 
-TEST(SubjectModel, WinterGivesThePersonsModelOfRealOnes) {
+TEST(SubjectModelRealFiles, WinterGivesThePersonsModelOfRealOnes) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* file : {"mmm/models/mmm_2014_82nodes_52markers.xml",
                            "mmm/models/mmm_v2.2_133nodes_53markers.xml"}) {

@@ -179,7 +179,7 @@ TEST(MmmMotionEdit, DamagedFilesAreEditedOrRefused) {
   EXPECT_GT(edited, 1000);
 }
 
-TEST(MmmMotionEdit, KeepsTheOtherMotionsOfARealFile) {
+TEST(MmmMotionEditRealFiles, KeepsTheOtherMotionsOfARealFile) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string content = ReadFileContent(testing::StirringFile());
   const MmmMotionFile file = ParseMmmMotionFile(content, "stir.xml");

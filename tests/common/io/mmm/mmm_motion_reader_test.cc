@@ -67,7 +67,7 @@ std::string Marker(const std::string& time, const std::string& name, const std::
          "</MarkerPosition></Measurement>\n";
 }
 
-TEST(MmmMotionReader, RealLegacyFiles) {
+TEST(MmmMotionReaderRealFiles, RealLegacyFiles) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Warnings warnings;
   const MmmMotionFile file = ReadMmmMotionFile(testing::LegacyStandingFile(), &warnings);
@@ -101,7 +101,7 @@ TEST(MmmMotionReader, RealLegacyFiles) {
   EXPECT_EQ(second.joint_angles[0], -0.385355);
 }
 
-TEST(MmmMotionReader, SeveralKinematicSensorsBecomeOneTrajectory) {
+TEST(MmmMotionReaderRealFiles, SeveralKinematicSensorsBecomeOneTrajectory) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile old = ReadMmmMotionFile(testing::LegacyWalkingFile());
   Warnings warnings;
@@ -128,7 +128,7 @@ TEST(MmmMotionReader, SeveralKinematicSensorsBecomeOneTrajectory) {
   }
 }
 
-TEST(MmmMotionReader, RealFilesWithMarkersAndObjects) {
+TEST(MmmMotionReaderRealFiles, RealFilesWithMarkersAndObjects) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Warnings warnings;
   const MmmMotionFile file = ReadMmmMotionFile(testing::StirringFile(), &warnings);
@@ -155,7 +155,7 @@ TEST(MmmMotionReader, RealFilesWithMarkersAndObjects) {
   EXPECT_EQ(sideboard.size.height, std::nullopt);
 }
 
-TEST(MmmMotionReader, EveryRealFileHasWhatItShould) {
+TEST(MmmMotionReaderRealFiles, EveryRealFileHasWhatItShould) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string folder = "mmm/kit_bimanual_10hz/";
   for (const auto& [name, frames] :
@@ -321,7 +321,7 @@ TEST(MmmMotionReader, MillionsOfMotionsAreRefused) {
               HasSubstr("walk.xml: has 10001 motions, more than the 10000 that are read"));
 }
 
-TEST(MmmMotionReader, TruncatedRealFilesAreErrors) {
+TEST(MmmMotionReaderRealFiles, TruncatedRealFilesAreErrors) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string content = ReadFileContent(testing::WavingFile());
   for (int part = 1; part < 40; ++part) {

@@ -287,7 +287,7 @@ TEST(MmmMotionWriterText, NotFinitePosturesAreErrors) {
 }
 
 // The real 2.0 file has the 1.0 file's root pose in the same digits, so ours must have them too.
-TEST(MmmMotionWriterText, Legacy10To20HasTheDigitsOfTheRealPair) {
+TEST(MmmMotionWriterTextRealFiles, Legacy10To20HasTheDigitsOfTheRealPair) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const MmmMotionFile legacy = ReadMmmMotionFile(testing::LegacyWalkingFile());
   const std::string text = Join(FormatMmmMotion2(testing::OutputOf(legacy.motions[0])));
@@ -314,7 +314,7 @@ TEST(MmmMotionWriterText, Legacy10To20HasTheDigitsOfTheRealPair) {
   EXPECT_EQ(measurements(own, 1).size(), 318u);
 }
 
-TEST(MmmMotionWriterText, RealFilesComeBackTheSame) {
+TEST(MmmMotionWriterTextRealFiles, RealFilesComeBackTheSame) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const std::string& path : {testing::LegacyStandingFile(), testing::WavingFile()}) {
     const MmmMotionFile file = ReadMmmMotionFile(path);

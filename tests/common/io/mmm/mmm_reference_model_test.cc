@@ -182,6 +182,7 @@ class ReferenceModel : public ::testing::Test {
 
   const KinematicModel ours_;
 };
+using ReferenceModelRealFiles = ReferenceModel;
 
 /// The same posture for a model whose joints have another order.
 Posture Reordered(const Posture& posture, const KinematicModel& from, const KinematicModel& to) {
@@ -192,7 +193,7 @@ Posture Reordered(const Posture& posture, const KinematicModel& from, const Kine
   return other;
 }
 
-TEST_F(ReferenceModel, HasTheNamesAndFiguresOfMmm22) {
+TEST_F(ReferenceModelRealFiles, HasTheNamesAndFiguresOfMmm22) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const KinematicModel real = ReadWithoutWarnings(SharedData(kModel22));
   ASSERT_EQ(ours_.segments().size(), real.segments().size());
@@ -212,7 +213,7 @@ TEST_F(ReferenceModel, HasTheNamesAndFiguresOfMmm22) {
   }
 }
 
-TEST_F(ReferenceModel, MovesAsTheOriginal) {
+TEST_F(ReferenceModelRealFiles, MovesAsTheOriginal) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const KinematicModel real = ReadWithoutWarnings(SharedData(kModel22));
   SeededRandom random(22);
@@ -268,7 +269,7 @@ std::vector<std::string> JointOrderOf(const char* motion) {
   return names;
 }
 
-TEST_F(ReferenceModel, ListsTheJointsInTheOrderOfRealMotions) {
+TEST_F(ReferenceModelRealFiles, ListsTheJointsInTheOrderOfRealMotions) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   EXPECT_THAT(
       ours_.node_sets().at("MotionJoints40"),

@@ -62,7 +62,7 @@ double LargestDistance(const MarkerSequence& a, const MarkerSequence& b) {
   return largest;
 }
 
-TEST(Recording, IsInMetresAndZUpWhateverTheFileHas) {
+TEST(RecordingRealFiles, IsInMetresAndZUpWhateverTheFileHas) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Warnings warnings;
   const Recording reference = ReadSynthetic("kit53_intel_float.c3d", {}, &warnings);
@@ -85,7 +85,7 @@ TEST(Recording, IsInMetresAndZUpWhateverTheFileHas) {
   }
 }
 
-TEST(Recording, TurnsYUpToZUp) {
+TEST(RecordingRealFiles, TurnsYUpToZUp) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Recording reference = ReadSynthetic("kit53_intel_float.c3d");
   const Recording turned = ReadSynthetic("kit53_yup_screen_X_Y.c3d");
@@ -191,7 +191,7 @@ TEST(Recording, AssumesZUpWhereLabelsTellNothing) {
   EXPECT_THAT(decision.warning, HasSubstr("z is taken"));
 }
 
-TEST(Recording, ChecksTheUnit) {
+TEST(RecordingRealFiles, ChecksTheUnit) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string path = testing::TestFolder() + "/metres_called_mm.c3d";
   MarkerSequence markers = ReadSynthetic("kit53_intel_float.c3d").markers;
@@ -212,7 +212,7 @@ TEST(Recording, ChecksTheUnit) {
   EXPECT_TRUE(DecideUnit(Acrobat(0, UpAxis::kZ), "238").guessed);
 }
 
-TEST(Recording, LetsTheUserChooseASubject) {
+TEST(RecordingRealFiles, LetsTheUserChooseASubject) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string path = SharedData("recordings/synthetic/kit53_two_subjects_same_labels.c3d");
   EXPECT_THAT(MessageOf(path), HasSubstr("several subjects: A, B; choose one"));
@@ -248,7 +248,7 @@ TEST(Recording, TakesThePersonNotTheObject) {
   EXPECT_THAT(warnings.texts(), Contains(HasSubstr("those of Box")));
 }
 
-TEST(Recording, LeavesOutWhatIsNoMarker) {
+TEST(RecordingRealFiles, LeavesOutWhatIsNoMarker) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Warnings warnings;
   const Recording gait =
@@ -264,7 +264,7 @@ TEST(Recording, LeavesOutWhatIsNoMarker) {
   EXPECT_NE(ReadSynthetic("kit53_intel_float.c3d").markers.FindLabel("LTIP"), -1);
 }
 
-TEST(Recording, ReadsRealPeopleInPlausibleSize) {
+TEST(RecordingRealFiles, ReadsRealPeopleInPlausibleSize) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   struct {
     const char* file;
@@ -301,7 +301,7 @@ TEST(Recording, ReadsRealPeopleInPlausibleSize) {
   }
 }
 
-TEST(Recording, ReadsTheSameTrialFromC3dAndTrc) {
+TEST(RecordingRealFiles, ReadsTheSameTrialFromC3dAndTrc) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Recording c3d =
       ReadRecording(SharedData("recordings/whole_body/kinematics_tennis_serve.c3d"), {});
@@ -314,7 +314,7 @@ TEST(Recording, ReadsTheSameTrialFromC3dAndTrc) {
             1e-5);  // the TRC file has 5 decimals of a metre
 }
 
-TEST(Recording, ReadsMarkersOfMmmMotions) {
+TEST(RecordingRealFiles, ReadsMarkersOfMmmMotions) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string folder = SharedData("mmm/kit_bimanual_10hz/");
   const std::string path = folder + "Pour_files_motions_2967_Pour1_cs_ms_0_20l_04.xml";

@@ -103,7 +103,7 @@ TEST(TrcReader, DoesNotAllocateForCellsThatAreNotThere) {
   EXPECT_THAT(TrcMessageOf(text), HasSubstr("rows are too short"));
 }
 
-TEST(TrcReader, ReadsRealFiles) {
+TEST(TrcReaderRealFiles, ReadsRealFiles) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string path = testing::SharedData("recordings/trc/motek_T.trc");
   const TrcFile motek = ParseTrc(ReadFileContent(path), path);

@@ -79,7 +79,7 @@ TEST(UrdfWriter, ShippedModelOfAPersonIsReadBackTheSame) {
   ExpectReadBack(model);
 }
 
-TEST(UrdfWriter, RealModelsAreReadBackTheSame) {
+TEST(UrdfWriterRealFiles, RealModelsAreReadBackTheSame) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const char* file : {"mmm/models/mmm_2014_82nodes_52markers.xml",
                            "mmm/models/mmm_v2.2_133nodes_53markers.xml"}) {

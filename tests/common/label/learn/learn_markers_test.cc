@@ -126,14 +126,14 @@ SiteScore LearnReal(const std::string& file, double height) {
                  SegmentsOf(model, recording.markers.num_labels(), setup.assignments()));
 }
 
-TEST(LearnMarkersTest, KitsSet) {
+TEST(LearnMarkersRealFilesTest, KitsSet) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const SiteScore score = LearnReal("recordings/kit_bimanual_c3d/Close_1723.c3d", 1.68);
   EXPECT_EQ(score.other_side, 0);
   EXPECT_GE(score.right, 50);
 }
 
-TEST(LearnMarkersTest, PluginGait) {
+TEST(LearnMarkersRealFilesTest, PluginGait) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const SiteScore score = LearnReal("recordings/whole_body/kinematics_tennis_serve.c3d", 1.63);
   EXPECT_EQ(score.other_side, 0);

@@ -79,7 +79,7 @@ TEST(NatNetColumns, BodiesWithoutAMarkerSetAndAssetsThatTheModelLacks) {
   EXPECT_EQ(At(points, 1), "1 1 1");
 }
 
-TEST(NatNetColumns, OccludedFrameOfMotive) {
+TEST(NatNetColumnsRealFiles, OccludedFrameOfMotive) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   NatNetModel model;
   model.bodies = {{"FakeTree", 7, -1, {}, {}, {}}};

@@ -107,7 +107,7 @@ struct RealFrame {
   double time = 0;
 };
 
-TEST(NatNetFrame, OfMotive) {
+TEST(NatNetFrameRealFiles, OfMotive) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   for (const RealFrame& real :
        {RealFrame{"natnet_2.x/frame-motive-1.5.0-001.bin", {2, 5}, 92881, 3, 0},
@@ -154,7 +154,7 @@ TEST(NatNetModel, UnknownDescriptionsArePassedOverByTheirSize) {
   EXPECT_THROW(ParseNatNetModel(std::string("\1\0\0\0\x63\0\0\0", 8), {3, 0}), Error);
 }
 
-TEST(NatNetModel, OfMotive) {
+TEST(NatNetModelRealFiles, OfMotive) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string payload = RealPayload("natnet_3.0/modeldef_packet_v3.bin");
   const NatNetModel model = ParseNatNetModel(payload, {3, 0});
@@ -187,7 +187,7 @@ TEST(NatNetMessage, ServerInfo) {
   EXPECT_EQ(FormatNatNetMessage(NatNetId::kKeepAlive, ""), std::string("\xA\0\0\0", 4));
 }
 
-TEST(NatNetMessage, ServerInfoOfMotive) {
+TEST(NatNetMessageRealFiles, ServerInfoOfMotive) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const NatNetServerInfo info =
       ParseNatNetServerInfo(RealPayload("natnet_3.0/serverinfo_packet_v3.bin"));
@@ -200,7 +200,7 @@ TEST(NatNetMessage, ServerInfoOfMotive) {
   EXPECT_EQ(info.group, "239.255.42.99");
 }
 
-TEST(NatNetMessage, OtherOnesOfMotive) {
+TEST(NatNetMessageRealFiles, OtherOnesOfMotive) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const auto expect = [](const std::string& name, NatNetId id, std::size_t bytes) {
     const std::string datagram = ReadFileContent(testing::SharedData("live/" + name));

@@ -135,7 +135,7 @@ TEST(QtmData, WrongCountsAreRefused) {
   }
 }
 
-TEST(QtmParameters, OfRealQtm) {
+TEST(QtmParametersRealFiles, OfRealQtm) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string xml = ReadFileContent(testing::SharedData("live/qtm/qtm_stream_3d.xml"));
   const QtmParameters parameters = ParseQtmParameters(xml);

@@ -202,7 +202,7 @@ TEST(SmoothingTest, Cartwheel) {
   Measure("cartwheel", {MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
 }
 
-TEST(SmoothingTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
+TEST(SmoothingRealFilesTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Figures raw = Measure("walking", Walking());
   // The project's target, for the joints that have one.
@@ -214,7 +214,7 @@ TEST(SmoothingTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
   EXPECT_LE(calibrated.step, 0.05);
 }
 
-TEST(SmoothingTest, QuickMotionIsAsSmoothAsTheTruthWhereMarkersShowIt) {
+TEST(SmoothingRealFilesTest, QuickMotionIsAsSmoothAsTheTruthWhereMarkersShowIt) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const Figures raw = Measure("quick motion", SmoothedQuickMotion());
   EXPECT_NEAR(raw.jitter_large, 1, 0.2);
@@ -253,7 +253,7 @@ TEST(SmoothingTest, HalfOfTheMarkersHiddenOnTheHandstand) {
                           {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
 }
 
-TEST(SmoothingTest, HalfOfTheMarkersHiddenWhileWalking) {
+TEST(SmoothingRealFilesTest, HalfOfTheMarkersHiddenWhileWalking) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   ExpectHalfHiddenIsBorne("walking",
                           {RecordedScene("walking_medium01_motion395.xml"), 44, 1, kCalibrated});
