@@ -8,6 +8,7 @@
 #include "MMMConverterS2KF/report/all_motions_summary.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/report/names_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
@@ -27,6 +28,9 @@ const OptionGroup kFileOptions = {
      {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
      {"report", "FILE", "write a page (HTML) with player and plots", ""},
      {"summary", "FILE", "write a summary as JSON", ""},
+     {"marker-set-out", "FILE",
+      "write the marker set that was used, as the names of the labels gave it, for --marker-set",
+      ""},
      {"model-path", "PATH",
       "path of the model that is written into the motion; default: relative to the motion", ""}}};
 
@@ -165,7 +169,7 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
   for (const Exporter& exporter : Exporters()) {
     if (const auto file = arguments.Get(OptionOf(exporter))) request.exports[exporter.name] = *file;
   }
-  for (const char* option : {"summary", "report"}) {
+  for (const char* option : {"summary", "report", "marker-set-out"}) {
     if (const auto file = arguments.Get(option)) request.more_outputs.push_back(*file);
   }
   request.converter = {arguments.Get("config").value_or(""),
@@ -176,8 +180,8 @@ ConversionRequest MakeRequest(const Arguments& arguments) {
 
 // What has a place for one motion only.
 void CheckFitsAllMotions(const Arguments& arguments) {
-  std::vector<std::string> options = {"object",     "label",       "repair",
-                                      "model-path", "subject-out", "model-out"};
+  std::vector<std::string> options = {"object",      "label",     "repair",        "model-path",
+                                      "subject-out", "model-out", "marker-set-out"};
   for (const Exporter& exporter : Exporters()) options.push_back(OptionOf(exporter));
   for (const std::string& option : options) {
     if (!arguments.Has(option)) continue;
@@ -248,6 +252,9 @@ int RunConvert(const Arguments& arguments) {
   }
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatConversionPage({&report}));
+  }
+  if (const auto file = arguments.Get("marker-set-out")) {
+    WriteFileAtomically(*file, FormatUsedSet(report.plan));
   }
   std::cout << FormatSummary(report);
   return 0;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/object.h"
 #include "common/support/error.h"
 
@@ -36,11 +37,12 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
     plan.input.recording.markers =
         MarkerSequence(plan.labels->labelling.names, 1, head.markers.rate(), 0);
   }
-  plan.setup = MatchMarkers({recording.markers.labels(), {}, recording.file}, plan.input.reference,
-                            config, warnings);
+  plan.setup =
+      MatchLabels({recording.markers.labels(), {}, recording.file}, &plan.input, config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
-  plan.person = FindPerson(request.input.person, plan.setup, recording, config, warnings);
+  plan.person = FindPerson(request.input.person, plan.setup, recording, config, warnings,
+                           plan.input.names.get());
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   if (request.calibration_time > 0 && config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");

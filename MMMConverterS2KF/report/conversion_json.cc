@@ -4,6 +4,7 @@
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
+#include "MMMConverterS2KF/report/names_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/judge/conversion_figures.h"
 #include "common/support/units.h"
@@ -61,7 +62,8 @@ Json DescribeMarkers(const ConversionReport& report, const ConversionFigures& fi
   return {{"set", plan.setup.marker_set},
           {"used", used},
           {"ignored", plan.setup.mapping.ignored_labels},
-          {"absent", plan.setup.mapping.absent_markers}};
+          {"absent", plan.setup.mapping.absent_markers},
+          {"names", plan.input.names ? NamesJson(*plan.input.names) : Json(nullptr)}};
 }
 
 Json WrongMarkersJson(const ConversionReport& report) {

@@ -8,7 +8,9 @@
 
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
+#include "MMMConverterS2KF/report/names_summary.h"
 #include "common/judge/conversion_figures.h"
+#include "common/judge/coverage.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -126,6 +128,11 @@ std::string FormatSummary(const ConversionReport& report) {
       fmt::format("converter  {}, {}\n", plan.converter.config.type, plan.converter.config.file);
   text += fmt::format("markers    {}{}\n", DescribeMarkersShortly(plan.setup.mapping),
                       plan.setup.marker_set.empty() ? "" : ", marker set " + plan.setup.marker_set);
+  const std::string unshown = DescribeUnshown(LimbsOf(plan.setup));
+  if (!plan.object && !unshown.empty()) {
+    text += "not shown  " + unshown + ": at rest, with large deviations\n";
+  }
+  if (plan.input.names) text += "names      " + DescribeNames(*plan.input.names);
   text += fmt::format("distance   mean {:.1f} mm, p95 {:.1f}, max {:.1f}; largest means: {}\n",
                       kMillimetres * figures.distance.mean, kMillimetres * figures.distance.p95,
                       kMillimetres * figures.distance.max, WorstMarkers(report, figures));

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "MMMConverterS2KF/report/names_summary.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -35,6 +36,8 @@ std::string FormatProspect(const Prospect& prospect) {
                   prospect.marker_set.empty() ? "of the configuration" : prospect.marker_set,
                   mapping.assignments.size(), NamesOrNone(mapping.ignored_labels),
                   NamesOrNone(mapping.absent_markers));
+  if (prospect.names)
+    text += "names      " + DescribeNames(*prospect.names) + FormatNames(*prospect.names);
   if (!prospect.limbs.empty()) {
     text +=
         fmt::format("shown      {}; too few markers: {}\n", NamesOrNone(LimbNames(prospect, true)),
@@ -63,6 +66,7 @@ Json ToJson(const Prospect& prospect) {
           {"markers_used", prospect.mapping.assignments.size()},
           {"ignored", prospect.mapping.ignored_labels},
           {"absent", prospect.mapping.absent_markers},
+          {"names", prospect.names ? NamesJson(*prospect.names) : Json(nullptr)},
           {"shown", LimbNames(prospect, true)},
           {"not_shown", LimbNames(prospect, false)},
           {"hidden", gaps},

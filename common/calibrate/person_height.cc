@@ -64,11 +64,18 @@ void FindPostures(const MarkerKinematics& kinematics, std::vector<CalibrationFra
 
 }  // namespace
 
-PersonHeight EstimatePersonHeight(const TrackingSetup& setup, const MarkerSequence& recording) {
-  const HeightEstimate guess = EstimateHeight(setup, *setup.model, recording);
+PersonHeight EstimatePersonHeight(const TrackingSetup& setup, const MarkerSequence& recording,
+                                  bool with_ordinary_height) {
+  HeightOptions how;
+  how.with_ordinary_height = with_ordinary_height;
+  if (with_ordinary_height) how.noise_scale = NoiseScales(setup.assignments());
+  const HeightEstimate guess =
+      EstimateHeight(*setup.model, setup.joints, MarkerIndices(setup.assignments()),
+                     LabelIndices(setup.assignments()), recording, how);
   std::vector<CalibrationFrame> frames = ChooseFrames(setup, recording);
-  const CalibrationOptions options = Options();
-  if (frames.empty()) return {guess.height, options.scale_deviation * guess.height, guess.frames};
+  CalibrationOptions options = Options();
+  if (frames.empty()) return {guess.height, guess.deviation, guess.frames};
+  if (with_ordinary_height) options.height_deviation = kHeightDeviation;
   const KinematicModel scaled = ScaleWinter(*setup.model, {guess.height, kAnyMass, {}});
   BodyKinematics kinematics(scaled, setup.joints, MarkerIndices(setup.assignments()));
   FindPostures(kinematics.kinematics(), &frames);

@@ -15,8 +15,11 @@ struct PersonHeight {
 /// The height of the person who wears the markers. By Winter it is what all lengths of the body
 /// have in common, each being off by some percent, as are the places of all markers: these, the
 /// postures of some frames and the height are estimated together (FitBody) from the height that
-/// fits best with none of that (EstimateHeight). setup: as MatchMarkers made it, not scaled.
-/// @throws Error where no frame shows at least ten of the markers.
-PersonHeight EstimatePersonHeight(const TrackingSetup& setup, const MarkerSequence& recording);
+/// fits best with none of that (EstimateHeight). Where no frame shows ten of the markers, it is
+/// weighed against what heights persons have (with_ordinary_height: always). setup: as MatchMarkers
+/// made it, not scaled.
+/// @throws Error where no frame shows three of the markers.
+PersonHeight EstimatePersonHeight(const TrackingSetup& setup, const MarkerSequence& recording,
+                                  bool with_ordinary_height = false);
 
 }  // namespace mmm_converter

@@ -61,6 +61,10 @@ std::vector<MarkerPair> ResolveMarkerPairs(const ConverterConfig& config,
                                            const MarkerLabels& labels, const KinematicModel& model,
                                            std::string* name);
 
+/// Of the shipped sets and the names of the model's markers what knows most of the labels; nothing
+/// where none knows three.
+std::optional<MarkerSet> FindKnownSet(const MarkerLabels& labels, const KinematicModel& model);
+
 /// The marker set that the configuration names as a file; nothing where it names none.
 /// @throws Error as ReadMarkerSet.
 std::optional<MarkerSet> ReadOwnMarkerSet(const ConverterConfig& config);

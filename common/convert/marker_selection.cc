@@ -43,6 +43,13 @@ void FitToModel(const KinematicModel& model, std::vector<MarkerSet>* sets) {
 
 }  // namespace
 
+std::optional<MarkerSet> FindKnownSet(const MarkerLabels& labels, const KinematicModel& model) {
+  std::vector<MarkerSet> sets = ReadMarkerSets(DataFile("marker_sets"));
+  FitToModel(model, &sets);
+  const MarkerSet* const found = FindMarkerSet(sets, labels);
+  return found == nullptr ? std::nullopt : std::optional(*found);
+}
+
 std::optional<MarkerSet> ReadOwnMarkerSet(const ConverterConfig& config) {
   if (!config.marker_pairs.empty() || !config.marker_set.ends_with(".xml")) return std::nullopt;
   return ReadMarkerSet((fs::path(config.file).parent_path() / config.marker_set).string());

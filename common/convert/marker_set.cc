@@ -226,7 +226,7 @@ int CountMappedMarkers(const MarkerSet& set, const std::vector<std::string>& lab
   return static_cast<int>(MappedMarkers(set, labels).size());
 }
 
-const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels) {
+const MarkerSet* FindMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels) {
   const MarkerSet* best = nullptr;
   std::size_t most = 0;
   double least_noise = 0;
@@ -240,7 +240,11 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const Marke
     most = mapped.size();
     least_noise = noise;
   }
-  if (best != nullptr) return *best;
+  return best;
+}
+
+const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels) {
+  if (const MarkerSet* const best = FindMarkerSet(sets, labels)) return *best;
   std::vector<std::string> names;
   names.reserve(sets.size());
   for (const MarkerSet& set : sets) names.push_back(set.name);

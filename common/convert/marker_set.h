@@ -48,6 +48,9 @@ std::vector<MarkerPair> PairsInModel(const MarkerSet& set, const KinematicModel&
 /// How many model markers the set finds a label for.
 int CountMappedMarkers(const MarkerSet& set, const std::vector<std::string>& labels);
 
+/// As ChooseMarkerSet; null where no set maps three.
+const MarkerSet* FindMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels);
+
 /// The set that maps most markers; of equal ones the one that trusts them more, then the first.
 /// @throws Error where no set maps three; the message lists the sets and labels of the recording.
 const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const MarkerLabels& labels);

@@ -49,7 +49,9 @@ std::string FormatMarkerSet(const MarkerSet& set, const std::string& head,
     text += "\n";
   }
   for (const MarkerPair& pair : set.pairs) {
-    if (pair.source != pair.target || !placed.contains(pair.target)) text += FormatPair(pair);
+    const bool is_implied = pair.source == pair.target && placed.contains(pair.target) &&
+                            pair.noise_scale == 1 && pair.warning.empty();
+    if (!is_implied) text += FormatPair(pair);
   }
   for (const std::string& comment : tail) text += "  " + FormatXmlComment(comment) + "\n";
   return text + "</MarkerSet>\n";

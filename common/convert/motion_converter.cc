@@ -25,26 +25,28 @@ int CountSeen(const MarkerSequence& recording, const TrackingSetup& setup, int f
       [&](const MarkerAssignment& assignment) { return IsSeen(points.col(assignment.label)); }));
 }
 
-// The first frame in which a posture can be assembled. A person is there from the start, objects
-// are fetched.
+// The first frame in which a posture can be assembled: a third of the markers are seen, or, where
+// that is not soon, as many as in any frame of the second after the first three. Who comes late is
+// there in part at first.
 int FindFirstFrame(const MarkerSequence& recording, const TrackingSetup& setup) {
-  const bool is_object = setup.model->num_joints() == 0;
-  const int last = is_object
-                       ? recording.num_frames()
-                       : static_cast<int>(std::min<double>(
-                             recording.num_frames(), std::max(1.0, std::ceil(recording.rate()))));
-  int most = 0;
-  for (int k = 0; k < last; ++k) {
+  const int enough = std::max(kFewestMarkers, static_cast<int>(setup.assignments().size()) / 3);
+  const int second = std::max(1, static_cast<int>(std::ceil(recording.rate())));
+  int end = recording.num_frames();
+  int best = -1, most = 0;
+  for (int k = 0; k < end; ++k) {
     const int seen = CountSeen(recording, setup, k);
-    if (seen >= kFewestMarkers) return k;
-    most = std::max(most, seen);
+    if (seen <= most) continue;
+    most = seen;
+    if (seen < kFewestMarkers) continue;
+    if (best < 0) end = std::min(end, k + second);
+    best = k;
+    if (seen >= enough) return k;
   }
+  if (best >= 0) return best;
   throw Error(
-      fmt::format("no frame{} shows {} mapped markers (at most {} of {} are seen); check the "
-                  "marker mapping{}",
-                  is_object ? "" : " of the first second", kFewestMarkers, most,
-                  setup.assignments().size(), is_object ? "" : ", or start at a later frame"),
-      is_object ? Remedy::kNone : Remedy::kFrames);
+      fmt::format("no frame shows {} mapped markers (at most {} of {} are seen); check the "
+                  "marker mapping",
+                  kFewestMarkers, most, setup.assignments().size()));
 }
 
 // Fills one frame of a result from what a converter says of it.

@@ -78,12 +78,11 @@ class MotionConverter {
   /// need the frame. Changes no result; Track with another dt is only slower. Allocates nothing.
   virtual void Prepare(double dt);
 
-  /// A whole recording, whose labels are those of the setup: Assemble on the first frame, Track on
-  /// the others. Leading frames in which fewer than three assigned markers are seen take the first
-  /// assembled posture, not converged. progress(k): frames done, may be empty; returning false
-  /// cancels (an Error is thrown).
-  /// @throws Error where no frame of the first second (for a model without joints: no frame at all)
-  /// shows three assigned markers.
+  /// A whole recording, whose labels are those of the setup: Assemble on the first frame that shows
+  /// a third of the assigned markers (where none of a second does, on that with most), Track on the
+  /// next ones. Earlier frames take the first assembled posture, not converged. progress(k): frames
+  /// done, may be empty; returning false cancels (an Error is thrown).
+  /// @throws Error where no frame shows three assigned markers.
   virtual ConversionResult Convert(const MarkerSequence& recording,
                                    const std::function<bool(int)>& progress);
 

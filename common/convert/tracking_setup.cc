@@ -48,7 +48,7 @@ TrackingSetup MatchMarkers(const MarkerLabels& labels,
 HeightEstimate EstimateHeight(const TrackingSetup& setup, const KinematicModel& reference,
                               const MarkerSequence& recording, const std::vector<Posture>* track) {
   return EstimateHeight(reference, setup.joints, MarkerIndices(setup.assignments()),
-                        LabelIndices(setup.assignments()), recording, track);
+                        LabelIndices(setup.assignments()), recording, {track});
 }
 
 KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person) {

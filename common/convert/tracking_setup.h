@@ -45,7 +45,7 @@ void WarnOfFreeJoints(const TrackingSetup& setup, const ConverterConfig& config,
 
 /// EstimateHeight with the joints and markers of a setup; reference: the model before it was
 /// scaled.
-/// @throws Error where no frame shows at least ten of the markers.
+/// @throws Error where no frame shows three of the markers.
 HeightEstimate EstimateHeight(const TrackingSetup& setup, const KinematicModel& reference,
                               const MarkerSequence& recording,
                               const std::vector<Posture>* track = nullptr);

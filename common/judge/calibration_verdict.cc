@@ -28,6 +28,7 @@ Verdict JudgeCalibration(const CalibrationEvidence& evidence) {
     JudgeReading(one.recording, &reasons);
     JudgeCoverage(one.setup, LimbsOf(one.setup), &reasons);
     JudgeNoise(one.setup, one.recording.markers, &reasons);
+    if (one.names != nullptr) JudgeNames(*one.names, &reasons);
     if (is_far) {
       JudgeSides(one.setup, one.reference, evidence.person, one.recording.markers, &reasons);
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/calibrate/calibration.h"
+#include "common/convert/named_markers.h"
 #include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
 #include "common/judge/verdict.h"
@@ -17,6 +18,7 @@ struct MatchedRecording {
   const Recording& recording;
   const TrackingSetup& setup;                       ///< on the reference
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled
+  const NamedMarkers* names = nullptr;  ///< by which the labels were matched; null: by a set
 };
 
 /// What the verdict of a calibration looks at.

@@ -56,6 +56,7 @@ class Judge {
     const bool is_far = JudgeDistances();
     JudgeMarkers();
     JudgeCoverage(evidence_.setup, limbs_, &reasons_);
+    if (evidence_.names != nullptr) JudgeNames(*evidence_.names, &reasons_);
     JudgeGaps();
     JudgeTrack();
     JudgeNoise(evidence_.setup, markers_, &reasons_);

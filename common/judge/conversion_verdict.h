@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/convert/motion_converter.h"
+#include "common/convert/named_markers.h"
 #include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
 #include "common/judge/conversion_figures.h"
@@ -25,6 +26,7 @@ struct ConversionEvidence {
   std::string height_source;  ///< of the height; empty: these markers, or there is none
   const ConversionResult& result;
   const ConversionFigures& figures;
+  const NamedMarkers* names = nullptr;  ///< by which the labels were matched; null: by a set
 };
 
 /// By what the recording's markers, the person and the track are, beside what right recordings

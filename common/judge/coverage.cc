@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "common/judge/coverage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -60,6 +63,19 @@ std::vector<Limb> LimbsOf(const TrackingSetup& setup) {
     if (is_free) ++limb->free_joints;
   }
   return limbs;
+}
+
+std::string DescribeUnshown(const std::vector<Limb>& limbs) {
+  std::vector<std::string> unshown;
+  for (const Limb& limb : limbs) {
+    if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) {
+      unshown.push_back("the " + limb.name);
+    } else if (limb.free_joints > 0) {
+      unshown.push_back(
+          fmt::format("{} of {} joints of the {}", limb.free_joints, limb.num_joints, limb.name));
+    }
+  }
+  return unshown.empty() ? "" : JoinNames(unshown, " and ");
 }
 
 std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,

@@ -23,6 +23,10 @@ struct Limb {
 /// Those with tracked joints; none of a model that is not MMM's.
 std::vector<Limb> LimbsOf(const TrackingSetup& setup);
 
+/// Limbs that no or too few markers show, and joints that none does: they are at rest, or drawn
+/// along. Empty: all are shown.
+std::string DescribeUnshown(const std::vector<Limb>& limbs);
+
 struct Gap {
   std::string what;  ///< a limb, or "the body"
   int first_frame = 0;

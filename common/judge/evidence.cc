@@ -22,8 +22,13 @@ using Level = Verdict::Level;
 constexpr Limit kOffset = {0.18, 0.4};
 // Of a capture below 0.001.
 constexpr Limit kNoise = {0.003, 0.03};
-// Of the six limbs: none, and half of the body.
-constexpr Limit kUnseenLimbs = {0, 2};
+
+/// "right leg" for "left leg"; empty: there is none.
+std::string OtherSide(const std::string& limb) {
+  if (limb.starts_with("left ")) return "right " + limb.substr(5);
+  if (limb.starts_with("right ")) return "left " + limb.substr(6);
+  return "";
+}
 
 }  // namespace
 
@@ -50,25 +55,48 @@ void JudgeReading(const Recording& recording, VerdictReasons* reasons) {
 
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
                    VerdictReasons* reasons) {
-  std::vector<std::string> unseen;
+  const auto is_known = [](const Limb& limb) {
+    return limb.IsKnownBy(static_cast<int>(limb.labels.size()));
+  };
+  // What a recording shows of a body is its own affair, but a limb may have lost its markers.
+  std::vector<std::string> lost;
+  int degrees = 6;
   for (const Limb& limb : limbs) {
     const int markers = static_cast<int>(limb.labels.size());
-    if (!limb.IsKnownBy(markers)) {
-      unseen.push_back(
-          fmt::format("the {} ({} {})", limb.name, markers, markers == 1 ? "marker" : "markers"));
-    } else if (limb.free_joints > 0) {
-      reasons->Add(Level::kCheck, fmt::format("{}: no marker shows {} of its {} joints", limb.name,
-                                              limb.free_joints, limb.num_joints));
+    if (is_known(limb)) {
+      degrees += limb.num_joints - limb.free_joints;
+      continue;
     }
+    const std::string other = OtherSide(limb.name);
+    const bool has_other = std::any_of(limbs.begin(), limbs.end(), [&](const Limb& one) {
+      return one.name == other && is_known(one);
+    });
+    if (!has_other) continue;
+    lost.push_back(
+        fmt::format("the {} ({} {})", limb.name, markers, markers == 1 ? "marker" : "markers"));
   }
-  reasons->AddBeyond(kUnseenLimbs, static_cast<double>(unseen.size()),
-                     fmt::format("too few markers to know {}", JoinNames(unseen, " and ")));
-  const auto coordinates = 3 * setup.assignments().size();
-  const auto degrees = 6 + setup.joints.size();
-  if (coordinates >= degrees) return;
-  reasons->Add(Level::kCheck,
-               fmt::format("{} markers are too few for the {} degrees of freedom of the body",
-                           setup.assignments().size(), degrees));
+  if (!lost.empty()) {
+    reasons->Add(Level::kCheck,
+                 fmt::format("too few markers to know {}", JoinNames(lost, " and ")));
+  }
+  const int markers = static_cast<int>(setup.assignments().size());
+  const bool shows_limb = std::any_of(limbs.begin(), limbs.end(), is_known);
+  if (3 * markers >= degrees && (shows_limb || limbs.empty())) return;
+  reasons->Add(Level::kFailed,
+               fmt::format("{} markers are too few for the {} degrees of freedom of the limbs "
+                           "that they show",
+                           markers, degrees));
+}
+
+void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons) {
+  std::vector<std::string> contradicted;
+  for (const NamedLabel& one : names.labels) {
+    if (one.is_contradicted) contradicted.push_back(fmt::format("{} ({})", one.label, one.note));
+  }
+  if (contradicted.empty()) return;
+  reasons->Add(
+      2 * contradicted.size() > names.labels.size() ? Level::kFailed : Level::kCheck,
+      fmt::format("labels that are not where their names say: {}", FirstNames(contradicted, 6)));
 }
 
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/convert/named_markers.h"
 #include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
 #include "common/judge/coverage.h"
@@ -57,9 +58,13 @@ class VerdictReasons {
 /// Unit, axis and length of the file.
 void JudgeReading(const Recording& recording, VerdictReasons* reasons);
 
-/// limbs: LimbsOf(setup).
+/// Whether a limb has lost its markers that the one of the other side has, and whether the markers
+/// suffice for the limbs that they show; others are not judged. limbs: LimbsOf(setup).
 void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
                    VerdictReasons* reasons);
+
+/// Labels that are not where their names say.
+void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons);
 
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, VerdictReasons* reasons);
 

@@ -9,6 +9,7 @@
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/judge/conversion_verdict.h"
+#include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
@@ -152,13 +153,15 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
     config = ConfigOfObject(plan.input, config);
   }
 
-  plan.setup = MatchMarkers(LabelsOf(recording.markers, recording.file), plan.input.reference,
-                            config, warnings);
+  plan.input.keeps_usual_places =
+      !request.input.person.subject_file.empty() || !config.subject_file.empty();
+  plan.setup =
+      MatchLabels(LabelsOf(recording.markers, recording.file), &plan.input, config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
   if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
   const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
-  plan.person = FindPerson(person, plan.setup, recording, config, warnings);
+  plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   CheckHasSubject(request, plan);
   plan.subject_output = request.subject_output;
@@ -212,11 +215,12 @@ void MeasureAndJudge(ConversionReport* report) {
   const ConversionPlan& plan = report->plan;
   const bool is_height_stated = plan.person.height.value > 0 && plan.person.height_deviation == 0;
   report->figures = MeasureConversion(report->result);
-  report->verdict = JudgeConversion(
-      {plan.input.recording, plan.input.first_frame, plan.setup, plan.input.reference,
-       plan.input.model_file, plan.object.has_value(),
-       ScalingOf(plan.person, plan.converter.config),
-       is_height_stated ? plan.person.height.source : "", report->result, report->figures});
+  report->verdict =
+      JudgeConversion({plan.input.recording, plan.input.first_frame, plan.setup,
+                       plan.input.reference, plan.input.model_file, plan.object.has_value(),
+                       ScalingOf(plan.person, plan.converter.config),
+                       is_height_stated ? plan.person.height.source : "", report->result,
+                       report->figures, plan.input.names.get()});
 }
 
 ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,

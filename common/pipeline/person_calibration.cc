@@ -9,6 +9,7 @@
 
 #include "common/io/mmm/subject_file.h"
 #include "common/judge/calibration_verdict.h"
+#include "common/pipeline/input/matched_labels.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -34,9 +35,34 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }
   const Recording& recording = one.input.recording;
-  one.setup = MatchMarkers(LabelsOf(recording.markers, recording.file), one.input.reference, config,
-                           warnings);
+  one.input.keeps_usual_places = true;
+  one.setup =
+      MatchLabels(LabelsOf(recording.markers, recording.file), &one.input, config, warnings);
   return one;
+}
+
+// What one person wears is the same in all recordings: what the names of the recording with most of
+// them mean, they mean in all.
+void TakeNamesOfOne(const ConverterConfig& config, std::vector<CalibrationInput>* recordings) {
+  const Input* most = nullptr;
+  for (const CalibrationInput& one : *recordings) {
+    const auto& names = one.input.names;
+    if (names && (most == nullptr || names->num_used() > most->names->num_used())) {
+      most = &one.input;
+    }
+  }
+  if (most == nullptr || recordings->size() == 1) return;
+  ConverterConfig of_names = config;
+  of_names.marker_pairs = most->names->set.pairs;
+  const auto reference = most->reference;
+  const auto names = most->names;
+  for (CalibrationInput& one : *recordings) {
+    const Recording& recording = one.input.recording;
+    one.input.reference = reference;
+    one.input.names = names;
+    one.setup = MatchMarkers(LabelsOf(recording.markers, recording.file), reference, of_names);
+    one.setup.marker_set = names->set.name;
+  }
 }
 
 // Files that know the height must know the same.
@@ -129,10 +155,11 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
     report.warnings.AppendNew(warnings);
   }
   CheckOnePerson(request, report.recordings);
+  TakeNamesOfOne(config, &report.recordings);
   const Input& first = report.recordings.front().input;
   TrackingSetup setup = report.recordings.front().setup;
-  report.person =
-      FindPerson(request.inputs.front().person, setup, first.recording, config, &report.warnings);
+  report.person = FindPerson(request.inputs.front().person, setup, first.recording, config,
+                             &report.warnings, first.names.get());
   ScaleToPerson(ScalingOf(report.person, config), &setup);
   std::vector<CalibrationRecording> recordings;
   recordings.reserve(report.recordings.size());
@@ -152,7 +179,8 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
       std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));
   CalibrationEvidence evidence = {report.result, ScalingOf(report.person, config), {}};
   for (const CalibrationInput& one : report.recordings) {
-    evidence.recordings.push_back({one.input.recording, one.setup, one.input.reference});
+    evidence.recordings.push_back(
+        {one.input.recording, one.setup, one.input.reference, one.input.names.get()});
   }
   report.verdict = JudgeCalibration(evidence);
   return report;

@@ -19,6 +19,7 @@ Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recordi
     const ConversionPlan plan = PlanConversion(conversion, read_before);
     prospect.marker_set = plan.setup.marker_set;
     prospect.mapping = plan.setup.mapping;
+    prospect.names = plan.input.names;
     prospect.person = plan.person;
     prospect.limbs = LimbsOf(plan.setup);
     for (const ReadingDoubt& doubt : plan.input.recording.doubts) {

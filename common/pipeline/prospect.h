@@ -16,6 +16,7 @@ struct Prospect {
   std::string failure;     ///< why it can't be converted like that; empty: it can
   std::string marker_set;  ///< that it would be read with; empty: the configuration's own list
   MarkerMapping mapping;
+  std::shared_ptr<const NamedMarkers> names;  ///< by which it would be read; null: by that set
   Person person;
   std::vector<Limb> limbs;
   std::vector<Gap> gaps;            ///< of more than a second

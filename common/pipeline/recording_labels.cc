@@ -12,6 +12,7 @@
 #include "common/fit/posture_search.h"
 #include "common/judge/label_verdict.h"
 #include "common/label/track/label_recording.h"
+#include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/labelled_output.h"
 #include "common/pipeline/object.h"
 #include "common/pipeline/person_calibration.h"
@@ -80,8 +81,8 @@ Labelled ReadLike(const InputRequest& request, const std::string& file, Converte
   labelled.input = ReadInput(like, {}, warnings);
   const WarningContext context(warnings, file);
   MatchModel(like, &labelled.input, &config);
-  labelled.setup = MatchMarkers(LabelsOf(labelled.input.recording.markers, file),
-                                labelled.input.reference, config, warnings);
+  labelled.setup = MatchLabels(LabelsOf(labelled.input.recording.markers, file), &labelled.input,
+                               config, warnings);
   return labelled;
 }
 
@@ -136,15 +137,18 @@ void Calibrate(const Labelled& like, const ConverterConfig& config, Person* pers
 }
 
 Person FindLabelledPerson(const InputRequest& request, const LabelHints& hints, const Input& input,
-                          const Labelled* like, const TrackingSetup* own,
+                          const Labelled* like, const MatchedLabels& own,
                           const ConverterConfig& config, Warnings* warnings) {
   if (like != nullptr) {
-    Person person =
-        FindPerson(request.person, like->setup, like->input.recording, config, warnings);
+    Person person = FindPerson(request.person, like->setup, like->input.recording, config, warnings,
+                               like->input.names.get());
     Calibrate(*like, config, &person, warnings);
     return person;
   }
-  if (hints.repair) return FindPerson(request.person, *own, input.recording, config, warnings);
+  if (hints.repair) {
+    return FindPerson(request.person, own.setup, input.recording, config, warnings,
+                      own.names.get());
+  }
   return FindPersonOfPoints(request.person, *input.reference, input.recording, config, warnings);
 }
 
@@ -233,21 +237,23 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
   const Recording& recording = input.recording;
   FoundLabels found;
   NameList names;
-  TrackingSetup own;
+  std::shared_ptr<const KinematicModel> reference = input.reference;
+  MatchedLabels own;
   if (hints.repair) {
-    own = MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference, config,
-                       warnings);
-    AddLabels(own, recording.markers, true, &names);
-    found.setup.marker_set = own.marker_set;
+    own = MatchLabels(LabelsOf(recording.markers, recording.file), input, config, warnings);
+    reference = own.setup.model;
+    AddLabels(own.setup, recording.markers, true, &names);
+    found.setup.marker_set = own.setup.marker_set;
   }
   std::optional<Labelled> like;
   if (!hints.like.empty()) {
     like = ReadLike(request, hints.like, config, warnings);
+    reference = like->input.reference;
     AddLabels(like->setup, like->input.recording.markers, false, &names);
     found.setup.marker_set = like->setup.marker_set;
   }
   found.person =
-      FindLabelledPerson(request, hints, input, like ? &*like : nullptr, &own, config, warnings);
+      FindLabelledPerson(request, hints, input, like ? &*like : nullptr, own, config, warnings);
   const bool is_of_file = !found.person.subject_file.empty();
   if (is_of_file || names.empty()) {
     const std::string marker_set =
@@ -256,7 +262,7 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
   }
   found.setup.joints = ResolveJoints(config, *input.reference);
   found.setup.model = std::make_shared<const KinematicModel>(
-      ScaleModel(*input.reference, ScalingOf(found.person, config)));
+      ScaleModel(*reference, ScalingOf(found.person, config)));
   const std::string name = found.person.subject ? found.person.subject->name : SubjectName(input);
   if (!hints.other_persons.empty()) found.prefix = name + ":";
   names.AssignTo(found.prefix, &found.setup, &found.labelling, options);

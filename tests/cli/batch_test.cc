@@ -139,15 +139,29 @@ TEST(Batch, NamesLongerThanFilesHaveFailAlone) {
 }
 
 TEST(Batch, WhatHelpsIsAnAttribute) {
+  // Two markers tell no height.
   const MarkerSequence markers = ReadRecording(testing::Handstand(), {}).markers.Slice(0, 150);
-  WriteC3d(TestFolder() + "/late.c3d", HideAllMarkers(markers, 0, 120));
-  const auto run = RunProgram({"convert", TestFolder() + "/late.c3d", "--height", "1.8"});
+  std::vector<std::string> hidden = markers.labels();
+  std::erase_if(hidden, [](const std::string& one) { return one == "C7" || one == "LASI"; });
+  WriteC3d(TestFolder() + "/two.c3d", HideMarkers(markers, hidden, 0, 150));
+  const auto run = RunProgram({"convert", TestFolder() + "/two.c3d"});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("late.c3d: no frame of the first second shows 3"),
-                             HasSubstr("start at a later frame (--frames A:B)")));
-  const std::string manifest = WriteManifest(0, QuickConverter(), "<Recording file='late.c3d'/>");
+  EXPECT_THAT(run.err, AllOf(HasSubstr("no frame shows three mapped markers; give it"),
+                             HasSubstr("(--height")));
+  const std::string manifest = WriteManifest(0, QuickConverter(), "<Recording file='two.c3d'/>");
   EXPECT_THAT(RunProgram({"batch", manifest, "-o", Out()}).err,
-              HasSubstr("start at a later frame (in the manifest: frames=\"A:B\")"));
+              HasSubstr("(in the manifest: height_m=\"1.75\")"));
+}
+
+TEST(Batch, WhoComesLateIsTrackedFromThenOn) {
+  const MarkerSequence markers = ReadRecording(testing::Handstand(), {}).markers.Slice(0, 250);
+  WriteC3d(TestFolder() + "/late.c3d", HideAllMarkers(markers, 0, 220));
+  const auto run = RunProgram({"convert", TestFolder() + "/late.c3d", "--height", "1.8",
+                               "--summary", TestFolder() + "/late.json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Json summary = Json::parse(ReadText(TestFolder() + "/late.json"));
+  EXPECT_EQ(summary["frames"], 250);
+  EXPECT_GE(summary["frames_not_converged"], 220);
 }
 
 TEST(Batch, FailFastEndsWithTheFirst) {

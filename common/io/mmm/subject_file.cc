@@ -36,8 +36,9 @@ struct NumberRange {
 
 class SubjectReader {
  public:
-  SubjectReader(const XmlElement& root, const std::string& file, const KinematicModel& model)
-      : root_(root), model_(model), diagnostics_(file) {
+  SubjectReader(const XmlElement& root, const std::string& file, const KinematicModel& model,
+                bool leaves_others)
+      : root_(root), model_(model), leaves_others_(leaves_others), diagnostics_(file) {
     for (const Segment& segment : model.segments()) segments_.push_back(segment.name);
     for (const ModelMarker& marker : model.markers()) markers_.push_back(marker.name);
   }
@@ -106,6 +107,8 @@ class SubjectReader {
     AllowAttributes(
         element, {"name", "x_mm", "y_mm", "z_mm", "xDeviation_mm", "yDeviation_mm", "zDeviation_mm",
                   "priorDeviation_mm", "skinDeviation_mm", "frames", "observability"});
+    const std::string* name = element.FindAttribute("name");
+    if (leaves_others_ && name != nullptr && model_.FindMarker(*name) < 0) return;
     MarkerOffset offset;
     offset.marker = KnownName(element, markers_, &marker_lines_);
     const NumberRange place{-kLargestMarkerOffset, kLargestMarkerOffset, kMillimetre};
@@ -205,6 +208,7 @@ class SubjectReader {
 
   const XmlElement& root_;
   const KinematicModel& model_;
+  const bool leaves_others_;
   Diagnostics diagnostics_;
   std::vector<std::string> segments_, markers_;
   std::map<std::string, int> segment_lines_, marker_lines_;
@@ -276,12 +280,12 @@ std::string FormatSubject(const Subject& subject, const std::string& program) {
 }
 
 Subject ParseSubject(const std::string& xml, const std::string& file,
-                     const KinematicModel& reference) {
-  return SubjectReader(ParseXml(xml, file), file, reference).Read();
+                     const KinematicModel& reference, bool leaves_others) {
+  return SubjectReader(ParseXml(xml, file), file, reference, leaves_others).Read();
 }
 
-Subject ReadSubject(const std::string& path, const KinematicModel& reference) {
-  return ParseSubject(ReadFileContent(path, kMaxSubjectBytes), path, reference);
+Subject ReadSubject(const std::string& path, const KinematicModel& reference, bool leaves_others) {
+  return ParseSubject(ReadFileContent(path, kMaxSubjectBytes), path, reference, leaves_others);
 }
 
 }  // namespace mmm_converter

@@ -14,13 +14,15 @@ namespace mmm_converter {
 /// estimated the subject, e.g. "MMMConverterS2KF 1.0.0".
 std::string FormatSubject(const Subject& subject, const std::string& program);
 
-/// Reads a subject of the (unscaled) reference model, whose names it must have.
+/// Reads a subject of the (unscaled) reference model, whose names it must have. leaves_others:
+/// markers that the model does not have are passed over, as where each recording has its own.
 /// @throws Error with all errors of the file: what is not well-formed, unknown, repeated or outside
 /// of what a body has, and a subject of another model.
-Subject ReadSubject(const std::string& path, const KinematicModel& reference);
+Subject ReadSubject(const std::string& path, const KinematicModel& reference,
+                    bool leaves_others = false);
 
 /// As ReadSubject, from text; `file` is only named in messages.
 Subject ParseSubject(const std::string& xml, const std::string& file,
-                     const KinematicModel& reference);
+                     const KinematicModel& reference, bool leaves_others = false);
 
 }  // namespace mmm_converter

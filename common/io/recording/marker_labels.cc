@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "common/io/landmarks/label_readings.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -15,32 +16,28 @@ namespace {
 
 constexpr int kMarkersOfAPerson = 8;  // of a common set; objects have fewer, by other names
 
-/// Names worn on both sides; "l" or "r" comes before.
-constexpr std::pair<std::string_view, BodyRegion> kSided[] = {
-    {"fhd", BodyRegion::kHead},      {"bhd", BodyRegion::kHead},
-    {"sho", BodyRegion::kShoulders}, {"bak", BodyRegion::kElsewhere},
-    {"bac", BodyRegion::kElsewhere}, {"upa", BodyRegion::kElsewhere},
-    {"ael", BodyRegion::kElsewhere}, {"aol", BodyRegion::kElsewhere},
-    {"elb", BodyRegion::kElsewhere}, {"fra", BodyRegion::kElsewhere},
-    {"frm", BodyRegion::kElsewhere}, {"wra", BodyRegion::kElsewhere},
-    {"wrb", BodyRegion::kElsewhere}, {"wts", BodyRegion::kElsewhere},
-    {"wps", BodyRegion::kElsewhere}, {"hts", BodyRegion::kElsewhere},
-    {"hps", BodyRegion::kElsewhere}, {"ifd", BodyRegion::kElsewhere},
-    {"ifp", BodyRegion::kElsewhere}, {"fin", BodyRegion::kElsewhere},
-    {"asi", BodyRegion::kPelvis},    {"psi", BodyRegion::kPelvis},
-    {"fwt", BodyRegion::kPelvis},    {"bwt", BodyRegion::kPelvis},
-    {"hip", BodyRegion::kElsewhere}, {"thi", BodyRegion::kElsewhere},
-    {"kne", BodyRegion::kElsewhere}, {"tip", BodyRegion::kElsewhere},
-    {"tib", BodyRegion::kElsewhere}, {"shn", BodyRegion::kElsewhere},
-    {"ank", BodyRegion::kFeet},      {"hee", BodyRegion::kFeet},
-    {"toe", BodyRegion::kFeet},      {"mt1", BodyRegion::kFeet},
-    {"mt2", BodyRegion::kFeet},      {"mt5", BodyRegion::kFeet},
-    {"cal", BodyRegion::kFeet}};
+/// By the part of the body that a landmark is of.
+BodyRegion RegionOf(const Landmark& landmark) {
+  constexpr std::pair<std::string_view, BodyRegion> kRegions[] = {
+      {"head", BodyRegion::kHead},          {"neck", BodyRegion::kShoulders},
+      {"shoulder", BodyRegion::kShoulders}, {"thorax", BodyRegion::kThorax},
+      {"pelvis", BodyRegion::kPelvis},      {"ankle", BodyRegion::kFeet},
+      {"foot", BodyRegion::kFeet}};
+  for (const auto& [part, region] : kRegions) {
+    if (landmark.part == part) return region;
+  }
+  return BodyRegion::kElsewhere;
+}
 
-constexpr std::pair<std::string_view, BodyRegion> kMiddle[] = {
-    {"c7", BodyRegion::kShoulders},   {"clav", BodyRegion::kShoulders},
-    {"strn", BodyRegion::kElsewhere}, {"t10", BodyRegion::kElsewhere},
-    {"l3", BodyRegion::kElsewhere},   {"sacr", BodyRegion::kPelvis}};
+/// Whether a label by itself names a landmark, with its side where it has one.
+bool IsLandmark(std::string_view label) {
+  const LandmarkTable& table = ShippedLandmarks();
+  const std::vector<LabelReading> readings = ReadingsOf(label, table);
+  return std::any_of(readings.begin(), readings.end(), [&](const LabelReading& one) {
+    return one.side != BodySide::kNone ||
+           !table.landmarks()[static_cast<std::size_t>(one.landmark)].is_sided;
+  });
+}
 
 /// A label, taken apart.
 struct Label {
@@ -60,7 +57,7 @@ Label TakeApart(int index, std::string_view label, const std::set<std::string_vi
   if (bar != std::string_view::npos && bar > 0) {
     const std::string_view prefix = label.substr(0, bar);
     const bool declared = prefixes.contains(prefix) || prefixes.contains(label.substr(0, bar + 1));
-    if (declared || FindBodyRegion(label.substr(bar + 1))) return part(bar);
+    if (declared || (IsLandmark(label.substr(bar + 1)) && !IsLandmark(label))) return part(bar);
   }
   return {index, "", std::string(Trim(label))};
 }
@@ -100,7 +97,7 @@ MarkersAndPoints KeepMarkers(const std::vector<std::string>& labels,
       kept.unlabelled.push_back(std::move(label));
     } else if (axes.contains(labels[i]) || no_markers.contains(labels[i])) {
       ++computed;
-      if (FindBodyRegion(label.name)) {
+      if (IsLandmark(label.name)) {
         WarnOfKind(
             warnings, "points that are computed here",
             fmt::format("{} is a computed point here (Plug-in Gait), not a marker", labels[i]));
@@ -122,7 +119,7 @@ struct Group {
   std::vector<Label> labels;
   bool IsPerson() const {
     return kMarkersOfAPerson <= std::count_if(labels.begin(), labels.end(), [](const Label& label) {
-             return FindBodyRegion(label.name).has_value();
+             return IsLandmark(label.name);
            });
   }
 };
@@ -228,16 +225,17 @@ std::string NormalizeLabel(std::string_view label) {
   return normalized;
 }
 
-std::optional<BodyRegion> FindBodyRegion(std::string_view label) {
-  const std::string name = NormalizeLabel(label);
-  for (const auto& [middle, region] : kMiddle) {
-    if (name == middle) return region;
+std::vector<std::optional<BodyRegion>> BodyRegionsOf(const std::vector<std::string>& labels) {
+  const LandmarkTable& table = ShippedLandmarks();
+  std::vector<std::optional<BodyRegion>> regions;
+  regions.reserve(labels.size());
+  for (const ReadLabel& one : ReadLabels(labels, {}, table)) {
+    regions.emplace_back();
+    if (one.readings.empty()) continue;
+    regions.back() =
+        RegionOf(table.landmarks()[static_cast<std::size_t>(one.readings.front().landmark)]);
   }
-  if (name.size() != 4 || (name[0] != 'l' && name[0] != 'r')) return std::nullopt;
-  for (const auto& [sided, region] : kSided) {
-    if (name.compare(1, 3, sided) == 0) return region;
-  }
-  return std::nullopt;
+  return regions;
 }
 
 LabelSelection SelectLabels(const std::vector<std::string>& labels,

@@ -13,12 +13,12 @@ namespace mmm_converter {
 /// Labels are compared without case, blanks and punctuation: "R.Knee Medial" is "rkneemedial".
 std::string NormalizeLabel(std::string_view label);
 
-/// Where a marker of a common set (KIT, Plug-in Gait, CMU) is worn, as far as that helps to tell a
-/// person from an object and up from down.
-enum class BodyRegion { kHead, kShoulders, kPelvis, kFeet, kElsewhere };
+/// Where a marker is worn, as far as that helps to tell a person from an object and up from down.
+enum class BodyRegion { kHead, kShoulders, kThorax, kPelvis, kFeet, kElsewhere };
 
-/// Nothing for a label that none of those sets has. The label has no subject prefix.
-std::optional<BodyRegion> FindBodyRegion(std::string_view label);
+/// Of the labels of one recording, without subject; nothing for one that is no landmark's
+/// (ReadLabels).
+std::vector<std::optional<BodyRegion>> BodyRegionsOf(const std::vector<std::string>& labels);
 
 /// The labels of one subject, and where they are in the file.
 struct LabelSelection {
@@ -30,7 +30,7 @@ struct LabelSelection {
 
 /// Leaves out unlabelled points (*12), what outputs lists, and the bone axes of Plug-in Gait (xxxO,
 /// xxxA, xxxL and xxxP together), then chooses among the subjects, by `Subject:LABEL` or
-/// `Subject_LABEL`: the one asked for; else the only one that wears markers of a common set.
+/// `Subject_LABEL`: the one asked for; else the only one that wears landmarks of a body.
 /// label_prefixes: what the file declares, may be empty. file: for messages. with_unlabelled:
 /// points without a label stay, whoever wears them, in their places.
 /// @throws Error that lists the subjects where the choice is not clear or there is no such one.

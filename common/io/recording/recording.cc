@@ -78,6 +78,8 @@ void BringToMetresAndZUp(const std::string& said_unit, const std::vector<UpAxis>
   recording->up_axis_was_decided = up.decided;
   if (!up.warning.empty()) {
     Warn(warnings, up.warning);
+  }
+  if (!up.warning.empty() && up.is_doubtful) {
     recording->doubts.push_back({up.warning, Remedy::kUpAxis});
     recording->up_axis_is_doubtful = true;
   }

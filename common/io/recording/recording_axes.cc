@@ -64,10 +64,11 @@ double SizeOf(const MarkerSequence& markers) {
   return sizes.empty() ? 0 : Quantile(std::move(sizes), 0.5);
 }
 
-std::vector<int> LabelsIn(const MarkerSequence& markers, BodyRegion region) {
+std::vector<int> LabelsIn(const std::vector<std::optional<BodyRegion>>& regions,
+                          BodyRegion region) {
   std::vector<int> found;
-  for (int i = 0; i < markers.num_labels(); ++i) {
-    if (FindBodyRegion(markers.labels()[i]) == region) found.push_back(i);
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i] == region) found.push_back(static_cast<int>(i));
   }
   return found;
 }
@@ -99,17 +100,16 @@ Eigen::Vector3d Mean(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std:
 /// From low to high markers in each sampled frame, from the best pair of regions that is there.
 std::vector<Eigen::Vector3d> BodyAxes(const MarkerSequence& markers) {
   constexpr std::pair<BodyRegion, BodyRegion> kHighLow[] = {
-      {BodyRegion::kHead, BodyRegion::kFeet},
-      {BodyRegion::kShoulders, BodyRegion::kFeet},
-      {BodyRegion::kHead, BodyRegion::kPelvis},
-      {BodyRegion::kShoulders, BodyRegion::kPelvis},
-      {BodyRegion::kPelvis, BodyRegion::kFeet}};
+      {BodyRegion::kHead, BodyRegion::kFeet},   {BodyRegion::kShoulders, BodyRegion::kFeet},
+      {BodyRegion::kHead, BodyRegion::kPelvis}, {BodyRegion::kShoulders, BodyRegion::kPelvis},
+      {BodyRegion::kPelvis, BodyRegion::kFeet}, {BodyRegion::kShoulders, BodyRegion::kThorax}};
+  const auto regions = BodyRegionsOf(markers.labels());
   const std::vector<int> frames = SampleFrames(markers);
   std::vector<Eigen::Vector3d> best;
   for (const auto& [high, low] : kHighLow) {
     std::vector<Eigen::Vector3d> axes;
-    const std::vector<int> high_labels = LabelsIn(markers, high);
-    const std::vector<int> low_labels = LabelsIn(markers, low);
+    const std::vector<int> high_labels = LabelsIn(regions, high);
+    const std::vector<int> low_labels = LabelsIn(regions, low);
     for (const int k : frames) {
       const Eigen::Vector3d d =
           Mean(markers.frame(k), high_labels) - Mean(markers.frame(k), low_labels);
@@ -186,21 +186,29 @@ BodyAxis FindBodyAxis(const MarkerSequence& markers) {
   return {static_cast<UpAxis>(axis + (down ? 3 : 0)), ""};
 }
 
-/// body: contradicts what the file states.
+/// body: contradicts what the file states. Who stands on the ground of the one axis and not of the
+/// other settles it. Where none does, nobody stands on the head throughout; but who lies may be
+/// where the file has no ground.
 UpAxisDecision WeighStated(const MarkerSequence& markers, double metres, UpAxis stated,
                            UpAxis body) {
   constexpr double kTravel = 1;  // [m]
+  const bool is_opposite = static_cast<int>(stated) % 3 == static_cast<int>(body) % 3;
   const bool is_impossible = metres * LowEndOf(markers, stated).range > kTravel;
-  if (is_impossible && IsOnGround(markers, metres, body)) {
+  const bool stands_by_body = IsOnGround(markers, metres, body);
+  const bool stands_by_file = IsOnGround(markers, metres, stated);
+  if (!stands_by_file && (is_opposite || (stands_by_body && is_impossible))) {
     return {body, true,
-            fmt::format("the file states that {} is up, but along it the person would travel by "
-                        "more than a metre, and along {} stands on the ground; {} is taken",
-                        Name(stated), Name(body), Name(body))};
+            fmt::format("the file states that {} is up, but most of the time the person's head is "
+                        "towards {}{}; {} is taken",
+                        Name(stated), Name(body), stands_by_body ? ", and the ground is there" : "",
+                        Name(body)),
+            !stands_by_body};
   }
   return {stated, false,
           fmt::format("the file states that {} is up, but most of the time the person's head is "
                       "towards {}; {} is taken",
-                      Name(stated), Name(body), Name(stated))};
+                      Name(stated), Name(body), Name(stated)),
+          true};
 }
 
 /// body: is none of the usual ones.
@@ -218,7 +226,8 @@ UpAxisDecision WeighUsual(const MarkerSequence& markers, double metres,
           fmt::format("{}, but the ground is along {}; {} is taken", said, Name(axis), Name(axis))};
     }
   }
-  return {body, true, fmt::format("{}, which is unusual; {} is taken as up", said, Name(body))};
+  return {body, true, fmt::format("{}, which is unusual; {} is taken as up", said, Name(body)),
+          !IsOnGround(markers, metres, body)};
 }
 
 }  // namespace
@@ -230,9 +239,9 @@ UnitDecision ParseUnit(const std::string& text) {
 
 UnitDecision DecideUnit(const MarkerSequence& markers, const std::string& said) {
   const double size = SizeOf(markers);
-  const int known = static_cast<int>(
-      std::count_if(markers.labels().begin(), markers.labels().end(),
-                    [](const std::string& label) { return FindBodyRegion(label).has_value(); }));
+  const auto regions = BodyRegionsOf(markers.labels());
+  const int known = static_cast<int>(std::count_if(
+      regions.begin(), regions.end(), [](const auto& region) { return region.has_value(); }));
   const bool person = known >= 8;
   const auto plausible = [&](double metres) {
     return person ? size * metres >= 0.5 && size * metres <= 3

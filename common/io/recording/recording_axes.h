@@ -29,8 +29,9 @@ UnitDecision ParseUnit(const std::string& text);
 
 struct UpAxisDecision {
   UpAxis axis = UpAxis::kZ;
-  bool decided = false;  ///< from the markers; false: stated by the file, or assumed
-  std::string warning;   ///< empty: nothing contradicts it
+  bool decided = false;     ///< from the markers; false: stated by the file, or assumed
+  std::string warning;      ///< empty: nothing contradicts it
+  bool is_doubtful = true;  ///< where there is a warning; false: what contradicts it can't be right
 };
 
 /// What is said of a recording's up axis.
@@ -44,9 +45,10 @@ struct UpAxisClaims {
 /// markers stands: that which leads from feet to head, or between what else is known, over the
 /// whole trial. Upside down for some time does not count: then the sign is the one with the
 /// steadier ground. Where these, or the usual axes, disagree there is a warning, and the ground
-/// counts, the lowest markers being near 0 throughout: a file is overruled where the person would
-/// travel up and down by more than a metre, and a person lies on the ground of a usual axis rather
-/// than stands without any. markers: in file units of so many metres.
+/// counts, the lowest markers being near 0 throughout: a file without ground is overruled where the
+/// person would be upside down, or would travel up and down by more than a metre and stands on the
+/// ground of another axis; and a person lies on the ground of a usual axis rather than stands
+/// without any. markers: in file units of so many metres.
 UpAxisDecision DecideUpAxis(const MarkerSequence& markers, double metres,
                             const UpAxisClaims& claims);
 

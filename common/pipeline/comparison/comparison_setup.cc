@@ -8,6 +8,7 @@
 #include <map>
 
 #include "common/pipeline/input/finished_motion.h"
+#include "common/pipeline/input/matched_labels.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -31,10 +32,11 @@ void ScaleTrialsModel(const InputRequest& request, ConverterConfig config, Input
   MatchModel(request, read, &config);
   const Input& input = *read;
   const Recording& recording = input.recording;
-  TrackingSetup setup = MatchMarkers(LabelsOf(recording.markers, recording.file), input.reference,
-                                     config, nullptr);  // each row says it
+  TrackingSetup setup = MatchLabels(LabelsOf(recording.markers, recording.file), read, config,
+                                    nullptr);  // each row says it
   WarnOfFreeJoints(setup, config, warnings);
-  const Person person = FindPerson(request.person, setup, recording, config, warnings);
+  const Person person =
+      FindPerson(request.person, setup, recording, config, warnings, input.names.get());
   ScaleToPerson(ScalingOf(person, config), &setup);
   trial->model = setup.model;
   trial->subject = person.subject;

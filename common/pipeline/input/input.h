@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/convert/converter_config.h"
+#include "common/convert/named_markers.h"
 #include "common/io/model_file.h"
 #include "common/io/recording/recording.h"
 #include "common/model/kinematic_model.h"
@@ -46,6 +47,11 @@ struct Input {
   std::string model_file;
   std::shared_ptr<const LoadedModel> model;         ///< of that file
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
+  /// What is calibrated is where clusters sit from their usual places: these stay in all
+  /// recordings.
+  bool keeps_usual_places = false;
+  std::shared_ptr<const NamedMarkers>
+      names;  ///< null: a marker set knows the labels; see MatchLabels
 };
 
 /// Says in the plan which files the request names.

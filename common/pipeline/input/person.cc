@@ -30,10 +30,27 @@ std::optional<PersonValue> Choose(const std::optional<double>& given,
   return std::nullopt;
 }
 
-void Estimate(const TrackingSetup& setup, const MarkerSequence& markers, Person* person) {
-  const PersonHeight estimate = EstimatePersonHeight(setup, markers);
+/// Only by markers whose places were known before the recording.
+TrackingSetup WithKnownPlaces(TrackingSetup setup, const NamedMarkers& names) {
+  std::erase_if(setup.mapping.assignments, [&](const MarkerAssignment& one) {
+    return names.labels[static_cast<std::size_t>(one.label)].is_cluster;
+  });
+  return setup;
+}
+
+void Estimate(const TrackingSetup& setup, const MarkerSequence& markers, const NamedMarkers* names,
+              Person* person) {
+  // Hardly less than the heights of persons differ.
+  constexpr double kUnknown = 0.9 * kHeightDeviation;
+  const PersonHeight estimate =
+      names == nullptr ? EstimatePersonHeight(setup, markers)
+                       : EstimatePersonHeight(WithKnownPlaces(setup, *names), markers, true);
   person->height = {estimate.height, fmt::format("estimated from {} frames", estimate.frames)};
   person->height_deviation = estimate.deviation;
+  if (estimate.deviation > kUnknown) {
+    person->height = {kOrdinaryHeight, "an ordinary one; the markers don't tell it"};
+    person->height_deviation = kHeightDeviation;
+  }
 }
 
 // Files have at least 6 digits of a metre or a kilogram.
@@ -91,13 +108,15 @@ void UseNumbers(const PersonRequest& request, const BodySize& processor, const R
 
 Person Find(const PersonRequest& request, const KinematicModel& reference,
             const Recording& recording, const ConverterConfig& config,
-            const std::function<void(Person*)>& estimate_height, Warnings* warnings) {
+            const std::function<void(Person*)>& estimate_height, bool has_names,
+            Warnings* warnings) {
   Person person;
   BodySize processor;
   if (!request.processor_file.empty()) processor = ReadProcessorConfig(request.processor_file);
   person.subject_file = request.subject_file.empty() ? config.subject_file : request.subject_file;
   if (!person.subject_file.empty()) {
-    person.subject = std::make_shared<Subject>(ReadSubject(person.subject_file, reference));
+    person.subject =
+        std::make_shared<Subject>(ReadSubject(person.subject_file, reference, has_names));
     UseSubject(request, processor, recording, &person, warnings);
     return person;
   }
@@ -147,10 +166,11 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
 }
 
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
-                  const Recording& recording, const ConverterConfig& config, Warnings* warnings) {
+                  const Recording& recording, const ConverterConfig& config, Warnings* warnings,
+                  const NamedMarkers* names) {
   if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
-  const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, person); };
-  return Find(request, *setup.model, recording, config, estimate, warnings);
+  const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, names, person); };
+  return Find(request, *setup.model, recording, config, estimate, names != nullptr, warnings);
 }
 
 Person FindPersonOfPoints(const PersonRequest& request, const KinematicModel& reference,
@@ -163,7 +183,7 @@ Person FindPersonOfPoints(const PersonRequest& request, const KinematicModel& re
         "recording of the person whose labels are right ({}), or {}",
         OptionText("subject-file"), OptionText("like"), OptionText("height")));
   };
-  return Find(request, reference, recording, config, fail, warnings);
+  return Find(request, reference, recording, config, fail, false, warnings);
 }
 
 Person FindKnownPerson(const PersonRequest& request, const KinematicModel& reference,
@@ -173,7 +193,7 @@ Person FindKnownPerson(const PersonRequest& request, const KinematicModel& refer
       OptionText("mass"), OptionText("person"), OptionText("subject-file"));
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));
   const auto fail = [&](Person* /*person*/) { throw Error(unknown); };
-  Person person = Find(request, reference, Recording(), config, fail, warnings);
+  Person person = Find(request, reference, Recording(), config, fail, false, warnings);
   if (person.mass.source == kAssumed) throw Error(unknown);
   return person;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/convert/converter_config.h"
+#include "common/convert/named_markers.h"
 #include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
 #include "common/model/body_size.h"
@@ -56,8 +57,10 @@ PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 /// (`<Model name="None">`; MatchModel).
 /// @throws Error; also where the user gives another height or hand length than the subject's, which
 ///         its segment scales are relative to.
+/// names: by which MatchLabels made the setup; null: it did not.
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
-                  const Recording& recording, const ConverterConfig& config, Warnings* warnings);
+                  const Recording& recording, const ConverterConfig& config, Warnings* warnings,
+                  const NamedMarkers* names = nullptr);
 
 /// As FindPerson, of a recording whose points have no names yet: the height can't be estimated.
 /// @throws Error as FindPerson, and where the height is not known.

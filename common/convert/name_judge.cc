@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/name_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/fit/height_estimate.h"
+#include "common/fit/posture_search.h"
+#include "common/math/statistics.h"
+#include "common/model/model_scaling.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr int kJudgedFrames = 12;
+constexpr int kPoseAttempts = 8;
+constexpr int kFewestNamed = 4;      // labels of a frame that determine more than a pose
+constexpr double kNobodysMass = 70;  // [kg]; no place depends on it
+
+// Medians over the frames. Real persons' markers are some 0.02 to 0.08 m from their places, with a
+// deviation of 0.028 on each axis.
+constexpr double kFar = 0.09;         ///< another meaning is looked for [m]
+constexpr double kDoubtful = 0.06;    ///< the same where the name has several [m]
+constexpr double kFarDeviations = 3;  ///< the same of a landmark that is told less well
+constexpr double kWrong = 0.2;        ///< it is not there at all [m]
+constexpr double kWrongDeviations = 4.5;
+constexpr double kNearby = 0.08;  ///< another meaning is right
+constexpr double kBetter = 0.5;
+constexpr double kMostClusterStray =
+    0.06;                              ///< of a cluster's label about its place on the segment [m]
+constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such are usually [m]
+
+}  // namespace
+
+NameJudge::NameJudge(const KinematicModel& reference, const std::vector<int>& joints,
+                     const MarkerSequence& recording, const LandmarkTable& table,
+                     NamedMarkers* named)
+    : reference_(reference), joints_(joints), recording_(recording), table_(table), named_(*named) {
+  is_placed_.resize(named->labels.size(), false);
+  AddMirroredReadings();
+  MakeModel();
+  ChooseFrames();
+}
+
+void NameJudge::Run(bool places_clusters) {
+  const double height = FindHeight();
+  Pose(height);
+  for (int round = 0; round < 4 && Reconsider(); ++round) Pose(height);
+  if (places_clusters) PlaceClusters(height);
+}
+
+double NameJudge::MeanDistance() const {
+  constexpr double kMost = 0.3;
+  double sum = 0;
+  int count = 0;
+  for (const Hypothesis& one : places_) {
+    const double distance = Distance(one.label, one.markers[one.chosen]);
+    if (std::isnan(distance)) continue;
+    sum += one.is_out ? kMost : std::min(kMost, distance);
+    ++count;
+  }
+  return sum / std::max(1, count);
+}
+
+void NameJudge::AddMirroredReadings() {
+  for (NamedLabel& label : named_.labels) {
+    std::vector<LabelReading> mirrored;
+    for (const LabelReading& one : label.readings) {
+      if (one.side == BodySide::kNone) continue;
+      const bool is_left = one.side == BodySide::kLeft;
+      mirrored.push_back({one.landmark, is_left ? BodySide::kRight : BodySide::kLeft});
+    }
+    label.readings.insert(label.readings.end(), mirrored.begin(), mirrored.end());
+  }
+}
+
+void NameJudge::MakeModel() {
+  ModelDescription description{reference_.name(), reference_.segments(), {}, {}};
+  const auto add = [&](ModelMarker marker) {
+    marker.name = fmt::format("{}", description.markers.size());
+    description.markers.push_back(std::move(marker));
+    return static_cast<int>(description.markers.size()) - 1;
+  };
+  for (std::size_t i = 0; i < named_.labels.size(); ++i) {
+    const NamedLabel& label = named_.labels[i];
+    if (label.marker.empty()) continue;
+    Hypothesis one{static_cast<int>(i), {}, 0, false};
+    const bool is_place = IsPlace(label.readings.front());
+    for (const LabelReading& reading : label.readings) {
+      const auto place = PlaceOf(reading, table_, reference_);
+      one.markers.push_back(place && (is_place == IsPlace(reading)) ? add(*place) : -1);
+      if (is_place) continue;
+      if (!place) break;
+      for (const Vector3d& p :
+           {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
+        one.markers.push_back(add({"", place->segment, p}));
+      }
+      break;
+    }
+    (is_place ? places_ : clusters_).push_back(std::move(one));
+  }
+  model_.emplace(std::move(description));
+}
+
+void NameJudge::ChooseFrames() {
+  for (int part = 0; part < kJudgedFrames; ++part) {
+    const long n = recording_.num_frames();
+    int best = -1, most = kFewestNamed - 1;
+    for (int k = static_cast<int>(n * part / kJudgedFrames); k < n * (part + 1) / kJudgedFrames;
+         ++k) {
+      const auto frame = recording_.frame(k);
+      const auto seen = std::count_if(places_.begin(), places_.end(), [&](const auto& one) {
+        return IsSeen(frame.col(one.label));
+      });
+      if (seen <= most) continue;
+      most = static_cast<int>(seen);
+      best = k;
+    }
+    if (best >= 0) frames_.push_back(best);
+  }
+  postures_.resize(frames_.size());
+}
+
+std::vector<MarkerIx> NameJudge::ChosenMarkers() const {
+  std::vector<MarkerIx> markers;
+  markers.reserve(places_.size());
+  for (const Hypothesis& one : places_) markers.emplace_back(one.markers[one.chosen]);
+  return markers;
+}
+
+VectorXd NameJudge::NoiseScales() const {
+  VectorXd scales(static_cast<Eigen::Index>(places_.size()));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    scales[static_cast<Eigen::Index>(i)] = NoiseScaleOf(LandmarkOf(Chosen(places_[i])));
+  }
+  return scales;
+}
+
+double NameJudge::FindHeight() const {
+  std::vector<LabelIx> labels;
+  for (const Hypothesis& one : places_) labels.emplace_back(one.label);
+  HeightOptions options;
+  options.noise_scale = NoiseScales();
+  options.with_ordinary_height = true;
+  return EstimateHeight(*model_, joints_, ChosenMarkers(), labels, recording_, options).height;
+}
+
+Matrix3Xd NameJudge::Measured(int frame) const {
+  Matrix3Xd z(3, static_cast<Eigen::Index>(places_.size()));
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    auto column = z.col(static_cast<Eigen::Index>(i));
+    column = recording_.frame(frame).col(places_[i].label);
+    if (places_[i].is_out) column.setConstant(kNaN);
+  }
+  return z;
+}
+
+void NameJudge::Pose(double height) {
+  const KinematicModel scaled = ScaleWinter(*model_, {height, kNobodysMass, {}});
+  const MarkerKinematics kinematics(scaled, joints_, ChosenMarkers());
+  std::vector<MarkerIx> all;
+  for (int i = 0; i < static_cast<int>(model_->markers().size()); ++i) all.emplace_back(i);
+  const MarkerKinematics everything(scaled, joints_, all);
+  MarkerJacobian at = everything.MakeJacobian();
+  PostureSearch search(kinematics);
+  PostureFitOptions options;
+  options.robust_distance = 0.1;
+  const VectorXd scales = NoiseScales();
+  p_WM_.clear();
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    Posture& posture = postures_[f];
+    search.Assemble(Measured(frames_[f]), scales, options, kPoseAttempts, &posture);
+    everything.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
+                              posture.joint_angles, &at);
+    p_WM_.push_back(at.p_WM);
+  }
+}
+
+double NameJudge::Distance(int label, int marker) const {
+  std::vector<double> distances;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    const Vector3d p = recording_.frame(frames_[f]).col(label);
+    if (p.allFinite()) distances.push_back((p - p_WM_[f].col(marker)).norm());
+  }
+  return distances.empty() ? kNaN : Median(distances);
+}
+
+bool NameJudge::Reconsider() {
+  std::vector<std::pair<double, Hypothesis*>> far;
+  for (Hypothesis& one : places_) {
+    if (one.is_out) continue;
+    const double distance = Distance(one.label, one.markers[one.chosen]);
+    const double bound =
+        HasChoice(one) ? kDoubtful : std::max(kFar, kFarDeviations * DeviationOf(one));
+    if (distance > bound) far.emplace_back(distance / bound, &one);
+  }
+  std::stable_sort(far.begin(), far.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  bool is_changed = false;
+  for (std::size_t i = 0; 2 * i < far.size() + 1 && i < far.size(); ++i) {
+    is_changed |= Reconsider(far[i].second);
+  }
+  return is_changed;
+}
+
+bool NameJudge::HasChoice(const Hypothesis& one) const {
+  const NamedLabel& label = named_.labels[Ix(one.label)];
+  return std::count_if(label.readings.begin(), label.readings.end(),
+                       [&](const auto& reading) { return reading.side == Chosen(one).side; }) > 1;
+}
+
+bool NameJudge::Reconsider(Hypothesis* one) {
+  NamedLabel& label = named_.labels[Ix(one->label)];
+  const double distance = Distance(one->label, one->markers[one->chosen]);
+  std::size_t best = one->chosen;
+  double least = std::min(kNearby, kBetter * distance);
+  for (std::size_t r = 0; r < one->markers.size(); ++r) {
+    if (one->markers[r] < 0 || r == one->chosen) continue;
+    const double other = Distance(one->label, one->markers[r]);
+    if (other >= least) continue;
+    least = other;
+    best = r;
+  }
+  if (best != one->chosen) {
+    label.note = fmt::format("worn {:.0f} mm from the {}, {:.0f} mm from the {}",
+                             kMillimetres * distance, DescribeReading(Chosen(*one), table_),
+                             kMillimetres * least, DescribeReading(label.readings[best], table_));
+    label.is_contradicted |= label.readings[best].side != Chosen(*one).side;
+    one->chosen = best;
+    return true;
+  }
+  if (distance < std::max(kWrong, kWrongDeviations * DeviationOf(*one))) return false;
+  label.note = fmt::format("{:.0f} mm from the {}", kMillimetres * distance,
+                           DescribeReading(Chosen(*one), table_));
+  label.is_contradicted = true;
+  one->is_out = true;
+  return true;
+}
+
+void NameJudge::PlaceClusters(double height) {
+  for (const Hypothesis& one : clusters_) {
+    if (one.markers.size() < 5) continue;
+    std::vector<Vector3d> places;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      const Vector3d p = recording_.frame(frames_[f]).col(one.label);
+      if (!p.allFinite()) continue;
+      const Matrix3Xd& at = p_WM_[f];
+      const Vector3d origin = at.col(one.markers[1]);
+      Eigen::Matrix3d axes;
+      for (int a = 0; a < 3; ++a) axes.col(a) = (at.col(one.markers[Ix(2 + a)]) - origin) / height;
+      places.emplace_back(axes.transpose() * (p - origin) / height);
+    }
+    if (!places.empty()) PlaceCluster(one, places, height);
+  }
+}
+
+void NameJudge::PlaceCluster(const Hypothesis& one, const std::vector<Vector3d>& places,
+                             double height) {
+  Vector3d place;
+  for (int a = 0; a < 3; ++a) {
+    std::vector<double> values;
+    for (const Vector3d& p : places) values.push_back(p[a]);
+    place[a] = Median(values);
+  }
+  std::vector<double> strays;
+  for (const Vector3d& p : places) strays.push_back(height * (p - place).norm());
+  const double stray = Median(strays);
+  NamedLabel& label = named_.labels[Ix(one.label)];
+  const Vector3d usual = model_->markers()[Ix(one.markers[0])].p_SM;
+  const double away = height * (place - usual).norm();
+  const auto own = std::find_if(named_.set.places.begin(), named_.set.places.end(),
+                                [&](const auto& p) { return p.marker == label.marker; });
+  if (own == named_.set.places.end()) return;
+  if (stray > kMostClusterStray || away > kFarthestWorn) {
+    label.note = stray > kMostClusterStray
+                     ? fmt::format("moves by {:.0f} mm on the {}", kMillimetres * stray, label.part)
+                     : fmt::format("{:.0f} mm from the {}", kMillimetres * away, label.part);
+    label.marker.clear();
+    label.is_contradicted = true;
+    return;
+  }
+  own->p_SM = place;
+  is_placed_[Ix(one.label)] = true;
+  for (MarkerPair& pair : named_.set.pairs) {
+    if (pair.target == label.marker) pair.noise_scale = 1 + stray / kMostClusterStray;
+  }
+}
+
+void NameJudge::Compose() {
+  std::vector<std::string> labels;
+  std::vector<ReadLabel> read;
+  for (const NamedLabel& one : named_.labels) {
+    labels.push_back(one.label);
+    read.push_back({one.readings, one.marker.empty() ? one.note : ""});
+  }
+  for (const Hypothesis& one : places_) {
+    ReadLabel& label = read[Ix(one.label)];
+    std::rotate(label.readings.begin(),
+                label.readings.begin() + static_cast<std::ptrdiff_t>(one.chosen),
+                label.readings.begin() + static_cast<std::ptrdiff_t>(one.chosen) + 1);
+    if (one.is_out) label.why_left_out = named_.labels[Ix(one.label)].note;
+  }
+  NamedMarkers composed = ComposeNamedMarkers(labels, read, reference_, table_);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    NamedLabel& one = composed.labels[i];
+    const NamedLabel& before = named_.labels[i];
+    if (one.note.empty()) one.note = before.note;
+    one.is_contradicted = before.is_contradicted;
+    if (!is_placed_[i] || one.marker.empty()) continue;
+    TakePlace(before, one, &composed.set);
+  }
+  named_ = std::move(composed);
+}
+
+void NameJudge::TakePlace(const NamedLabel& before, const NamedLabel& now, MarkerSet* set) const {
+  for (const MarkerPlace& place : named_.set.places) {
+    if (place.marker != before.marker) continue;
+    for (MarkerPlace& own : set->places) {
+      if (own.marker == now.marker) own.p_SM = place.p_SM;
+    }
+  }
+  for (const MarkerPair& pair : named_.set.pairs) {
+    if (pair.target != before.marker) continue;
+    for (MarkerPair& own : set->pairs) {
+      if (own.target == now.marker) own.noise_scale = pair.noise_scale;
+    }
+  }
+}
+
+}  // namespace mmm_converter

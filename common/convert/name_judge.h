@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "common/convert/named_markers.h"
+#include "common/model/posture.h"
+#include "common/motion/marker_sequence.h"
+
+namespace mmm_converter {
+
+/// A label on the way to its meaning.
+struct Hypothesis {
+  int label = 0;             ///< of the named markers and of the recording
+  std::vector<int> markers;  ///< of its readings, of the judge's model; -1: the model has none
+  std::size_t chosen = 0;    ///< of the readings
+  bool is_out = false;
+};
+
+/// Postures of some frames of a recording, fitted to what the labels' names mean, and what they say
+/// of the names; see UnderstandLabels.
+class NameJudge {
+ public:
+  /// All must outlive it; named is changed by Compose only as far as others see.
+  NameJudge(const KinematicModel& reference, const std::vector<int>& joints,
+            const MarkerSequence& recording, const LandmarkTable& table, NamedMarkers* named);
+
+  bool has_frames() const { return !frames_.empty(); }
+  void Run(bool places_clusters);
+  /// How far labels are from their places, on average, those far away counting as 0.3 m [m].
+  double MeanDistance() const;
+  /// What was found, as a marker set anew.
+  void Compose();
+
+ private:
+  static std::size_t Ix(int i) { return static_cast<std::size_t>(i); }
+  const Landmark& LandmarkOf(const LabelReading& reading) const {
+    return table_.landmarks()[Ix(reading.landmark)];
+  }
+  bool IsPlace(const LabelReading& reading) const {
+    return LandmarkOf(reading).kind != LandmarkKind::kSegment;
+  }
+  const LabelReading& Chosen(const Hypothesis& one) const {
+    return named_.labels[Ix(one.label)].readings[one.chosen];
+  }
+  double DeviationOf(const Hypothesis& one) const { return LandmarkOf(Chosen(one)).deviation; }
+
+  /// What is named left may be worn right.
+  void AddMirroredReadings();
+  /// Of a place, a marker for each reading; of a cluster, four more that show how its segment lies.
+  void MakeModel();
+  void ChooseFrames();
+
+  std::vector<MarkerIx> ChosenMarkers() const;
+  Eigen::VectorXd NoiseScales() const;
+  double FindHeight() const;
+  /// The frame as the fit sees it: what is left out is not seen.
+  Eigen::Matrix3Xd Measured(int frame) const;
+  /// The postures of the frames at a height, and where they have all markers of the model.
+  void Pose(double height);
+  /// The median distance of a label from a marker of the model; NaN where it is not seen.
+  double Distance(int label, int marker) const;
+
+  /// Of the labels that are far from their places, the farther half gets other meanings or none.
+  bool Reconsider();
+  bool Reconsider(Hypothesis* one);
+  /// Whether the name itself can mean several places.
+  bool HasChoice(const Hypothesis& one) const;
+
+  /// Where clusters are on their segments, by the postures.
+  void PlaceClusters(double height);
+  void PlaceCluster(const Hypothesis& one, const std::vector<Eigen::Vector3d>& places,
+                    double height);
+  void TakePlace(const NamedLabel& before, const NamedLabel& now, MarkerSet* set) const;
+
+  const KinematicModel& reference_;
+  const std::vector<int>& joints_;
+  const MarkerSequence& recording_;
+  const LandmarkTable& table_;
+  NamedMarkers& named_;
+  std::optional<KinematicModel> model_;  ///< of 1 m, with a marker for each reading
+  std::vector<Hypothesis> places_, clusters_;
+  std::vector<bool> is_placed_;  ///< by label: a cluster's, by the postures
+  std::vector<int> frames_;
+  std::vector<Posture> postures_;
+  std::vector<Eigen::Matrix3Xd> p_WM_;  ///< by frame, all markers of the model
+};
+
+}  // namespace mmm_converter

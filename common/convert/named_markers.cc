@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/named_markers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/io/recording/marker_labels.h"
+#include "common/model/kit_joints.h"
+
+namespace mmm_converter {
+namespace {
+
+/// Of each coordinate of a place of the model from where the marker is worn [m]: noise scale 1.
+constexpr double kModelDeviation = 0.028;
+
+const Landmark& LandmarkOf(const LabelReading& reading, const LandmarkTable& table) {
+  return table.landmarks()[static_cast<std::size_t>(reading.landmark)];
+}
+
+std::string WithSide(const std::string& what, BodySide side) {
+  if (side == BodySide::kNone) return what;
+  return (side == BodySide::kLeft ? "left " : "right ") + what;
+}
+
+/// Of a segment or marker of the left, that of the right; the same where it is of no side.
+std::string OnTheRight(const std::string& left) {
+  for (const std::string_view prefix : {"MARKER_", "Hand ", ""}) {
+    if (!left.starts_with(prefix)) continue;
+    const std::string mirrored = MirroredName(left.substr(prefix.size()));
+    return mirrored.empty() ? left : std::string(prefix) + mirrored;
+  }
+  return left;
+}
+
+/// More labels of a part than these tell little more of it.
+int MostOf(const std::string& part) {
+  return part == "pelvis" || part == "thorax" || part == "head" ? 3 : 2;
+}
+
+/// The part, with side, of each marker of the model that is a landmark.
+std::map<std::string, std::string> PartsOfMarkers(const LandmarkTable& table) {
+  std::map<std::string, std::string> parts;
+  for (const Landmark& one : table.landmarks()) {
+    if (one.marker.empty()) continue;
+    if (!one.is_sided) {
+      parts.emplace(one.marker, one.part);
+      continue;
+    }
+    parts.emplace(one.marker, WithSide(one.part, BodySide::kLeft));
+    parts.emplace(OnTheRight(one.marker), WithSide(one.part, BodySide::kRight));
+  }
+  return parts;
+}
+
+}  // namespace
+
+int NamedMarkers::num_used() const {
+  return static_cast<int>(std::count_if(labels.begin(), labels.end(),
+                                        [](const NamedLabel& one) { return !one.marker.empty(); }));
+}
+
+std::string DescribeReading(const LabelReading& reading, const LandmarkTable& table) {
+  return WithSide(LandmarkOf(reading, table).name, reading.side);
+}
+
+std::optional<ModelMarker> PlaceOf(const LabelReading& reading, const LandmarkTable& table,
+                                   const KinematicModel& model) {
+  const Landmark& landmark = LandmarkOf(reading, table);
+  const bool is_right = reading.side == BodySide::kRight;
+  const auto of_side = [&](const std::string& name) {
+    return is_right && landmark.is_sided ? OnTheRight(name) : name;
+  };
+  if (!landmark.marker.empty()) {
+    const int marker = model.FindMarker(of_side(landmark.marker));
+    if (marker < 0) return std::nullopt;
+    return model.markers()[static_cast<std::size_t>(marker)];
+  }
+  const int segment = model.FindSegment(of_side(landmark.segment));
+  if (segment < 0) return std::nullopt;
+  ModelMarker marker{"", segment, landmark.p_SM};
+  if (is_right && landmark.is_sided) marker.p_SM.x() = -marker.p_SM.x();
+  return marker;
+}
+
+double NoiseScaleOf(const Landmark& landmark) {
+  return std::max(1.0, landmark.deviation / kModelDeviation);
+}
+
+NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
+                                 const std::vector<ReadLabel>& read, const KinematicModel& model,
+                                 const LandmarkTable& table) {
+  NamedMarkers named;
+  named.set.name = "names";
+  named.set.description = "composed of the names of the labels";
+  std::set<std::string> taken;  // markers and labels, as the mapping compares them
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    NamedLabel& one = named.labels.emplace_back();
+    one.label = labels[i];
+    one.readings = read[i].readings;
+    one.note = read[i].why_left_out;
+    if (one.readings.empty()) continue;
+    const LabelReading& reading = one.readings.front();
+    const Landmark& landmark = LandmarkOf(reading, table);
+    one.landmark = DescribeReading(reading, table);
+    one.part = WithSide(landmark.part, reading.side);
+    one.is_cluster = landmark.kind == LandmarkKind::kSegment;
+    if (!one.note.empty()) continue;
+    one.lacks_side = landmark.is_sided && reading.side == BodySide::kNone;
+    const auto place = one.lacks_side ? std::nullopt : PlaceOf(reading, table, model);
+    if (!place || !taken.insert("label " + NormalizeLabel(one.label)).second) {
+      one.note = one.lacks_side ? "the side is not known"
+                 : place        ? "another label of that name"
+                                : "the model has no place for it";
+      continue;
+    }
+    const bool is_models =
+        !one.is_cluster && !place->name.empty() && taken.insert(place->name).second;
+    one.marker = is_models ? place->name : one.label;
+    named.set.pairs.push_back({one.label, one.marker, NoiseScaleOf(landmark)});
+    if (is_models) continue;
+    const Segment& segment = model.segments()[static_cast<std::size_t>(place->segment)];
+    named.set.places.push_back({one.label, segment.name, place->p_SM, 0});
+  }
+  return named;
+}
+
+NamedMarkers ComposeNamedMarkers(const MarkerLabels& labels, const KinematicModel& model,
+                                 const LandmarkTable& table) {
+  std::vector<ReadLabel> read = ReadLabels(labels.names, labels.seen, table);
+  for (std::size_t i = 0; i < labels.seen.size(); ++i) {
+    if (!labels.seen[i] && read[i].why_left_out.empty()) {
+      read[i].why_left_out = "not seen in any frame";
+    }
+  }
+  return ComposeNamedMarkers(labels.names, read, model, table);
+}
+
+bool TellMore(const NamedMarkers& named, const MarkerSet& set, const MarkerLabels& labels,
+              const LandmarkTable& table) {
+  const std::map<std::string, std::string> parts = PartsOfMarkers(table);
+  std::map<std::string, std::string> target_of;  // by label
+  for (const MarkerPair& pair : set.pairs) {
+    target_of.emplace(NormalizeLabel(pair.source), pair.target);
+  }
+  std::map<std::string, int> by_set, by_names;
+  std::set<std::string> targets;
+  for (std::size_t i = 0; i < labels.names.size(); ++i) {
+    if (!labels.seen.empty() && !labels.seen[i]) continue;
+    if (!named.labels[i].marker.empty()) ++by_names[named.labels[i].part];
+    const auto target = target_of.find(NormalizeLabel(labels.names[i]));
+    if (target == target_of.end() || !targets.insert(target->second).second) continue;
+    const auto part = parts.find(target->second);
+    if (part != parts.end()) ++by_set[part->second];
+  }
+  return std::any_of(by_names.begin(), by_names.end(), [&](const auto& one) {
+    const std::string& part = one.first;
+    const std::string bare = part.substr(part.find_last_of(' ') + 1);
+    return std::min(one.second, MostOf(bare)) > std::min(by_set[part], MostOf(bare));
+  });
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/convert/marker_mapping.h"
+#include "common/convert/marker_set.h"
+#include "common/io/landmarks/label_readings.h"
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+/// What is known of a label by its name.
+struct NamedLabel {
+  std::string label;
+  std::string landmark;          ///< "left heel"; empty: nothing is known of it
+  std::string part;              ///< "left foot"
+  std::string marker;            ///< of the set; empty: it is left out
+  bool is_cluster = false;       ///< its name tells the segment only
+  bool lacks_side = false;       ///< as those of one arm, which need none to be told apart
+  bool is_contradicted = false;  ///< by the body: not where, or on the side, that its name says
+  std::string note = {};         ///< why it is left out, or what was changed
+  std::vector<LabelReading> readings = {};  ///< what it can mean, the one that was taken first
+};
+
+/// A marker set that was composed of names, and what it says of each label.
+struct NamedMarkers {
+  MarkerSet set;
+  std::vector<NamedLabel> labels;
+
+  int num_used() const;
+};
+
+/// "left heel"
+std::string DescribeReading(const LabelReading& reading, const LandmarkTable& table);
+
+/// Where a landmark is on a model of 1 m, of the side of the reading (of the left, where the side
+/// is not known); nothing where the model has neither its marker nor its segment.
+std::optional<ModelMarker> PlaceOf(const LabelReading& reading, const LandmarkTable& table,
+                                   const KinematicModel& model);
+
+/// The noise scale of a landmark: its deviation over that of the model's markers.
+double NoiseScaleOf(const Landmark& landmark);
+
+/// Labels that mean landmarks (ReadLabels), each as the model's marker there or, where there is
+/// none or another label has it, as a marker of its own that the set places.
+NamedMarkers ComposeNamedMarkers(const MarkerLabels& labels, const KinematicModel& model,
+                                 const LandmarkTable& table);
+
+/// As ComposeNamedMarkers, of readings that have been chosen; labels without are left out.
+NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
+                                 const std::vector<ReadLabel>& read, const KinematicModel& model,
+                                 const LandmarkTable& table);
+
+/// Whether names tell more of the body than a set does: a part of which more labels are understood,
+/// as far as more of them tell more of it.
+bool TellMore(const NamedMarkers& named, const MarkerSet& set, const MarkerLabels& labels,
+              const LandmarkTable& table);
+
+}  // namespace mmm_converter

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/input/matched_labels.h"
+
+#include <utility>
+
+#include "common/convert/understood_labels.h"
+
+namespace mmm_converter {
+namespace {
+
+/// Null: a marker set is asked for, or knows as much, or names say too little.
+std::shared_ptr<const NamedMarkers> FindNames(const MarkerLabels& labels, const Input& input,
+                                              const ConverterConfig& config) {
+  constexpr int kFewest = 4, kFewestOfObject = 8;
+  const Recording& recording = input.recording;
+  const bool may_be_object = recording.mmm && !recording.mmm->is_of_person;
+  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
+  if (!is_free || !input.model->is_reference) return nullptr;
+  const LandmarkTable& table = ShippedLandmarks();
+  NamedMarkers named = ComposeNamedMarkers(labels, *input.reference, table);
+  if (named.num_used() < (may_be_object ? kFewestOfObject : kFewest)) return nullptr;
+  const auto known = FindKnownSet(labels, *input.reference);
+  if (known && !TellMore(named, *known, labels, table)) return nullptr;
+  if (recording.markers.num_frames() > 0) {
+    named = UnderstandLabels(labels, recording.markers, *input.reference, table,
+                             {ResolveJoints(config, *input.reference), !input.keeps_usual_places});
+  }
+  return std::make_shared<const NamedMarkers>(std::move(named));
+}
+
+}  // namespace
+
+MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
+                          const ConverterConfig& config, Warnings* warnings) {
+  MatchedLabels matched;
+  matched.names = FindNames(labels, input, config);
+  if (!matched.names) {
+    matched.setup = MatchMarkers(labels, input.reference, config, warnings);
+    return matched;
+  }
+  const MarkerSet& set = matched.names->set;
+  ConverterConfig of_names = config;
+  of_names.marker_pairs = set.pairs;
+  matched.setup =
+      MatchMarkers(labels, std::make_shared<const KinematicModel>(PlaceMarkers(set, *input.model)),
+                   of_names, warnings);
+  matched.setup.marker_set = set.name;
+  return matched;
+}
+
+TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const ConverterConfig& config,
+                          Warnings* warnings) {
+  MatchedLabels matched = MatchLabels(labels, std::as_const(*input), config, warnings);
+  input->reference = matched.setup.model;
+  input->names = matched.names;
+  return std::move(matched.setup);
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "common/convert/named_markers.h"
+#include "common/convert/tracking_setup.h"
+#include "common/pipeline/input/input.h"
+
+namespace mmm_converter {
+
+struct MatchedLabels {
+  TrackingSetup setup;
+  std::shared_ptr<const NamedMarkers> names;  ///< null: a marker set knows the labels
+};
+
+/// MatchMarkers, by the names of the labels where no marker set is asked for and they tell more of
+/// the body than the sets that know them: then the setup's model is the reference with the markers
+/// that they mean, which the recording's frames judge, if it has any (UnderstandLabels).
+/// @throws Error as MatchMarkers.
+MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
+                          const ConverterConfig& config, Warnings* warnings);
+
+/// The setup of MatchLabels; the input gets the rest.
+TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const ConverterConfig& config,
+                          Warnings* warnings);
+
+}  // namespace mmm_converter

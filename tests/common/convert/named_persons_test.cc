@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// Made persons whose labels are those of other laboratories: names alone have to give the joints'
+// centres that KIT's names of the same markers give.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "common/convert/understood_labels.h"
+#include "common/fit/posture_search.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/model/forward_kinematics.h"
+#include "common/model/model_scaling.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/synthetic_person.h"
+
+namespace mmm_converter {
+namespace {
+
+/// The names of KIT's markers, "L" and "R" being "%" where there are sides, in a vocabulary; a
+/// marker that it does not have is not worn.
+struct Vocabulary {
+  const char* name;
+  const char* left;
+  const char* right;
+  std::map<std::string, std::string> labels;
+};
+
+const std::vector<Vocabulary>& Vocabularies() {
+  static const std::vector<Vocabulary> vocabularies = {
+      {"CAST",
+       "L_",
+       "R_",
+       {{"%FHD", "%HDF"}, {"%BHD", "%HDB"}, {"C7", "CV7"},    {"CLAV", "SNJ"},  {"STRN", "SXS"},
+        {"T10", "TV10"},  {"L3", "LV3"},    {"%SHO", "%SAJ"}, {"%AEL", "%HLE"}, {"%WTS", "%RSP"},
+        {"%WPS", "%USP"}, {"%HTS", "%HM2"}, {"%ASI", "%IAS"}, {"%PSI", "%IPS"}, {"%HIP", "%FTC"},
+        {"%KNE", "%FLE"}, {"%ANK", "%FAL"}, {"%HEE", "%FCC"}, {"%MT1", "%FM1"}, {"%MT5", "%FM5"}}},
+      {"IOR",
+       "L",
+       "R",
+       {{"C7", "C7"},
+        {"CLAV", "IJ"},
+        {"STRN", "PX"},
+        {"T10", "T10"},
+        {"L3", "L3"},
+        {"%SHO", "%A"},
+        {"%AEL", "%LHE"},
+        {"%WTS", "%RS"},
+        {"%WPS", "%US"},
+        {"%ASI", "%ASIS"},
+        {"%PSI", "%PSIS"},
+        {"%HIP", "%GT"},
+        {"%KNE", "%LFE"},
+        {"%ANK", "%LM"},
+        {"%HEE", "%CA"},
+        {"%MT1", "%FMH"},
+        {"%MT5", "%VMH"},
+        {"%FHD", "%TEMP"}}},
+      {"OpenSim",
+       "L.",
+       "R.",
+       {{"%FHD", "%Temple"},
+        {"C7", "C7"},
+        {"CLAV", "Clavicle"},
+        {"%SHO", "%Acromium"},
+        {"%AEL", "%Elbow.Lat"},
+        {"%WTS", "%Wrist.Lat"},
+        {"%WPS", "%Wrist.Med"},
+        {"%ASI", "%ASIS"},
+        {"%PSI", "%PSIS"},
+        {"%KNE", "%Knee.Lat"},
+        {"%ANK", "%Ankle.Lat"},
+        {"%HEE", "%Heel"},
+        {"%MT1", "%Toe.Med"},
+        {"%MT5", "%Toe.Lat"},
+        {"%TOE", "%Toe.Tip"},
+        {"STRN", "Xiphoid"}}},
+      {"OpenCap",
+       "L_",
+       "r_",
+       {{"C7", "C7_study"},
+        {"%SHO", "%shoulder_study"},
+        {"%AEL", "%lelbow_study"},
+        {"%WTS", "%lwrist_study"},
+        {"%WPS", "%mwrist_study"},
+        {"%ASI", "%ASIS_study"},
+        {"%PSI", "%PSIS_study"},
+        {"%KNE", "%knee_study"},
+        {"%ANK", "%ankle_study"},
+        {"%HEE", "%calc_study"},
+        {"%MT5", "%5meta_study"},
+        {"%MT1", "%1meta_study"}}},
+      {"Motive",
+       "L",
+       "R",
+       {{"%FHD", "%HeadFront"},
+        {"C7", "BackTop"},
+        {"CLAV", "ChestTop"},
+        {"STRN", "ChestLow"},
+        {"%SHO", "%ShoulderTop"},
+        {"%AEL", "%ElbowOut"},
+        {"%WTS", "%WristIn"},
+        {"%WPS", "%WristOut"},
+        {"%HTS", "%HandIn"},
+        {"%ASI", "Waist%Front"},
+        {"%PSI", "Waist%Back"},
+        {"%KNE", "%KneeOut"},
+        {"%ANK", "%AnkleOut"},
+        {"%HEE", "%Heel"},
+        {"%MT1", "%ToeIn"},
+        {"%MT5", "%ToeOut"},
+        {"%TOE", "%ToeTip"}}},
+      {"Xsens",
+       "Left",
+       "Right",
+       {{"C7", "pC7SpinalProcess"},
+        {"CLAV", "pIJ"},
+        {"STRN", "pPX"},
+        {"%SHO", "p%Acromion"},
+        {"%AEL", "p%ArmLatEpicondyle"},
+        {"%AOL", "p%Olecranon"},
+        {"%WTS", "p%RadialStyloid"},
+        {"%WPS", "p%UlnarStyloid"},
+        {"%ASI", "p%ASI"},
+        {"%PSI", "p%PSI"},
+        {"%HIP", "p%GreaterTrochanter"},
+        {"%KNE", "p%KneeLatEpicondyle"},
+        {"%ANK", "p%LatMalleolus"},
+        {"%HEE", "p%HeelFoot"},
+        {"%MT1", "p%FirstMetatarsal"},
+        {"%MT5", "p%FifthMetatarsal"}}},
+      {"French",
+       "gauche",
+       "droite",
+       {{"C7", "Anna:C7"},
+        {"CLAV", "Anna:CLAV"},
+        {"STRN", "Anna:XIPH"},
+        {"T10", "Anna:T10"},
+        {"%SHO", "Anna:acromion_%"},
+        {"%AEL", "Anna:coude_lat_%"},
+        {"%WTS", "Anna:styl_rad %"},
+        {"%WPS", "Anna:ulna_%"},
+        {"%ASI", "Anna:EIAS_%"},
+        {"%PSI", "Anna:EIPS_%"},
+        {"%KNE", "Anna:genou_%"},
+        {"%ANK", "Anna:cheville_%"},
+        {"%HEE", "Anna:talon_%"},
+        {"%MT1", "Anna:MT1_%"},
+        {"%MT5", "Anna:MT5_%"}}},
+      {"Rajagopal",
+       "L",
+       "R",
+       {{"%FHD", "%FHD"},
+        {"%BHD", "%BHD"},
+        {"C7", "C7"},
+        {"CLAV", "CLAV"},
+        {"%SHO", "%ACR"},
+        {"%AEL", "%LEL"},
+        {"%WTS", "%FAradius"},
+        {"%WPS", "%FAulna"},
+        {"%ASI", "%ASI"},
+        {"%PSI", "%PSI"},
+        {"%KNE", "%LFC"},
+        {"%ANK", "%LMAL"},
+        {"%HEE", "%CAL"},
+        {"%MT5", "%MT5"},
+        {"%MT1", "%MT1"}}}};
+  return vocabularies;
+}
+
+enum class Part { kFull, kLegs, kThoraxAndLegs, kUpperBody };
+
+bool IsWorn(const std::string& key, Part part) {
+  const auto is_one_of = [&](std::string_view all) {
+    return all.find(" " + key + " ") != std::string_view::npos;
+  };
+  const bool is_leg = is_one_of(" %ASI %PSI %HIP %THI %KNE %TIP %ANK %HEE %MT1 %MT5 %TOE ");
+  const bool is_trunk = is_one_of(" C7 CLAV STRN T10 L3 %SHO %BAK ");
+  if (part == Part::kLegs) return is_leg;
+  if (part == Part::kThoraxAndLegs) return is_leg || is_trunk;
+  if (part == Part::kUpperBody) return !is_leg || key == "%ASI" || key == "%PSI";
+  return true;
+}
+
+/// Names of joints whose centres a part shows.
+std::vector<std::string> JointsOf(Part part) {
+  std::vector<std::string> names;
+  for (const char* side : {"L", "R"}) {
+    for (const char* joint : {"Hx", "Kx", "Ax"}) {
+      if (part != Part::kUpperBody) names.push_back(side + std::string(joint) + "_joint");
+    }
+    for (const char* joint : {"Sx", "Ex", "Wx"}) {
+      const bool is_shown = part == Part::kFull || part == Part::kUpperBody;
+      if (is_shown) names.push_back(side + std::string(joint) + "_joint");
+    }
+  }
+  return names;
+}
+
+class NamedPersons : public ::testing::Test {
+ protected:
+  NamedPersons()
+      : reference_(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"))),
+        joints_(testing::TrackedJoints(reference_)),
+        table_(testing::SourcePath("xml_config/landmarks.xml")) {}
+
+  MarkerSequence Record(std::uint64_t seed, double seconds = 2) const {
+    const KinematicModel scaled = ScaleWinter(reference_, {kHeight, 70, {}});
+    const KinematicModel person = FitToSubject(scaled, testing::DrawPerson(scaled, seed));
+    return testing::RecordPerson(person, testing::RangeOfMotion(scaled, seconds, 0.6, seed), seed);
+  }
+
+  /// Some of the markers under other labels, and KIT's names of these.
+  MarkerSequence Rename(const MarkerSequence& recording, const Vocabulary& vocabulary, Part part,
+                        std::vector<std::string>* kit) const {
+    std::vector<int> columns;
+    std::vector<std::string> labels;
+    kit->clear();
+    for (const auto& [key, label] : vocabulary.labels) {
+      if (!IsWorn(key, part)) continue;
+      const bool has_side = key[0] == '%';
+      for (const bool is_left : {true, false}) {
+        if (!is_left && !has_side) continue;
+        const std::string name = has_side ? (is_left ? "L" : "R") + key.substr(1) : key;
+        std::string renamed = label;
+        if (const auto at = renamed.find('%'); at != std::string::npos) {
+          renamed.replace(at, 1, is_left ? vocabulary.left : vocabulary.right);
+        }
+        columns.push_back(recording.FindLabel(name));
+        labels.push_back(renamed);
+        kit->push_back(name);
+      }
+    }
+    MarkerSequence renamed(labels, recording.num_frames(), recording.rate(), 0);
+    for (int k = 0; k < recording.num_frames(); ++k) {
+      renamed.frame(k) = recording.frame(k)(Eigen::all, columns);
+    }
+    return renamed;
+  }
+
+  /// Centres of joints [m] in some frames, by the least-squares postures.
+  std::vector<Eigen::Vector3d> Centres(const KinematicModel& reference,
+                                       const std::vector<MarkerAssignment>& assignments,
+                                       const MarkerSequence& recording, Part part) const {
+    const KinematicModel model = ScaleWinter(reference, {kHeight, 70, {}});
+    const MarkerKinematics kinematics(model, joints_, MarkerIndices(assignments));
+    PostureSearch search(kinematics);
+    PostureFitOptions options;
+    options.robust_distance = 0.1;
+    std::vector<Eigen::Vector3d> centres;
+    for (int k = 0; k < recording.num_frames(); k += 50) {
+      Posture posture;
+      search.Assemble(recording.frame(k)(Eigen::all, LabelIndices(assignments)),
+                      NoiseScales(assignments), options, 8, &posture);
+      Posture whole = ZeroPosture(model);
+      whole.position = posture.position;
+      whole.orientation = posture.orientation;
+      whole.joint_angles(joints_) = posture.joint_angles;
+      const auto poses = SegmentPoses(model, whole);
+      for (const std::string& name : JointsOf(part)) {
+        centres.push_back(poses[static_cast<std::size_t>(model.FindSegment(name))].translation());
+      }
+    }
+    return centres;
+  }
+
+  struct Outcome {
+    double mean = 0;  ///< distance of centres from those by KIT's names [m]
+    int num_used = 0, num_labels = 0;
+    std::string notes;
+  };
+
+  Outcome Compare(const Vocabulary& vocabulary, Part part, std::uint64_t seed) const {
+    std::vector<std::string> kit;
+    const MarkerSequence renamed = Rename(Record(seed), vocabulary, part, &kit);
+    std::vector<MarkerAssignment> by_kit;
+    for (std::size_t i = 0; i < kit.size(); ++i) {
+      by_kit.push_back(
+          {LabelIx(static_cast<int>(i)), MarkerIx(reference_.FindMarker("MARKER_" + kit[i])), 1});
+    }
+    // As a mapping has them: the search is random by their order.
+    std::sort(by_kit.begin(), by_kit.end(),
+              [](const auto& a, const auto& b) { return a.marker < b.marker; });
+    const NamedMarkers named =
+        UnderstandLabels(LabelsOf(renamed), renamed, reference_, table_, {joints_, true});
+    const KinematicModel placed = PlaceMarkers(named.set, {reference_, true, {}});
+    const MarkerMapping mapping =
+        ResolveMarkerMapping(PairsInModel(named.set, placed), LabelsOf(renamed), placed);
+    const auto expected = Centres(reference_, by_kit, renamed, part);
+    const auto found = Centres(placed, mapping.assignments, renamed, part);
+    Outcome outcome;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      outcome.mean += (found[i] - expected[i]).norm() / static_cast<double>(expected.size());
+    }
+    outcome.num_used = named.num_used();
+    outcome.num_labels = static_cast<int>(named.labels.size());
+    for (const NamedLabel& one : named.labels) {
+      if (!one.note.empty()) outcome.notes += one.label + ": " + one.note + "; ";
+    }
+    return outcome;
+  }
+
+  static constexpr double kHeight = 1.75;
+  KinematicModel reference_;
+  std::vector<int> joints_;
+  LandmarkTable table_;
+};
+
+TEST_F(NamedPersons, HaveTheJointsThatKitsNamesGive) {
+  constexpr std::pair<Part, const char*> kParts[] = {{Part::kFull, "full"},
+                                                     {Part::kLegs, "legs"},
+                                                     {Part::kThoraxAndLegs, "thorax and legs"},
+                                                     {Part::kUpperBody, "upper body"}};
+  for (const Vocabulary& vocabulary : Vocabularies()) {
+    for (const auto& [part, name] : kParts) {
+      const Outcome outcome = Compare(vocabulary, part, 11);
+      const std::string what = fmt::format("{}, {}: {}", vocabulary.name, name, outcome.notes);
+      EXPECT_EQ(outcome.num_used, outcome.num_labels) << what;
+      EXPECT_LT(outcome.mean, 0.003) << what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter

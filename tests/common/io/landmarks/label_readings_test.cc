@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/landmarks/label_readings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+const LandmarkTable& Table() {
+  static const LandmarkTable table(testing::SourcePath("xml_config/landmarks.xml"));
+  return table;
+}
+
+std::string Describe(const LabelReading& reading) {
+  const char* const sides[] = {"", "left ", "right "};
+  return sides[static_cast<int>(reading.side)] +
+         Table().landmarks()[static_cast<std::size_t>(reading.landmark)].name;
+}
+
+/// What each label means among the others; "-": it is left out.
+std::vector<std::string> Meanings(const std::vector<std::string>& labels) {
+  std::vector<std::string> meanings;
+  for (const ReadLabel& one : ReadLabels(labels, {}, Table())) {
+    const bool is_out = one.readings.empty() || !one.why_left_out.empty();
+    meanings.push_back(is_out ? "-" : Describe(one.readings.front()));
+  }
+  return meanings;
+}
+
+TEST(LabelReadings, SidesAreInAnySpelling) {
+  for (const char* label :
+       {"LASI", "L.ASIS", "l_asis", "Left ASIS", "ASIS_L", "asis left", "gauche_asis", "LxAsis",
+        "WaistLFront", "Anna:LASI", "L_IAS", "pLeftASI", "SIAS_links", "L.ASIS_study"}) {
+    EXPECT_THAT(Meanings({label}), ElementsAre("left anterior iliac spine")) << label;
+  }
+  for (const char* label : {"RKNE", "r.Knee_Lat", "Knee lat right", "R_FLE", "genou_droit", "RLFC",
+                            "RKneeOut", "pRightKneeLatEpicondyle", "rechts Knie"}) {
+    EXPECT_THAT(Meanings({label}), ElementsAre("right lateral epicondyle of the femur")) << label;
+  }
+}
+
+// A letter at the end is a side where the other side is there, too.
+TEST(LabelReadings, LettersAtTheEndNeedTheOtherSide) {
+  EXPECT_THAT(Meanings({"HeelL", "HeelR"}), ElementsAre("left heel", "right heel"));
+  EXPECT_THAT(Meanings({"heel_g", "heel_d"}), ElementsAre("left heel", "right heel"));
+  EXPECT_THAT(Meanings({"heel_g"}), ElementsAre("-"));
+  EXPECT_THAT(Meanings({"RKNEL"}), ElementsAre("right lateral epicondyle of the femur"));
+}
+
+TEST(LabelReadings, LettersOfNamesAreNoSides) {
+  EXPECT_THAT(Meanings({"RAD", "LRAD"})[1], "left radial styloid");
+  EXPECT_THAT(
+      Meanings({"LLM", "RLM", "LSPH"}),
+      ElementsAre("left lateral malleolus", "right lateral malleolus", "left medial malleolus"));
+  EXPECT_THAT(Meanings({"L3"}), ElementsAre("third lumbar vertebra"));
+  EXPECT_THAT(Meanings({"L3", "R3"}), ElementsAre("-", "-"));
+  EXPECT_THAT(Meanings({"LK", "LN", "LQ", "x52", "Marker7", "U12", "*3", ""}),
+              ElementsAre("-", "-", "-", "-", "-", "-", "-", "-"));
+}
+
+// Of one arm without sides, LARM is no left one.
+TEST(LabelReadings, OneArmHasNoSide) {
+  const auto read =
+      ReadLabels({"EPICl", "EPICm", "STYLr", "STYLu", "LARMm", "LARM_elb"}, {}, Table());
+  for (const ReadLabel& one : read) {
+    ASSERT_FALSE(one.readings.empty());
+    EXPECT_EQ(one.readings.front().side, BodySide::kNone);
+  }
+  EXPECT_EQ(Describe(read[0].readings.front()), "lateral epicondyle of the humerus");
+  EXPECT_EQ(Describe(read[4].readings.front()), "forearm");
+}
+
+TEST(LabelReadings, NamesOfJointsAreKeypointsWhereNothingIsOnTheSkinAlone) {
+  const std::vector<std::string> keypoints = {"Nose",   "LShoulder", "RShoulder", "LElbow",
+                                              "LWrist", "LHip",      "LKnee",     "LHeel"};
+  EXPECT_EQ(Meanings(keypoints)[6], "left centre of the knee joint");
+  EXPECT_EQ(Meanings(keypoints)[5], "left centre of the hip joint");
+  std::vector<std::string> markers = keypoints;
+  markers.emplace_back("LASI");
+  EXPECT_EQ(Meanings(markers)[6], "left lateral epicondyle of the femur");
+  EXPECT_EQ(Meanings(markers)[5], "left greater trochanter");
+}
+
+TEST(LabelReadings, WhatIsComputedIsLeftOut) {
+  const std::vector<std::string> labels = {"LLFC",        "LMFC",         "LKJC", "RKJC",
+                                           "LKneeAngles", "CentreOfMass", "LASI", "RASI",
+                                           "LASI#2",      "SACR",         "LHJC"};
+  EXPECT_THAT(
+      Meanings(labels),
+      ElementsAre("left lateral epicondyle of the femur", "left medial epicondyle of the femur",
+                  "-", "right centre of the knee joint", "-", "-", "left anterior iliac spine",
+                  "right anterior iliac spine", "-", "sacrum", "-"));
+  EXPECT_EQ(ReadLabels(labels, {}, Table())[2].why_left_out, "a joint's centre beside its markers");
+}
+
+// LLEPI is a knee where LELB is the elbow.
+TEST(LabelReadings, TwoLabelsAreNotOneLandmark) {
+  EXPECT_THAT(Meanings({"LELB", "LLEPI"}), ElementsAre("left lateral epicondyle of the humerus",
+                                                       "left lateral epicondyle of the femur"));
+}
+
+TEST(LabelReadings, NumbersAreClusters) {
+  EXPECT_THAT(Meanings({"LTH1", "R_thigh12", "r_sh2", "LTB3", "shank_antsup_L", "shank_antsup_R"}),
+              ElementsAre("left thigh", "right thigh", "right shank", "left shank", "left shank",
+                          "right shank"));
+}
+
+/// Whole vocabularies: how many labels of each are understood.
+TEST(LabelReadings, PublishedSetsAreUnderstood) {
+  const std::map<std::string, std::vector<std::string>> sets = {
+      {"Plug-in Gait", {"LFHD", "RBHD", "C7",   "T10",  "CLAV", "STRN", "RBAK", "LSHO", "LUPA",
+                        "LELB", "LFRM", "LWRA", "LWRB", "LFIN", "LASI", "LPSI", "SACR", "LTHI",
+                        "LKNE", "LTIB", "LANK", "LHEE", "LTOE", "LKNM", "LMED", "LSMH"}},
+      {"IOR", {"LASIS", "LPSIS", "LGT", "LLE", "LME", "LHF", "LTT", "LLM", "LMM", "LCA", "LFM",
+               "LSM",   "LVM",   "C7",  "IJ",  "PX",  "T2",  "MAI", "LA",  "L1",  "L3",  "L5"}},
+      {"CAST",
+       {"L_IAS", "L_IPS", "L_FTC", "L_FLE", "L_FME", "L_FAX", "L_TTC", "L_FAL", "L_TAM", "L_FCC",
+        "L_FM1", "L_FM2", "L_FM5"}},
+      {"Rajagopal",
+       {"RACR", "RASH", "RPSH", "RLEL", "RMEL",  "RFAradius", "RFAulna", "C7",   "CLAV",
+        "RASI", "RPSI", "RLFC", "RMFC", "RLMAL", "RMMAL",     "RCAL",    "RTOE", "RMT5",
+        "RTH1", "RTB1", "RHJC", "RKJC", "RAJC",  "REJC",      "RSJC",    "RUA1"}},
+      {"gait2354",
+       {"Sternum", "R.Acromium", "Top.Head", "R.Bicep", "R.Elbow", "R.Wrist.Med", "R.ASIS",
+        "V.Sacral", "R.Thigh.Upper", "R.Thigh.Front", "R.Knee.Lat", "R.Knee.Med", "R.Shank.Rear",
+        "R.Ankle.Lat", "R.Heel", "R.Midfoot.Sup", "R.Midfoot.Lat", "R.Toe.Tip", "R.Toe.Lat"}},
+      {"OpenCap",
+       {"r.ASIS_study", "r.PSIS_study", "r_knee_study", "r_mknee_study", "r_ankle_study",
+        "r_mankle_study", "r_toe_study", "r_5meta_study", "r_calc_study", "r_shoulder_study",
+        "C7_study", "r_thigh1_study", "r_sh1_study", "RHJC_study", "r_lelbow_study",
+        "r_melbow_study", "r_lwrist_study", "r_mwrist_study"}},
+      {"Motive",
+       {"HeadTop",     "HeadFront",  "HeadSide",      "BackTop",      "BackLeft",  "Chest",
+        "WaistLFront", "WaistRBack", "LShoulderBack", "LShoulderTop", "LElbowOut", "LUArmHigh",
+        "LHandOut",    "LWristOut",  "LWristIn",      "LHandIn",      "LThigh",    "LKneeOut",
+        "LShin",       "LAnkleOut",  "LToeOut",       "LToeIn",       "LToeTip",   "LHeel"}},
+      {"Qualisys sports",
+       {"HeadL",     "HeadR",          "HeadFront",  "SpineThoracic2", "SpineThoracic12",
+        "Chest",     "LShoulderTop",   "LArm",       "LElbowOut",      "LElbowIn",
+        "LWristOut", "LWristIn",       "LHand2",     "WaistLFront",    "WaistL",
+        "WaistBack", "LThighFrontLow", "LKneeOut",   "LKneeIn",        "LShinFrontHigh",
+        "LAnkleOut", "LForefoot5",     "LForefoot2", "LHeelBack"}},
+      {"Xsens",
+       {"pHipOrigin",
+        "pRightASI",
+        "pRightCSI",
+        "pRightIschialTub",
+        "pSacrum",
+        "pL5SpinalProcess",
+        "pT12SpinalProcess",
+        "pPX",
+        "pIJ",
+        "pC7SpinalProcess",
+        "pTopOfHead",
+        "pRightAuricularis",
+        "pBackOfHead",
+        "pRightAcromion",
+        "pRightArmLatEpicondyle",
+        "pRightArmMedEpicondyle",
+        "pRightOlecranon",
+        "pRightUlnarStyloid",
+        "pRightRadialStyloid",
+        "pRightTopOfHand",
+        "pRightPinky",
+        "pRightGreaterTrochanter",
+        "pRightKneeLatEpicondyle",
+        "pRightKneeMedEpicondyle",
+        "pRightPatella",
+        "pRightLatMalleolus",
+        "pRightMedMalleolus",
+        "pRightTibialTub",
+        "pRightHeelFoot",
+        "pRightFirstMetatarsal",
+        "pRightFifthMetatarsal",
+        "pRightPivotFoot",
+        "pRightHeelCenter",
+        "pRightToe",
+        "jRightHip",
+        "jRightKnee"}},
+      {"HALPE, BODY_25, COCO",
+       {"Nose", "LEye", "LEar", "LShoulder", "LElbow", "LWrist", "LHip", "LKnee", "LAnkle", "Head",
+        "Neck", "Hip", "LBigToe", "LSmallToe", "LHeel", "MidHip", "left_eye", "right_knee"}},
+      {"SMPL",
+       {"pelvis", "left_hip", "right_hip", "spine1", "left_knee", "spine2", "left_ankle", "spine3",
+        "left_foot", "neck", "left_collar", "head", "left_shoulder", "left_elbow", "left_wrist",
+        "left_hand"}},
+      {"MediaPipe",
+       {"nose", "left_eye_inner", "left_eye", "left_eye_outer", "left_ear", "mouth_left",
+        "left_shoulder", "left_elbow", "left_wrist", "left_pinky", "left_index", "left_thumb",
+        "left_hip", "left_knee", "left_ankle", "left_heel", "left_foot_index"}}};
+  for (const auto& [name, labels] : sets) {
+    std::vector<std::string> unknown;
+    const std::vector<ReadLabel> read = ReadLabels(labels, {}, Table());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (read[i].readings.empty()) unknown.push_back(labels[i]);
+    }
+    EXPECT_THAT(unknown, IsEmpty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter
