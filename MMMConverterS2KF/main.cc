@@ -14,11 +14,11 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/report/version.h"
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/printable.h"
 #include "common/math/instruction_set.h"
+#include "common/pipeline/conversion_options.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 
@@ -76,7 +76,7 @@ std::string Explain(const std::filesystem::filesystem_error& error) {
 int RunAndExplain(const std::vector<std::string>& words) {
   const PrintableOutput output;
   try {
-    SetWording(CommandLineWording());
+    SetWording(WordingOf(Medium::kCommandLine));
     StartLog("info");
     const int exit_code = Run(words);
     std::cout.flush();

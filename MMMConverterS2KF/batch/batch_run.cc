@@ -15,8 +15,8 @@
 #include "MMMConverterS2KF/batch/entry_conversion.h"
 #include "MMMConverterS2KF/batch/entry_result.h"
 #include "MMMConverterS2KF/batch/journal.h"
+#include "MMMConverterS2KF/batch/manifest_attributes.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
-#include "MMMConverterS2KF/terminal/advice.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 
 namespace mmm_converter {

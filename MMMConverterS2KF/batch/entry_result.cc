@@ -2,6 +2,7 @@
 #include "MMMConverterS2KF/batch/entry_result.h"
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -14,96 +15,105 @@ namespace {
 
 constexpr int kMillisecond = 3;  // decimals of seconds
 
-void TakePerson(const ConversionReport& report, EntryFigures* figures) {
-  const ConversionPlan& plan = report.plan;
-  if (plan.object) return;
-  figures->height = plan.person.height.value;
-  figures->height_source = plan.person.height.source;
-  figures->mass = plan.person.mass.value;
-  figures->mass_source = plan.person.mass.source;
-  if (plan.person.subject) figures->subject = plan.person.subject->name;
+using Report = ConversionReport;
+using Figures = EntryFigures;
+
+Json ValueOf(int value) { return value; }
+Json ValueOf(double value) { return Number(value); }
+Json ValueOf(const std::string& value) { return TextOrNull(value); }
+
+void Parse(const Json& json, int* value) {
+  *value = static_cast<int>(ParseInteger(json, 0, std::numeric_limits<int>::max()));
+}
+void Parse(const Json& json, double* value) { *value = json.is_null() ? kNaN : json.get<double>(); }
+void Parse(const Json& json, std::string* value) {
+  *value = json.is_null() ? std::string() : json.get<std::string>();
 }
 
-int ParseCount(const Json& json) {
-  return static_cast<int>(ParseInteger(json, 0, std::numeric_limits<int>::max()));
+// A figure of an entry: beside its member, the only place that names it.
+struct Field {
+  Json::json_pointer place;  // in a journal's line; with . between, the column of tables
+  std::function<void(const Report&, Figures*)> take;
+  std::function<Json(const Figures&)> write;
+  std::function<void(const Json&, Figures*)> read;
+};
+
+template <typename Value, typename Of>
+Field FieldOf(const char* place, Value Figures::*member, Of of) {
+  return {Json::json_pointer(place),
+          [member, of](const Report& report, Figures* figures) {
+            figures->*member = static_cast<Value>(of(report));
+          },
+          [member](const Figures& figures) { return ValueOf(figures.*member); },
+          [member](const Json& json, Figures* figures) { Parse(json, &(figures->*member)); }};
 }
 
-double ParseNumber(const Json& json) { return json.is_null() ? kNaN : json.get<double>(); }
-
-std::string ParseText(const Json& json) {
-  return json.is_null() ? std::string() : json.get<std::string>();
+double WorstDistance(const Report& report) {
+  const int worst = report.figures.worst_marker;
+  if (worst < 0) return kNaN;
+  return kMillimetres * report.figures.of_markers[static_cast<std::size_t>(worst)].mean;
 }
 
-Verdict ParseVerdict(const Json& json) {
-  Verdict verdict;
-  verdict.level = ParseVerdictLevel(json.at("level").get<std::string>());
-  verdict.reasons = json.at("reasons").get<std::vector<std::string>>();
-  return verdict;
-}
-
-EntryFigures ParseFigures(const Json& json) {
-  EntryFigures figures;
-  figures.verdict = ParseVerdict(json.at("verdict"));
-  figures.frames = ParseCount(json.at("frames"));
-  figures.rate = ParseNumber(json.at("rate_hz"));
-  figures.height = ParseNumber(json.at("height_m"));
-  figures.height_source = ParseText(json.at("height_source"));
-  figures.mass = ParseNumber(json.at("mass_kg"));
-  figures.mass_source = ParseText(json.at("mass_source"));
-  if (!json.at("subject").is_null()) figures.subject = json.at("subject").get<std::string>();
-  figures.converter = json.at("converter").get<std::string>();
-  figures.configuration = json.at("configuration").get<std::string>();
-  figures.markers_used = ParseCount(json.at("markers_used"));
-  figures.markers_absent = ParseCount(json.at("markers_absent"));
-  figures.markers_ignored = ParseCount(json.at("markers_ignored"));
-  figures.mean_mm = ParseNumber(json.at("distance_mm").at("mean"));
-  figures.p95_mm = ParseNumber(json.at("distance_mm").at("p95"));
-  figures.max_mm = ParseNumber(json.at("distance_mm").at("max"));
-  figures.worst_marker = ParseText(json.at("worst_marker"));
-  figures.worst_marker_mm = ParseNumber(json.at("worst_marker_mm"));
-  figures.frames_with_missing_markers = ParseCount(json.at("frames_with_missing_markers"));
-  figures.frames_not_converged = ParseCount(json.at("frames_not_converged"));
-  figures.frames_reassembled = ParseCount(json.at("frames_reassembled"));
-  figures.wrong_markers = ParseCount(json.at("wrong_markers"));
-  figures.process_noise_scale = ParseNumber(json.at("process_noise_scale"));
-  figures.nis = ParseNumber(json.at("nis_over_degrees_of_freedom"));
-  figures.median_ms = ParseNumber(json.at("ms_per_frame").at("median"));
-  figures.p99_ms = ParseNumber(json.at("ms_per_frame").at("p99"));
-  figures.warnings = json.at("warnings").get<std::vector<std::string>>();
-  return figures;
+const std::vector<Field>& Fields() {
+  using R = const Report&;
+  static const std::vector<Field> fields = {
+      FieldOf("/frames", &Figures::frames,
+              [](R r) { return r.plan.input.recording.markers.num_frames(); }),
+      FieldOf("/rate_hz", &Figures::rate,
+              [](R r) { return r.plan.input.recording.markers.rate(); }),
+      FieldOf("/height_m", &Figures::height,
+              [](R r) { return r.plan.object ? kNaN : r.plan.person.height.value; }),
+      FieldOf("/height_source", &Figures::height_source,
+              [](R r) { return r.plan.object ? "" : r.plan.person.height.source; }),
+      FieldOf("/mass_kg", &Figures::mass,
+              [](R r) { return r.plan.object ? kNaN : r.plan.person.mass.value; }),
+      FieldOf("/mass_source", &Figures::mass_source,
+              [](R r) { return r.plan.object ? "" : r.plan.person.mass.source; }),
+      FieldOf("/subject", &Figures::subject,
+              [](R r) { return r.plan.person.subject ? r.plan.person.subject->name : ""; }),
+      FieldOf("/converter", &Figures::converter, [](R r) { return r.plan.converter.config.type; }),
+      FieldOf(
+          "/configuration", &Figures::configuration,
+          [](R r) { return std::filesystem::path(r.plan.converter.config.file).stem().string(); }),
+      FieldOf("/markers_used", &Figures::markers_used,
+              [](R r) { return r.plan.setup.assignments().size(); }),
+      FieldOf("/markers_absent", &Figures::markers_absent,
+              [](R r) { return r.plan.setup.mapping.absent_markers.size(); }),
+      FieldOf("/markers_ignored", &Figures::markers_ignored,
+              [](R r) { return r.plan.setup.mapping.ignored_labels.size(); }),
+      FieldOf("/distance_mm/mean", &Figures::mean_mm,
+              [](R r) { return kMillimetres * r.figures.distance.mean; }),
+      FieldOf("/distance_mm/p95", &Figures::p95_mm,
+              [](R r) { return kMillimetres * r.figures.distance.p95; }),
+      FieldOf("/distance_mm/max", &Figures::max_mm,
+              [](R r) { return kMillimetres * r.figures.distance.max; }),
+      FieldOf("/worst_marker", &Figures::worst_marker,
+              [](R r) {
+                return r.figures.worst_marker < 0 ? "" : LabelOf(r.plan, r.figures.worst_marker);
+              }),
+      FieldOf("/worst_marker_mm", &Figures::worst_marker_mm, WorstDistance),
+      FieldOf("/frames_with_missing_markers", &Figures::frames_with_missing_markers,
+              [](R r) { return r.figures.frames_with_missing_markers; }),
+      FieldOf("/frames_not_converged", &Figures::frames_not_converged,
+              [](R r) { return r.figures.frames_not_converged; }),
+      FieldOf("/frames_reassembled", &Figures::frames_reassembled,
+              [](R r) { return r.figures.frames_reassembled; }),
+      FieldOf("/wrong_markers", &Figures::wrong_markers,
+              [](R r) { return r.result.incidents.size(); }),
+      FieldOf("/process_noise_scale", &Figures::process_noise_scale,
+              [](R r) { return r.result.process_noise_scale.value_or(kNaN); }),
+      FieldOf("/nis_over_degrees_of_freedom", &Figures::nis, [](R r) { return r.figures.nis; }),
+      FieldOf("/ms_per_frame/median", &Figures::median_ms, [](R r) { return r.figures.median_ms; }),
+      FieldOf("/ms_per_frame/p99", &Figures::p99_ms, [](R r) { return r.figures.p99_ms; })};
+  return fields;
 }
 
 }  // namespace
 
 EntryResult Converted(const ConversionReport& report, double seconds) {
-  const ConversionPlan& plan = report.plan;
-  const ConversionFigures& measured = report.figures;
   EntryFigures figures;
   figures.verdict = report.verdict;
-  figures.frames = plan.input.recording.markers.num_frames();
-  figures.rate = plan.input.recording.markers.rate();
-  TakePerson(report, &figures);
-  figures.converter = plan.converter.config.type;
-  figures.configuration = std::filesystem::path(plan.converter.config.file).stem().string();
-  figures.markers_used = static_cast<int>(plan.setup.assignments().size());
-  figures.markers_absent = static_cast<int>(plan.setup.mapping.absent_markers.size());
-  figures.markers_ignored = static_cast<int>(plan.setup.mapping.ignored_labels.size());
-  figures.mean_mm = kMillimetres * measured.distance.mean;
-  figures.p95_mm = kMillimetres * measured.distance.p95;
-  figures.max_mm = kMillimetres * measured.distance.max;
-  if (const int worst = measured.worst_marker; worst >= 0) {
-    figures.worst_marker = LabelOf(plan, worst);
-    figures.worst_marker_mm =
-        kMillimetres * measured.of_markers[static_cast<std::size_t>(worst)].mean;
-  }
-  figures.frames_with_missing_markers = measured.frames_with_missing_markers;
-  figures.frames_not_converged = measured.frames_not_converged;
-  figures.frames_reassembled = measured.frames_reassembled;
-  figures.wrong_markers = static_cast<int>(report.result.incidents.size());
-  figures.process_noise_scale = report.result.process_noise_scale.value_or(kNaN);
-  figures.nis = measured.nis;
-  figures.median_ms = measured.median_ms;
-  figures.p99_ms = measured.p99_ms;
+  for (const Field& field : Fields()) field.take(report, &figures);
   figures.warnings = report.warnings.texts();
   return {std::move(figures), "", seconds};
 }
@@ -117,45 +127,27 @@ Json ToJson(const EntryResult& result) {
   if (!result.converted()) {
     return {{"state", "failed"}, {"reason", result.reason}, {"seconds", seconds}};
   }
-  const EntryFigures& figures = *result.figures;
-  return {
-      {"state", "converted"},
-      {"reason", nullptr},
-      {"verdict", ToJson(figures.verdict)},
-      {"frames", figures.frames},
-      {"rate_hz", figures.rate},
-      {"height_m", Number(figures.height)},
-      {"height_source", TextOrNull(figures.height_source)},
-      {"mass_kg", Number(figures.mass)},
-      {"mass_source", TextOrNull(figures.mass_source)},
-      {"subject", figures.subject ? Json(*figures.subject) : Json(nullptr)},
-      {"converter", figures.converter},
-      {"configuration", figures.configuration},
-      {"markers_used", figures.markers_used},
-      {"markers_absent", figures.markers_absent},
-      {"markers_ignored", figures.markers_ignored},
-      {"distance_mm",
-       {{"mean", Number(figures.mean_mm)},
-        {"p95", Number(figures.p95_mm)},
-        {"max", Number(figures.max_mm)}}},
-      {"worst_marker", TextOrNull(figures.worst_marker)},
-      {"worst_marker_mm", Number(figures.worst_marker_mm)},
-      {"frames_with_missing_markers", figures.frames_with_missing_markers},
-      {"frames_not_converged", figures.frames_not_converged},
-      {"frames_reassembled", figures.frames_reassembled},
-      {"wrong_markers", figures.wrong_markers},
-      {"process_noise_scale", Number(figures.process_noise_scale)},
-      {"nis_over_degrees_of_freedom", Number(figures.nis)},
-      {"ms_per_frame", {{"median", Number(figures.median_ms)}, {"p99", Number(figures.p99_ms)}}},
-      {"seconds", seconds},
-      {"warnings", figures.warnings}};
+  Json json = {
+      {"state", "converted"}, {"reason", nullptr}, {"verdict", ToJson(result.figures->verdict)}};
+  for (const Field& field : Fields()) json[field.place] = field.write(*result.figures);
+  json["rate_hz"] = result.figures->rate;  // as the recording has it
+  json["seconds"] = seconds;
+  json["warnings"] = result.figures->warnings;
+  return json;
 }
 
 EntryResult ParseEntryResult(const Json& json) {
   EntryResult result;
-  result.reason = ParseText(json.at("reason"));
-  result.seconds = ParseNumber(json.at("seconds"));
-  if (json.at("state") == "converted") result.figures = ParseFigures(json);
+  Parse(json.at("reason"), &result.reason);
+  Parse(json.at("seconds"), &result.seconds);
+  if (json.at("state") != "converted") return result;
+  EntryFigures figures;
+  const Json& verdict = json.at("verdict");
+  figures.verdict.level = ParseVerdictLevel(verdict.at("level").get<std::string>());
+  verdict.at("reasons").get_to(figures.verdict.reasons);
+  for (const Field& field : Fields()) field.read(json.at(field.place), &figures);
+  json.at("warnings").get_to(figures.warnings);
+  result.figures = std::move(figures);
   return result;
 }
 

@@ -12,7 +12,8 @@
 namespace mmm_converter {
 
 /// Figures of a converted entry. NaN or an empty text: there is none, as of the height of an
-/// object.
+/// object. A figure is a member here and a row of the table in entry_result.cc; journal, results
+/// and the page of the batch follow from these.
 struct EntryFigures {
   Verdict verdict;
   int frames = 0;
@@ -21,7 +22,7 @@ struct EntryFigures {
   std::string height_source;
   double mass = kNaN;  ///< [kg]
   std::string mass_source;
-  std::optional<std::string> subject;  ///< its name
+  std::string subject;  ///< its name
   std::string converter, configuration;
   int markers_used = 0, markers_absent = 0, markers_ignored = 0;
   double mean_mm = kNaN, p95_mm = kNaN, max_mm = kNaN;  ///< distance over all markers and frames

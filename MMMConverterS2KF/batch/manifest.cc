@@ -136,18 +136,18 @@ class ManifestReader {
   }
 
   void Apply(const XmlElement& element, std::vector<std::string> own, BatchEntry* settings) {
-    for (const ManifestAttribute& attribute : ManifestAttributes())
-      own.emplace_back(attribute.name);
+    const std::vector<Option> attributes = AttributesOf(settings);
+    for (const Option& attribute : attributes) own.emplace_back(attribute.names.attribute);
     CheckNames(element, own);
-    for (const ManifestAttribute& attribute : ManifestAttributes()) {
-      const std::string* value = element.FindAttribute(attribute.name);
+    for (const Option& attribute : attributes) {
+      const std::string name = attribute.names.attribute;
+      const std::string* value = element.FindAttribute(name);
       if (value == nullptr) continue;
-      settings->settings[attribute.name] = *value;
-      const std::string expected = attribute.apply(*value, folder_.string(), settings);
+      settings->settings[name] = *value;
+      const std::string expected = ReadAttribute(attribute, *value, folder_.string());
       if (expected.empty()) continue;
-      diagnostics_.AddError(element.line,
-                            fmt::format("<{}>: {}=\"{}\" is not allowed; {}", element.name,
-                                        attribute.name, *value, expected));
+      diagnostics_.AddError(element.line, fmt::format("<{}>: {}=\"{}\" is not allowed; {}",
+                                                      element.name, name, *value, expected));
     }
     ChooseSubject(element, &settings->request);
   }
@@ -230,13 +230,7 @@ bool IsPlainId(const std::string& id) {
                       [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
 }
 
-std::string ManifestTemplate() {
-  std::string attributes;
-  for (const ManifestAttribute& attribute : ManifestAttributes()) {
-    attributes += fmt::format("       {:<16} {}\n", attribute.name, attribute.help);
-  }
-  return fmt::format(kTemplate, attributes);
-}
+std::string ManifestTemplate() { return fmt::format(kTemplate, DescribeAttributes()); }
 
 std::vector<const BatchEntry*> ShardOf(const std::vector<BatchEntry>& entries, int shard,
                                        int shards) {

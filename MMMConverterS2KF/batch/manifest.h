@@ -21,7 +21,7 @@ struct BatchEntry {
   std::map<std::string, std::string> metadata;  ///< passed on to the results
 };
 
-/// A `<Batch>` file (xml_config/schema/batch.xsd). An attribute of <Batch> or <Group> holds for
+/// A `<Batch>` file (ManifestSchema). An attribute of <Batch> or <Group> holds for
 /// every recording inside; of several, the innermost.
 struct BatchManifest {
   std::string file;  ///< for messages

@@ -3,14 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
-#include <optional>
 #include <sstream>
+#include <utility>
 
-#include "MMMConverterS2KF/terminal/input_options.h"
-#include "common/model/model_scaling.h"
-#include "common/motion/marker_sequence.h"
-#include "common/support/error.h"
+#include "common/pipeline/conversion_options.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -18,52 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMillimetre = 1e-3;
+constexpr Medium kMedium = Medium::kManifest;
 
 std::string FileIn(const std::string& folder, const std::string& file) {
   return file.empty() ? "" : (fs::path(folder) / file).lexically_normal().string();
-}
-
-std::string TakeNumber(const std::string& value, double unit, double least, double most,
-                       std::optional<double>* number) {
-  const auto parsed = ParseDouble(value);
-  const bool is_allowed = parsed && *parsed * unit >= least && *parsed * unit <= most;
-  if (is_allowed) *number = *parsed * unit;
-  return is_allowed ? ""
-                    : fmt::format("give a number from {:g} to {:g}", least / unit, most / unit);
-}
-
-std::string TakeBoolean(const std::string& value, bool* flag) {
-  *flag = value == "true";
-  return *flag || value == "false" ? "" : "use true or false";
-}
-
-std::string TakeLabel(const std::string& value, ConversionRequest* request) {
-  request->label_hints.repair = value == "repair";
-  request->label = value == "true" || value == "repair";
-  return request->label || value == "false" ? "" : "use true, repair or false";
-}
-
-std::string TakeExport(const std::string& format, const std::string& value, BatchEntry* entry) {
-  bool is_wanted = false;
-  std::string expected = TakeBoolean(value, &is_wanted);
-  if (is_wanted) {
-    entry->exports.insert(format);
-  } else {
-    entry->exports.erase(format);
-  }
-  return expected;
-}
-
-// What a parser of command line options says of its value.
-template <typename Parse>
-std::string TakeParsed(Parse parse) {
-  try {
-    parse();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // A file beside the manifest, or the name of something shipped.
@@ -74,137 +30,140 @@ std::string FindShipped(const std::string& value, const std::string& folder) {
   return is_name && !fs::exists(file, failure) ? value : file;
 }
 
-using Value = const std::string&;
-using Settings = BatchEntry*;
+bool SetExport(const std::string& format, const std::string& value, BatchEntry* entry) {
+  value == "true" ? void(entry->exports.insert(format)) : void(entry->exports.erase(format));
+  return value == "true" || value == "false";
+}
 
-std::vector<ManifestAttribute> MakeAttributes() {
-  std::vector<ManifestAttribute> attributes = {
-      {"config", "the converter's configuration: a file, or the name of a shipped one",
-       [](Value v, Value folder, Settings s) {
-         s->request.converter.config = FindShipped(v, folder);
-         return std::string();
-       }},
-      {"plugin", "the converter's plugin file, where it is none of the installed",
-       [](Value v, Value folder, Settings s) {
-         s->request.converter.plugin_file = FileIn(folder, v);
-         return std::string();
-       }},
-      {"model", "reference model; the shipped MMM model without it",
-       [](Value v, Value folder, Settings s) {
-         s->request.input.model_file = FileIn(folder, v);
-         return std::string();
-       }},
-      {"markerSet",
-       "which labels stand for which markers, and where these are: a file, or a shipped set",
-       [](Value v, Value folder, Settings s) {
-         s->request.input.marker_set = FindShipped(v, folder);
-         return std::string();
-       }},
-      {"modelPath", "what motions say of where their model is; relative to them without it",
-       [](Value v, Value, Settings s) {
-         s->request.model_path = v;
-         return std::string();
-       }},
-      {"height_m", "height; from the recording's file or estimated without it",
-       [](Value v, Value, Settings s) {
-         return TakeNumber(v, 1, kLeastHeight, kLargestHeight,
-                           &s->request.input.person.size.height);
-       }},
-      {"mass_kg", "mass; from the recording's file or 70 without it",
-       [](Value v, Value, Settings s) {
-         return TakeNumber(v, 1, kLeastMass, kLargestMass, &s->request.input.person.size.mass);
-       }},
-      {"handLength_mm", "length of the hand; by the height without it",
-       [](Value v, Value, Settings s) {
-         return TakeNumber(v, kMillimetre, kLeastHandLength, kLargestHandLength,
-                           &s->request.input.person.size.hand_length);
-       }},
-      {"person", "ModelProcessorConfig file with height, mass and hand length",
-       [](Value v, Value folder, Settings s) {
-         s->request.input.person.processor_file = FileIn(folder, v);
-         return std::string();
-       }},
-      {"subjectFile", "who the person is, from calibrate",
-       [](Value v, Value folder, Settings s) {
-         s->request.input.person.subject_file = FileIn(folder, v);
-         return std::string();
-       }},
-      {"selfCalibrate", "true: estimate the person from each recording itself",
-       [](Value v, Value, Settings s) { return TakeBoolean(v, &s->request.self_calibrate); }},
-      {"label", "true: find the names of points without labels first; repair: correct wrong labels",
-       [](Value v, Value, Settings s) { return TakeLabel(v, &s->request); }},
-      {"labelLike", "with label: a labelled recording of the person with these markers",
-       [](Value v, Value folder, Settings s) {
-         s->request.label_hints.like = FileIn(folder, v);
-         return std::string();
-       }},
-      {"labelAndSubjectFiles",
-       "with label: who else is there, from calibrate: files, with ; between them",
-       [](Value v, Value folder, Settings s) {
-         s->request.label_hints.other_persons.clear();
-         std::istringstream files(v);
-         for (std::string file; std::getline(files, file, ';');) {
-           const std::string name(Trim(file));
-           if (!name.empty()) s->request.label_hints.other_persons.push_back(FileIn(folder, name));
-         }
-         return std::string();
-       }},
-      {"labelObjectModels", "with label: folder with the models of rigid objects that may be there",
-       [](Value v, Value folder, Settings s) {
-         s->request.label_hints.object_models = FileIn(folder, v);
-         return std::string();
-       }},
-      {"subject", "label prefix to take where a recording has several subjects",
-       [](Value v, Value, Settings s) {
-         s->request.input.reading.subject = v;
-         return std::string();
-       }},
-      {"motion", "of an MMM file: the motion to convert; else the name of the motion written",
-       [](Value v, Value, Settings s) {
-         s->request.input.reading.motion = v;
-         s->request.motion_name = v;
-         return std::string();
-       }},
-      {"frames", "A:B, frames A to B-1 only, counted from 0; either may be left out",
-       [](Value v, Value, Settings s) {
-         return TakeParsed([&] { ParseFrames(v, &s->request.input); });
-       }},
-      {"unit", "mm, cm, m or in, instead of what the file says",
-       [](Value v, Value, Settings s) -> std::string {
-         s->request.input.reading.unit = v;
-         return v == "mm" || v == "cm" || v == "m" || v == "in" ? "" : "use mm, cm, m or in";
-       }},
-      {"rate_hz", "frames a second, instead of what the file says",
-       [](Value v, Value, Settings s) {
-         return TakeNumber(v, 1, kLowestRate, kHighestRate, &s->request.input.reading.rate);
-       }},
-      {"up", "the file's axis that points up: x, y, z, -x, -y or -z",
-       [](Value v, Value, Settings s) {
-         return TakeParsed([&] { s->request.input.reading.up_axis = ParseUpAxis(v); });
-       }},
-      {"ignoreResiduals", "true: of a C3D file take also points that it marks as invalid",
-       [](Value v, Value, Settings s) {
-         return TakeBoolean(v, &s->request.input.reading.ignore_residuals);
-       }},
-      {"format", "2.0 or 1.0, of the motions; what the configuration says without it",
-       [](Value v, Value, Settings s) -> std::string {
-         s->request.output_format = v;
-         return v == "2.0" || v == "1.0" ? "" : "use 2.0 or 1.0";
-       }}};
-  for (const Exporter& exporter : Exporters()) {
-    attributes.push_back({exporter.name, fmt::format("true: write {} too", exporter.what),
-                          [name = std::string(exporter.name)](Value v, Value, Settings s) {
-                            return TakeExport(name, v, s);
-                          }});
-  }
+const std::vector<Option>& DescribedAttributes() {
+  static BatchEntry nobodys;
+  static const std::vector<Option> attributes = AttributesOf(&nobodys);
   return attributes;
+}
+
+constexpr const char* kSchema = R"(<?xml version="1.0" encoding="UTF-8"?>
+<!-- Manifests of batch: recordings to convert. An attribute of Batch or Group holds for every recording
+     inside; of several, the innermost. An attribute's name ends with its unit. -->
+<xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema">
+  <xs:group name="Contents">
+    <xs:choice>
+      <xs:element name="Group" type="Group"/>
+      <xs:element name="Recording" type="Recording"/>
+      <xs:element name="Metadata" type="Metadata"/>
+    </xs:choice>
+  </xs:group>
+  <xs:complexType name="Group">
+    <xs:group ref="Contents" minOccurs="0" maxOccurs="unbounded"/>
+    <xs:attribute name="name" type="xs:string"/>
+    <xs:attributeGroup ref="Settings"/>
+  </xs:complexType>
+  <xs:element name="Batch">
+    <xs:complexType>
+      <xs:complexContent><xs:extension base="Group">
+        <xs:attribute name="folder" type="xs:string"/>
+      </xs:extension></xs:complexContent>
+    </xs:complexType>
+  </xs:element>
+  <xs:complexType name="Recording">
+    <xs:sequence>
+      <xs:element name="Metadata" type="Metadata" minOccurs="0" maxOccurs="unbounded"/>
+    </xs:sequence>
+    <xs:attribute name="file" type="Name" use="required"/>
+    <xs:attribute name="id" type="Name"/>
+    <xs:attributeGroup ref="Settings"/>
+  </xs:complexType>
+  <xs:complexType name="Metadata">
+    <xs:attribute name="name" type="Name" use="required"/>
+    <xs:attribute name="value" type="xs:string" use="required"/>
+  </xs:complexType>
+  <xs:simpleType name="Name">
+    <xs:restriction base="xs:string"><xs:minLength value="1"/></xs:restriction>
+  </xs:simpleType>
+  <xs:attributeGroup name="Settings">
+{}  </xs:attributeGroup>
+</xs:schema>
+)";
+
+// The facets of a restriction; empty: any text.
+std::string FacetsOf(const Option& option) {
+  std::string facets;
+  const auto add = [&facets](const char* name, const std::string& value) {
+    facets += fmt::format("<xs:{} value=\"{}\"/>", name, value);
+  };
+  for (const std::string& choice : Choices(kMedium, option)) add("enumeration", choice);
+  if (option.value.kind == OptionKind::kFrames) add("pattern", "[0-9]*:[0-9]*");
+  if (option.value.kind == OptionKind::kAxis) add("pattern", "[+\\-]?[xyzXYZ]");
+  const double unit = UnitOfAttribute(option);
+  if (std::isfinite(option.value.least))
+    add("minInclusive", fmt::format("{:.10g}", option.value.least / unit));
+  if (std::isfinite(option.value.most))
+    add("maxInclusive", fmt::format("{:.10g}", option.value.most / unit));
+  return facets;
 }
 
 }  // namespace
 
-const std::vector<ManifestAttribute>& ManifestAttributes() {
-  static const std::vector<ManifestAttribute> attributes = MakeAttributes();
+std::vector<Option> AttributesOf(BatchEntry* entry) {
+  std::vector<Option> attributes = Options(&entry->request);
+  std::erase_if(attributes, [](const Option& option) { return *option.names.attribute == 0; });
+  for (const Exporter& exporter : Exporters()) {
+    const auto set = [entry, name = exporter.name](const std::string& value) {
+      return SetExport(name, value, entry);
+    };
+    attributes.push_back(Row({"", exporter.name, ""}, {}, exporter.what, "", task::kConvert, set));
+  }
   return attributes;
+}
+
+std::string ReadAttribute(const Option& option, const std::string& value,
+                          const std::string& folder) {
+  std::vector<std::string> values = {value};
+  if (IsList(option)) {
+    values.clear();
+    std::istringstream parts(value);
+    for (std::string part; std::getline(parts, part, ';');) {
+      if (!Trim(part).empty()) values.emplace_back(Trim(part));
+    }
+  }
+  const OptionKind kind = option.value.kind;
+  for (std::string& one : values) {
+    if (kind == OptionKind::kShipped) one = FindShipped(one, folder);
+    if (kind == OptionKind::kFile || kind == OptionKind::kSubject) one = FileIn(folder, one);
+  }
+  return SetOption(option, values, UnitOfAttribute(option));
+}
+
+std::string DescribeAttributes() {
+  std::string text;
+  for (const Option& option : DescribedAttributes()) {
+    text += fmt::format("       {:<16} {}\n", option.names.attribute,
+                        HelpOf(kMedium, option, task::kConvert));
+  }
+  return text;
+}
+
+std::string WithManifestAdvice(const Error& error) {
+  const std::string example = ExampleOf(kMedium, error.remedy());
+  return error.what() + (example.empty() ? "" : " (in the manifest: " + example + ")");
+}
+
+std::string ManifestSchema() {
+  std::string settings;
+  for (const Option& option : DescribedAttributes()) {
+    const std::string facets = FacetsOf(option);
+    const bool is_number = option.value.kind == OptionKind::kNumber;
+    const char* const base = is_number ? "xs:double" : "xs:string";
+    if (facets.empty()) {
+      settings += fmt::format("    <xs:attribute name=\"{}\" type=\"{}\"/>\n",
+                              option.names.attribute, base);
+    } else {
+      settings += fmt::format(
+          "    <xs:attribute name=\"{}\">\n      <xs:simpleType><xs:restriction base=\"{}\">{}"
+          "</xs:restriction></xs:simpleType>\n    </xs:attribute>\n",
+          option.names.attribute, base, facets);
+    }
+  }
+  return fmt::format(kSchema, settings);
 }
 
 }  // namespace mmm_converter

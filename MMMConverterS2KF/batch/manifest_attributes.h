@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "MMMConverterS2KF/batch/manifest.h"
+#include "common/pipeline/option.h"
 
 namespace mmm_converter {
 
-/// An attribute that <Batch>, <Group> and <Recording> may have.
-struct ManifestAttribute {
-  std::string name;
-  std::string help;
-  /// Takes a value over; folder: where relative files start. Returns what is allowed where the
-  /// value is not, else nothing.
-  std::function<std::string(const std::string& value, const std::string& folder,
-                            BatchEntry* settings)>
-      apply;
-};
+/// The attributes that <Batch>, <Group> and <Recording> may have: all rows that go to the entry.
+std::vector<Option> AttributesOf(BatchEntry* entry);
 
-const std::vector<ManifestAttribute>& ManifestAttributes();
+/// Sets what an attribute says; folder: where relative files start. Returns what is expected
+/// where it is something else, else nothing.
+std::string ReadAttribute(const Option& option, const std::string& value,
+                          const std::string& folder);
+
+/// What each attribute is, in lines for people.
+std::string DescribeAttributes();
+
+/// What went wrong, and the attribute that helps, where there is one.
+std::string WithManifestAdvice(const Error& error);
+
+/// The schema (XSD) of manifests. Whether files are there and ids are unique, only the program can
+/// say.
+std::string ManifestSchema();
 
 }  // namespace mmm_converter

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "MMMConverterS2KF/batch/manifest.h"
+#include "MMMConverterS2KF/batch/manifest_attributes.h"
 #include "MMMConverterS2KF/batch/subjects_table.h"
 #include "MMMConverterS2KF/terminal/advice.h"
 #include "common/io/bytes/file_content.h"

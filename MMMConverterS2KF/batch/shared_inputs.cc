@@ -34,7 +34,8 @@ ReadBefore SharedInputs::ReadFor(const ConversionRequest& request) {
   auto& model = models_[ModelFile(request.input)];
   if (!model.value) model = ReadModelOnce(request.input);
   const ConverterRequest& converter = request.converter;
-  auto& choice = choices_[converter.config + '\n' + converter.plugin_file];
+  auto& choice =
+      choices_[converter.config + '\n' + converter.converter + '\n' + converter.plugin_file];
   if (!choice.value) choice = ChooseOnce(converter);
   return {model, choice, {}};
 }

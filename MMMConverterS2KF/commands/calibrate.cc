@@ -8,9 +8,9 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/comparison_output.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/io/mmm/mmm_model_subject.h"
@@ -22,20 +22,13 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOwnOptions = {
-    {"Files",
-     {{"output,o", "FILE", "the subject; default: RECORDING without its ending + _subject.xml", ""},
-      {"model-out", "FILE", "also write the person's model, for other MMM programs", ""},
-      {"report", "FILE", "write a page (HTML): the recordings converted with the subject", ""},
-      {"summary", "FILE", "write a summary as JSON", ""},
-      {"name", "NAME", "of the person; default: what the first recording calls it", ""}}},
-    {"Converter",
-     {{"config,c", "FILE",
-       "configuration that names markers and joints, or a shipped one; default: s2kf_default",
-       ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kFiles = {
+    "Files",
+    {{"output,o", "FILE", "the subject; default: RECORDING without its ending + _subject.xml", ""},
+     {"model-out", "FILE", "also write the person's model, for other MMM programs", ""},
+     {"report", "FILE", "write a page (HTML): the recordings converted with the subject", ""},
+     {"summary", "FILE", "write a summary as JSON", ""},
+     {"name", "NAME", "of the person; default: what the first recording calls it", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF calibrate RECORDING... [options]
 Estimates the lengths of a person's segments and the places of the markers on the body. Any motions
@@ -56,27 +49,10 @@ Examples
 const std::vector<std::string> kPerRecording = {"frames", "subject", "motion",
                                                 "unit",   "rate",    "up"};
 
-std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions.front()};
-  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  options.insert(options.end(), kOwnOptions.begin() + 1, kOwnOptions.end());
-  for (OptionGroup& group : options) {
-    std::erase_if(group.options, [](const OptionSpec& o) { return o.name == "subject-file"; });
-    for (OptionSpec& option : group.options) {
-      option.repeatable |= std::count(kPerRecording.begin(), kPerRecording.end(), option.name) > 0;
-    }
-  }
-  return options;
-}
-
 CalibrationRequest MakeRequest(const Arguments& arguments) {
   CalibrationRequest request;
-  const std::vector<std::string>& files = arguments.positionals();
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
-    request.inputs.push_back(MakeInputRequest(own, files[i]));
-  }
-  request.converter.config = arguments.Get("config").value_or("");
+  request.inputs = MakeInputs(task::kCalibrate, arguments, kPerRecording);
+  request.converter = MakeRequest(task::kCalibrate, arguments, "").converter;
   request.name = arguments.Get("name").value_or("");
   return request;
 }
@@ -128,7 +104,9 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
 
 }  // namespace
 
-Manual CalibrateManual() { return {kUsage, Options(), true}; }
+Manual CalibrateManual() {
+  return {kUsage, CommandOptions(task::kCalibrate, {kFiles}, {}, kPerRecording), true};
+}
 
 int RunCalibrate(const Arguments& arguments) {
   if (arguments.positionals().empty()) {

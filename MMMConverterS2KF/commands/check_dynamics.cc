@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/dynamics_page.h"
 #include "MMMConverterS2KF/report/dynamics_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/pipeline/dynamics/dynamics_check.h"
 #include "common/pipeline/input/input.h"
@@ -24,30 +24,6 @@ constexpr int kImplausible = 1;
 const OptionGroup kFiles = {"Files",
                             {{"summary", "FILE", "write all figures as JSON", ""},
                              {"report", "FILE", "write a page (HTML) with plots", ""}}};
-
-const OptionGroup kMotion = {
-    "Motion",
-    {{"motion", "NAME", "the motion to check, if the file has several", ""},
-     {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""},
-     {"low-pass", "HZ",
-      "cut-off before differentiation; 0: no filter, for smooth motions; default: 6", ""}}};
-
-const OptionGroup kPerson = {
-    "Person and model",
-    {{"height", "METRES", "default: from the motion's file", ""},
-     {"mass", "KG", "default: from the motion's file, else 70", ""},
-     {"hand-length", "METRES", "default: from the motion's file, else by the height", ""},
-     {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
-     {"subject-file", "FILE", "calibrated person, written by calibrate", ""},
-     {"model", "FILE",
-      "reference model, or a URDF; default: the one that the motion's file names, else the shipped "
-      "one",
-      ""}}};
-
-const OptionGroup kGeneral = {
-    "General",
-    {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-     {"help,h", "", "print this help", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
 Checks whether a human body can move like an MMM motion (1.0 or 2.0). Computes centre of mass,
@@ -79,24 +55,12 @@ Examples
   MMMConverterS2KF check-dynamics run.xml --frames 100:400 --summary run.json --low-pass 10
 )";
 
-std::vector<OptionGroup> Options() { return {kFiles, kMotion, kPerson, kGeneral}; }
-
 std::string Text() {
   return fmt::format(kUsage, "{}", kMostKinematicsError, kMostMeanForceError, kForceTolerance,
                      kMostFriction, 1000 * kMostOutsideSupport, 100 * kMostBadFrames,
                      1000 * kMostUneven, kGravity, 100 * kMostFallError,
                      100 * kMostMomentumVariation, kMostTorque, kMostNoise, kNoiseForce,
                      kLeastOnGround);
-}
-
-DynamicsOptions MakeOptions(const Arguments& arguments) {
-  DynamicsOptions options;
-  options.cutoff = arguments.GetNumber("low-pass", "hertz, e.g. 6").value_or(options.cutoff);
-  if (options.cutoff < 0) {
-    throw UsageError(
-        fmt::format("--low-pass: {:g} is not allowed; give hertz, or 0 for none", options.cutoff));
-  }
-  return options;
 }
 
 void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
@@ -111,7 +75,11 @@ void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
 
 }  // namespace
 
-Manual CheckDynamicsManual() { return {Text(), Options()}; }
+Manual CheckDynamicsManual() {
+  DynamicsOptions options;
+  return {Text(), CommandOptions(task::kCheckDynamics, {kFiles},
+                                 GroupsOf(Options(&options), task::kCheckDynamics))};
+}
 
 int RunCheckDynamics(const Arguments& arguments) {
   if (!arguments.positional()) {
@@ -119,8 +87,10 @@ int RunCheckDynamics(const Arguments& arguments) {
         "check-dynamics: which motion? For instance: MMMConverterS2KF check-dynamics walk_mmm.xml");
   }
   StartLog(arguments.Get("log").value_or("info"));
-  const InputRequest request = MakeInputRequest(arguments, *arguments.positional());
-  const DynamicsOptions options = MakeOptions(arguments);
+  const InputRequest request =
+      MakeRequest(task::kCheckDynamics, arguments, *arguments.positional()).input;
+  DynamicsOptions options;
+  ReadArguments(arguments, Options(&options), task::kCheckDynamics);
   OutputPlan plan;
   NameInputs(request, &plan);
   for (const char* output : {"summary", "report"}) plan.Write(arguments.Get(output).value_or(""));

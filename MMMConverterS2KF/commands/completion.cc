@@ -127,7 +127,7 @@ std::vector<std::string> ConverterNames() {
 
 std::vector<std::string> TemplateNames() {
   std::vector<std::string> names = ConverterNames();
-  names.emplace_back("batch");
+  names.insert(names.end(), {"batch", "batch-schema"});
   return names;
 }
 

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/comparison_json.h"
 #include "MMMConverterS2KF/report/comparison_plot.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/pipeline/comparison/comparison_setup.h"
@@ -25,14 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<OptionGroup> kOwnOptions = {
-    {"Evaluation",
-     {{"output,o", "FOLDER", "where the report goes; default: evaluation", ""},
-      {"repeat", "N", "runs of the occlusion experiment; default: 100, as in the paper", ""},
-      {"jobs", "N", "runs at a time; default: all cores", ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kEvaluation = {
+    "Evaluation",
+    {{"output,o", "FOLDER", "where the report goes; default: evaluation", ""},
+     {"repeat", "N", "runs of the occlusion experiment; default: 100, as in the paper", ""},
+     {"jobs", "N", "runs at a time; default: all cores", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF evaluate [RECORDING...] [options]
 Repeats the evaluation of the paper: a synthetic handstand, with all markers and with markers hidden
@@ -45,19 +42,11 @@ two cores. Writes report.html, evaluation.json and a gnuplot script for each exp
   MMMConverterS2KF evaluate walk.c3d -o results --height 1.75
 )";
 
-std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions.front()};
-  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  options.push_back(kOwnOptions.back());
-  return options;
-}
-
 std::vector<Trial> ReadOthers(const Arguments& arguments) {
   std::vector<Trial> trials;
   Warnings warnings;
-  for (const std::string& file : arguments.positionals()) {
-    trials.push_back(
-        MakeTrial(MakeInputRequest(arguments, file), "", ConverterConfig(), &warnings));
+  for (const InputRequest& input : MakeInputs(task::kEvaluate, arguments, {})) {
+    trials.push_back(MakeTrial(input, "", ConverterConfig(), &warnings));
   }
   LogWarnings(warnings);
   return trials;
@@ -72,7 +61,7 @@ std::string PageFile(const std::string& folder) { return folder + "/report.html"
 
 void CheckOutputs(const Arguments& arguments, const std::string& folder) {
   OutputPlan plan;
-  NameInputs(MakeInputRequest(arguments, ""), &plan);
+  NameInputs(MakeRequest(task::kEvaluate, arguments, "").input, &plan);
   for (const std::string& file : arguments.positionals()) plan.Read(file);
   for (const std::string& name : ExperimentNames()) plan.WriteIntoFolder(ScriptFile(folder, name));
   plan.WriteIntoFolder(FiguresFile(folder));
@@ -96,7 +85,7 @@ void WriteFiles(const std::string& folder, const std::vector<Experiment>& experi
 
 }  // namespace
 
-Manual EvaluateManual() { return {kUsage, Options(), true}; }
+Manual EvaluateManual() { return {kUsage, CommandOptions(task::kEvaluate, {kEvaluation}), true}; }
 
 int RunEvaluate(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));

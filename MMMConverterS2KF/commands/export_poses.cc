@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/motion/trajectory_derivatives.h"
 #include "common/pipeline/dynamics/checked_motion.h"
@@ -39,24 +39,7 @@ const std::vector<OptionGroup> kOptions = {
       {"rotation", "quaternion|vector|matrix", "a quaternion is w, x, y, z; default: quaternion",
        ""},
       {"velocities", "",
-       "also velocities: central differences, for motions that are smooth (s2kf_offline)", ""}}},
-    {"Motion",
-     {{"motion", "NAME", "the motion to write, if a file has several persons", ""},
-      {"frames", "A:B", "frames A to B-1 only, counted from 0; either may be left out", ""}}},
-    {"Person and model",
-     {{"height", "METRES", "default: from the motion's file", ""},
-      {"mass", "KG", "default: from the motion's file, else 70", ""},
-      {"hand-length", "METRES", "default: from the motion's file, else by the height", ""},
-      {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
-      {"subject-file", "FILE", "calibrated person, written by calibrate", ""},
-      {"model", "FILE",
-       "reference model, or a URDF; default: the one that the motion's file names, else the "
-       "shipped "
-       "one",
-       ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+       "also velocities: central differences, for motions that are smooth (s2kf_offline)", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF export-poses MOTION... -o FILE [options]
 Writes where the segments of the body are in every frame of finished MMM motions: positions and
@@ -158,7 +141,7 @@ void ExportMotion(const InputRequest& input, const PoseRequest& request, const s
 
 }  // namespace
 
-Manual ExportPosesManual() { return {kUsage, kOptions, true}; }
+Manual ExportPosesManual() { return {kUsage, CommandOptions(task::kExportPoses, kOptions), true}; }
 
 int RunExportPoses(const Arguments& arguments) {
   if (arguments.positionals().empty() || !arguments.Get("output")) {
@@ -171,7 +154,7 @@ int RunExportPoses(const Arguments& arguments) {
   const std::vector<std::string> outputs = OutputFiles(arguments);
   const bool is_folder = arguments.Get("output") != outputs.front();
   OutputPlan plan;
-  NameInputs(MakeInputRequest(arguments, ""), &plan);
+  NameInputs(MakeRequest(task::kExportPoses, arguments, "").input, &plan);
   for (const std::string& file : arguments.positionals()) plan.Read(file);
   for (const std::string& file : outputs) is_folder ? plan.WriteIntoFolder(file) : plan.Write(file);
   plan.Check();
@@ -180,8 +163,8 @@ int RunExportPoses(const Arguments& arguments) {
     fs::create_directories(*arguments.Get("output"), failure);
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const InputRequest input = MakeInputRequest(arguments, arguments.positionals()[i]);
-    ExportMotion(input, request, outputs[i], plan);
+    ExportMotion(MakeRequest(task::kExportPoses, arguments, arguments.positionals()[i]).input,
+                 request, outputs[i], plan);
   }
   return 0;
 }

@@ -5,8 +5,8 @@
 #include <iostream>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/io/urdf/urdf_model_writer.h"
 #include "common/pipeline/input/input.h"
@@ -15,20 +15,7 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOptions = {
-    {"Files", {{"output,o", "FILE", "the URDF", ""}}},
-    {"Person and model",
-     {{"height", "METRES", "of the person", ""},
-      {"mass", "KG", "of the person", ""},
-      {"hand-length", "METRES", "default: by the height", ""},
-      {"person", "FILE", "ModelProcessorConfig file with height, mass and hand length", ""},
-      {"subject-file", "FILE", "calibrated person: height, mass, segment lengths and marker places",
-       ""},
-      {"model", "FILE", "MMM reference model; default: the shipped one", ""},
-      {"marker-set", "FILE", "markers of this set are placed on the model", ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kFiles = {"Files", {{"output,o", "FILE", "the URDF", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF export-urdf --height H --mass M -o FILE [options]
 Writes the MMM model of a person as a URDF: joints with limits, masses, inertia, simple shapes, and
@@ -49,7 +36,7 @@ std::string Describe(const std::string& model_file, const Person& person) {
 
 }  // namespace
 
-Manual ExportUrdfManual() { return {kUsage, kOptions}; }
+Manual ExportUrdfManual() { return {kUsage, CommandOptions(task::kModel, {kFiles})}; }
 
 int RunExportUrdf(const Arguments& arguments) {
   const auto output = arguments.Get("output");
@@ -59,7 +46,7 @@ int RunExportUrdf(const Arguments& arguments) {
         "--height 1.75 --mass 70 -o anna.urdf");
   }
   StartLog(arguments.Get("log").value_or("info"));
-  const InputRequest request = MakeInputRequest(arguments, "");
+  const InputRequest request = MakeRequest(task::kModel, arguments, "").input;
   OutputPlan plan;
   NameInputs(request, &plan);
   plan.Write(*output);

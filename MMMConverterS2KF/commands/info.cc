@@ -5,6 +5,7 @@
 
 #include "MMMConverterS2KF/batch/batch_file_kinds.h"
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/file_kinds.h"
 #include "MMMConverterS2KF/report/version.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
@@ -13,15 +14,9 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOptions = {
-    {"Options",
-     {{"json", "", "machine-readable", ""},
-      {"subject", "NAME", "label prefix of the subject, if a recording has several", ""},
-      {"unit", "mm|cm|m|in", "overrides the unit that the file states", ""},
-      {"up", "AXIS", "the recording's axis that points up: x, y, z, -x, -y or -z", ""},
-      {"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"version", "", "print this program's version", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kOptions = {
+    "Options",
+    {{"json", "", "machine-readable", ""}, {"version", "", "print this program's version", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF info FILE [--json]
 What is in a file that this program reads or writes: recordings (C3D, TRC), MMM motions, models and
@@ -37,7 +32,7 @@ events and parameters; it need not have markers.
 
 }  // namespace
 
-Manual InfoManual() { return {kUsage, kOptions}; }
+Manual InfoManual() { return {kUsage, CommandOptions(task::kInfo, {kOptions})}; }
 
 int RunInfo(const Arguments& arguments) {
   if (arguments.Has("version")) {
@@ -48,13 +43,10 @@ int RunInfo(const Arguments& arguments) {
     throw UsageError("info: which file? For instance: MMMConverterS2KF info walk.c3d");
   }
   StartLog(arguments.Get("log").value_or("info"));
-  ReadRecordingOptions options;
-  options.subject = arguments.Get("subject").value_or("");
-  options.unit = arguments.Get("unit");
-  if (const auto axis = arguments.Get("up")) options.up_axis = ParseUpAxis(*axis);
+  const ConversionRequest request = MakeRequest(task::kInfo, arguments, *arguments.positional());
   std::vector<FileKind> kinds = BatchFileKinds();
   kinds.insert(kinds.end(), FileKinds().begin(), FileKinds().end());
-  const Description description = DescribeFile(*arguments.positional(), options, kinds);
+  const Description description = DescribeFile(request.input.file, request.input.reading, kinds);
   LogWarnings(description.warnings);
   std::cout << (arguments.Has("json") ? description.json : description.text);
   return 0;

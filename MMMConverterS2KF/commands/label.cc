@@ -3,12 +3,13 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/label_page.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/pipeline/labelled_output.h"
@@ -18,28 +19,14 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOwnOptions = {
-    {"Files",
-     {{"output,o", "FILE",
-       "the labelled recording: C3D, TRC or MMM (.xml); may be RECORDING. Default: nothing is "
-       "written, the summary says what would be",
-       ""},
-      {"report", "FILE", "write a page (HTML): what was changed, and tracks before and after", ""},
-      {"summary", "FILE", "write a summary as JSON", ""}}},
-    {"Names",
-     {{"repair", "",
-       "the recording has labels: keep them except where the body says that they are wrong", ""},
-      {"like", "RECORDING",
-       "another recording of the person with these markers, whose labels are right", ""},
-      {"and-subject-file", "FILE", "another person who is there too, calibrated; for each of them",
-       "", true},
-      {"object-models", "DIR", "folder with the models of rigid objects that may be there", ""},
-      {"config,c", "FILE",
-       "configuration that names markers and joints, or a shipped one; default: s2kf_default",
-       ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kFiles = {
+    "Files",
+    {{"output,o", "FILE",
+      "the labelled recording: C3D, TRC or MMM (.xml); may be RECORDING. Default: nothing is "
+      "written, the summary says what would be",
+      ""},
+     {"report", "FILE", "write a page (HTML): what was changed, and tracks before and after", ""},
+     {"summary", "FILE", "write a summary as JSON", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF label RECORDING [options]
 Gives the points of a recording the names of the markers that they are, by the body that wears them:
@@ -68,30 +55,17 @@ or to nobody. Labels then begin with the name of the person or of the object's m
   MMMConverterS2KF label walk.c3d --repair --subject-file anna.xml -o walk_repaired.c3d
 )";
 
-// A part of the frames can't be written with all that a file has of the others.
-std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions[0], kOwnOptions[1]};
-  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  options.push_back(kOwnOptions[2]);
-  for (OptionGroup& group : options) {
-    std::erase_if(group.options, [](const OptionSpec& o) { return o.name == "frames"; });
-  }
-  return options;
-}
-
 LabelRequest MakeRequest(const Arguments& arguments) {
   if (!arguments.positional()) {
     throw UsageError(
         "label: which recording? For instance: MMMConverterS2KF label walk.c3d --height 1.75 -o "
         "labelled.c3d");
   }
+  ConversionRequest asked = MakeRequest(task::kLabel, arguments, *arguments.positional());
   LabelRequest request;
-  request.input = MakeInputRequest(arguments, *arguments.positional());
-  request.converter.config = arguments.Get("config").value_or("");
-  request.hints.like = arguments.Get("like").value_or("");
-  request.hints.repair = arguments.Has("repair");
-  request.hints.other_persons = arguments.GetAll("and-subject-file");
-  request.hints.object_models = arguments.Get("object-models").value_or("");
+  request.input = std::move(asked.input);
+  request.converter = std::move(asked.converter);
+  request.hints = std::move(asked.label_hints);
   request.output = arguments.Get("output").value_or("");
   request.more_outputs = {arguments.Get("summary").value_or(""),
                           arguments.Get("report").value_or("")};
@@ -100,7 +74,7 @@ LabelRequest MakeRequest(const Arguments& arguments) {
 
 }  // namespace
 
-Manual LabelManual() { return {kUsage, Options()}; }
+Manual LabelManual() { return {kUsage, CommandOptions(task::kLabel, {kFiles})}; }
 
 int RunLabel(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));

@@ -7,9 +7,9 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/comparison_output.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/learn_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/pipeline/comparison/comparison_setup.h"
@@ -19,20 +19,14 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOwnOptions = {
-    {"Files",
-     {{"output,o", "FILE", "the marker set (.xml); needed", ""},
-      {"name", "NAME", "of the marker set; default: the name of its file", ""},
-      {"report", "FILE",
-       "write a page (HTML): the recordings converted with the set, markers where they were learnt",
-       ""},
-      {"summary", "FILE", "write a summary as JSON", ""}}},
-    {"Converter",
-     {{"config,c", "FILE",
-       "configuration that names the joints, or a shipped one; default: s2kf_default", ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kFiles = {
+    "Files",
+    {{"output,o", "FILE", "the marker set (.xml); needed", ""},
+     {"name", "NAME", "of the marker set; default: the name of its file", ""},
+     {"report", "FILE",
+      "write a page (HTML): the recordings converted with the set, markers where they were learnt",
+      ""},
+     {"summary", "FILE", "write a summary as JSON", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF learn-markers RECORDING... [options]
 Learns a laboratory's marker set from recordings whose labels are consistent, but whose meaning is
@@ -55,26 +49,10 @@ Examples
 const std::vector<std::string> kPerRecording = {"frames", "subject", "motion",
                                                 "unit",   "rate",    "up"};
 
-std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions.front()};
-  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  options.insert(options.end(), kOwnOptions.begin() + 1, kOwnOptions.end());
-  for (OptionGroup& group : options) {
-    std::erase_if(group.options, [](const OptionSpec& o) {
-      return o.name == "subject-file" || o.name == "marker-set";
-    });
-    for (OptionSpec& option : group.options) {
-      option.repeatable |= std::count(kPerRecording.begin(), kPerRecording.end(), option.name) > 0;
-    }
-  }
-  return options;
-}
-
 LearnRequest MakeRequest(const Arguments& arguments) {
   constexpr const char* kExample =
       "MMMConverterS2KF learn-markers walk.c3d --height 1.75 -o our_set.xml";
-  const std::vector<std::string>& files = arguments.positionals();
-  if (files.empty()) {
+  if (arguments.positionals().empty()) {
     throw UsageError(fmt::format("learn-markers: which recordings? For instance: {}", kExample));
   }
   if (!arguments.Has("output")) {
@@ -82,11 +60,8 @@ LearnRequest MakeRequest(const Arguments& arguments) {
         fmt::format("learn-markers: where shall the marker set go? For instance: {}", kExample));
   }
   LearnRequest request;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
-    request.inputs.push_back(MakeInputRequest(own, files[i]));
-  }
-  request.converter.config = arguments.Get("config").value_or("");
+  request.inputs = MakeInputs(task::kLearnMarkers, arguments, kPerRecording);
+  request.converter = MakeRequest(task::kLearnMarkers, arguments, "").converter;
   request.name = arguments.Get("name").value_or("");
   request.output = arguments.Get("output").value_or("");
   request.more_outputs = {arguments.Get("summary").value_or(""),
@@ -110,7 +85,9 @@ std::string FormatLearnedReport(const LearnRequest& request, const LearnReport& 
 
 }  // namespace
 
-Manual LearnMarkersManual() { return {kUsage, Options(), true}; }
+Manual LearnMarkersManual() {
+  return {kUsage, CommandOptions(task::kLearnMarkers, {kFiles}, {}, kPerRecording), true};
+}
 
 int RunLearnMarkers(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/live/live_run.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
 #include "MMMConverterS2KF/live/live_summary.h"
@@ -12,7 +13,6 @@
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
@@ -26,7 +26,7 @@ namespace {
 constexpr double kDefaultCalibration = 15;  // [s]
 
 const OptionGroup kOutputOptions = {
-    "Output",
+    "Files",
     {{"output,o", "FILE",
       "the motion; it is kept in FILE.live while it comes, so that nothing is lost", ""},
      {"to", "ADDRESS",
@@ -35,27 +35,12 @@ const OptionGroup kOutputOptions = {
       "", true},
      {"view", "", "serve a page to watch it, for browsers on this machine", ""},
      {"view-at", "HOST:PORT", "where --view listens; default: 127.0.0.1 and a free port", ""},
-     {"format", "2.0|1.0", "of the motion; default: what the configuration says, 2.0", ""},
      {"report", "FILE", "write a page (HTML) of the motion at the end", ""},
-     {"summary", "FILE", "write a summary as JSON", ""},
-     {"model-path", "PATH", "path of the model that is written into the motion", ""}}};
+     {"summary", "FILE", "write a summary as JSON", ""}}};
 
 const std::vector<OptionGroup> kOtherOptions = {
-    {"Converter",
-     {{"config,c", "FILE", "configuration, or the name of a shipped one; default: s2kf_default",
-       ""},
-      {"converter", "NAME", "default: what the configuration says, else S2KFConverter", ""},
-      {"plugin", "FILE", "take the converter from this plugin file", ""}}},
-    {"Labels",
-     {{"label", "",
-       "name the points by the body that wears them, also those that the source has no label for: "
-       "by --subject-file, or by --height and --marker-set",
-       ""}}},
     {"Calibration",
-     {{"self-calibrate", "",
-       "estimate segment lengths and marker places while the person moves about, then use them",
-       ""},
-      {"calibrate-seconds", "S", "how long to gather movement for it; default: 15", ""},
+     {{"calibrate-seconds", "S", "how long to gather movement for it; default: 15", ""},
       {"subject-out", "FILE", "with --self-calibrate: also write the person", ""}}},
     {"Running",
      {{"loop", "", "a replay begins again at its end", ""},
@@ -63,10 +48,7 @@ const std::vector<OptionGroup> kOtherOptions = {
        ""},
       {"realtime", "",
        "ask the system for real-time priority of the threads that read, track and send", ""},
-      {"processor", "N", "keep the tracking thread on this processor", ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+      {"processor", "N", "keep the tracking thread on this processor", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF live SOURCE [options]
 Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is one of
@@ -85,25 +67,10 @@ std::vector<Exporter> LiveExporters() {
   return exporters;
 }
 
-std::vector<OptionGroup> Options() {
-  OptionGroup exports = {"Export, at the end", {}};
-  for (const Exporter& exporter : LiveExporters()) {
-    exports.options.push_back({OptionOf(exporter), "FILE", exporter.help, ""});
-  }
-  std::vector<OptionGroup> options = {kOutputOptions};
-  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  for (OptionGroup& group : options) {
-    std::erase_if(group.options, [](const OptionSpec& o) { return o.name == "frames"; });
-  }
-  options.push_back(std::move(exports));
-  options.insert(options.end(), kOtherOptions.begin(), kOtherOptions.end());
-  return options;
-}
-
 void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
   if (!request.output.empty()) return;
   std::vector<std::string> options = {"report", "format", "model-path"};
-  for (const Exporter& exporter : LiveExporters()) options.push_back(OptionOf(exporter));
+  for (const Exporter& exporter : LiveExporters()) options.emplace_back(exporter.option);
   for (const std::string& option : options) {
     if (arguments.Has(option)) {
       throw UsageError(
@@ -120,35 +87,21 @@ LiveRequest MakeRequest(const Arguments& arguments) {
         "motion.xml");
   }
   LiveRequest request;
-  request.input = MakeInputRequest(arguments, *arguments.positional());
-  request.motion_name = request.input.reading.motion;
-  request.converter = {arguments.Get("config").value_or(""),
-                       arguments.Get("converter").value_or(""),
-                       arguments.Get("plugin").value_or("")};
+  static_cast<ConversionRequest&>(request) =
+      MakeRequest(task::kLive, arguments, *arguments.positional());
   request.loops = arguments.Has("loop");
-  request.label = arguments.Has("label");
   const auto calibration = arguments.GetNumber("calibrate-seconds", "seconds, e.g. 15");
-  if (arguments.Has("self-calibrate")) {
+  if (request.self_calibrate) {
     request.calibration_time = calibration.value_or(kDefaultCalibration);
     if (!(request.calibration_time >= 1)) {
       throw UsageError("live: --calibrate-seconds is at least 1");
-    }
-    if (!request.input.person.subject_file.empty()) {
-      throw UsageError(
-          "live: --self-calibrate estimates the person, --subject-file says who it is; use one");
     }
   } else if (calibration || arguments.Has("subject-out")) {
     throw UsageError("live: --calibrate-seconds and --subject-out need --self-calibrate");
   }
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.output = arguments.Get("output").value_or("");
-  if (arguments.Has("format")) {
-    request.output_format = arguments.GetChoice("format", {"2.0", "1.0"}, "");
-  }
-  request.model_path = arguments.Get("model-path").value_or("");
-  for (const Exporter& exporter : LiveExporters()) {
-    if (const auto file = arguments.Get(OptionOf(exporter))) request.exports[exporter.name] = *file;
-  }
+  request.exports = ExportsOf(arguments);
   for (const char* option : {"summary", "report"}) {
     if (const auto file = arguments.Get(option)) request.more_outputs.push_back(*file);
   }
@@ -173,7 +126,12 @@ std::string Describe(const LiveStatus& status) {
 
 }  // namespace
 
-Manual LiveManual() { return {fmt::format(kUsage, DescribeSources(), "{}"), Options()}; }
+Manual LiveManual() {
+  std::vector<OptionGroup> last = kOtherOptions;
+  last.push_back(ExportGroup("Export, at the end", LiveExporters()));
+  return {fmt::format(kUsage, DescribeSources(), "{}"),
+          CommandOptions(task::kLive, {kOutputOptions}, last)};
+}
 
 int RunLive(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "MMMConverterS2KF/batch/manifest.h"
+#include "MMMConverterS2KF/batch/manifest_attributes.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "common/convert/plugin_loader.h"
@@ -18,11 +19,13 @@ const std::vector<OptionGroup> kOptions = {
 
 constexpr const char* kUsage = R"(MMMConverterS2KF print-config NAME
 Prints the configuration of a converter: every setting with its default and a description. The name
-"batch" prints an example of a manifest for the command batch.
+"batch" prints an example of a manifest for the command batch, "batch-schema" the schema (XSD) of
+manifests.
 
 {}Examples
   MMMConverterS2KF print-config S2KFConverter > my.xml
   MMMConverterS2KF print-config batch > manifest.xml
+  MMMConverterS2KF print-config batch-schema > batch.xsd
   MMMConverterS2KF print-config --plugin build/MyConverter.so
 )";
 
@@ -35,6 +38,8 @@ int RunPrintConfig(const Arguments& arguments) {
     std::cout << LoadedPlugin(*file).factory().config_template();
   } else if (arguments.positional() == "batch") {
     std::cout << ManifestTemplate();
+  } else if (arguments.positional() == "batch-schema") {
+    std::cout << ManifestSchema();
   } else if (arguments.positional()) {
     std::cout << LoadPluginByName(*arguments.positional()).factory().config_template();
   } else {

@@ -6,9 +6,9 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/comparison_output.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/comparison_table.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/io/bytes/file_content.h"
 #include "common/pipeline/comparison/comparison_setup.h"
@@ -19,15 +19,12 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOwnOptions = {
-    {"Output",
-     {{"output,o", "FILE", "the page; default: RECORDING without its ending + _report.html", ""},
-      {"json", "FILE", "all figures as JSON", ""},
-      {"csv", "FILE", "all figures as CSV", ""},
-      {"gnuplot", "FILE", "a gnuplot script with its data, which draws SVG figures", ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug", ""},
-      {"help,h", "", "print this help", ""}}}};
+const OptionGroup kOutput = {
+    "Output",
+    {{"output,o", "FILE", "the page; default: RECORDING without its ending + _report.html", ""},
+     {"json", "FILE", "all figures as JSON", ""},
+     {"csv", "FILE", "all figures as CSV", ""},
+     {"gnuplot", "FILE", "a gnuplot script with its data, which draws SVG figures", ""}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF report RECORDING MOTION... [options]
 Writes an HTML page that shows finished MMM motions together with the recording that they were
@@ -40,13 +37,6 @@ several conversions use compare --report.
   MMMConverterS2KF report walk.c3d walk_mmm.xml
   MMMConverterS2KF report walk.xml walk.xml walk_mmm.xml -o walk.html
 )";
-
-std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions.front()};
-  options.insert(options.end(), InputOptions().begin(), InputOptions().end());
-  options.push_back(kOwnOptions.back());
-  return options;
-}
 
 // The motions as contenders, their results on the trial.
 struct Solutions {
@@ -67,7 +57,7 @@ void AddSolution(const Trial& trial, const Finished& unsolved, const std::string
 
 Comparison CompareSolutions(const Arguments& arguments) {
   const std::vector<std::string>& files = arguments.positionals();
-  InputRequest request = MakeInputRequest(arguments, files.front());
+  InputRequest request = MakeRequest(task::kReport, arguments, files.front()).input;
   std::vector<MmmMotion> motions;
   for (std::size_t i = 1; i < files.size(); ++i) {
     motions.push_back(ReadPostures(files[i], request.reading.motion));
@@ -103,7 +93,7 @@ std::string OutputFile(const Arguments& arguments) {
 
 }  // namespace
 
-Manual ReportManual() { return {kUsage, Options(), true}; }
+Manual ReportManual() { return {kUsage, CommandOptions(task::kReport, {kOutput}), true}; }
 
 int RunReport(const Arguments& arguments) {
   if (arguments.positionals().size() < 2) {
@@ -114,7 +104,7 @@ int RunReport(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const std::string output = OutputFile(arguments);
   OutputPlan plan;
-  NameInputs(MakeInputRequest(arguments, ""), &plan);
+  NameInputs(MakeRequest(task::kReport, arguments, "").input, &plan);
   for (const std::string& file : arguments.positionals()) plan.Read(file);
   NameOutputs(arguments, &plan);
   plan.Write(output);

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
-#include "MMMConverterS2KF/terminal/input_options.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/live/natnet/natnet_server.h"
@@ -45,10 +45,7 @@ const std::vector<OptionGroup> kOwnOptions = {
     {"Playing",
      {{"speed", "FACTOR", "of the recording's time, or max: as fast as clients take it; default: 1",
        ""},
-      {"loop", "", "begin again at the end", ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+      {"loop", "", "begin again at the end", ""}}}};
 
 constexpr const char* kUsage = R"(MMMConverterS2KF serve RECORDING --as qtm|natnet [options]
 Plays a recording as a motion capture system streams what its cameras see, for programs that take
@@ -62,15 +59,6 @@ the stream, too.
   MMMConverterS2KF serve walk.c3d --as qtm --bind 0.0.0.0 --discovery --speed 0.5
   MMMConverterS2KF serve walk.c3d --as natnet --bind 192.168.1.5 --multicast 239.255.42.99
 )";
-
-std::vector<OptionGroup> Options() {
-  std::vector<OptionGroup> options = {kOwnOptions[0], kOwnOptions[1], kOwnOptions[2],
-                                      InputOptions().front(), kOwnOptions[3]};
-  for (OptionSpec& option : options[3].options) {
-    if (option.name == "motion") option.help = "MMM files: the motion to play";
-  }
-  return options;
-}
 
 PlaybackOptions MakePlayback(const Arguments& arguments) {
   PlaybackOptions playback;
@@ -174,7 +162,7 @@ int Run(Server* server, const std::string& what, const std::string& address) {
 
 }  // namespace
 
-Manual ServeManual() { return {kUsage, Options()}; }
+Manual ServeManual() { return {kUsage, CommandOptions(task::kServe, kOwnOptions)}; }
 
 int RunServe(const Arguments& arguments) {
   if (!arguments.positional()) {
@@ -185,7 +173,7 @@ int RunServe(const Arguments& arguments) {
   if (!arguments.Has("as")) throw UsageError("serve: as which system? --as qtm or --as natnet");
   const bool is_qtm = arguments.GetChoice("as", {"qtm", "natnet"}, "qtm") == "qtm";
   Warnings warnings;
-  InputRequest request = MakeInputRequest(arguments, *arguments.positional());
+  InputRequest request = MakeRequest(task::kServe, arguments, *arguments.positional()).input;
   request.reading.with_unlabelled = true;
   Recording recording = ReadInput(request, {}, &warnings).recording;
   LogWarnings(warnings);

@@ -31,28 +31,11 @@ struct Conversion {
   const PoseTrajectory& trajectory() const { return report.result.trajectory; }
 };
 
-ConversionRequest ConversionRequestOf(const py::dict& options) {
-  ConversionRequest request;
-  request.input = InputRequestOf(options);
-  request.converter = ConverterRequestOf(options);
-  request.motion_name = request.input.reading.motion;
-  request.output_format = TextOf(options, "format");
-  if (!request.output_format.empty() && request.output_format != "2.0" &&
-      request.output_format != "1.0") {
-    throw Error("format: \"" + request.output_format + "\" is not allowed; use 2.0 or 1.0");
-  }
-  request.self_calibrate = IsSet(options, "self_calibrate");
-  request.label = IsSet(options, "label");
-  request.keeps_covariances = IsSet(options, "covariances");
-  request.is_object = IsSet(options, "object");
-  request.object_models = TextOf(options, "object_models");
-  return request;
-}
-
 // recording: a Recording, or None: the options' file is read.
 Conversion Convert(const py::object& recording, const py::dict& options,
                    const py::object& progress) {
-  ConversionRequest request = ConversionRequestOf(options);
+  ConversionRequest request = RequestOf(options);
+  if (const std::string wrong = Contradiction(request); !wrong.empty()) throw Error(wrong);
   ReadBefore read_before;
   if (!recording.is_none()) {
     const auto& read = recording.cast<const ReadRecordingResult&>();

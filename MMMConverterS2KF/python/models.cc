@@ -22,7 +22,7 @@ namespace py = pybind11;
 namespace {
 
 PersonModel ReadPersonModel(const py::dict& options) {
-  InputRequest request = InputRequestOf(options);
+  const InputRequest request = RequestOf(options).input;
   const py::gil_scoped_release release;
   Warnings warnings;
   Input input = ReadModel(request, {}, &warnings);
@@ -255,7 +255,7 @@ void BindModels(py::module_* module) {
   py::class_<Tracker>(*module, "Tracker")
       .def(py::init([](const PersonModel& person, const std::vector<std::string>& labels,
                        const py::dict& options) {
-        return std::make_unique<Tracker>(person, labels, ConverterRequestOf(options),
+        return std::make_unique<Tracker>(person, labels, RequestOf(options).converter,
                                          TextOf(options, "marker_set"));
       }))
       .def_property_readonly("joint_names", &Tracker::joint_names)

@@ -3,7 +3,7 @@
 
 #include <exception>
 
-#include "MMMConverterS2KF/python/advice.h"
+#include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/version.h"
 #include "common/support/error.h"
 
@@ -20,10 +20,11 @@ PYBIND11_MODULE(_mmmconverter, module) {
       error(WithAdvice(failure).c_str());
     }
   });
-  SetWording(python::KeywordWording());
+  SetWording(WordingOf(Medium::kPython));
   module.def("version_text", &VersionText);
   python::BindRecordings(&module);
   python::BindModels(&module);
   python::BindConversions(&module);
   python::BindStudies(&module);
+  python::BindOptions(&module);
 }

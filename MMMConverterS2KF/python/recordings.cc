@@ -35,7 +35,7 @@ py::array MarkersOf(const MarkerSequence& markers, const py::handle& owner) {
 }
 
 ReadRecordingResult Read(const py::dict& options) {
-  const InputRequest request = InputRequestOf(options);
+  const InputRequest request = RequestOf(options).input;
   ReadRecordingOptions reading = request.reading;
   reading.with_unlabelled = IsSet(options, "with_unlabelled");
   const py::gil_scoped_release release;

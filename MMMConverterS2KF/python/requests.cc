@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "MMMConverterS2KF/python/requests.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
-#include <utility>
+#include <map>
+#include <tuple>
 
-#include "common/math/up_axis.h"
+#include "common/pipeline/comparison/comparison_setup.h"
+#include "common/pipeline/dynamics/dynamics_check.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -15,57 +17,119 @@ namespace py = pybind11;
 
 namespace {
 
-std::optional<double> NumberOf(const py::dict& options, const char* key) {
-  if (!options.contains(key) || options[key].is_none()) return std::nullopt;
-  const auto value = options[key].cast<double>();
-  if (!std::isfinite(value)) throw Error(std::string(key) + ": is no finite number");
-  return value;
+constexpr Medium kMedium = Medium::kPython;
+
+// The package's functions that have options.
+const std::map<std::string, Task> kTasks = {
+    {"calibrate", task::kCalibrate}, {"check_dynamics", task::kCheckDynamics},
+    {"compare", task::kCompare},     {"convert", task::kConvert},
+    {"label", task::kLabel},         {"read", task::kRead},
+    {"read_model", task::kModel}};
+
+// A value as the command line has it.
+std::string TextOfValue(const py::handle& value, OptionKind kind) {
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (kind == OptionKind::kSwitch)
+    return py::bool_(py::reinterpret_borrow<py::object>(value)) ? "true" : "false";
+  if (kind == OptionKind::kNumber) return fmt::format("{}", value.cast<double>());
+  if (kind == OptionKind::kWhole) return fmt::format("{}", value.cast<long>());
+  if (kind == OptionKind::kFrames) {
+    const auto frames = value.cast<std::pair<std::optional<long>, std::optional<long>>>();
+    const auto text = [](const std::optional<long>& frame) {
+      return frame ? fmt::format("{}", *frame) : "";
+    };
+    return text(frames.first) + ':' + text(frames.second);
+  }
+  return py::module_::import("os").attr("fspath")(value).cast<std::string>();
+}
+
+std::vector<std::string> TextsOfValue(const py::handle& value, const Option& option) {
+  const bool is_one =
+      !IsList(option) || py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+  if (is_one) return {TextOfValue(value, option.value.kind)};
+  std::vector<std::string> texts;
+  for (const py::handle one : value) texts.push_back(TextOfValue(one, option.value.kind));
+  return texts;
+}
+
+// For people, and for programs that check types.
+struct KeywordType {
+  const char* words;
+  const char* annotation;
+};
+
+KeywordType TypeOf(const Option& option) {
+  constexpr const char* kPath = "Union[str, os.PathLike]";
+  static const std::map<OptionKind, KeywordType> types = {
+      {OptionKind::kSwitch, {"bool", "bool"}},
+      {OptionKind::kNumber, {"float", "float"}},
+      {OptionKind::kWhole, {"int", "int"}},
+      {OptionKind::kFrames, {"(int, int)", "Tuple[Optional[int], Optional[int]]"}},
+      {OptionKind::kFile, {"path", kPath}},
+      {OptionKind::kShipped, {"str or path", kPath}},
+      {OptionKind::kSubject, {"path, Subject or Calibration", "Any"}}};
+  if (IsList(option)) return {"sequence of path, Subject or Calibration", "Sequence[Any]"};
+  const auto found = types.find(option.value.kind);
+  return found == types.end() ? KeywordType{"str", "str"} : found->second;
+}
+
+// Of each keyword its name, type in words, annotation, and help.
+py::list OptionsOf(const std::string& name) {
+  const Task task = kTasks.at(name);
+  std::vector<Option> table = DescribedOptions();
+  static ComparisonOptions comparison;
+  static DynamicsOptions dynamics;
+  for (const auto& more : {Options(&comparison), Options(&dynamics)}) {
+    table.insert(table.end(), more.begin(), more.end());
+  }
+  py::list options;
+  for (const Option& option : table) {
+    if ((option.tasks & task) == 0 || *option.names.keyword == 0) continue;
+    const KeywordType type = TypeOf(option);
+    options.append(py::make_tuple(option.names.keyword, type.words, type.annotation,
+                                  HelpOf(kMedium, option, task)));
+  }
+  return options;
 }
 
 }  // namespace
 
+void ReadKeywords(const py::dict& options, const std::vector<Option>& table) {
+  for (const Option& option : table) {
+    const char* const name = option.names.keyword;
+    if (*name == 0 || !options.contains(name) || options[name].is_none()) continue;
+    const py::object value = options[name];
+    const std::vector<std::string> texts = TextsOfValue(value, option);
+    const std::string expected = SetOption(option, texts);
+    if (expected.empty()) continue;
+    throw Error(fmt::format("{}: {} is not allowed; {}", name, py::repr(value).cast<std::string>(),
+                            expected));
+  }
+}
+
+ConversionRequest RequestOf(const py::dict& options) {
+  ConversionRequest request;
+  ReadKeywords(options, Options(&request));
+  request.input.file = TextOf(options, "file");
+  return request;
+}
+
 std::string TextOf(const py::dict& options, const char* key) {
   if (!options.contains(key) || options[key].is_none()) return "";
-  return py::module_::import("os").attr("fspath")(options[key]).cast<std::string>();
+  return TextOfValue(py::object(options[key]), OptionKind::kFile);
 }
 
 bool IsSet(const py::dict& options, const char* key) {
   return options.contains(key) && py::bool_(options[key]);
 }
 
-InputRequest InputRequestOf(const py::dict& options) {
-  InputRequest request;
-  request.file = TextOf(options, "file");
-  if (const std::string unit = TextOf(options, "unit"); !unit.empty()) request.reading.unit = unit;
-  if (const std::string up = TextOf(options, "up"); !up.empty()) {
-    request.reading.up_axis = ParseUpAxis(up);
-  }
-  request.reading.rate = NumberOf(options, "rate");
-  if (request.reading.rate && !IsFrameRate(*request.reading.rate)) {
-    throw Error("rate: must be from 1 to 100000 frames a second");
-  }
-  request.reading.ignore_residuals = IsSet(options, "ignore_residuals");
-  request.reading.subject = TextOf(options, "prefix");
-  request.reading.motion = TextOf(options, "motion");
-  if (options.contains("frames") && !options["frames"].is_none()) {
-    const auto frames = options["frames"].cast<std::pair<std::optional<int>, std::optional<int>>>();
-    std::tie(request.first_frame, request.end_frame) = frames;
-    if (frames.first.value_or(0) < 0 || frames.second.value_or(0) < 0) {
-      throw Error("frames: (A, B) are the frames A to B-1, counted from 0");
-    }
-  }
-  request.model_file = TextOf(options, "model");
-  request.marker_set = TextOf(options, "marker_set");
-  request.person.size.height = NumberOf(options, "height");
-  request.person.size.mass = NumberOf(options, "mass");
-  request.person.size.hand_length = NumberOf(options, "hand_length");
-  request.person.processor_file = TextOf(options, "person");
-  request.person.subject_file = TextOf(options, "subject_file");
-  return request;
-}
-
-ConverterRequest ConverterRequestOf(const py::dict& options) {
-  return {TextOf(options, "config"), TextOf(options, "converter"), TextOf(options, "plugin")};
+void BindOptions(py::module_* module) {
+  module->def("options", &OptionsOf);
+  module->def("tasks", [] {
+    std::vector<std::string> names;
+    for (const auto& [name, task] : kTasks) names.push_back(name);
+    return names;
+  });
 }
 
 }  // namespace mmm_converter::python

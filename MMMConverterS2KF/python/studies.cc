@@ -37,7 +37,7 @@ namespace {
 std::vector<InputRequest> InputRequestsOf(const py::list& inputs) {
   std::vector<InputRequest> requests;
   requests.reserve(inputs.size());
-  for (const py::handle& one : inputs) requests.push_back(InputRequestOf(one.cast<py::dict>()));
+  for (const py::handle& one : inputs) requests.push_back(RequestOf(one.cast<py::dict>()).input);
   return requests;
 }
 
@@ -66,7 +66,7 @@ Calibration Calibrate(const py::list& inputs, const py::dict& options, const py:
   CalibrationRequest request;
   request.inputs = InputRequestsOf(inputs);
   if (request.inputs.empty()) throw Error("calibrate: which recordings?");
-  request.converter = ConverterRequestOf(options);
+  request.converter = RequestOf(options).converter;
   request.name = TextOf(options, "name");
   return InBackground(progress, [&](const Progress& on_progress) {
     Warnings warnings;
@@ -96,21 +96,12 @@ struct Comparing {
 };
 
 Comparing CompareAll(const py::list& inputs, const std::vector<std::string>& configs,
-                     const py::dict& options, const py::object& progress) {
+                     const std::vector<std::string>& truths, const py::dict& options,
+                     const py::object& progress) {
   Comparing result;
   result.inputs = InputRequestsOf(inputs);
   ComparisonOptions comparison;
-  comparison.hiding.amount = options["hide"].cast<double>();
-  comparison.runs = options["repeat"].cast<int>();
-  comparison.seed = options["seed"].cast<std::uint64_t>();
-  comparison.jobs = options["jobs"].cast<int>();
-  if (!(comparison.hiding.amount >= 0 && comparison.hiding.amount <= 1)) {
-    throw Error("hide: must be a number from 0 to 1");
-  }
-  if (comparison.runs < 1 || comparison.jobs < 0) {
-    throw Error("repeat and jobs: must not be less than 1");
-  }
-  const auto truths = options["truths"].cast<std::vector<std::string>>();
+  ReadKeywords(options, Options(&comparison));
   result.comparison = InBackground(progress, [&](const Progress& on_progress) {
     std::vector<Contender> contenders;
     for (const std::string& config : configs) {
@@ -135,13 +126,12 @@ struct LabelledRecording {
   LabelReport report;
 };
 
-LabelledRecording LabelPoints(const py::dict& input, const py::dict& options,
-                              const py::object& progress) {
+LabelledRecording LabelPoints(const py::dict& options, const py::object& progress) {
+  ConversionRequest asked = RequestOf(options);
   LabelRequest request;
-  request.input = InputRequestOf(input);
-  request.converter = ConverterRequestOf(options);
-  request.hints.like = TextOf(options, "like");
-  request.hints.repair = IsSet(options, "repair");
+  request.input = std::move(asked.input);
+  request.converter = std::move(asked.converter);
+  request.hints = std::move(asked.label_hints);
   return InBackground(progress, [&](const Progress& on_progress) {
     return LabelledRecording{request, RunLabelling(request, on_progress)};
   });
@@ -149,11 +139,11 @@ LabelledRecording LabelPoints(const py::dict& input, const py::dict& options,
 
 void SaveLabelled(LabelledRecording* labelled, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckLabelledOutput(file, false);
+  CheckLabelledOutput(file, labelled->request.hints.has_others());
   CheckKeepsRecording(file, labelled->report.input.recording);
   OutputPlan plan;
   NameInputs(labelled->request.input, &plan);
-  plan.Read(labelled->request.hints.like);
+  for (const std::string& hint : FilesOf(labelled->request.hints)) plan.Read(hint);
   plan.Rewrite(file, labelled->request.input.file);
   plan.Check();
   labelled->report.output = file;
@@ -172,14 +162,13 @@ struct CheckedDynamics {
   DynamicsReport report;
 };
 
-CheckedDynamics CheckMotion(const py::dict& input, double cutoff, const py::object& progress) {
-  InputRequest request = InputRequestOf(input);
-  if (!(cutoff >= 0)) throw Error("low_pass: must be hertz, or 0 for none");
+CheckedDynamics CheckMotion(const py::dict& options, const py::object& progress) {
+  const InputRequest request = RequestOf(options).input;
+  DynamicsOptions dynamics;
+  ReadKeywords(options, Options(&dynamics));
   return InBackground(progress, [&](const Progress& on_progress) {
-    DynamicsOptions options;
-    options.cutoff = cutoff;
     return CheckedDynamics{
-        request, CheckDynamics(ReadCheckedMotion(request), options, OrThrow(on_progress))};
+        request, CheckDynamics(ReadCheckedMotion(request), dynamics, OrThrow(on_progress))};
   });
 }
 

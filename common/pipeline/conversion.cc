@@ -176,7 +176,9 @@ void CheckOutputs(const ConversionRequest& request,
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
   if (request.label) {
-    for (const std::string& file : FilesOf(request.label_hints)) outputs.Read(file);
+    if (request.label) {
+      for (const std::string& file : FilesOf(request.label_hints)) outputs.Read(file);
+    }
   }
   for (const ConversionPlan* plan : plans) {
     NameInputs(plan->converter, &outputs);

@@ -72,32 +72,31 @@ void WriteCovariances(const std::string& file, const ConversionReport& report) {
 
 const std::vector<Exporter>& Exporters() {
   static const std::vector<Exporter> exporters = {
-      {"csv", "csv", "postures and their standard deviations as CSV",
+      {"csv", "export-csv", "csv", "postures and their standard deviations as CSV",
        "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
        "postures are smoothed (-c s2kf_offline)",
        WriteCsv},
-      {"trc", "trc", "markers, measured and the model's, as TRC",
+      {"trc", "export-trc", "trc", "markers, measured and the model's, as TRC",
        "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
        "them (LABEL_model)",
        WriteTrc},
-      {"mot", "mot", "postures for OpenSim",
+      {"mot", "export-mot", "mot", "postures for OpenSim",
        "postures as OpenSim's motion, in metres and degrees with y up", WriteMot},
-      {"poses", "npz", "poses of all segments, as NumPy's .npz",
+      {"poses", "export-poses", "npz", "poses of all segments, as NumPy's .npz",
        "poses of all segments and of the file's objects, 21 points of the body and the centre of "
        "mass: .npz for NumPy, else CSV; see export-poses",
        WritePoses},
-      {"bvh", "bvh", "the skeleton and its motion as BVH",
+      {"bvh", "export-bvh", "bvh", "the skeleton and its motion as BVH",
        "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh},
-      {"bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres},
-      {"covariance", "npz", "covariances of the postures as NumPy's .npz",
+      {"bvh-m", "export-bvh-m", "bvh", "the same in metres", "the same in metres",
+       WriteBvhInMetres},
+      {"covariance", "export-covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "
        "some 13 a second",
        WriteCovariances, true}};
   return exporters;
 }
-
-std::string OptionOf(const Exporter& exporter) { return std::string("export-") + exporter.name; }
 
 bool NeedCovariances(const ExportFiles& files) {
   const std::vector<Exporter>& all = Exporters();

@@ -14,6 +14,7 @@ struct ConversionReport;
 /// texts are made from it.
 struct Exporter {
   const char* name = "";    ///< "csv": attribute and folder of a batch
+  const char* option = "";  ///< "export-csv"
   const char* ending = "";  ///< of its files there
   const char* what = "";    ///< "postures as CSV", for the help of a batch
   const char* help = "";    ///< of the option
@@ -24,9 +25,6 @@ struct Exporter {
 };
 
 const std::vector<Exporter>& Exporters();
-
-/// "export-csv"
-std::string OptionOf(const Exporter& exporter);
 
 /// Files that are asked for, by the exporter's name.
 using ExportFiles = std::map<std::string, std::string>;

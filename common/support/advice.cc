@@ -6,7 +6,7 @@ namespace {
 
 Wording& TheWording() {
   static Wording wording = {[](const std::string& name) { return name; },
-                            [](Remedy /*remedy*/) { return ""; }};
+                            [](Remedy /*remedy*/) { return std::string(); }};
   return wording;
 }
 

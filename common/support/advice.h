@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "common/support/error.h"
@@ -9,8 +10,8 @@ namespace mmm_converter {
 
 /// How a program's users give what the library's messages ask for.
 struct Wording {
-  std::string (*option)(const std::string& name);  ///< by its plain name: "height"
-  const char* (*advice)(Remedy remedy);            ///< continues a message; or ""
+  std::function<std::string(const std::string& name)> option;  ///< by its plain name: "height"
+  std::function<std::string(Remedy remedy)> advice;            ///< continues a message; or ""
 };
 
 /// A program says so once, before it has threads. Without, options have their plain names, and

@@ -126,16 +126,15 @@ TEST(Manifest, SaysAllThatIsWrongWithItsLine) {
       ErrorOf("<Batch height_m='175'>\n<Recording file='a.c3d' hieght_m='1.7'/>\n<Recording/>\n"
               "<Recrding file='b.c3d'/>\n<Recording file='a.trc' frames='5'/>\n"
               "<Recording file='c.c3d' up='w'/>\n</Batch>"),
-      AllOf(
-          HasSubstr(
-              "/data/night.xml:1: <Batch>: height_m=\"175\" is not allowed; give a number from 0.5 "
-              "to 2.5"),
-          HasSubstr(":2: <Recording>: unknown attribute hieght_m; did you mean height_m?"),
-          HasSubstr(":3: <Recording> needs file=\"...\""),
-          HasSubstr(":4: unknown element <Recrding> in <Batch>"),
-          HasSubstr(":5: <Recording>: frames"),
-          HasSubstr(":5: id=\"a\" is that of the recording in line 2 too"),
-          HasSubstr(":6: <Recording>: up=\"w\" is not allowed")));
+      AllOf(HasSubstr(
+                "/data/night.xml:1: <Batch>: height_m=\"175\" is not allowed; give metres from 0.5 "
+                "to 2.5"),
+            HasSubstr(":2: <Recording>: unknown attribute hieght_m; did you mean height_m?"),
+            HasSubstr(":3: <Recording> needs file=\"...\""),
+            HasSubstr(":4: unknown element <Recrding> in <Batch>"),
+            HasSubstr(":5: <Recording>: frames"),
+            HasSubstr(":5: id=\"a\" is that of the recording in line 2 too"),
+            HasSubstr(":6: <Recording>: up=\"w\" is not allowed")));
   EXPECT_THAT(ErrorOf("<Batch/>"), HasSubstr("has no <Recording"));
   EXPECT_THAT(ErrorOf("<ConverterConfig type='S2KFConverter'/>"),
               HasSubstr("a manifest starts with <Batch>"));

@@ -163,7 +163,7 @@ TEST_F(Completion, OffersWhatIsInstalledAndWhatIsAllowed) {
   EXPECT_THAT(Complete({"convert", "--config", "=", "uk"}), ElementsAre("ukf"));
   EXPECT_THAT(Complete({"label", "--marker-set", "="}), IsSupersetOf({"kit53", "plugin_gait"}));
   EXPECT_THAT(Complete({"live", "--converter", "S"}), ElementsAre("S2KFConverter"));
-  EXPECT_THAT(Complete({"print-config", "ba"}), ElementsAre("batch"));
+  EXPECT_THAT(Complete({"print-config", "ba"}), ElementsAre("batch", "batch-schema"));
   EXPECT_THAT(Complete({"help", "ser"}), ElementsAre("serve"));
   EXPECT_THAT(Complete({"serve", "--as", ""}), ElementsAre("qtm", "natnet"));
   EXPECT_THAT(Complete({"info", "--up", "-"}), ElementsAre("-x", "-y", "-z"));

@@ -126,6 +126,22 @@ class Documentation(unittest.TestCase):
                         if not member.startswith("_")}
             self.assertEqual(members - {"__init__"}, of_class, name)
 
+    def test_options_are_those_of_the_table(self):
+        folder = pathlib.Path(mmmconverter.__file__).parent
+        compiled = importlib.import_module("mmmconverter._mmmconverter")
+        stub = {node.name: [one.target.id for one in node.body]
+                for node in ast.parse((folder / "_options.pyi").read_text()).body
+                if isinstance(node, ast.ClassDef)}
+        for task in compiled.tasks():
+            function = getattr(mmmconverter, task)
+            keywords = [row[0] for row in compiled.options(task)]
+            self.assertTrue(keywords, task)
+            self.assertEqual(stub[task.title().replace("_", "") + "Options"], keywords)
+            for keyword in keywords:
+                self.assertIn(keyword, inspect.signature(function).parameters)
+                self.assertTrue(re.search(rf"\b{keyword}\b.* : ", inspect.getdoc(function)), keyword)
+        self.assertIn("and_subjects", inspect.signature(mmmconverter.convert).parameters)
+
     def test_import(self):
         code = ("import time, numpy; began = time.perf_counter(); import mmmconverter; "
                 "print(f'import: {1e3 * (time.perf_counter() - began):.0f} ms beside NumPy'); "

@@ -2,15 +2,22 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/batch/manifest_attributes.h"
 #include "common/support/error.h"
+#include "tests/support/test_folder.h"
 #include "tests/xml_config/xmllint.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr const char* kBatchSchema = "batch.xsd";
+bool IsValid(const std::string& xml) {
+  const std::string schema = testing::TestFolder() + "/batch.xsd";
+  std::ofstream(schema) << ManifestSchema();
+  return testing::IsValidText(schema, xml);
+}
 
 bool IsReadable(const std::string& xml) {
   try {
@@ -21,9 +28,7 @@ bool IsReadable(const std::string& xml) {
   }
 }
 
-TEST(BatchSchema, TakesTheTemplate) {
-  EXPECT_TRUE(testing::IsValidText(kBatchSchema, ManifestTemplate()));
-}
+TEST(BatchSchema, TakesTheTemplate) { EXPECT_TRUE(IsValid(ManifestTemplate())); }
 
 TEST(BatchSchema, AgreesWithTheReader) {
   const auto recording = [](const std::string& attributes) {
@@ -34,7 +39,7 @@ TEST(BatchSchema, AgreesWithTheReader) {
         recording("up='-X' frames=':' format='1.0' rate_hz='1' ignoreResiduals='false'"),
         std::string("<Batch><Metadata name='a' value=''/><Recording file='a'><Metadata name='a' "
                     "value='b'/></Recording></Batch>")}) {
-    EXPECT_TRUE(testing::IsValidText(kBatchSchema, xml)) << xml;
+    EXPECT_TRUE(IsValid(xml)) << xml;
     EXPECT_TRUE(IsReadable(xml)) << xml;
   }
   for (const std::string& xml :
@@ -46,25 +51,22 @@ TEST(BatchSchema, AgreesWithTheReader) {
         std::string("<Batch><Group file='a.c3d'/></Batch>"),
         std::string("<Batch><Recording/></Batch>"),
         std::string("<Batch><Metadata value='1'/><Recording file='a'/></Batch>")}) {
-    EXPECT_FALSE(testing::IsValidText(kBatchSchema, xml)) << xml;
+    EXPECT_FALSE(IsValid(xml)) << xml;
     EXPECT_FALSE(IsReadable(xml)) << xml;
   }
 }
 
 TEST(BatchSchema, HasEveryAttribute) {
-  for (const ManifestAttribute& attribute : ManifestAttributes()) {
-    const std::string name = attribute.name;
-    std::string value = "1";
-    const auto manifest = [&] {
-      return fmt::format("<Batch {}='{}'><Recording file='a.c3d'/></Batch>", name, value);
-    };
-    for (const char* other : {"true", "mm", "x", ":", "2.0", "100"}) {
-      if (IsReadable(manifest())) break;
-      value = other;
+  BatchEntry entry;
+  for (const Option& attribute : AttributesOf(&entry)) {
+    std::string xml;
+    for (const char* value : {"1", "true", "mm", "x", ":", "2.0", "100"}) {
+      xml = fmt::format("<Batch {}='{}'><Recording file='a.c3d'/></Batch>",
+                        attribute.names.attribute, value);
+      if (IsReadable(xml)) break;
     }
-    const std::string xml = manifest();
     EXPECT_TRUE(IsReadable(xml)) << xml;
-    EXPECT_TRUE(testing::IsValidText(kBatchSchema, xml)) << xml;
+    EXPECT_TRUE(IsValid(xml)) << xml;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/support/shared_data.h"
@@ -12,8 +13,9 @@
 namespace mmm_converter::testing {
 
 bool IsValidFile(const std::string& schema, const std::string& file) {
+  const std::filesystem::path folder = SourcePath("xml_config/schema");
   const std::string command = std::string(XMLLINT) + " --noout --nonet --schema '" +
-                              SourcePath("xml_config/schema/" + schema) + "' '" + file + "' 2>&1";
+                              (folder / schema).string() + "' '" + file + "' 2>&1";
   return std::system(command.c_str()) == 0;
 }
 

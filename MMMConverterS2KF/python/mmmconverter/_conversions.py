@@ -5,16 +5,21 @@ from __future__ import annotations
 
 import functools
 import os
-from typing import Callable, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Callable, Union
 
 import numpy as np
 
 from . import _mmmconverter
 from ._models import Model
-from ._present import Presented, given, path_text
+from ._options import with_options
+from ._present import Presented, path_text
 from ._progress import shown
-from ._recordings import Recording, subject_file
+from ._recordings import Recording, keywords
 from ._stills import draw_stills, still_frames
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+    from ._options import ConvertOptions
 
 
 class Conversion(Presented):
@@ -142,16 +147,9 @@ class Conversion(Presented):
         return super()._repr_html_() + stills
 
 
-def convert(recording, *, height: Optional[float] = None, mass: Optional[float] = None,
-            hand_length: Optional[float] = None, person=None, subject=None, config=None,
-            converter: Optional[str] = None, plugin=None, model=None, marker_set=None,
-            frames: Optional[Tuple[Optional[int], Optional[int]]] = None,
-            unit: Optional[str] = None, up: Optional[str] = None, rate: Optional[float] = None,
-            ignore_residuals: bool = False, prefix: Optional[str] = None,
-            motion: Optional[str] = None, self_calibrate: bool = False, label: bool = False,
-            object: bool = False, object_models=None, format: Optional[str] = None,
-            covariances: bool = False,
-            progress: Union[Callable[[int, int], None], bool, None] = None) -> Conversion:
+@with_options("convert")
+def convert(recording, *, progress: Union[Callable[[int, int], None], bool, None] = None,
+            **options: Unpack[ConvertOptions]) -> Conversion:
     """Converts a recording into a motion, as the command ``convert`` does; writes nothing.
 
     Other threads run meanwhile; Ctrl-C ends it.
@@ -159,41 +157,13 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
     Parameters
     ----------
     recording : Recording or path
-        Of a `Recording`, what it was read with stays (unit, up, rate, ...).
-    height, mass, hand_length : float, optional
-        Of the person, in metres and kilograms; default: as the file says, else height is estimated
-        from the markers and mass is 70.
-    person : path, optional
-        A ModelProcessorConfig with these.
-    subject : path, Subject or Calibration, optional
-        A calibrated person.
-    config : str or path, optional
-        A configuration, or the name of a shipped one: "s2kf_default" (default), "s2kf_offline", ...
-    converter, plugin : optional
-        Another converter, by name or by its file.
-    model, marker_set : optional
-        The reference model, or a URDF; which labels stand for which markers.
-    frames : (int, int), optional
-        (A, B): frames A to B-1, counted from 0; None: the first, or the last.
-    unit, up, rate, ignore_residuals, prefix, motion : optional
-        As of `read`, of a path.
-    self_calibrate : bool
-        Estimates the person from the recording itself first.
-    label : bool
-        Finds the names of points that have none first; a `Recording` must have been read
-        `with_unlabelled`.
-    object : bool
-        It is a rigid object.
-    object_models : path, optional
-        Folder of the models of objects; needed where a model is built and the motion is saved.
-    format : str, optional
-        Of the motion that is saved: "2.0" or "1.0".
-    covariances : bool
-        Keeps the covariances of the postures.
+        Of a `Recording`, what it was read with stays (unit, up, rate, ...); to find labels, it must
+        have been read `with_unlabelled`.
     progress : callable or False, optional
         Is called with (frames done, all frames) some 20 times a second. What it raises ends the
         conversion. Default: a bar on the standard error in a terminal or a notebook, after a second;
         False: none.
+    **options
 
     Returns
     -------
@@ -213,13 +183,7 @@ def convert(recording, *, height: Optional[float] = None, mass: Optional[float] 
     ((60, 3), (60, 50))
     """
     source = recording.file if isinstance(recording, Recording) else path_text(recording)
-    options = given(
-        file=source, height=height, mass=mass, hand_length=hand_length, person=person,
-        subject_file=subject_file(subject), config=config, converter=converter, plugin=plugin,
-        model=model, marker_set=marker_set, frames=frames, unit=unit, up=up, rate=rate,
-        ignore_residuals=ignore_residuals, prefix=prefix, motion=motion,
-        self_calibrate=self_calibrate, label=label, object=object, object_models=object_models,
-        format=format, covariances=covariances)
+    options = keywords(options, file=source)
     raw = recording._raw if isinstance(recording, Recording) else None
     if raw is not None and recording._options is not None:
         options = {**recording._options, **options}

@@ -4,13 +4,18 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, NamedTuple, Optional, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence
 
 import numpy as np
 
 from . import _mmmconverter
+from ._options import with_options
 from ._present import Presented, given, path_text
-from ._recordings import subject_file
+from ._recordings import keywords
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+    from ._options import ReadModelOptions
 
 
 class Poses(NamedTuple):
@@ -130,35 +135,27 @@ class Model(Presented):
                 ("joints", len(self.joint_names)), ("markers", len(self.markers))]
 
 
-def read_model(model=None, *, height: Optional[float] = None, mass: Optional[float] = None,
-               hand_length: Optional[float] = None, person=None, subject=None,
-               marker_set: Optional[str] = None) -> Model:
+@with_options("read_model")
+def read_model(model=None, **options: Unpack[ReadModelOptions]) -> Model:
     """The model of a person.
 
     Parameters
     ----------
     model : path, optional
         An MMM reference model or a URDF; default: the shipped MMM model.
-    height, mass, hand_length : float, optional
-        Of the person, in metres and kilograms; mass: default 70. Nothing: as the file has it, an MMM
-        model of 1 m and 1 kg.
-    person : path, optional
-        A ModelProcessorConfig with these.
-    subject : path, Subject or Calibration, optional
-        A calibrated person.
-    marker_set : str or path, optional
-        Places markers on the model.
+    **options
+
+    Without a person it is as the file has it, an MMM model of 1 m and 1 kg.
 
     Examples
     --------
     >>> read_model(height=1.75)
     <Model MMM: height 1.75 m, segments 129, joints 92, markers 53>
     """
-    if height is not None and mass is None and person is None and subject is None:
-        mass = 70.0
-    return Model(_mmmconverter.read_model(given(
-        model=model, height=height, mass=mass, hand_length=hand_length, person=person,
-        subject_file=subject_file(subject), marker_set=marker_set)))
+    options = keywords(options, model=model)
+    if "height" in options and not {"mass", "person", "subject"} & set(options):
+        options["mass"] = 70.0
+    return Model(_mmmconverter.read_model(options))
 
 
 @dataclasses.dataclass(repr=False, eq=False)

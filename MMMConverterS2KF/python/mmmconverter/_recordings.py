@@ -9,12 +9,17 @@ import os
 import shutil
 import tempfile
 import weakref
-from typing import Any, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 import numpy as np
 
 from . import _mmmconverter
+from ._options import with_options
 from ._present import Presented, given, path_text
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+    from ._options import ReadOptions
 
 
 class Recording(Presented):
@@ -110,26 +115,17 @@ class Recording(Presented):
                 ("format", self.format)]
 
 
-def read(file, *, unit: Optional[str] = None, up: Optional[str] = None,
-         rate: Optional[float] = None, ignore_residuals: bool = False, prefix: Optional[str] = None,
-         motion: Optional[str] = None, with_unlabelled: bool = False) -> Recording:
+@with_options("read")
+def read(file, *, with_unlabelled: bool = False, **options: Unpack[ReadOptions]) -> Recording:
     """Reads the markers of a C3D, TRC or MMM file.
 
     Parameters
     ----------
     file : path
         Its format is told from its content.
-    unit, up, rate : optional
-        Instead of what the file says: "mm", "cm", "m" or "in"; the axis that points up, as "z" or
-        "-y"; frames a second.
-    ignore_residuals : bool
-        Of a C3D file, use points that are marked invalid, too.
-    prefix : str, optional
-        Of the labels, where a file has several subjects.
-    motion : str, optional
-        Of an MMM file, where not that with most markers.
     with_unlabelled : bool
         Points without a label, too, as "*" and a number.
+    **options
 
     Returns
     -------
@@ -148,8 +144,7 @@ def read(file, *, unit: Optional[str] = None, up: Optional[str] = None,
     >>> recording.labels[:3]
     ['L3', 'STRN', 'T10']
     """
-    options = given(file=path_text(file), unit=unit, up=up, rate=rate,
-                    ignore_residuals=ignore_residuals, prefix=prefix, motion=motion)
+    options = keywords(options, file=path_text(file))
     raw = _mmmconverter.read(dict(options, with_unlabelled=with_unlabelled))
     return Recording(raw, options)
 
@@ -284,6 +279,18 @@ def subject_file(subject):
         return None
     subject = getattr(subject, "subject", subject)  # of a Calibration
     return subject._as_file() if isinstance(subject, Subject) else path_text(subject)
+
+
+def keywords(options, **more):
+    """What was given, as the compiled part takes it."""
+    found = given(**options, **more)
+    if "subject" in found:
+        found["subject"] = subject_file(found["subject"])
+    if "and_subjects" in found:
+        one = found["and_subjects"]
+        is_one = isinstance(one, (str, Subject)) or hasattr(one, "subject") or hasattr(one, "__fspath__")
+        found["and_subjects"] = [subject_file(other) for other in ([one] if is_one else one)]
+    return found
 
 
 def input_options(recording, what):

@@ -4,12 +4,17 @@
 from __future__ import annotations
 
 import functools
-from typing import Callable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Callable, Optional, Sequence, Union
 
 from . import _mmmconverter
+from ._options import with_options
 from ._present import Presented, given, path_text
 from ._progress import shown
-from ._recordings import Recording, Subject, input_options, subject_file
+from ._recordings import Recording, Subject, input_options, keywords
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+    from ._options import (CalibrateOptions, CheckDynamicsOptions, CompareOptions, LabelOptions)
 
 Progress = Union[Callable[[int, int], None], bool, None]
 
@@ -74,10 +79,9 @@ def _several(recordings):
     return [recordings] if is_one else list(recordings)
 
 
-def calibrate(recordings, *, height: Optional[float] = None, mass: Optional[float] = None,
-              hand_length: Optional[float] = None, person=None, name: Optional[str] = None,
-              config=None, model=None, marker_set=None, frames=None,
-              progress: Progress = None) -> Calibration:
+@with_options("calibrate")
+def calibrate(recordings, *, name: Optional[str] = None, progress: Progress = None,
+              **options: Unpack[CalibrateOptions]) -> Calibration:
     """Estimates segment lengths and marker places of a person, as the command does.
 
     Parameters
@@ -86,8 +90,9 @@ def calibrate(recordings, *, height: Optional[float] = None, mass: Optional[floa
         Of one person and one session, from files.
     name : str, optional
         Of the person.
-    height, mass, hand_length, person, config, model, marker_set, frames, progress : optional
+    progress : optional
         As of `convert`.
+    **options
 
     Examples
     --------
@@ -95,13 +100,11 @@ def calibrate(recordings, *, height: Optional[float] = None, mass: Optional[floa
     >>> calibration.subject
     <Subject anna: height 1.800 m, mass 70.0 kg>
     """
-    inputs = []
-    for one in _several(recordings):
-        inputs.append(dict(input_options(one, "calibrate"), **given(
-            height=height, mass=mass, hand_length=hand_length, person=person, model=model,
-            marker_set=marker_set, frames=frames)))
+    options = keywords(options)
+    inputs = [{**input_options(one, "calibrate"), **options} for one in _several(recordings)]
+    options = given(**options, name=name)
     with shown(progress, "recordings read") as callback:
-        return Calibration(_mmmconverter.calibrate(inputs, given(config=config, name=name), callback))
+        return Calibration(_mmmconverter.calibrate(inputs, options, callback))
 
 
 class Comparison(_Study):
@@ -119,12 +122,11 @@ class Comparison(_Study):
                 ("recordings", len(summary["trials"]))]
 
 
+@with_options("compare")
 def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient",
                                              "jacobian_least_squares", "jacobian_pull"), *,
-            height: Optional[float] = None, mass: Optional[float] = None, subject=None,
-            truths: Optional[Sequence] = None, hide: float = 0.0, repeat: int = 1, seed: int = 1,
-            jobs: int = 0, model=None, marker_set=None, frames=None,
-            progress: Progress = None) -> Comparison:
+            truths: Optional[Sequence] = None, progress: Progress = None,
+            **options: Unpack[CompareOptions]) -> Comparison:
     """Compares configurations on recordings, as the command does.
 
     Parameters
@@ -134,12 +136,9 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
     configs : sequence of str or path
     truths : sequence of path or None, optional
         MMM motions that the recordings' markers were made from.
-    hide : float
-        Probability with which a marker hides, in the paper's model.
-    repeat, seed, jobs : int
-        Runs of different hidden markers; runs at a time (0: as many as there are cores).
-    height, mass, subject, model, marker_set, frames, progress : optional
+    progress : optional
         As of `convert`.
+    **options
 
     Examples
     --------
@@ -147,18 +146,14 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
     >>> comparison
     <Comparison 1 configurations: recordings 1>
     """
-    inputs = []
-    for one in _several(recordings):
-        inputs.append(dict(input_options(one, "compare"), **given(
-            height=height, mass=mass, subject_file=subject_file(subject), model=model,
-            marker_set=marker_set, frames=frames)))
+    options = keywords(options)
+    inputs = [{**input_options(one, "compare"), **options} for one in _several(recordings)]
     truths = ["" if one is None else path_text(one) for one in truths or [None] * len(inputs)]
     if len(truths) != len(inputs):
         raise _mmmconverter.Error(f"truths: {len(truths)} for {len(inputs)} recordings")
-    options = {"hide": hide, "repeat": repeat, "seed": seed, "jobs": jobs, "truths": truths}
     configs = [path_text(one) for one in configs]
     with shown(progress, "runs") as callback:
-        return Comparison(_mmmconverter.compare(inputs, configs, options, callback))
+        return Comparison(_mmmconverter.compare(inputs, configs, truths, options, callback))
 
 
 class LabelledRecording(_Study):
@@ -181,28 +176,22 @@ class LabelledRecording(_Study):
         return [("labels of", self.recording.file), ("points", len(self.recording.labels))]
 
 
-def label(recording, *, height: Optional[float] = None, mass: Optional[float] = None, subject=None,
-          like=None, repair: bool = False, config=None, model=None, marker_set=None,
-          progress: Progress = None) -> LabelledRecording:
+@with_options("label")
+def label(recording, *, progress: Progress = None,
+          **options: Unpack[LabelOptions]) -> LabelledRecording:
     """Names the points of a recording by the body that wears them, as the command does.
 
     Parameters
     ----------
     recording : path or Recording
         From a file.
-    like : path, optional
-        A labelled recording of the person.
-    repair : bool
-        The recording's own labels are right unless the body says otherwise.
-    height, mass, subject, config, model, marker_set, progress : optional
+    progress : optional
         As of `convert`.
+    **options
     """
-    options = dict(input_options(recording, "label"), **given(
-        height=height, mass=mass, subject_file=subject_file(subject), model=model,
-        marker_set=marker_set))
-    hints = given(like=like, repair=repair, config=config)
+    options = {**input_options(recording, "label"), **keywords(options)}
     with shown(progress, "frames") as callback:
-        return LabelledRecording(_mmmconverter.label(options, hints, callback))
+        return LabelledRecording(_mmmconverter.label(options, callback))
 
 
 class Dynamics(_Study):
@@ -226,29 +215,24 @@ class Dynamics(_Study):
         return [("dynamics", self.judgement), ("checks", len(self.summary["checks"]))]
 
 
-def check_dynamics(file, *, motion: Optional[str] = None, height: Optional[float] = None,
-                   mass: Optional[float] = None, subject=None, model=None, frames=None,
-                   low_pass: float = 6.0,
-                   progress: Progress = None) -> Dynamics:
+@with_options("check_dynamics")
+def check_dynamics(file, *, progress: Progress = None,
+                   **options: Unpack[CheckDynamicsOptions]) -> Dynamics:
     """Whether a human body can move like an MMM motion, as the command says.
 
     Parameters
     ----------
     file : path
         Of a finished motion.
-    motion : str, optional
-        Its name, where the file has several with joint angles.
-    low_pass : float
-        Cut-off before differentiation in hertz; 0: none.
-    height, mass, subject, model, frames : optional
-        As of `convert`; default: as the file says.
+    progress : optional
+        As of `convert`.
+    **options
 
     Examples
     --------
     >>> check_dynamics("examples/handstand_true.xml").judgement
     'plausible'
     """
-    options = given(file=path_text(file), motion=motion, height=height, mass=mass,
-                    subject_file=subject_file(subject), model=model, frames=frames)
+    options = keywords(options, file=path_text(file))
     with shown(progress, "frames") as callback:
-        return Dynamics(_mmmconverter.check_dynamics(options, low_pass, callback))
+        return Dynamics(_mmmconverter.check_dynamics(options, callback))

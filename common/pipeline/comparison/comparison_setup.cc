@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "common/pipeline/input/finished_motion.h"
@@ -85,6 +86,33 @@ Trial MakeTrial(InputRequest request, const std::string& truth_file, const Conve
     trial.failure = WithAdvice(error);
   }
   return trial;
+}
+
+std::vector<Option> Options(ComparisonOptions* options) {
+  constexpr double kMost = std::numeric_limits<int>::max();
+  const auto set_model = [options](const std::string& text) {
+    options->hiding.model = text == "paper" ? HidingModel::kPaper : HidingModel::kStationary;
+    return text == "paper" || text == "stationary";
+  };
+  const char* const group = "Comparison";
+  const OptionNotes notes = {.absent = "a batch compares nothing"};
+  return {
+      Row({"hide", "", "hide"}, {OptionKind::kNumber, "P", "", 0, 1},
+          "hide markers from the converters; errors are still taken over all markers", "",
+          task::kCompare, &options->hiding.amount, notes, group),
+      Row({"hide-model", "", "hide_model"}, {OptionKind::kChoice, "paper|stationary"},
+          "paper (default): P is the probability with which a visible marker hides in a frame, for "
+          "Poisson(100) frames; the paper has 0.005. stationary: a share P is hidden throughout",
+          "", task::kCompare, set_model, notes, group),
+      Row({"repeat", "", "repeat"}, {OptionKind::kWhole, "N", "", 1, 100000},
+          "runs, each with other hidden markers", "1", task::kCompare, &options->runs, notes,
+          group),
+      Row({"seed", "", "seed"}, {OptionKind::kWhole, "N", "", 0, kMost},
+          "of the first run; the next runs have the next seeds", "1", task::kCompare,
+          &options->seed, notes, group),
+      Row({"jobs", "", "jobs"}, {OptionKind::kWhole, "N", "", 0, 1024},
+          "runs at a time. Only times depend on it: 1 leaves them undisturbed", "0, all cores",
+          task::kCompare, &options->jobs, notes, group)};
 }
 
 void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders) {

@@ -7,6 +7,7 @@
 #include "common/pipeline/comparison/comparison.h"
 #include "common/pipeline/input/converter_choice.h"
 #include "common/pipeline/input/input.h"
+#include "common/pipeline/option.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -24,6 +25,9 @@ void NameInputs(const Contender& contender, OutputPlan* plan);
 /// nothing tells it. truth_file: MMM motion that the markers were made from; may be empty.
 Trial MakeTrial(InputRequest request, const std::string& truth_file, const ConverterConfig& config,
                 Warnings* warnings);
+
+/// The table of what is asked of a comparison.
+std::vector<Option> Options(ComparisonOptions* options);
 
 /// Names that are there several times get a number.
 void MakeNamesUnique(std::vector<Trial>* trials, std::vector<Contender>* contenders);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "common/dynamics/motion_dynamics.h"
 #include "common/judge/plausibility.h"
 #include "common/pipeline/dynamics/checked_motion.h"
+#include "common/pipeline/option.h"
 
 namespace mmm_converter {
 
@@ -15,6 +17,9 @@ struct DynamicsReport {
   MotionDynamics dynamics;
   Plausibility plausibility;
 };
+
+/// The table of what is asked of a check.
+std::vector<Option> Options(DynamicsOptions* options);
 
 /// Judges the dynamics of a motion. progress: as ComputeMotionDynamics.
 /// @throws Error; also where this program was built without Simbody.
