@@ -86,6 +86,14 @@ std::string FormatName(std::string_view name) {
   return text;
 }
 
+bool HoldsRecording(const fs::path& file) {
+  try {
+    return FindFormatOfContent(file.string()) != nullptr;
+  } catch (const Error&) {  // no file of a recording is empty or can't be read
+    return false;
+  }
+}
+
 class Scanner {
  public:
   Scanner(const fs::path& folder, const std::string& subjects_file) : folder_(folder) {
@@ -141,14 +149,23 @@ class Scanner {
     std::vector<FoundRecording> recordings;
     std::set<std::string> measured;  // stems of files that are recordings only
     std::error_code failure;
-    for (const fs::path& entry : entries) {
-      const RecordingFormat* format = FindFormatOfName(entry.string());
-      if (!fs::is_regular_file(entry, failure) || format == nullptr || format->holds_motions)
-        continue;
-      if (!HasNameForManifest(entry)) continue;
-      recordings.push_back({entry.filename().string(), {}, {}});
-      measured.insert(entry.stem().string());
-    }
+    const auto take = [&](bool told_by_content) {
+      for (const fs::path& entry : entries) {
+        const RecordingFormat* format = FindFormatOfName(entry.string());
+        if (!fs::is_regular_file(entry, failure) || format == nullptr || format->holds_motions ||
+            format->is_told_by_content != told_by_content) {
+          continue;
+        }
+        // A table is the export of the recording of the same name, where that is there.
+        const std::string stem = entry.stem().string();
+        if (told_by_content && (measured.contains(stem) || !HoldsRecording(entry))) continue;
+        if (!HasNameForManifest(entry)) continue;
+        recordings.push_back({entry.filename().string(), {}, {}});
+        measured.insert(stem);
+      }
+    };
+    take(false);
+    take(true);
     for (const fs::path& entry : entries) {
       const RecordingFormat* format = FindFormatOfName(entry.string());
       if (!fs::is_regular_file(entry, failure) || format == nullptr || !format->holds_motions)

@@ -190,14 +190,19 @@ void LiveSession::TakeCalibration() {
   }
 }
 
-void LiveSession::TakePoints(const LaidOutFrame& frame) {
-  frame_.time = frame.frame.time;
+void LiveSession::TakePoints(const LaidOutFrame& frame, bool is_new) {
+  const double time = clock_.Take(frame.frame.time, frame.frame.received, layout_->rate, is_new);
+  if (clock_.outage() > 0) {
+    Say(fmt::format("frame {}: the source's clock began anew; nothing came for {:.1f} s",
+                    frame.frame.number, clock_.outage()));
+  }
+  frame_.time = time;
   if (labeller_) labeller_->Name(frame.frame, &frame_.points);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     frame_.points.col(static_cast<Eigen::Index>(i)) = frame.frame.points.col(columns_[i]);
   }
   pose_.number = frame.frame.number;
-  pose_.time = frame.frame.time;
+  pose_.time = time;
   pose_.received = frame.frame.received;
   pose_.points = frame_.points;
   pose_.counts = frame.counts;
@@ -231,11 +236,12 @@ void LiveSession::Prepare() {
 }
 
 const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropped) {
-  if (frame.layout != layout_) {
+  const bool is_new = frame.layout != layout_;
+  if (is_new) {
     layout_ = frame.layout;
     Begin(*layout_);
   }
-  TakePoints(frame);
+  TakePoints(frame, is_new);
   pose_.dropped = dropped;
   pose_.is_tracking = false;
   if (!tracker_) {

@@ -13,6 +13,7 @@
 #include "common/live/live_labeller.h"
 #include "common/live/live_tracker.h"
 #include "common/live/pose_frame.h"
+#include "common/live/stream_clock.h"
 
 namespace mmm_converter {
 
@@ -58,7 +59,7 @@ class LiveSession {
   bool TryToPlan(bool is_last_try);
   void NamePoints();
   void Use(TrackingSetup setup, bool is_calibrated, std::unique_ptr<MotionConverter> converter);
-  void TakePoints(const LaidOutFrame& frame);
+  void TakePoints(const LaidOutFrame& frame, bool is_new);
   void Track();
   void Gather();
   void GoOnCalibrating();
@@ -76,6 +77,7 @@ class LiveSession {
   std::unique_ptr<LiveTracker> tracker_;
   std::optional<FoundLabels> labels_;       // the plan's; nothing: labels are the source's
   std::unique_ptr<LiveLabeller> labeller_;  // of these
+  StreamClock clock_;
   StreamFrame frame_;                       // the columns that count
   PoseFrame pose_;
   LiveStage stage_ = LiveStage::kMeasuring;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "common/support/text.h"
@@ -151,14 +152,22 @@ std::string FormatAnalog(const C3dAnalog& analog) {
                      FirstNames(names));
 }
 
-std::string FormatEvents(const std::vector<C3dEvent>& events) {
+/// The capture's number of the frame at a time; nothing where no rate is known.
+std::optional<long> FrameAt(double time, const C3dLayout& layout) {
+  const double frame = std::round(time * layout.rate) + 1;
+  if (!(layout.rate > 0) || !(std::abs(frame) < 1e12)) return std::nullopt;
+  return static_cast<long>(frame);
+}
+
+std::string FormatEvents(const std::vector<C3dEvent>& events, const C3dLayout& layout) {
   std::string text =
       events.empty() ? "events     none\n" : fmt::format("events     {}\n", events.size());
   for (const C3dEvent& event : events) {
-    text += fmt::format("  {:9.3f} s  {}{}{}{}\n", event.time, event.label,
-                        event.context.empty() ? "" : ", " + event.context,
-                        event.subject.empty() ? "" : ", " + event.subject,
-                        event.is_in_header ? " (header)" : "");
+    const std::optional<long> frame = FrameAt(event.time, layout);
+    text += fmt::format(
+        "  {:9.3f} s  {}{}{}{}{}\n", event.time, frame ? fmt::format("frame {}  ", *frame) : "",
+        event.label, event.context.empty() ? "" : ", " + event.context,
+        event.subject.empty() ? "" : ", " + event.subject, event.is_in_header ? " (header)" : "");
   }
   return text;
 }
@@ -285,7 +294,7 @@ std::string FormatC3dDetails(const C3dFile& file, const C3dDetails& details) {
     text += fmt::format("residual   {:.3g} on average, where one is stated\n", total.residual);
   }
   return text + FormatAnalog(details.analog) + FormatPlates(file.layout(), details) +
-         FormatEvents(details.events) + FormatParameters(file.parameters());
+         FormatEvents(details.events, file.layout()) + FormatParameters(file.parameters());
 }
 
 void AddC3dDetails(const C3dFile& file, const C3dDetails& details, Json* json) {
@@ -298,7 +307,9 @@ void AddC3dDetails(const C3dFile& file, const C3dDetails& details, Json* json) {
   }
   Json events = Json::array();
   for (const C3dEvent& event : details.events) {
+    const std::optional<long> frame = FrameAt(event.time, file.layout());
     events.push_back({{"time_s", event.time},
+                      {"frame", frame ? Json(*frame) : Json(nullptr)},
                       {"label", event.label},
                       {"context", event.context},
                       {"subject", event.subject},

@@ -9,7 +9,7 @@ namespace mmm_converter {
 // The describers of the table of kinds: see FileKind.
 
 Description DescribeC3d(const FileStart& file, const ReadRecordingOptions& options);
-Description DescribeTrc(const FileStart& file, const ReadRecordingOptions& options);
+Description DescribeMarkerTable(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeMotions(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeModel(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeConfiguration(const FileStart& file, const ReadRecordingOptions& options);

@@ -3,16 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "MMMConverterS2KF/report/c3d_details.h"
 #include "MMMConverterS2KF/report/describe.h"
 #include "MMMConverterS2KF/report/info_markers.h"
 #include "MMMConverterS2KF/report/info_prospect.h"
-#include "common/io/bytes/file_content.h"
-#include "common/io/tables/trc_reader.h"
+#include "common/io/recording/recording_formats.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -22,11 +25,12 @@ namespace {
 
 /// What a file says before it is known whose markers it has.
 struct StoredRecording {
-  const char* format;
+  std::string format;
   int frames = 0;
   double rate = 0;  // [Hz]; 0: not stated
   long first_frame = 1;
   std::string unit;
+  std::vector<std::pair<std::string, long>> points = {};  // with how often they are seen
 };
 
 /// The markers of a recording, or why there are none.
@@ -52,6 +56,25 @@ Markers ReadMarkers(const std::string& path, const ReadRecordingOptions& options
     if (failure.starts_with(path + ": ")) failure.erase(0, path.size() + 2);
     return {nullptr, std::nullopt, failure};
   }
+}
+
+std::string FormatPoints(const StoredRecording& stored) {
+  std::size_t width = 5;
+  for (const auto& [label, seen] : stored.points) width = std::max(width, label.size());
+  std::string text =
+      fmt::format("labels     {}\n  {:<{}}  seen in\n", stored.points.size(), "label", width);
+  for (const auto& [label, seen] : stored.points) {
+    text += fmt::format("  {:<{}}  {:>7}\n", label, width, seen);
+  }
+  return text;
+}
+
+Json PointsJson(const StoredRecording& stored) {
+  Json list = Json::array();
+  for (const auto& [label, seen] : stored.points) {
+    list.push_back({{"label", label}, {"frames_seen", seen}, {"mean_position_m", nullptr}});
+  }
+  return list;
 }
 
 std::string FormatHead(const std::string& path, const StoredRecording& stored) {
@@ -86,7 +109,7 @@ Json RecordingJson(const std::string& path, const StoredRecording& stored, const
   json["failure"] = TextOrNull(markers.failure);
   if (!markers.recording) {
     json["unit"] = stored.unit;
-    json["labels"] = Json::array();
+    json["labels"] = PointsJson(stored);
     return json;
   }
   const Recording& recording = *markers.recording;
@@ -110,8 +133,9 @@ Description Describe(const std::string& path, const StoredRecording& stored, con
     text += FormatAxes(*markers.recording) + FormatProspect(*markers.prospect) + content +
             fmt::format("labels     {}\n{}", sequence.num_labels(), FormatMarkers(sequence));
   } else {
-    text += fmt::format("unit       {}\n{}convert    not as it is: {}\n",
-                        stored.unit.empty() ? "not stated" : stored.unit, content, markers.failure);
+    text += fmt::format("unit       {}\n{}convert    not as it is: {}\n{}",
+                        stored.unit.empty() ? "not stated" : stored.unit, content, markers.failure,
+                        FormatPoints(stored));
   }
   json["warnings"] = warnings.texts();
   return {text, FormatJson(json), warnings};
@@ -124,8 +148,11 @@ Description DescribeC3d(const FileStart& file, const ReadRecordingOptions& optio
   C3dFile c3d(file.path, &warnings);
   const C3dDetails details = ReadC3dDetails(&c3d, &warnings);
   const C3dLayout& layout = c3d.layout();
-  const StoredRecording stored{"C3D", layout.frames, layout.rate, layout.first_frame,
-                               c3d.parameters().Text("POINT", "UNITS")};
+  StoredRecording stored{"C3D", layout.frames, layout.rate, layout.first_frame,
+                         c3d.parameters().Text("POINT", "UNITS")};
+  for (std::size_t i = 0; i < details.labels.size(); ++i) {
+    stored.points.emplace_back(details.labels[i], details.points[i].seen);
+  }
   Warnings of_markers;
   const Markers markers = ReadMarkers(file.path, options, &of_markers);
   warnings.AppendNew(of_markers);
@@ -135,23 +162,29 @@ Description DescribeC3d(const FileStart& file, const ReadRecordingOptions& optio
                   std::move(json));
 }
 
-Description DescribeTrc(const FileStart& file, const ReadRecordingOptions& options) {
+Description DescribeMarkerTable(const FileStart& file, const ReadRecordingOptions& options) {
   Warnings warnings;
   const Markers markers = ReadMarkers(file.path, options, &warnings);
   if (markers.recording) {
     const Recording& recording = *markers.recording;
-    const StoredRecording stored{"TRC", recording.markers.num_frames(), recording.markers.rate(),
-                                 recording.first_frame, recording.unit};
+    const StoredRecording stored{recording.format, recording.markers.num_frames(),
+                                 recording.markers.rate(), recording.first_frame, recording.unit};
     return Describe(file.path, stored, markers, "", warnings,
                     RecordingJson(file.path, stored, markers));
   }
   warnings = Warnings();
-  const TrcFile trc = ParseTrc(ReadFileContent(file.path), file.path, &warnings);
-  const StoredRecording stored{"TRC", trc.markers.num_frames(), trc.markers.rate(), trc.first_frame,
-                               trc.unit};
-  const std::string labels = fmt::format("points     {}: {}\n", trc.markers.num_labels(),
-                                         FirstNames(trc.markers.labels()));
-  return Describe(file.path, stored, markers, labels, warnings,
+  const RecordingContent content = FormatOfContent(file.path).read(file.path, {}, &warnings);
+  std::vector<int> all(content.labels.size());
+  std::iota(all.begin(), all.end(), 0);
+  const MarkerSequence sequence = content.read(all, content.labels, content.rate);
+  StoredRecording stored{content.format, sequence.num_frames(), content.rate, content.first_frame,
+                         content.unit};
+  for (int i = 0; i < sequence.num_labels(); ++i) {
+    long seen = 0;
+    for (int k = 0; k < sequence.num_frames(); ++k) seen += IsSeen(sequence.frame(k).col(i));
+    stored.points.emplace_back(content.labels[static_cast<std::size_t>(i)], seen);
+  }
+  return Describe(file.path, stored, markers, "", warnings,
                   RecordingJson(file.path, stored, markers));
 }
 

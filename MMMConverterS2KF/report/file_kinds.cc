@@ -38,14 +38,17 @@ bool IsPlugin(const FileStart& file) {
          std::filesystem::path(file.path).extension() == ".so";
 }
 
-template <const char* const& kName>
-bool HasFormat(const FileStart& file) {
+constexpr const char* kC3d = "C3D";
+
+bool IsC3d(const FileStart& file) {
   const RecordingFormat* format = FindFormatOfContent(file.path);
-  return format != nullptr && std::string_view(format->name) == kName;
+  return format != nullptr && std::string_view(format->name) == kC3d;
 }
 
-constexpr const char* kC3d = "C3D";
-constexpr const char* kTrc = "TRC";
+bool IsMarkerTable(const FileStart& file) {
+  const RecordingFormat* format = FindFormatOfContent(file.path);
+  return format != nullptr && !format->holds_motions && std::string_view(format->name) != kC3d;
+}
 
 bool IsJson(const FileStart& file) { return Trim(file.head).starts_with('{'); }
 
@@ -80,8 +83,9 @@ const std::vector<FileKind>& FileKinds() {
       {"subjects", HasRoot<kSubject>, DescribeSubjectFile},
       {"persons (ModelProcessorConfig)", HasRoot<kPerson>, DescribePerson},
       {"pages of this program", HasRoot<kPage>, DescribePage},
-      {"C3D recordings", HasFormat<kC3d>, DescribeC3d},
-      {"TRC recordings", HasFormat<kTrc>, DescribeTrc},
+      {"C3D recordings", IsC3d, DescribeC3d},
+      {"recordings in tables (TRC; exports of Nexus, Motive and QTM)", IsMarkerTable,
+       DescribeMarkerTable},
       {"tables (CSV, MOT)", IsTable, DescribeTable},
       {"arrays (.npz)", IsNpz, DescribeNpz},
       {"skeletons (BVH)", IsBvh, DescribeBvh},

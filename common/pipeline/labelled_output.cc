@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -69,12 +70,19 @@ std::vector<C3dRelabelledPoint> PointsOfFile(const LabelReport& report) {
   return points;
 }
 
+// C3D has no times: the first frame has the number that a capture from 0 s on gives it.
+long FirstFrame(const MarkerSequence& markers) {
+  constexpr double kMost = 1e9;
+  const double number = std::round(markers.first_time() * markers.rate()) + 1;
+  return number >= 1 && number <= kMost ? static_cast<long>(number) : 1;
+}
+
 void WriteAsC3d(const LabelReport& report, const MarkerSequence& markers) {
   const Recording& recording = report.input.recording;
   if (recording.format == "C3D") {
     WriteRelabelledC3d(recording.file, PointsOfFile(report), report.output);
   } else {
-    WriteC3d(report.output, markers, {.first_frame = recording.first_frame});
+    WriteC3d(report.output, markers, {.first_frame = FirstFrame(markers)});
   }
 }
 
@@ -101,7 +109,7 @@ void WriteAsMmm(const LabelReport& report, const MarkerSequence& markers) {
 // Of the table of formats.
 std::string FormatOf(const std::string& file) {
   const RecordingFormat* format = FindFormatOfName(file);
-  return format == nullptr ? "" : format->name;
+  return format == nullptr || !format->is_written ? "" : format->name;
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ void Require(bool holds, const std::string& expected);
 
 void ReadC3dBytes(std::string_view bytes);
 void ReadTrcBytes(std::string_view bytes);
+void ReadNexusCsvBytes(std::string_view bytes);
+void ReadMotiveCsvBytes(std::string_view bytes);
+void ReadQtmTsvBytes(std::string_view bytes);
 void ReadMmmMotionBytes(std::string_view bytes);
 void ReadMmmModelBytes(std::string_view bytes);
 void ReadUrdfBytes(std::string_view bytes);

@@ -146,6 +146,10 @@ StrictC3d ReadStrictC3d(std::string_view file) {
     Refuse("parameters reach into the data");
   }
   ReadRecords(bits, section, data, &c3d);
+  if (c3d.records.contains("ANALOG:USED") &&
+      NumberOf(c3d, "ANALOG:USED", processor) * header_word(10) != header_word(3)) {
+    Refuse("ANALOG:USED and the header count other analog samples");
+  }
   if (NumberOf(c3d, "POINT:USED", processor) != c3d.points)
     Refuse("POINT:USED is not the header's");
   if (NumberOf(c3d, "POINT:DATA_START", processor) != c3d.data_block) {

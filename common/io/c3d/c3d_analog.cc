@@ -79,12 +79,13 @@ void DecodeSamples(const unsigned char* stored, const C3dLayout& layout, bool is
 
 C3dAnalog ReadC3dAnalog(const C3dFile& file, Warnings* warnings) {
   const C3dParameters& parameters = file.parameters();
-  const int words = file.header().analog_words;
+  const int words = file.layout().analog_words;
   C3dAnalog analog;
   if (words == 0) return analog;
   int samples = std::max(file.header().analog_samples, 1);
   const double used_number = parameters.Number("ANALOG", "USED").value_or(0);
   const int used = used_number >= 1 && used_number <= 65535 ? static_cast<int>(used_number) : 0;
+  if (words != file.header().analog_words && used > 0 && words % used == 0) samples = words / used;
   if (words % samples != 0) {
     const int by_used = used > 0 && words % used == 0 ? words / used : 1;
     Warn(warnings, fmt::format("the header says {} analog samples of each channel in a frame, but "

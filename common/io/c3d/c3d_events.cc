@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/motion/marker_sequence.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -68,12 +69,38 @@ void ReadHeader(const C3dFile& file, std::vector<C3dEvent>* events, Warnings* wa
   }
 }
 
+/// Some systems count from the first stored frame instead of the capture's: where that alone gives
+/// times at which there are frames.
+void CountFromCapture(const C3dLayout& layout, bool in_header, std::vector<C3dEvent>* events,
+                      Warnings* warnings) {
+  const double rate = IsFrameRate(layout.rate) ? layout.rate : 0;
+  if (rate == 0 || layout.frames == 0) return;
+  const double first = layout.first_time(rate);
+  const auto are_there = [&](double shift) {
+    return std::count_if(events->begin(), events->end(), [&](const C3dEvent& event) {
+      const double frame = (event.time + shift - first) * rate;
+      return event.is_in_header == in_header && frame >= -0.5 && frame <= layout.frames - 0.5;
+    });
+  };
+  const auto all = std::count_if(events->begin(), events->end(), [&](const C3dEvent& event) {
+    return event.is_in_header == in_header;
+  });
+  if (first == 0 || all == 0 || are_there(0) > 0 || are_there(first) < all) return;
+  for (C3dEvent& event : *events) event.time += event.is_in_header == in_header ? first : 0;
+  Warn(warnings, fmt::format("times of events{} count from the first stored frame; {:.6g} s added, "
+                             "so that they count from the capture's",
+                             in_header ? " in the header" : "", first));
+}
+
 }  // namespace
 
 std::vector<C3dEvent> ReadC3dEvents(const C3dFile& file, Warnings* warnings) {
   std::vector<C3dEvent> events;
   ReadGroup(file.parameters(), &events, warnings);
   ReadHeader(file, &events, warnings);
+  for (const bool in_header : {false, true}) {
+    CountFromCapture(file.layout(), in_header, &events, warnings);
+  }
   return events;
 }
 

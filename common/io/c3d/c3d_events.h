@@ -10,7 +10,7 @@
 namespace mmm_converter {
 
 struct C3dEvent {
-  double time = 0;      ///< [s], as stored; systems count from the capture's first frame
+  double time = 0;      ///< [s] as those of markers: the capture's frame 1 is at 0
   std::string label;    ///< "Foot Strike"; header events have 4 letters at most
   std::string context;  ///< "Left", "Right", "General"; empty: not stated
   std::string subject;  ///< empty: not stated

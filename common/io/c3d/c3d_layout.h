@@ -34,10 +34,16 @@ struct C3dLayout {
   bool floats = true;  ///< else 16 bit integers
   double scale = 1;    ///< > 0; of integer coordinates and of residuals
   int points = 0;
-  int frames = 0;                 ///< whole frames that the file holds
-  long declared_frames = 0;       ///< that it says it holds
-  long first_frame = 1;           ///< in the capture
-  double rate = 0;                ///< [Hz]; 0: the file does not say
+  int analog_words = 0;      ///< analog samples of a frame, all channels
+  int frames = 0;            ///< whole frames that the file holds
+  long declared_frames = 0;  ///< that it says it holds
+  long first_frame = 1;      ///< in the capture
+  double rate = 0;           ///< [Hz]; 0: the file does not say
+
+  /// Of the first frame [s]: a capture begins with frame 1 at 0 s.
+  double first_time(double at_rate) const {
+    return first_frame > 1 ? static_cast<double>(first_frame - 1) / at_rate : 0;
+  }
   std::uint64_t data_start = 0;   ///< byte of the first frame
   std::uint64_t frame_bytes = 0;  ///< points and analog samples
 };

@@ -9,10 +9,26 @@
 #include "common/support/units.h"
 
 namespace mmm_converter {
+namespace {
+
+[[noreturn]] void ThrowNoPoints(const C3dParameters& parameters, const std::string& path) {
+  const double rotations = parameters.Number("ROTATION", "USED").value_or(0);
+  if (rotations >= 1) {
+    throw Error(
+        fmt::format("{}: the file holds the rotations of {:.0f} segments and no points, as "
+                    "markerless systems write it; export points too: joint centres or "
+                    "landmarks",
+                    path, rotations));
+  }
+  throw Error(fmt::format("{}: the file holds no points", path));
+}
+
+}  // namespace
+
 C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, warnings) {
   const WarningContext context(warnings, path);
   info_.layout = file_.layout();
-  if (info_.layout.points == 0) throw Error(fmt::format("{}: the file holds no points", path));
+  if (info_.layout.points == 0) ThrowNoPoints(file_.parameters(), path);
   if (info_.layout.frames == 0) {
     throw Error(
         fmt::format("{}: no whole frame: {} points need {} bytes a frame, {} bytes follow "
@@ -32,7 +48,7 @@ MarkerSequence C3dReader::ReadPoints(const std::vector<int>& points,
                                      const std::vector<std::string>& labels, double rate,
                                      bool ignore_residuals) {
   const C3dLayout& layout = info_.layout;
-  MarkerSequence sequence(labels, layout.frames, rate, 0);
+  MarkerSequence sequence(labels, layout.frames, rate, layout.first_time(rate));
   if (points.empty()) return sequence;
   file_.ReadAllFrames([&](int first, int count, const unsigned char* stored) {
     DecodeC3dFrames(stored, count, points, layout, ignore_residuals, sequence.frame(first).data());

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "common/support/error.h"
@@ -15,6 +17,7 @@ namespace {
 constexpr std::size_t kMostTexts = 255;     // that a dimension can count
 constexpr std::size_t kLargestWay = 32767;  // from a record to the next that every reader can go
 constexpr std::size_t kMostBlocks = 255;
+constexpr std::size_t kSectionHeader = 4;
 
 using Texts = std::vector<std::string>;
 
@@ -161,31 +164,60 @@ std::vector<std::string> C3dSectionEdit::StoredTexts(const C3dParameters& parame
 void C3dSectionEdit::SetPointTexts(const std::string& name, const Texts& texts) {
   if (StoredTexts(parameters_, name) == texts) return;
   const std::vector<const C3dParameter*> chain = Chain(parameters_, name);
-  const C3dParameter& before = chain.empty() ? AnyOfPoints() : *chain.back();
+  const C3dParameter* const before = chain.empty() ? FindOfPoints() : chain.back();
   std::vector<TextRecord> records;
   std::vector<std::size_t> counts;
   for (const C3dParameter* one : chain) {
     records.push_back(TakeApart(section_, *one));
     counts.push_back(one->num_texts());
   }
-  Distribute(texts, name, section_[before.begin + 1], counts, &records);
+  const int group = before != nullptr ? section_[before->begin + 1] : GroupOfPoints();
+  Distribute(texts, name, group, counts, &records);
   std::string more;
   for (std::size_t k = 0; k < records.size(); ++k) {
-    const std::string bytes = Assemble(records[k], before.processor);
+    const std::string bytes = Assemble(records[k], processor());
     if (k < chain.size()) {
       edits_.push_back({chain[k]->begin, chain[k]->end, bytes});
     } else {
       more += bytes;
     }
   }
-  edits_.push_back({before.end, before.end, more});
+  const std::size_t at = before != nullptr ? before->end : kSectionHeader;
+  edits_.push_back({at, at, more});
 }
 
-const C3dParameter& C3dSectionEdit::AnyOfPoints() const {
+C3dProcessor C3dSectionEdit::processor() const {
+  const int byte = section_[3];
+  return static_cast<C3dProcessor>(byte <= 3 ? byte + 83 : byte);
+}
+
+const C3dParameter* C3dSectionEdit::FindOfPoints() const {
   for (const C3dParameter& one : parameters_.all()) {
-    if (one.group == "POINT" && !TakeApart(section_, one).is_last) return one;
+    if (one.group == "POINT" && !TakeApart(section_, one).is_last) return &one;
   }
-  throw Error(fmt::format("{}: has no group POINT that labels can be added to", file_));
+  return nullptr;
+}
+
+int C3dSectionEdit::GroupOfPoints() {
+  constexpr int kMostGroups = 127;
+  constexpr std::string_view kName = "POINT";
+  std::set<int> used;
+  for (const C3dParameter& one : parameters_.all()) {
+    const int group = section_[one.begin + 1];
+    if (one.group == kName) return group;
+    used.insert(group);
+  }
+  if (new_group_ > 0) return new_group_;
+  new_group_ = kMostGroups;
+  while (used.contains(new_group_)) --new_group_;
+  std::string record{static_cast<char>(kName.size()), static_cast<char>(-new_group_)};
+  record += kName;
+  unsigned char offset[2];
+  StoreC3dWord(3, processor(), offset);  // two bytes of itself and an empty description
+  record.append(offset, offset + 2);
+  record += '\0';
+  edits_.push_back({kSectionHeader, kSectionHeader, record});
+  return new_group_;
 }
 
 // Room for records; what stands behind the zeros stays where it is.
@@ -220,7 +252,7 @@ std::size_t C3dSectionEdit::MoreBlocks() const {
 
 std::vector<unsigned char> C3dSectionEdit::Finish() const {
   std::vector<Edit> edits = edits_;
-  std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
+  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
     return std::pair(a.begin, a.end) < std::pair(b.begin, b.end);
   });
   std::vector<unsigned char> out;

@@ -47,13 +47,18 @@ class C3dSectionEdit {
     std::size_t begin, end;
     std::string bytes;
   };
-  const C3dParameter& AnyOfPoints() const;
+  C3dProcessor processor() const;
+  /// A parameter of POINT that others can follow; null: there is none.
+  const C3dParameter* FindOfPoints() const;
+  /// The number of the group POINT, which is begun where there is none.
+  int GroupOfPoints();
   std::size_t ZerosBehindRecords() const;
 
   std::vector<unsigned char> section_;
   const C3dParameters& parameters_;
   std::string file_;
   std::vector<Edit> edits_;
+  int new_group_ = 0;
 };
 
 }  // namespace mmm_converter

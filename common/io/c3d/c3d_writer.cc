@@ -23,6 +23,7 @@ namespace {
 constexpr int kLabelsPerParameter = 255;
 constexpr std::size_t kMaxLabelLength = 127;  // so that 255 labels fit behind a 16 bit offset
 constexpr std::size_t kMaxParameterBlocks = 255;
+constexpr long kLastFrame = 4294967295;  // two words
 
 void AppendWord(std::string* bytes, int word) {
   bytes->push_back(static_cast<char>(word & 0xFF));
@@ -115,8 +116,9 @@ void CheckFits(const std::string& path, const MarkerSequence& markers,
     }
   }
   if (options.comment.size() > 255) refuse("the comment has more than 255 characters");
-  if (options.first_frame < 1 || options.first_frame > kFullWord) {
-    refuse(fmt::format("first frame {}; allowed are 1 to {}", options.first_frame, kFullWord));
+  if (options.first_frame < 1 || options.first_frame > kLastFrame - markers.num_frames()) {
+    refuse(fmt::format("first frame {}; the last one must be below {}", options.first_frame,
+                       kLastFrame));
   }
 }
 
@@ -151,7 +153,8 @@ std::string FormatParameters(const MarkerSequence& markers, const C3dWriteOption
   section.AddFloat("RATE", markers.rate());
   section.BeginGroup("TRIAL");
   const long last = options.first_frame + markers.num_frames() - 1;
-  section.AddWords("ACTUAL_START_FIELD", {static_cast<int>(options.first_frame), 0});
+  section.AddWords("ACTUAL_START_FIELD", {static_cast<int>(options.first_frame % 65536),
+                                          static_cast<int>(options.first_frame / 65536)});
   section.AddWords("ACTUAL_END_FIELD",
                    {static_cast<int>(last % 65536), static_cast<int>(last / 65536)});
   section.BeginGroup("MANUFACTURER");
@@ -165,9 +168,11 @@ std::string FormatHeader(const MarkerSequence& markers, const C3dWriteOptions& o
   const long last = options.first_frame + markers.num_frames() - 1;
   std::string header("\x02\x50", 2);
   AppendWord(&header, markers.num_labels());
-  AppendWord(&header, 0);  // analog samples
-  AppendWord(&header, static_cast<int>(options.first_frame));
-  AppendWord(&header, static_cast<int>(std::min<long>(last, kFullWord)));
+  AppendWord(&header, 0);                                    // analog samples
+  const bool is_counted = options.first_frame <= kFullWord;  // else words have what is left
+  AppendWord(&header, static_cast<int>(options.first_frame % 65536));
+  AppendWord(&header,
+             static_cast<int>(is_counted ? std::min<long>(last, kFullWord) : last % 65536));
   AppendWord(&header, 0);  // longest filled gap
   AppendFloat(&header, -scale);
   AppendWord(&header, data_block);

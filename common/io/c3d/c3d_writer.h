@@ -8,7 +8,7 @@
 namespace mmm_converter {
 
 struct C3dWriteOptions {
-  long first_frame = 1;      ///< number of the first frame in the capture, 1 to 65535
+  long first_frame = 1;      ///< number of the first frame in the capture, from 1
   std::string comment = {};  ///< MANUFACTURER:COMMENT, at most 255 characters; empty: none
 };
 

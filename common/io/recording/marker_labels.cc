@@ -15,6 +15,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr int kMarkersOfAPerson = 8;  // of a common set; objects have fewer, by other names
+constexpr int kMarkersOfAPart = 3;
 
 /// By the part of the body that a landmark is of.
 BodyRegion RegionOf(const Landmark& landmark) {
@@ -117,10 +118,16 @@ MarkersAndPoints KeepMarkers(const std::vector<std::string>& labels,
 struct Group {
   std::string prefix;
   std::vector<Label> labels;
-  bool IsPerson() const {
-    return kMarkersOfAPerson <= std::count_if(labels.begin(), labels.end(), [](const Label& label) {
-             return IsLandmark(label.name);
-           });
+  bool IsPerson() const { return num_known() >= kMarkersOfAPerson; }
+  bool IsPartOfPerson() const {
+    return num_known() >= kMarkersOfAPart &&
+           2 * num_known() >= static_cast<std::ptrdiff_t>(labels.size());
+  }
+
+ private:
+  std::ptrdiff_t num_known() const {
+    return std::count_if(labels.begin(), labels.end(),
+                         [](const Label& label) { return IsLandmark(label.name); });
   }
 };
 
@@ -145,39 +152,76 @@ std::string Names(const std::vector<Group>& groups) {
   return FirstNames(names);
 }
 
-/// All groups as one, where no name would be there twice.
-std::optional<Group> Merge(const std::vector<Group>& groups) {
-  Group merged;
+/// Labels in the order of the file.
+std::vector<Label> LabelsOf(const std::vector<Group>& groups) {
+  std::vector<Label> labels;
+  for (const Group& group : groups) {
+    labels.insert(labels.end(), group.labels.begin(), group.labels.end());
+  }
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const Label& a, const Label& b) { return a.index < b.index; });
+  return labels;
+}
+
+/// Whether no name would be there twice, were they one.
+bool AreDisjoint(const std::vector<Group>& groups) {
   std::set<std::string> names;
   for (const Group& group : groups) {
     for (const Label& label : group.labels) {
-      if (!names.insert(NormalizeLabel(label.name)).second) return std::nullopt;
-      merged.labels.push_back(label);
+      if (!names.insert(NormalizeLabel(label.name)).second) return false;
     }
   }
-  return merged;
+  return true;
 }
 
-Group ChooseGroup(const std::vector<Group>& groups, const std::string& subject,
-                  const std::string& file) {
-  if (!subject.empty()) {
-    const std::string wanted(
-        Trim(subject.ends_with(':') ? subject.substr(0, subject.size() - 1) : subject));
-    for (const Group& group : groups) {
-      if (!group.prefix.empty() && EqualIgnoringCase(group.prefix, wanted)) return group;
+const Group* FindGroup(const std::vector<Group>& groups, std::string_view prefix) {
+  std::string_view wanted = Trim(prefix);
+  if (wanted.ends_with(':')) wanted = Trim(wanted.substr(0, wanted.size() - 1));
+  for (const Group& group : groups) {
+    if (!group.prefix.empty() && EqualIgnoringCase(group.prefix, wanted)) return &group;
+  }
+  return nullptr;
+}
+
+/// The group of that prefix, or those of the prefixes between commas.
+std::vector<Group> AskedFor(const std::vector<Group>& groups, const std::string& subject,
+                            const std::string& file) {
+  if (const Group* one = FindGroup(groups, subject)) return {*one};
+  std::vector<Group> chosen;
+  for (std::string_view rest = subject;;) {
+    const std::size_t end = rest.find(',');
+    const Group* one = FindGroup(groups, rest.substr(0, end));
+    if (one == nullptr) {
+      throw Error(fmt::format("{}: there is no subject {}; the file has: {}", file,
+                              Trim(rest.substr(0, end)), groups.empty() ? "none" : Names(groups)));
     }
-    throw Error(fmt::format("{}: there is no subject {}; the file has: {}", file, subject,
-                            groups.empty() ? "none" : Names(groups)));
+    const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const Group& group) {
+      return group.prefix == one->prefix;
+    });
+    if (is_new) chosen.push_back(*one);
+    if (end == std::string_view::npos) return chosen;
+    rest.remove_prefix(end + 1);
   }
-  if (groups.empty()) return {};
-  if (groups.size() == 1) return groups.front();
+}
+
+/// The one person, who may wear parts of a marker set under several prefixes.
+std::vector<Group> ChooseGroups(const std::vector<Group>& groups, const std::string& subject,
+                                const std::string& file, Warnings* warnings) {
+  if (!subject.empty()) return AskedFor(groups, subject, file);
+  if (groups.size() <= 1) return groups;
+  std::vector<Group> parts;
   std::vector<Group> persons;
-  std::copy_if(groups.begin(), groups.end(), std::back_inserter(persons),
-               [](const Group& group) { return group.IsPerson(); });
-  if (persons.size() == 1) return persons.front();
-  if (persons.empty()) {
-    if (auto merged = Merge(groups)) return *merged;
+  for (const Group& group : groups) {
+    if (group.IsPartOfPerson()) parts.push_back(group);
+    if (group.IsPerson()) persons.push_back(group);
   }
+  if (parts.size() > 1 && AreDisjoint(parts)) {
+    Warn(warnings,
+         fmt::format("markers of {} are parts of one body: read as one person", Names(parts)));
+    return parts;
+  }
+  if (persons.size() == 1) return persons;
+  if (persons.empty() && AreDisjoint(groups)) return groups;
   throw Error(fmt::format("{}: there are several subjects: {}; choose one of them", file,
                           Names(persons.empty() ? groups : persons)),
               Remedy::kSubjectPrefix);
@@ -248,28 +292,29 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
   MarkersAndPoints kept = KeepMarkers(AllToUtf8(labels), AllToUtf8(outputs),
                                       {prefixes.begin(), prefixes.end()}, warnings);
   const std::vector<Group> groups = GroupByPrefix(std::move(kept.markers));
-  Group chosen = ChooseGroup(groups, subject, file);
-  selection.subject = chosen.prefix;
+  const std::vector<Group> chosen = ChooseGroups(groups, subject, file, warnings);
+  std::vector<Label> all = LabelsOf(chosen);
+  std::set<std::string> prefixes_chosen;
+  for (const Group& group : chosen) prefixes_chosen.insert(group.prefix);
+  // A person whose parts have prefixes of their own has no name.
+  if (chosen.size() == 1) selection.subject = chosen.front().prefix;
   std::vector<Group> others;
-  std::size_t num_markers = 0;
   for (const Group& group : groups) {
-    num_markers += group.labels.size();
     if (!group.prefix.empty()) selection.subjects.push_back(group.prefix);
-    if (group.prefix != chosen.prefix) others.push_back(group);
+    if (!prefixes_chosen.contains(group.prefix)) others.push_back(group);
   }
-  if (chosen.labels.size() < num_markers) {
+  if (!others.empty()) {
     Warn(warnings, fmt::format("markers left out: those of {}", Names(others)));
   }
   if (with_unlabelled) {
-    std::vector<Label>& all = chosen.labels;
     all.insert(all.end(), kept.unlabelled.begin(), kept.unlabelled.end());
     std::stable_sort(all.begin(), all.end(),
                      [](const Label& a, const Label& b) { return a.index < b.index; });
   } else if (!kept.unlabelled.empty()) {
     Warn(warnings, fmt::format("{} unlabelled points left out", kept.unlabelled.size()));
   }
-  for (const Label& label : chosen.labels) selection.indices.push_back(label.index);
-  selection.labels = UniqueNames(chosen.labels, warnings);
+  for (const Label& label : all) selection.indices.push_back(label.index);
+  selection.labels = UniqueNames(all, warnings);
   return selection;
 }
 

@@ -11,8 +11,10 @@
 #include "common/io/recording/marker_labels.h"
 #include "common/io/recording/recording_axes.h"
 #include "common/io/recording/recording_formats.h"
+#include "common/motion/held_markers.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -104,6 +106,21 @@ void TakeSettled(const RecordingContent& content, const ReadRecordingOptions& op
   }
 }
 
+/// What was filled with a marker's last value is a gap.
+void TakeOutHeldValues(Recording* recording, Warnings* warnings) {
+  MarkerSequence& markers = recording->markers;
+  for (const HeldStretch& held : FindHeldMarkers(markers)) {
+    for (int k = held.begin; k < held.end; ++k) markers.frame(k).col(held.label).setConstant(kNaN);
+    WarnOfKind(
+        warnings, "gaps that were filled with the last value",
+        fmt::format("{} stands still to the last digit in frames {} to {} while its "
+                    "neighbours move, as where a gap is filled with the last value: taken "
+                    "as not seen",
+                    markers.labels()[static_cast<std::size_t>(held.label)],
+                    recording->first_frame + held.begin, recording->first_frame + held.end - 1));
+  }
+}
+
 Recording MakeRecording(const std::string& file, RecordingContent content,
                         const ReadRecordingOptions& options, Warnings* warnings) {
   Recording recording;
@@ -120,6 +137,7 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
     recording.stated_up_axis = StatedUpAxis(content.stated_up);
     BringToMetresAndZUp(content.unit, content.usual_up_axes, options, &recording, warnings);
   }
+  TakeOutHeldValues(&recording, warnings);
   if (content.declared_frames > recording.markers.num_frames()) {
     recording.doubts.push_back(
         {fmt::format("the file is cut off: it declares {} frames and holds {}",

@@ -11,7 +11,10 @@
 #include "common/io/c3d/c3d_content.h"
 #include "common/io/mmm/mmm_content.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/tables/trc_content.h"
+#include "common/io/tables/motive_csv.h"
+#include "common/io/tables/nexus_csv.h"
+#include "common/io/tables/qtm_tsv.h"
+#include "common/io/tables/table_content.h"
 #include "common/io/tables/trc_reader.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
@@ -40,19 +43,30 @@ bool IsC3d(const std::string& /*file*/, std::string_view start) {
   return !IsText(start) && LooksLikeC3d(start);
 }
 
-bool IsTrc(const std::string& /*file*/, std::string_view start) {
-  return IsText(start) && !IsMarkup(start) && LooksLikeTrc(start);
+template <bool (*kLooksLike)(std::string_view)>
+bool IsTable(const std::string& /*file*/, std::string_view start) {
+  return IsText(start) && !IsMarkup(start) && kLooksLike(start);
 }
 
 bool IsMmm(const std::string& file, std::string_view start) {
   return IsMarkup(start) && LooksLikeMmmMotion(ReadFileStart(file, kMostBytesBeforeTheRoot));
 }
 
-// A number takes four bytes in C3D, nine in TRC, and with its markup fifty in MMM.
+// A number takes four bytes in C3D, nine in tables, and with its markup fifty in MMM.
 const std::vector<RecordingFormat> kFormats = {
-    {"C3D", {".c3d"}, IsC3d, ReadC3dContent, 8},
-    {"TRC", {".trc"}, IsTrc, ReadTrcContent, 5},
-    {"MMM motion", {".xml"}, IsMmm, ReadMmmContent, 2, true},
+    {"C3D", {".c3d"}, IsC3d, ReadC3dContent, 8, true},
+    {"TRC", {".trc"}, IsTable<LooksLikeTrc>, ReadTrcContent, 5, true},
+    {"Nexus CSV", {".csv"}, IsTable<LooksLikeNexusCsv>, ReadNexusCsvContent, 5, false, false, true},
+    {"Motive CSV",
+     {".csv"},
+     IsTable<LooksLikeMotiveCsv>,
+     ReadMotiveCsvContent,
+     5,
+     false,
+     false,
+     true},
+    {"QTM TSV", {".tsv"}, IsTable<LooksLikeQtmTsv>, ReadQtmTsvContent, 5, false, false, true},
+    {"MMM motion", {".xml"}, IsMmm, ReadMmmContent, 2, true, true},
 };
 
 [[noreturn]] void ThrowOtherText(const std::string& file, std::string_view start) {
@@ -66,7 +80,8 @@ const std::vector<RecordingFormat> kFormats = {
     throw Error(fmt::format(
         "{}: is a Git LFS pointer, not the file itself; fetch that one (git lfs pull)", file));
   }
-  throw Error(fmt::format("{}: is text, but neither a TRC file nor an MMM motion", file));
+  throw Error(
+      fmt::format("{}: is text, but no recording that is read ({})", file, RecordingFormatNames()));
 }
 
 const RecordingFormat* FindFormat(const std::string& file, std::string_view start) {

@@ -18,17 +18,20 @@ struct RecordingFormat {
   bool (*looks_like)(const std::string& file, std::string_view start);
   RecordingContent (*read)(const std::string& file, const ContentOptions& options,
                            Warnings* warnings);
-  int memory_factor;           ///< bytes that a conversion takes at most for each of the file
-  bool holds_motions = false;  ///< too: files of other programs' results have the same format
+  int memory_factor;                ///< bytes that a conversion takes at most for each of the file
+  bool is_written = false;          ///< recordings are written in it, too
+  bool holds_motions = false;       ///< too: files of other programs' results have the same format
+  bool is_told_by_content = false;  ///< other tables have the same endings
 };
 
 /// In the order in which they are named in messages.
 const std::vector<RecordingFormat>& RecordingFormats();
 
-/// "C3D, TRC or MMM motion"
+/// "C3D, TRC, ... or MMM motion"
 std::string RecordingFormatNames();
 
-/// By the name of the file, whether it is there or not; null: the ending is of no format.
+/// The first one with the ending of the file's name, whether it is there or not; null: the ending
+/// is of no format.
 const RecordingFormat* FindFormatOfName(const std::string& file);
 
 /// By the content; null: it is of no format.

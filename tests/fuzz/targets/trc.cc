@@ -8,12 +8,12 @@ namespace mmm_converter::testing {
 void ReadTrcBytes(std::string_view bytes) {
   LooksLikeTrc(bytes);
   Warnings warnings;
-  const TrcFile read = ParseTrc(bytes, kInputName, &warnings);
+  const MarkerTable read = ParseTrc(bytes, kInputName, &warnings);
   Require(read.markers.num_labels() > 0 && read.markers.num_frames() > 0, "markers and frames");
   TrcOutput output;
   output.first_frame = read.first_frame;
   output.measured = &read.markers;
-  const TrcFile again = ParseTrc(Join(FormatTrc(output)), kInputName);
+  const MarkerTable again = ParseTrc(Join(FormatTrc(output)), kInputName);
   Require(again.markers.num_labels() == read.markers.num_labels(), "the labels that were written");
   Require(again.markers.num_frames() == read.markers.num_frames(), "the frames that were written");
 }

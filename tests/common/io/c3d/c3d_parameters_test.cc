@@ -132,10 +132,11 @@ TEST(C3dLayout, CountsFrames) {
   EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", NAN), 50), 50);
   EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", -3), 50), 50);
   EXPECT_EQ(FramesOf(with().Float(1, "FRAMES", 1e30F), 50), 50);
-  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}), 65535), 65535);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}), 65535), 100000);  // by the data's length
   EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", 70000), 65535),
             70000);
-  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", NAN), 65535), 65535);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", NAN), 65535),
+            100000);
   EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {65535}).Float(1, "LONG_FRAMES", 4e9F), 65535),
             100000);
   EXPECT_EQ(FramesOf(with()
@@ -144,12 +145,42 @@ TEST(C3dLayout, CountsFrames) {
                          .Word(2, "ACTUAL_END_FIELD", {4464, 1}),  // 65536 + 4464
                      65535),
             70000);
+  EXPECT_EQ(FramesOf(with()  // words that have overflown
+                         .Word(1, "FRAMES", {4464})
+                         .Word(2, "ACTUAL_START_FIELD", {1, 0})
+                         .Word(2, "ACTUAL_END_FIELD", {4464, 1}),
+                     4464),
+            70000);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {4464}).Float(1, "LONG_FRAMES", 70000), 4464), 70000);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {34464}), 34464), 100000);
+  EXPECT_EQ(FramesOf(with().Word(1, "FRAMES", {34400}), 34400), 34400);  // something follows
   EXPECT_EQ(FramesOf(with()  // of a longer trial that this was taken from
                          .Word(1, "FRAMES", {525})
                          .Word(2, "ACTUAL_START_FIELD", {1, 0})
                          .Word(2, "ACTUAL_END_FIELD", {5248, 0}),
                      525),
             525);
+}
+
+TEST(C3dLayout, FirstFrameIsTheCapturesWhereTheWordHasOverflown) {
+  const auto first = [](Section section, int header_first) {
+    const C3dHeader header{.points = 1,
+                           .first_frame = header_first,
+                           .last_frame = header_first + 9,
+                           .scale = -1,
+                           .data_block = 3,
+                           .rate = 100};
+    return ResolveC3dLayout(header, section.Parse(), C3dProcessor::kIntel, 512, 1, 1024 + 160,
+                            nullptr);
+  };
+  const Section trial = Section().Group(2, "TRIAL");
+  EXPECT_EQ(first(trial, 143).first_frame, 143);
+  EXPECT_DOUBLE_EQ(first(trial, 143).first_time(100), 1.42);
+  EXPECT_EQ(first(trial, 1).first_time(100), 0);
+  EXPECT_EQ(first(trial, 0).first_time(100), 0);
+  EXPECT_EQ(first(Section(trial).Word(2, "ACTUAL_START_FIELD", {143, 2}), 143).first_frame,
+            143 + 2 * 65536);
+  EXPECT_EQ(first(Section(trial).Word(2, "ACTUAL_START_FIELD", {9, 0}), 143).first_frame, 143);
 }
 
 }  // namespace

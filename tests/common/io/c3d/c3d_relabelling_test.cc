@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/io/bytes/file_content.h"
+#include "common/io/c3d/c3d_file.h"
 #include "common/io/c3d/c3d_reader.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
@@ -23,6 +24,7 @@ using testing::C3dBytes;
 using testing::C3dSection;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::ReadStrictC3d;
 using testing::StrictC3d;
 
@@ -210,6 +212,24 @@ TEST(C3dRelabelling, LabelsAreAddedWhereThereAreNone) {
       ReadStrictC3d(Written(file, {{"LFHD", 0, {{0, 3, 0}}}, {"*2", 1, {{0, 3, 1}}}}));
   EXPECT_THAT(after.labels, ElementsAre("LFHD", "*2"));
   ExpectTheRestKept(ReadStrictC3d(ReadFileContent(file)), after);
+}
+
+TEST(C3dRelabelling, LabelsAreAddedWhereNoParameterIsThere) {
+  const C3dSection other = C3dSection().Group(127, "NOTES").Texts(127, "A", 2, "hi");
+  const C3dSection none;
+  for (const C3dSection* const one : {&none, &other}) {
+    const C3dSection& section = *one;
+    const std::string file = SmallFile(section);
+    Written(file, {{"LKNE", 0, {{0, 3, 0}}}, {"RKNE", 1, {{0, 3, 1}}}});
+    Warnings warnings;
+    C3dReader after(Output(), &warnings);
+    EXPECT_THAT(warnings.texts(), IsEmpty());
+    EXPECT_THAT(after.info().labels, ElementsAre("LKNE", "RKNE"));
+    EXPECT_EQ(after.ReadFrame(2)[0].position, Eigen::Vector3d(3, 2, 3));
+    EXPECT_EQ(after.ReadFrame(2)[1].position, Eigen::Vector3d(6, 5, 6));
+    const C3dFile stored(Output());
+    EXPECT_EQ(stored.parameters().Text("NOTES", "A"), &section == &other ? "hi" : "");
+  }
 }
 
 TEST(C3dRelabelling, MoreLabelsThanAListHolds) {

@@ -81,6 +81,8 @@ TEST(C3dWriter, CountsFramesBeyond65535) {
   ExpectRoundTrip(MakeSequence(2, 65535), {});
   ExpectRoundTrip(MakeSequence(2, 65536), {});
   ExpectRoundTrip(MakeSequence(2, 70000), {.first_frame = 65535});
+  ExpectRoundTrip(MakeSequence(2, 5), {.first_frame = 65536});
+  ExpectRoundTrip(MakeSequence(2, 70000), {.first_frame = 700000});
 }
 
 TEST(C3dWriter, RefusesWhatTheFormatCanNotHold) {

@@ -49,5 +49,61 @@ TEST(MarkerLabels, AreNumberedWhereTheyBecomeTheSame) {
                        "numbered: Kn\xC3\xB6#2, a z#3"));
 }
 
+std::vector<std::string> With(const std::string& prefix, const std::vector<std::string>& labels) {
+  std::vector<std::string> all;
+  for (const std::string& label : labels) all.push_back(prefix + ":" + label);
+  return all;
+}
+
+const std::vector<std::string> kLegs = {"LASI", "RASI", "LKNE", "RKNE", "LANK",
+                                        "RANK", "LTOE", "RTOE", "LHEE"};
+const std::vector<std::string> kTrunk = {"C7", "CLAV", "LSHO", "RSHO"};
+
+TEST(MarkerLabels, PartsOfOneBodyAreOnePerson) {
+  std::vector<std::string> labels = With("Legs", kLegs);
+  for (const std::string& label : With("Trunk", kTrunk)) labels.push_back(label);
+  for (const std::string& label : With("Box", {"b1", "b2", "b3", "b4"})) labels.push_back(label);
+  Warnings warnings;
+  const LabelSelection both = SelectLabels(labels, {}, {}, "", "a.c3d", &warnings);
+  EXPECT_EQ(both.labels.size(), kLegs.size() + kTrunk.size());
+  EXPECT_THAT(both.labels, Contains("LSHO"));
+  EXPECT_EQ(both.subject, "");
+  EXPECT_THAT(both.subjects, ElementsAre("Legs", "Trunk", "Box"));
+  EXPECT_THAT(warnings.texts(), ElementsAre("markers of Legs, Trunk are parts of one body: read as "
+                                            "one person",
+                                            "markers left out: those of Box"));
+  EXPECT_EQ(SelectLabels(labels, {}, {}, "Legs", "a.c3d", nullptr).labels, kLegs);
+}
+
+TEST(MarkerLabels, SeveralPrefixesMayBeAskedForAsOnePerson) {
+  std::vector<std::string> labels = With("A", kLegs);
+  for (const std::string& label : With("B", kLegs)) labels.push_back(label);
+  for (const std::string& label : With("C", kTrunk)) labels.push_back(label);
+  for (const std::string& label : With("D", kTrunk)) labels.push_back(label);
+  const LabelSelection chosen = SelectLabels(labels, {}, {}, " b:, D", "a.c3d", nullptr);
+  EXPECT_EQ(chosen.labels.size(), kLegs.size() + kTrunk.size());
+  EXPECT_EQ(chosen.indices.front(), 9);
+  EXPECT_EQ(chosen.indices.back(), 25);
+  const auto message = [&](const std::string& subject) {
+    try {
+      SelectLabels(labels, {}, {}, subject, "a.c3d", nullptr);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(message("B,E"), "a.c3d: there is no subject E; the file has: A, B, C, D");
+  EXPECT_EQ(message(""), "a.c3d: there are several subjects: A, B; choose one of them");
+}
+
+// Who wears the same markers as another is another person.
+TEST(MarkerLabels, ASecondPersonIsNoPart) {
+  std::vector<std::string> labels = With("A", kLegs);
+  for (const std::string& label : With("B", {"LKNE", "LANK", "LTOE"})) labels.push_back(label);
+  Warnings warnings;
+  EXPECT_EQ(SelectLabels(labels, {}, {}, "", "a.c3d", &warnings).labels, kLegs);
+  EXPECT_THAT(warnings.texts(), ElementsAre("markers left out: those of B"));
+}
+
 }  // namespace
 }  // namespace mmm_converter

@@ -39,15 +39,20 @@ TEST_F(RecordingFormatsTest, AreToldByNameInAnyCase) {
   EXPECT_STREQ(FindFormatOfName("a/walk.C3D")->name, "C3D");
   EXPECT_STREQ(FindFormatOfName("walk.trc")->name, "TRC");
   EXPECT_STREQ(FindFormatOfName("walk.xml")->name, "MMM motion");
-  EXPECT_EQ(FindFormatOfName("walk.csv"), nullptr);
+  EXPECT_TRUE(FindFormatOfName("walk.csv")->is_told_by_content);
+  EXPECT_FALSE(FindFormatOfName("walk.tsv")->is_written);
   EXPECT_EQ(FindFormatOfName("walk"), nullptr);
-  EXPECT_EQ(RecordingFormatNames(), "C3D, TRC or MMM motion");
+  EXPECT_EQ(RecordingFormatNames(), "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV or MMM motion");
 }
 
 TEST_F(RecordingFormatsTest, AreToldByContentWhateverTheName) {
   EXPECT_EQ(NameOf("\x02P and so on"), "C3D");
   EXPECT_EQ(NameOf(std::string(512, '\0') + "\x02P"), "C3D");
   EXPECT_EQ(NameOf("PathFileType\t4\t(X/Y/Z)\twalk.trc\n"), "TRC");
+  EXPECT_EQ(NameOf("PathFileType\t4\t(X/Y/Z)\twalk.trc\rDataRate\r"), "TRC");
+  EXPECT_EQ(NameOf("Trajectories\n100\n,,A:C7,,\n"), "Nexus CSV");
+  EXPECT_EQ(NameOf("Format Version,1.23,Take Name,a\n"), "Motive CSV");
+  EXPECT_EQ(NameOf("NO_OF_FRAMES\t20\n"), "QTM TSV");
   EXPECT_EQ(NameOf("\xEF\xBB\xBF <?xml version='1.0'?><MMM/>"), "MMM motion");
   EXPECT_EQ(NameOf("<Robot>\nFrame#\tTime\n</Robot>"), "");
   EXPECT_EQ(NameOf("\x7f"

@@ -351,7 +351,8 @@ TEST(Recording, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(MessageOf("/no/such/file.c3d"), HasSubstr("no such file"));
   EXPECT_THAT(MessageOf(testing::TestFolder()), HasSubstr("is a folder"));
   EXPECT_THAT(MessageOf(WriteRecording("empty.c3d", "")), HasSubstr("the file is empty"));
-  EXPECT_THAT(MessageOf(WriteRecording("text.c3d", "hello\n")), HasSubstr("is text, but neither"));
+  EXPECT_THAT(MessageOf(WriteRecording("text.c3d", "hello\n")),
+              HasSubstr("is text, but no recording"));
   EXPECT_THAT(MessageOf(WriteRecording(
                   "lfs.c3d", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")),
               HasSubstr("Git LFS pointer"));

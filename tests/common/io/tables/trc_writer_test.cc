@@ -90,7 +90,7 @@ TEST(TrcWriterTest, TheModelsMarkersStandBehindUnderTheirLabels) {
 TEST(TrcWriterTest, OurReaderHasTheMarkersBack) {
   const MarkerSequence measured = Measured();
   Warnings warnings;
-  const TrcFile trc =
+  const MarkerTable trc =
       ParseTrc(Join(FormatTrc({"a.trc", 41, &measured, {}, nullptr, nullptr})), "a.trc", &warnings);
   EXPECT_EQ(trc.unit, "mm");
   EXPECT_EQ(trc.first_frame, 41);
