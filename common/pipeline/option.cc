@@ -59,7 +59,7 @@ std::string Expected(const Option& option, double unit) {
 }
 
 // Sets what an option goes to; false where the value is not what is expected.
-struct Setting {
+struct OptionReading {
   const Option& option;
   const std::vector<std::string>& values;
   double unit;
@@ -139,7 +139,7 @@ std::vector<std::string> Choices(Medium medium, const Option& option) {
 }
 
 std::string SetOption(const Option& option, const std::vector<std::string>& values, double unit) {
-  return std::visit(Setting{option, values, unit}, option.to) ? "" : Expected(option, unit);
+  return std::visit(OptionReading{option, values, unit}, option.to) ? "" : Expected(option, unit);
 }
 
 }  // namespace mmm_converter
