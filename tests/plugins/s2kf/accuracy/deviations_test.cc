@@ -93,7 +93,9 @@ void ExpectHonest(const std::vector<Coverage>& persons, const std::string& what,
     ExpectAtLeast(one, is_all ? 0.60 : 0.50, group + " within one");
     ExpectAtLeast(two, is_all ? 0.90 : 0.85, group + " within two");
     if (group == "limit") continue;  // more caution there does no harm
-    ExpectAtMost(one, is_all ? most : 0.88, group + " within one");
+    // Not reached by necks, of which the motion model expects more: .92 of calibrated persons.
+    const double most_of_group = group == "neck" ? 0.95 : 0.88;
+    ExpectAtMost(one, is_all ? most : most_of_group, group + " within one");
     if (is_all) ExpectAtMost(two, 0.98, group + " within two");
   }
   // Of the limbs; bends of spine and neck, and all together, err by more than one look tells.
