@@ -169,29 +169,29 @@ const std::vector<Vocabulary>& Vocabularies() {
   return vocabularies;
 }
 
-enum class Part { kFull, kLegs, kThoraxAndLegs, kUpperBody };
+enum class BodyPart { kFull, kLegs, kThoraxAndLegs, kUpperBody };
 
-bool IsWorn(const std::string& key, Part part) {
+bool IsWorn(const std::string& key, BodyPart part) {
   const auto is_one_of = [&](std::string_view all) {
     return all.find(" " + key + " ") != std::string_view::npos;
   };
   const bool is_leg = is_one_of(" %ASI %PSI %HIP %THI %KNE %TIP %ANK %HEE %MT1 %MT5 %TOE ");
   const bool is_trunk = is_one_of(" C7 CLAV STRN T10 L3 %SHO %BAK ");
-  if (part == Part::kLegs) return is_leg;
-  if (part == Part::kThoraxAndLegs) return is_leg || is_trunk;
-  if (part == Part::kUpperBody) return !is_leg || key == "%ASI" || key == "%PSI";
+  if (part == BodyPart::kLegs) return is_leg;
+  if (part == BodyPart::kThoraxAndLegs) return is_leg || is_trunk;
+  if (part == BodyPart::kUpperBody) return !is_leg || key == "%ASI" || key == "%PSI";
   return true;
 }
 
 /// Names of joints whose centres a part shows.
-std::vector<std::string> JointsOf(Part part) {
+std::vector<std::string> JointsOf(BodyPart part) {
   std::vector<std::string> names;
   for (const char* side : {"L", "R"}) {
     for (const char* joint : {"Hx", "Kx", "Ax"}) {
-      if (part != Part::kUpperBody) names.push_back(side + std::string(joint) + "_joint");
+      if (part != BodyPart::kUpperBody) names.push_back(side + std::string(joint) + "_joint");
     }
     for (const char* joint : {"Sx", "Ex", "Wx"}) {
-      const bool is_shown = part == Part::kFull || part == Part::kUpperBody;
+      const bool is_shown = part == BodyPart::kFull || part == BodyPart::kUpperBody;
       if (is_shown) names.push_back(side + std::string(joint) + "_joint");
     }
   }
@@ -212,8 +212,8 @@ class NamedPersons : public ::testing::Test {
   }
 
   /// Some of the markers under other labels, and KIT's names of these.
-  MarkerSequence Rename(const MarkerSequence& recording, const Vocabulary& vocabulary, Part part,
-                        std::vector<std::string>* kit) const {
+  MarkerSequence Rename(const MarkerSequence& recording, const Vocabulary& vocabulary,
+                        BodyPart part, std::vector<std::string>* kit) const {
     std::vector<int> columns;
     std::vector<std::string> labels;
     kit->clear();
@@ -242,7 +242,7 @@ class NamedPersons : public ::testing::Test {
   /// Centres of joints [m] in some frames, by the least-squares postures.
   std::vector<Eigen::Vector3d> Centres(const KinematicModel& reference,
                                        const std::vector<MarkerAssignment>& assignments,
-                                       const MarkerSequence& recording, Part part) const {
+                                       const MarkerSequence& recording, BodyPart part) const {
     const KinematicModel model = ScaleWinter(reference, {kHeight, 70, {}});
     const MarkerKinematics kinematics(model, joints_, MarkerIndices(assignments));
     PostureSearch search(kinematics);
@@ -271,7 +271,7 @@ class NamedPersons : public ::testing::Test {
     std::string notes;
   };
 
-  Outcome Compare(const Vocabulary& vocabulary, Part part, std::uint64_t seed) const {
+  Outcome Compare(const Vocabulary& vocabulary, BodyPart part, std::uint64_t seed) const {
     std::vector<std::string> kit;
     const MarkerSequence renamed = Rename(Record(seed), vocabulary, part, &kit);
     std::vector<MarkerAssignment> by_kit;
@@ -308,10 +308,11 @@ class NamedPersons : public ::testing::Test {
 };
 
 TEST_F(NamedPersons, HaveTheJointsThatKitsNamesGive) {
-  constexpr std::pair<Part, const char*> kParts[] = {{Part::kFull, "full"},
-                                                     {Part::kLegs, "legs"},
-                                                     {Part::kThoraxAndLegs, "thorax and legs"},
-                                                     {Part::kUpperBody, "upper body"}};
+  constexpr std::pair<BodyPart, const char*> kParts[] = {
+      {BodyPart::kFull, "full"},
+      {BodyPart::kLegs, "legs"},
+      {BodyPart::kThoraxAndLegs, "thorax and legs"},
+      {BodyPart::kUpperBody, "upper body"}};
   for (const Vocabulary& vocabulary : Vocabularies()) {
     for (const auto& [part, name] : kParts) {
       const Outcome outcome = Compare(vocabulary, part, 11);
