@@ -25,7 +25,7 @@ using ::testing::SizeIs;
 constexpr int kFrames = 60;
 constexpr double kSmaller = 0.93;
 
-std::string InFolder(const std::string& name) { return TestFolder() + "/" + name; }
+std::string SceneFile(const std::string& name) { return TestFolder() + "/" + name; }
 
 /// The sample's first frames as somebody of another height does them, moved along x.
 MarkerSequence Person(double scale, bool backward, double x, int frames = kFrames) {
@@ -74,7 +74,7 @@ std::string WriteCloud(const std::vector<MarkerSequence>& bodies) {
       }
     }
   }
-  std::string path = InFolder("cloud.c3d");
+  std::string path = SceneFile("cloud.c3d");
   WriteC3d(path, cloud);
   return path;
 }
@@ -111,21 +111,21 @@ TEST(LabelScene, PersonsAndObjectsOfOneCloudAreNamedApart) {
   for (const auto& [name, scale, height] :
        {std::tuple("anna", 1.0, "1.8"), std::tuple("ben", kSmaller, "1.674")}) {
     constexpr int kToCalibrateOn = 500;
-    const std::string file = InFolder(std::string(name) + ".c3d");
+    const std::string file = SceneFile(std::string(name) + ".c3d");
     WriteC3d(file, Person(scale, false, 0, kToCalibrateOn));
     ExpectRuns({"calibrate", file, "--height", height, "--name", name, "-o",
-                InFolder(std::string(name) + ".xml")});
+                SceneFile(std::string(name) + ".xml")});
   }
-  WriteC3d(InFolder("box.c3d"), box);
-  ExpectRuns({"convert", InFolder("box.c3d"), "--object", "--object-models", InFolder("objects"),
-              "-o", InFolder("box_motion.xml")});
+  WriteC3d(SceneFile("box.c3d"), box);
+  ExpectRuns({"convert", SceneFile("box.c3d"), "--object", "--object-models", SceneFile("objects"),
+              "-o", SceneFile("box_motion.xml")});
 
   const std::string cloud = WriteCloud({anna, ben, box});
-  const std::string output = InFolder("named.c3d");
-  const std::string summary = InFolder("named.json");
-  const ProgramRun run = RunProgram({"label", cloud, "--subject-file", InFolder("anna.xml"),
-                                     "--and-subject-file", InFolder("ben.xml"), "--object-models",
-                                     InFolder("objects"), "-o", output, "--summary", summary});
+  const std::string output = SceneFile("named.c3d");
+  const std::string summary = SceneFile("named.json");
+  const ProgramRun run = RunProgram({"label", cloud, "--subject-file", SceneFile("anna.xml"),
+                                     "--and-subject-file", SceneFile("ben.xml"), "--object-models",
+                                     SceneFile("objects"), "-o", output, "--summary", summary});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("person     ben ("), HasSubstr("53 of 53 names found"),
                              HasSubstr("object     box ("), HasSubstr("4 of 4 names found")));
@@ -135,33 +135,35 @@ TEST(LabelScene, PersonsAndObjectsOfOneCloudAreNamedApart) {
   ExpectSubject(output, "box", box);
 
   // In one step, and as a user goes on.
-  ExpectRuns({"convert", cloud, "--label", "--subject-file", InFolder("ben.xml"),
-              "--and-subject-file", InFolder("anna.xml"), "--object-models", InFolder("objects"),
-              "-o", InFolder("ben_only.xml"), "--summary", InFolder("ben_only.json")});
-  const auto only = nlohmann::json::parse(ReadText(InFolder("ben_only.json")));
+  ExpectRuns({"convert", cloud, "--label", "--subject-file", SceneFile("ben.xml"),
+              "--and-subject-file", SceneFile("anna.xml"), "--object-models", SceneFile("objects"),
+              "-o", SceneFile("ben_only.xml"), "--summary", SceneFile("ben_only.json")});
+  const auto only = nlohmann::json::parse(ReadText(SceneFile("ben_only.json")));
   EXPECT_THAT(only.at("markers").at("used"), SizeIs(53));
   EXPECT_LT(only.at("distance_mm").at("mean"), 5);
-  ExpectRuns({"convert", output, "--subject", "ben", "--subject-file", InFolder("ben.xml"),
-              "--frames", ":20", "-o", InFolder("ben_motion.xml")});
+  ExpectRuns({"convert", output, "--subject", "ben", "--subject-file", SceneFile("ben.xml"),
+              "--frames", ":20", "-o", SceneFile("ben_motion.xml")});
   ExpectRuns({"convert", output, "--subject", "box", "--object", "--object-models",
-              InFolder("objects"), "-o", InFolder("box_again.xml")});
+              SceneFile("objects"), "-o", SceneFile("box_again.xml")});
 
   const auto expect = [&](const std::vector<std::string>& arguments, const std::string& said) {
-    std::vector<std::string> words = {"label", cloud, "--subject-file", InFolder("anna.xml")};
+    std::vector<std::string> words = {"label", cloud, "--subject-file", SceneFile("anna.xml")};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const ProgramRun refused = RunProgram(words);
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr(said));
   };
-  expect({"--and-subject-file", InFolder("anna.xml")}, "is called anna, too");
-  expect({"--and-subject-file", InFolder("ben.xml"), "-o", InFolder("out.xml")},
+  expect({"--and-subject-file", SceneFile("anna.xml")}, "is called anna, too");
+  expect({"--and-subject-file", SceneFile("ben.xml"), "-o", SceneFile("out.xml")},
          "each is then a --subject");
-  expect({"--and-subject-file", InFolder("ben.xml"), "--repair"}, "one person at a time");
-  expect({"--object-models", InFolder("nowhere")}, "can't be read: No such file");
-  expect({"--object-models", TestFolder()}, "here; " + InFolder("anna.xml"));
-  EXPECT_EQ(RunProgram({"convert", cloud, "--and-subject-file", InFolder("ben.xml")}).exit_code, 2);
-  expect({"--and-subject-file", InFolder("ben.xml"), "--summary", InFolder("ben.xml")}, "is read");
-  expect({"--object-models", InFolder("objects"), "--report", InFolder("objects/box.xml")},
+  expect({"--and-subject-file", SceneFile("ben.xml"), "--repair"}, "one person at a time");
+  expect({"--object-models", SceneFile("nowhere")}, "can't be read: No such file");
+  expect({"--object-models", TestFolder()}, "here; " + SceneFile("anna.xml"));
+  EXPECT_EQ(RunProgram({"convert", cloud, "--and-subject-file", SceneFile("ben.xml")}).exit_code,
+            2);
+  expect({"--and-subject-file", SceneFile("ben.xml"), "--summary", SceneFile("ben.xml")},
+         "is read");
+  expect({"--object-models", SceneFile("objects"), "--report", SceneFile("objects/box.xml")},
          "is read");
 }
 
