@@ -62,7 +62,7 @@ class Judge {
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
     JudgeHeight(is_far);
-    if (is_far) {
+    if (is_far || evidence_.names != nullptr) {
       JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);
     }
     return reasons_.Conclude();
