@@ -14,15 +14,17 @@
 namespace {
 
 void MakeIndices(const std::string& folder) {
-  using namespace mmm_converter;
+  namespace testing = mmm_converter::testing;
+  using mmm_converter::Json;
   const auto write = [&](const std::string& name, const std::string& title,
                          const std::vector<Json>& results) {
-    WriteFileAtomically(folder + "/" + name + ".html", FormatBatchIndex(title, results));
+    mmm_converter::WriteFileAtomically(folder + "/" + name + ".html",
+                                       mmm_converter::FormatBatchIndex(title, results));
   };
   const std::vector<Json> results = testing::ManyResults(600);
   std::string lines;
-  for (const Json& result : results) lines += FormatJsonLine(result) + "\n";
-  WriteFileAtomically(folder + "/results.jsonl", lines);
+  for (const Json& result : results) lines += mmm_converter::FormatJsonLine(result) + "\n";
+  mmm_converter::WriteFileAtomically(folder + "/results.jsonl", lines);
   write("index", "kit", results);
   write("hostile", testing::kHostileText, testing::HostileResults());
   write("empty", "nothing", {});
