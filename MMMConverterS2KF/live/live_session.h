@@ -78,7 +78,7 @@ class LiveSession {
   std::optional<FoundLabels> labels_;       // the plan's; nothing: labels are the source's
   std::unique_ptr<LiveLabeller> labeller_;  // of these
   StreamClock clock_;
-  StreamFrame frame_;                       // the columns that count
+  StreamFrame frame_;  // the columns that count
   PoseFrame pose_;
   LiveStage stage_ = LiveStage::kMeasuring;
   int starts_ = 0;  // of trackers before

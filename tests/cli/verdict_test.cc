@@ -28,6 +28,7 @@ using testing::TestFolder;
 struct Judged {
   std::string level;
   std::string reasons;
+  nlohmann::json recording;  ///< what the summary says of it
 };
 
 std::string SubjectOutput() { return TestFolder() + "/subject.xml"; }
@@ -45,7 +46,7 @@ Judged Run(const std::string& command, const std::string& recording, const std::
   for (const std::string reason : json["verdict"]["reasons"]) reasons += reason + "; ";
   EXPECT_THAT(run.out, HasSubstr("verdict    " + level));
   EXPECT_EQ(level == "good", reasons.empty()) << reasons;
-  return {level, reasons};
+  return {level, reasons, json.value("recording", nlohmann::json())};
 }
 
 Judged Convert(const std::string& recording, const std::vector<std::string>& options) {
@@ -196,7 +197,8 @@ TEST(Verdict, AnAxisThatTheBodyContradictsIsToBeChecked) {
   EXPECT_THAT(judged.reasons, HasSubstr("+z is taken (another by --up AXIS)"));
   const auto turn_over = [](int, int, Point p) { p = Eigen::Vector3d(p.x(), -p.y(), -p.z()); };
   judged = ConvertMarkers(Changed(turn_over));
-  EXPECT_EQ(judged.level, "check");
+  EXPECT_EQ(judged.recording["up_axis"], "-z") << judged.recording;
+  EXPECT_EQ(judged.recording["up_axis_stated"], "+z");
   judged = ConvertMarkers(Sample(), {"--height", "1.8", "--up", "y"});
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("given as up"));

@@ -31,9 +31,9 @@ struct LabelSelection {
 /// Leaves out unlabelled points (*12), what outputs lists, and the bone axes of Plug-in Gait (xxxO,
 /// xxxA, xxxL and xxxP together), then chooses among the subjects, by `Subject:LABEL` or
 /// `Subject_LABEL`: the one asked for, or several that are asked for as one ("Legs,Trunk"); else
-/// those that together wear each landmark of a body once, or the only one that wears such landmarks.
-/// label_prefixes: what the file declares, may be empty. file: for messages. with_unlabelled:
-/// points without a label stay, whoever wears them, in their places.
+/// those that together wear each landmark of a body once, or the only one that wears such
+/// landmarks. label_prefixes: what the file declares, may be empty. file: for messages.
+/// with_unlabelled: points without a label stay, whoever wears them, in their places.
 /// @throws Error that lists the subjects where the choice is not clear or there is no such one.
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,

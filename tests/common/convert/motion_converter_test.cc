@@ -110,9 +110,11 @@ TEST_F(MotionConverterTest, FramesBeforeTheFirstPostureTakeItUnconverged) {
   EXPECT_EQ(result.trajectory.postures[3].position.y(), 0.01);
 }
 
-TEST_F(MotionConverterTest, NeedsThreeMarkersInTheFirstSecond) {
-  EXPECT_NO_THROW(Convert(MakeRecording(20, 9, 10)));
-  EXPECT_THAT([&] { Convert(MakeRecording(20, 10, 10)); },
+TEST_F(MotionConverterTest, NeedsThreeMarkersInSomeFrame) {
+  const ConversionResult late = Convert(MakeRecording(20, 15, 10));
+  EXPECT_FALSE(late.frames[14].converged);
+  EXPECT_TRUE(late.frames[15].converged);
+  EXPECT_THAT([&] { Convert(MakeRecording(20, 20, 10)); },
               ThrowsMessage<Error>(HasSubstr("at most 1 of 3 are seen")));
   EXPECT_THAT([&] { Convert(MakeRecording(0, 0)); }, ThrowsMessage<Error>(HasSubstr("at most 0")));
 }

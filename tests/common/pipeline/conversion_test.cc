@@ -40,7 +40,7 @@ std::string FailureOf(const ConversionRequest& request) {
 TEST(Conversion, PlansBeforeAnythingIsTracked) {
   const ConversionPlan plan = PlanConversion(SampleRequest(), {});
   EXPECT_EQ(plan.setup.assignments().size(), 53);
-  EXPECT_EQ(plan.setup.marker_set, "kit53");
+  EXPECT_EQ(plan.setup.marker_set, "KIT");
   EXPECT_EQ(plan.person.height.value, 1.8);
   EXPECT_EQ(plan.person.mass.source, "assumed");
   EXPECT_EQ(plan.converter.config.type, "S2KFConverter");
