@@ -300,7 +300,6 @@ TEST(CheckDynamics, BadInputIsOneLine) {
       {no_height, {}, "does not say how tall the person is; give --height"},
       {stand, {"--model", TestFolder() + "/none.xml"}, "none.xml: no such file"},
       {stand, {"--subject-file", TestFolder() + "/none.xml"}, "none.xml: no such file"},
-      {stand, {"--mass", "0"}, "mass"},
       {Replaced(stand, "<RootPosition>0 0 ", "<RootPosition>0 nan "), {}, "no"},
       {"<Robot/>", {}, "an MMM motion has <MMM>"},
       {"", {}, "empty"}};
@@ -315,6 +314,10 @@ TEST(CheckDynamics, BadInputIsOneLine) {
     EXPECT_EQ(run.out, "");
     EXPECT_THAT(run.err, AllOf(HasSubstr("error: "), HasSubstr(bad.message)));
   }
+  WriteText(file, stand);
+  const auto misuse = RunProgram({"check-dynamics", file, "--mass", "0"});
+  EXPECT_EQ(misuse.exit_code, 2);
+  EXPECT_THAT(misuse.err, HasSubstr("error: --mass: \"0\" is not allowed"));
 }
 
 TEST(CheckDynamics, AModelThatIsNotThereIsReplacedWithAWarning) {
