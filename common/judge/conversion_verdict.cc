@@ -71,8 +71,10 @@ class Judge {
  private:
   std::string LabelsOf(const std::vector<int>& assignments) const {
     std::vector<std::string> labels;
-    for (const int i : assignments)
+    labels.reserve(assignments.size());
+    for (const int i : assignments) {
       labels.push_back(markers_.labels()[evidence_.setup.assignments()[i].label]);
+    }
     return FirstNames(labels, 6);
   }
 
