@@ -133,7 +133,7 @@ TEST(Info, SubjectAndPerson) {
 }
 
 TEST(Info, OutputsOfAConversion) {
-  const std::string folder = testing::TestFolder();
+  const std::string& folder = testing::TestFolder();
   const auto run = RunProgram(testing::WithTestConverter(
       {"convert", Handstand(), "--height", "1.8", "--frames", "0:20", "-o", folder + "/m.xml",
        "--summary", folder + "/m.json", "--report", folder + "/m.html", "--export-csv",
