@@ -46,7 +46,7 @@ Judged Run(const std::string& command, const std::string& recording, const std::
   for (const std::string reason : json["verdict"]["reasons"]) reasons += reason + "; ";
   EXPECT_THAT(run.out, HasSubstr("verdict    " + level));
   EXPECT_EQ(level == "good", reasons.empty()) << reasons;
-  return {level, reasons, json.value("recording", nlohmann::json())};
+  return {level, reasons, json.value("input", nlohmann::json())};
 }
 
 Judged Convert(const std::string& recording, const std::vector<std::string>& options) {
