@@ -26,7 +26,7 @@ constexpr int kMostShards = 1000000;
 constexpr double kShareOfMemory = 0.75;
 constexpr int kSignalExit = 128;  // as shells say it
 
-const std::vector<OptionGroup> kOptions = {
+const std::vector<OptionGroup> kBatchOptions = {
     {"Batch",
      {{"output,o", "FOLDER", "where motions, reports, journal and results go", ""},
       {"resume", "", "keep what an earlier run has done, if nothing that it depends on has changed",
@@ -53,7 +53,7 @@ const std::vector<OptionGroup> kOptions = {
      {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
       {"help,h", "", "print this help", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF batch MANIFEST -o FOLDER [options]
+constexpr const char* kBatchUsage = R"(MMMConverterS2KF batch MANIFEST -o FOLDER [options]
 Converts the recordings of a manifest, an XML file ("print-config batch" prints an example). A
 recording that cannot be converted does not stop the others. --resume continues a run that was
 interrupted.
@@ -209,7 +209,7 @@ int PrintScan(const Arguments& arguments) {
 
 }  // namespace
 
-Manual BatchManual() { return {kUsage, kOptions}; }
+Manual BatchManual() { return {kBatchUsage, kBatchOptions}; }
 
 int RunBatch(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));

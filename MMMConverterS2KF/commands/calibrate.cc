@@ -22,7 +22,7 @@
 namespace mmm_converter {
 namespace {
 
-const OptionGroup kFiles = {
+const OptionGroup kCalibrateFiles = {
     "Files",
     {{"output,o", "FILE", "the subject; default: RECORDING without its ending + _subject.xml", ""},
      {"model-out", "FILE", "also write the person's model, for other MMM programs", ""},
@@ -30,7 +30,7 @@ const OptionGroup kFiles = {
      {"summary", "FILE", "write a summary as JSON", ""},
      {"name", "NAME", "of the person; default: what the first recording calls it", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF calibrate RECORDING... [options]
+constexpr const char* kCalibrateUsage = R"(MMMConverterS2KF calibrate RECORDING... [options]
 Estimates the lengths of a person's segments and the places of the markers on the body. Any motions
 of the person can be used; the more the joints move, the better. Markers must not be attached again
 between these recordings and those that are converted with the result. What the recordings do not
@@ -46,18 +46,18 @@ Examples
 )";
 
 // Given once for all recordings, or once for each in their order.
-const std::vector<std::string> kPerRecording = {"frames", "subject", "motion",
-                                                "unit",   "rate",    "up"};
+const std::vector<std::string> kCalibratePerRecording = {"frames", "subject", "motion",
+                                                         "unit",   "rate",    "up"};
 
-CalibrationRequest MakeRequest(const Arguments& arguments) {
+CalibrationRequest MakeCalibrationRequest(const Arguments& arguments) {
   CalibrationRequest request;
-  request.inputs = MakeInputs(task::kCalibrate, arguments, kPerRecording);
+  request.inputs = MakeInputs(task::kCalibrate, arguments, kCalibratePerRecording);
   request.converter = MakeRequest(task::kCalibrate, arguments, "").converter;
   request.name = arguments.Get("name").value_or("");
   return request;
 }
 
-std::string OutputFile(const Arguments& arguments) {
+std::string CalibrateOutputFile(const Arguments& arguments) {
   if (const auto file = arguments.Get("output")) return *file;
   const std::filesystem::path input = arguments.positionals().front();
   return (input.parent_path() / (input.stem().string() + "_subject.xml")).string();
@@ -68,7 +68,7 @@ void CheckOutputs(const Arguments& arguments, const CalibrationRequest& request,
   OutputPlan plan;
   for (const InputRequest& input : request.inputs) NameInputs(input, &plan);
   NameInputs(choice, &plan);
-  plan.Write(OutputFile(arguments));
+  plan.Write(CalibrateOutputFile(arguments));
   for (const char* output : {"model-out", "report", "summary"}) {
     plan.Write(arguments.Get(output).value_or(""));
   }
@@ -105,7 +105,8 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
 }  // namespace
 
 Manual CalibrateManual() {
-  return {kUsage, CommandOptions(task::kCalibrate, {kFiles}, {}, kPerRecording), true};
+  return {kCalibrateUsage,
+          CommandOptions(task::kCalibrate, {kCalibrateFiles}, {}, kCalibratePerRecording), true};
 }
 
 int RunCalibrate(const Arguments& arguments) {
@@ -115,8 +116,8 @@ int RunCalibrate(const Arguments& arguments) {
         "1.75 -o anna.xml");
   }
   StartLog(arguments.Get("log").value_or("info"));
-  const CalibrationRequest request = MakeRequest(arguments);
-  const std::string output = OutputFile(arguments);
+  const CalibrationRequest request = MakeCalibrationRequest(arguments);
+  const std::string output = CalibrateOutputFile(arguments);
   Warnings of_choice;
   ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
   CheckOutputs(arguments, request, choice);

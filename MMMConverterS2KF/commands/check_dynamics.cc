@@ -21,11 +21,12 @@ namespace {
 
 constexpr int kImplausible = 1;
 
-const OptionGroup kFiles = {"Files",
-                            {{"summary", "FILE", "write all figures as JSON", ""},
-                             {"report", "FILE", "write a page (HTML) with plots", ""}}};
+const OptionGroup kCheckDynamicsFiles = {
+    "Files",
+    {{"summary", "FILE", "write all figures as JSON", ""},
+     {"report", "FILE", "write a page (HTML) with plots", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
+constexpr const char* kCheckDynamicsUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
 Checks whether a human body can move like an MMM motion (1.0 or 2.0). Computes centre of mass,
 momentum, forces, torques and power by inverse dynamics (Simbody) and compares them with the laws of
 mechanics. Assumes level ground as the only contact of the body; z points up.
@@ -56,9 +57,9 @@ Examples
 )";
 
 std::string Text() {
-  return fmt::format(kUsage, "{}", kMostKinematicsError, kMostMeanForceError, kForceTolerance,
-                     kMostFriction, 1000 * kMostOutsideSupport, 100 * kMostBadFrames,
-                     1000 * kMostUneven, kGravity, 100 * kMostFallError,
+  return fmt::format(kCheckDynamicsUsage, "{}", kMostKinematicsError, kMostMeanForceError,
+                     kForceTolerance, kMostFriction, 1000 * kMostOutsideSupport,
+                     100 * kMostBadFrames, 1000 * kMostUneven, kGravity, 100 * kMostFallError,
                      100 * kMostMomentumVariation, kMostTorque, kMostNoise, kNoiseForce,
                      kLeastOnGround);
 }
@@ -77,7 +78,7 @@ void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
 
 Manual CheckDynamicsManual() {
   DynamicsOptions options;
-  return {Text(), CommandOptions(task::kCheckDynamics, {kFiles},
+  return {Text(), CommandOptions(task::kCheckDynamics, {kCheckDynamicsFiles},
                                  GroupsOf(Options(&options), task::kCheckDynamics))};
 }
 

@@ -26,7 +26,7 @@ const OptionGroup kContest = {
       "", true},
      {"truth", "FILE", "MMM motion that the markers were made from; -: not known", "", true}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF compare RECORDING... [options]
+constexpr const char* kCompareUsage = R"(MMMConverterS2KF compare RECORDING... [options]
 Converts every recording with every configuration and compares the results. The table is printed;
 files are only written where an option below asks for them.
 
@@ -46,8 +46,8 @@ Examples
 )";
 
 // Given once for all recordings, or once for each in their order.
-const std::vector<std::string> kPerRecording = {"truth", "subject", "motion",       "height",
-                                                "mass",  "person",  "subject-file", "up"};
+const std::vector<std::string> kComparePerRecording = {"truth", "subject", "motion",       "height",
+                                                       "mass",  "person",  "subject-file", "up"};
 
 std::vector<Contender> MakeContenders(const Arguments& arguments) {
   std::vector<std::string> configs = arguments.GetAll("config");
@@ -75,7 +75,7 @@ std::vector<Trial> MakeTrials(const Arguments& arguments, const std::vector<Inpu
   std::vector<Trial> trials;
   Warnings warnings;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const Arguments own = arguments.ForPositional(static_cast<int>(i), kPerRecording);
+    const Arguments own = arguments.ForPositional(static_cast<int>(i), kComparePerRecording);
     const std::string truth = own.Get("truth").value_or("-");
     trials.push_back(MakeTrial(inputs[i], truth == "-" ? "" : truth, config, &warnings));
   }
@@ -89,7 +89,8 @@ Manual CompareManual() {
   ComparisonOptions options;
   std::vector<OptionGroup> last = GroupsOf(Options(&options), task::kCompare);
   last.push_back(ComparisonOutputOptions());
-  return {kUsage, CommandOptions(task::kCompare, {kContest}, last, kPerRecording), true};
+  return {kCompareUsage, CommandOptions(task::kCompare, {kContest}, last, kComparePerRecording),
+          true};
 }
 
 int RunCompare(const Arguments& arguments) {
@@ -101,7 +102,8 @@ int RunCompare(const Arguments& arguments) {
   ComparisonOptions options;
   ReadArguments(arguments, Options(&options), task::kCompare);
   std::vector<Contender> contenders = MakeContenders(arguments);
-  const std::vector<InputRequest> inputs = MakeInputs(task::kCompare, arguments, kPerRecording);
+  const std::vector<InputRequest> inputs =
+      MakeInputs(task::kCompare, arguments, kComparePerRecording);
   for (Contender& contender : contenders) UseMarkerSet(inputs.front(), &contender.config);
   CheckOutputs(arguments, inputs, contenders);
   std::vector<Trial> trials = MakeTrials(arguments, inputs, contenders.front().config);

@@ -21,7 +21,7 @@
 namespace mmm_converter {
 namespace {
 
-const OptionGroup kFiles = {
+const OptionGroup kConvertFiles = {
     "Files",
     {{"output,o", "FILE", "the motion; default: INPUT without its ending + _mmm.xml",
       "outputMotion"},
@@ -39,7 +39,7 @@ const OptionGroup kCalibration = {
 
 constexpr const char* kAllMotions = "all";
 
-constexpr const char* kUsage = R"(MMMConverterS2KF convert INPUT [options]
+constexpr const char* kConvertUsage = R"(MMMConverterS2KF convert INPUT [options]
 Converts the markers of INPUT (C3D, TRC, or an MMM motion with markers) into an MMM motion.
 The other motions of an MMM 2.0 file are kept, and -o may then be INPUT. --motion all converts every
 motion that has markers: persons with the reference model, each rigid object with its own model.
@@ -76,7 +76,7 @@ std::string ChooseInput(const Arguments& arguments) {
       "--height 1.75");
 }
 
-ConversionRequest MakeRequest(const Arguments& arguments) {
+ConversionRequest MakeConversionRequest(const Arguments& arguments) {
   ConversionRequest request = MakeRequest(task::kConvert, arguments, ChooseInput(arguments));
   request.output = arguments.Get("output").value_or("");
   request.subject_output = arguments.Get("subject-out").value_or("");
@@ -142,15 +142,15 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
 }  // namespace
 
 Manual ConvertManual() {
-  std::vector<OptionGroup> options =
-      CommandOptions(task::kConvert, {kFiles}, {kCalibration, ExportGroup("Export", Exporters())});
+  std::vector<OptionGroup> options = CommandOptions(
+      task::kConvert, {kConvertFiles}, {kCalibration, ExportGroup("Export", Exporters())});
   options.push_back({"", {{"inputMotion", "FILE", "", ""}}});
-  return {kUsage, std::move(options)};
+  return {kConvertUsage, std::move(options)};
 }
 
 int RunConvert(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
-  const ConversionRequest request = MakeRequest(arguments);
+  const ConversionRequest request = MakeConversionRequest(arguments);
   if (request.motion_name == kAllMotions) return ConvertAllMotions(arguments, request);
   ProgressBar bar("frames");
   const auto progress = [&](int done, int all) {

@@ -31,7 +31,7 @@ const OptionGroup kEvaluation = {
      {"repeat", "N", "runs of the occlusion experiment; default: 100, as in the paper", ""},
      {"jobs", "N", "runs at a time; default: all cores", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF evaluate [RECORDING...] [options]
+constexpr const char* kEvaluateUsage = R"(MMMConverterS2KF evaluate [RECORDING...] [options]
 Repeats the evaluation of the paper: a synthetic handstand, with all markers and with markers hidden
 at random, is tracked by the S2KF in the paper's and in the default configuration, by the UKF and
 EKF, and by framewise fits. RECORDINGs are compared in addition. This takes one to two minutes on
@@ -85,7 +85,9 @@ void WriteFiles(const std::string& folder, const std::vector<Experiment>& experi
 
 }  // namespace
 
-Manual EvaluateManual() { return {kUsage, CommandOptions(task::kEvaluate, {kEvaluation}), true}; }
+Manual EvaluateManual() {
+  return {kEvaluateUsage, CommandOptions(task::kEvaluate, {kEvaluation}), true};
+}
 
 int RunEvaluate(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<OptionGroup> kOptions = {
+const std::vector<OptionGroup> kExportPosesOptions = {
     {"Files",
      {{"output,o", "FILE",
        "the table: .npz (NumPy) or .csv; of several motions a folder, with a file of each", ""},
@@ -41,7 +41,8 @@ const std::vector<OptionGroup> kOptions = {
       {"velocities", "",
        "also velocities: central differences, for motions that are smooth (s2kf_offline)", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF export-poses MOTION... -o FILE [options]
+constexpr const char* kExportPosesUsage =
+    R"(MMMConverterS2KF export-poses MOTION... -o FILE [options]
 Writes where the segments of the body are in every frame of finished MMM motions: positions and
 orientations of segments and of the file's objects, points of the body, and the centre of mass.
 Metres; z is up in the world. README.md of the application says which columns and arrays there are.
@@ -141,7 +142,9 @@ void ExportMotion(const InputRequest& input, const PoseRequest& request, const s
 
 }  // namespace
 
-Manual ExportPosesManual() { return {kUsage, CommandOptions(task::kExportPoses, kOptions), true}; }
+Manual ExportPosesManual() {
+  return {kExportPosesUsage, CommandOptions(task::kExportPoses, kExportPosesOptions), true};
+}
 
 int RunExportPoses(const Arguments& arguments) {
   if (arguments.positionals().empty() || !arguments.Get("output")) {

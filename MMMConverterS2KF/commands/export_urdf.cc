@@ -15,9 +15,10 @@
 namespace mmm_converter {
 namespace {
 
-const OptionGroup kFiles = {"Files", {{"output,o", "FILE", "the URDF", ""}}};
+const OptionGroup kExportUrdfFiles = {"Files", {{"output,o", "FILE", "the URDF", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF export-urdf --height H --mass M -o FILE [options]
+constexpr const char* kExportUrdfUsage =
+    R"(MMMConverterS2KF export-urdf --height H --mass M -o FILE [options]
 Writes the MMM model of a person as a URDF: joints with limits, masses, inertia, simple shapes, and
 markers as fixed links MARKER_..._marker. convert --model reads it like any other URDF.
 
@@ -36,7 +37,9 @@ std::string Describe(const std::string& model_file, const Person& person) {
 
 }  // namespace
 
-Manual ExportUrdfManual() { return {kUsage, CommandOptions(task::kModel, {kFiles})}; }
+Manual ExportUrdfManual() {
+  return {kExportUrdfUsage, CommandOptions(task::kModel, {kExportUrdfFiles})};
+}
 
 int RunExportUrdf(const Arguments& arguments) {
   const auto output = arguments.Get("output");

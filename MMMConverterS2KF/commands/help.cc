@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kProgram = "MMMConverterS2KF";
 
-const std::vector<OptionGroup> kOptions = {
+const std::vector<OptionGroup> kHelpOptions = {
     {"Options",
      {{"man", "", "print the manual page as roff, for man -l -", ""},
       {"completion", "", "print the completion for bash", ""},
@@ -24,7 +24,7 @@ const std::vector<OptionGroup> kOptions = {
        ""},
       {"help,h", "", "print this help", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF help [COMMAND] [options]
+constexpr const char* kHelpUsage = R"(MMMConverterS2KF help [COMMAND] [options]
 Prints the help of the program or of a command.
 
 {}Examples
@@ -57,7 +57,7 @@ std::string ProgramManPage() {
 
 }  // namespace
 
-Manual HelpManual() { return {kUsage, kOptions}; }
+Manual HelpManual() { return {kHelpUsage, kHelpOptions}; }
 
 int RunHelp(const Arguments& arguments) {
   const auto name = arguments.positional();

@@ -14,11 +14,11 @@
 namespace mmm_converter {
 namespace {
 
-const OptionGroup kOptions = {
+const OptionGroup kInfoOptions = {
     "Options",
     {{"json", "", "machine-readable", ""}, {"version", "", "print this program's version", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF info FILE [--json]
+constexpr const char* kInfoUsage = R"(MMMConverterS2KF info FILE [--json]
 What is in a file that this program reads or writes: recordings (C3D, TRC), MMM motions, models and
 URDF, configurations, marker sets, subjects, persons, plugins, manifests, journals and results of a
 batch, summaries, tables (CSV, MOT) and pages. Of a C3D file also analog channels, force plates,
@@ -32,7 +32,7 @@ events and parameters; it need not have markers.
 
 }  // namespace
 
-Manual InfoManual() { return {kUsage, CommandOptions(task::kInfo, {kOptions})}; }
+Manual InfoManual() { return {kInfoUsage, CommandOptions(task::kInfo, {kInfoOptions})}; }
 
 int RunInfo(const Arguments& arguments) {
   if (arguments.Has("version")) {

@@ -19,7 +19,7 @@
 namespace mmm_converter {
 namespace {
 
-const OptionGroup kFiles = {
+const OptionGroup kLabelFiles = {
     "Files",
     {{"output,o", "FILE",
       "the labelled recording: C3D, TRC or MMM (.xml); may be RECORDING. Default: nothing is "
@@ -28,7 +28,7 @@ const OptionGroup kFiles = {
      {"report", "FILE", "write a page (HTML): what was changed, and tracks before and after", ""},
      {"summary", "FILE", "write a summary as JSON", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF label RECORDING [options]
+constexpr const char* kLabelUsage = R"(MMMConverterS2KF label RECORDING [options]
 Gives the points of a recording the names of the markers that they are, by the body that wears them:
 of points without labels, of trajectories that break and go on under another number and, with
 --repair, of labels that are wrong. A point that is none of the markers, or not surely one, stays
@@ -55,7 +55,7 @@ or to nobody. Labels then begin with the name of the person or of the object's m
   MMMConverterS2KF label walk.c3d --repair --subject-file anna.xml -o walk_repaired.c3d
 )";
 
-LabelRequest MakeRequest(const Arguments& arguments) {
+LabelRequest MakeLabelRequest(const Arguments& arguments) {
   if (!arguments.positional()) {
     throw UsageError(
         "label: which recording? For instance: MMMConverterS2KF label walk.c3d --height 1.75 -o "
@@ -74,11 +74,11 @@ LabelRequest MakeRequest(const Arguments& arguments) {
 
 }  // namespace
 
-Manual LabelManual() { return {kUsage, CommandOptions(task::kLabel, {kFiles})}; }
+Manual LabelManual() { return {kLabelUsage, CommandOptions(task::kLabel, {kLabelFiles})}; }
 
 int RunLabel(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
-  const LabelRequest request = MakeRequest(arguments);
+  const LabelRequest request = MakeLabelRequest(arguments);
   ProgressBar bar("frames");
   const LabelReport report = RunLabelling(request, [&](int done, int all) {
     bar.Show(done, all);

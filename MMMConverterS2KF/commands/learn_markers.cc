@@ -19,7 +19,7 @@
 namespace mmm_converter {
 namespace {
 
-const OptionGroup kFiles = {
+const OptionGroup kLearnMarkersFiles = {
     "Files",
     {{"output,o", "FILE", "the marker set (.xml); needed", ""},
      {"name", "NAME", "of the marker set; default: the name of its file", ""},
@@ -28,7 +28,7 @@ const OptionGroup kFiles = {
       ""},
      {"summary", "FILE", "write a summary as JSON", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF learn-markers RECORDING... [options]
+constexpr const char* kLearnMarkersUsage = R"(MMMConverterS2KF learn-markers RECORDING... [options]
 Learns a laboratory's marker set from recordings whose labels are consistent, but whose meaning is
 not known: on which segment each marker is worn, and where on it, by how it moves. The result is a
 marker set for --marker-set of convert, calibrate and batch, and for people to read and change.
@@ -46,10 +46,10 @@ Examples
 )";
 
 // Given once for all recordings, or once for each in their order.
-const std::vector<std::string> kPerRecording = {"frames", "subject", "motion",
-                                                "unit",   "rate",    "up"};
+const std::vector<std::string> kLearnMarkersPerRecording = {"frames", "subject", "motion",
+                                                            "unit",   "rate",    "up"};
 
-LearnRequest MakeRequest(const Arguments& arguments) {
+LearnRequest MakeLearnRequest(const Arguments& arguments) {
   constexpr const char* kExample =
       "MMMConverterS2KF learn-markers walk.c3d --height 1.75 -o our_set.xml";
   if (arguments.positionals().empty()) {
@@ -60,7 +60,7 @@ LearnRequest MakeRequest(const Arguments& arguments) {
         fmt::format("learn-markers: where shall the marker set go? For instance: {}", kExample));
   }
   LearnRequest request;
-  request.inputs = MakeInputs(task::kLearnMarkers, arguments, kPerRecording);
+  request.inputs = MakeInputs(task::kLearnMarkers, arguments, kLearnMarkersPerRecording);
   request.converter = MakeRequest(task::kLearnMarkers, arguments, "").converter;
   request.name = arguments.Get("name").value_or("");
   request.output = arguments.Get("output").value_or("");
@@ -86,12 +86,14 @@ std::string FormatLearnedReport(const LearnRequest& request, const LearnReport& 
 }  // namespace
 
 Manual LearnMarkersManual() {
-  return {kUsage, CommandOptions(task::kLearnMarkers, {kFiles}, {}, kPerRecording), true};
+  return {kLearnMarkersUsage,
+          CommandOptions(task::kLearnMarkers, {kLearnMarkersFiles}, {}, kLearnMarkersPerRecording),
+          true};
 }
 
 int RunLearnMarkers(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
-  const LearnRequest request = MakeRequest(arguments);
+  const LearnRequest request = MakeLearnRequest(arguments);
   ProgressBar bar("steps");
   const LearnReport report =
       RunLearning(request, [&bar](int done, int all) { bar.Show(done, all); });

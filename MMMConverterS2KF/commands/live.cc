@@ -50,7 +50,7 @@ const std::vector<OptionGroup> kOtherOptions = {
        "ask the system for real-time priority of the threads that read, track and send", ""},
       {"processor", "N", "keep the tracking thread on this processor", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF live SOURCE [options]
+constexpr const char* kLiveUsage = R"(MMMConverterS2KF live SOURCE [options]
 Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is one of
 {}
 {}Examples
@@ -79,7 +79,7 @@ void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
   }
 }
 
-LiveRequest MakeRequest(const Arguments& arguments) {
+LiveRequest MakeLiveRequest(const Arguments& arguments) {
   if (!arguments.positional()) {
     throw UsageError(
         "live: which source? For instance: MMMConverterS2KF live qtm://192.168.0.10 --height 1.75 "
@@ -129,13 +129,13 @@ std::string Describe(const LiveStatus& status) {
 Manual LiveManual() {
   std::vector<OptionGroup> last = kOtherOptions;
   last.push_back(ExportGroup("Export, at the end", LiveExporters()));
-  return {fmt::format(kUsage, DescribeSources(), "{}"),
+  return {fmt::format(kLiveUsage, DescribeSources(), "{}"),
           CommandOptions(task::kLive, {kOutputOptions}, last)};
 }
 
 int RunLive(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
-  const LiveRequest request = MakeRequest(arguments);
+  const LiveRequest request = MakeLiveRequest(arguments);
   if (!request.output.empty()) {
     Warnings warnings;
     const std::string recovered = RecoverMotion(request.output, &warnings);

@@ -12,12 +12,12 @@
 namespace mmm_converter {
 namespace {
 
-const std::vector<OptionGroup> kOptions = {
+const std::vector<OptionGroup> kPrintConfigOptions = {
     {"Options",
      {{"plugin", "FILE", "the converter of this plugin file", ""},
       {"help,h", "", "print this help", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF print-config NAME
+constexpr const char* kPrintConfigUsage = R"(MMMConverterS2KF print-config NAME
 Prints the configuration of a converter: every setting with its default and a description. The name
 "batch" prints an example of a manifest for the command batch, "batch-schema" the schema (XSD) of
 manifests.
@@ -31,7 +31,7 @@ manifests.
 
 }  // namespace
 
-Manual PrintConfigManual() { return {kUsage, kOptions}; }
+Manual PrintConfigManual() { return {kPrintConfigUsage, kPrintConfigOptions}; }
 
 int RunPrintConfig(const Arguments& arguments) {
   if (const auto file = arguments.Get("plugin")) {

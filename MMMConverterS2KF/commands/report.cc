@@ -26,7 +26,7 @@ const OptionGroup kOutput = {
      {"csv", "FILE", "all figures as CSV", ""},
      {"gnuplot", "FILE", "a gnuplot script with its data, which draws SVG figures", ""}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF report RECORDING MOTION... [options]
+constexpr const char* kReportUsage = R"(MMMConverterS2KF report RECORDING MOTION... [options]
 Writes an HTML page that shows finished MMM motions together with the recording that they were
 converted from: a player, marker distances and joint angles. It opens without a network. MOTION may
 come from any program, and may be RECORDING itself if that is an MMM file with joint angles. Nothing
@@ -85,7 +85,7 @@ Comparison CompareSolutions(const Arguments& arguments) {
                          std::move(solutions.results));
 }
 
-std::string OutputFile(const Arguments& arguments) {
+std::string ReportOutputFile(const Arguments& arguments) {
   if (const auto file = arguments.Get("output")) return *file;
   const std::filesystem::path input = arguments.positionals().front();
   return (input.parent_path() / (input.stem().string() + "_report.html")).string();
@@ -93,7 +93,7 @@ std::string OutputFile(const Arguments& arguments) {
 
 }  // namespace
 
-Manual ReportManual() { return {kUsage, CommandOptions(task::kReport, {kOutput}), true}; }
+Manual ReportManual() { return {kReportUsage, CommandOptions(task::kReport, {kOutput}), true}; }
 
 int RunReport(const Arguments& arguments) {
   if (arguments.positionals().size() < 2) {
@@ -102,7 +102,7 @@ int RunReport(const Arguments& arguments) {
         "walk_mmm.xml");
   }
   StartLog(arguments.Get("log").value_or("info"));
-  const std::string output = OutputFile(arguments);
+  const std::string output = ReportOutputFile(arguments);
   OutputPlan plan;
   NameInputs(MakeRequest(task::kReport, arguments, "").input, &plan);
   for (const std::string& file : arguments.positionals()) plan.Read(file);

@@ -47,7 +47,7 @@ const std::vector<OptionGroup> kOwnOptions = {
        ""},
       {"loop", "", "begin again at the end", ""}}}};
 
-constexpr const char* kUsage = R"(MMMConverterS2KF serve RECORDING --as qtm|natnet [options]
+constexpr const char* kServeUsage = R"(MMMConverterS2KF serve RECORDING --as qtm|natnet [options]
 Plays a recording as a motion capture system streams what its cameras see, for programs that take
 such a stream and have no cameras. It begins with the first client that asks for frames (multicast:
 at once) and, where it has ended, with the next one; Ctrl-C ends it. Missing markers are missing in
@@ -162,7 +162,7 @@ int Run(Server* server, const std::string& what, const std::string& address) {
 
 }  // namespace
 
-Manual ServeManual() { return {kUsage, CommandOptions(task::kServe, kOwnOptions)}; }
+Manual ServeManual() { return {kServeUsage, CommandOptions(task::kServe, kOwnOptions)}; }
 
 int RunServe(const Arguments& arguments) {
   if (!arguments.positional()) {
