@@ -31,7 +31,7 @@ SharedInputs::SharedInputs() : program_(HashProgram()) {}
 
 ReadBefore SharedInputs::ReadFor(const ConversionRequest& request) {
   const std::scoped_lock lock(mutex_);
-  auto& model = models_[ModelFile(request.input)];
+  auto& model = models_[ModelFile(request.input) + '\n' + request.input.marker_file];
   if (!model.value) model = ReadModelOnce(request.input);
   const ConverterRequest& converter = request.converter;
   auto& choice =
@@ -55,8 +55,9 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
   }
   const std::string own_set = (fs::path(config.file).parent_path() / config.marker_set).string();
   std::vector<std::string> files = FilesOf(request.label_hints);
-  files.insert(files.end(), {request.input.person.processor_file, request.input.person.subject_file,
-                             config.subject_file, own_set, request.input.marker_set});
+  files.insert(files.end(),
+               {request.input.person.processor_file, request.input.person.subject_file,
+                config.subject_file, own_set, request.input.marker_set, request.input.marker_file});
   for (const std::string& file : files) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");

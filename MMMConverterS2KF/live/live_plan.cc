@@ -30,6 +30,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   plan.converter = ChosenConverter(request.converter, {}, warnings);
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
+  CheckIsNoOsim(plan.input, "tracking a live stream");
   if (request.calibration_time > 0) config.subject_file.clear();
   const Recording& recording = plan.input.recording;
   if (request.label) {

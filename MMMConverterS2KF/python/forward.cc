@@ -34,8 +34,14 @@ class SegmentChain {
       const Matrix3d& R_WP = R_[segment.parent];
       p_[i] = R_WP * segment.X_PF.translation() + p_[segment.parent];
       R_[i] = is_turned_[i] ? Matrix3d(R_WP * segment.X_PF.linear()) : R_WP;
-      if (segment.joint < 0 || posture.joint_angles[segment.joint] == 0) continue;
-      const Eigen::AngleAxisd turn(posture.joint_angles[segment.joint], segment.axis);
+      if (segment.joint < 0) continue;
+      const double value = JointValue(segment, posture.joint_angles[segment.joint]);
+      if (value == 0) continue;
+      if (segment.type == JointType::kSliding) {
+        p_[i] += R_[i] * (value * segment.axis);
+        continue;
+      }
+      const Eigen::AngleAxisd turn(value, segment.axis);
       R_[i] = R_[i] * turn.toRotationMatrix();
     }
   }

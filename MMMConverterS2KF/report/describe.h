@@ -12,6 +12,7 @@ Description DescribeC3d(const FileStart& file, const ReadRecordingOptions& optio
 Description DescribeMarkerTable(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeMotions(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeModel(const FileStart& file, const ReadRecordingOptions& options);
+Description DescribeOsim(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeConfiguration(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeMarkerSet(const FileStart& file, const ReadRecordingOptions& options);
 Description DescribeSubjectFile(const FileStart& file, const ReadRecordingOptions& options);

@@ -78,9 +78,9 @@ Description DescribeModel(const FileStart& file, const ReadRecordingOptions&) {
                {"warnings", warnings.texts()}};
   for (int j = 0; j < model.num_joints(); ++j) {
     const Segment& joint = model.joint(j);
-    text += IsEndless(joint) ? fmt::format("  {:<24} without limits\n", joint.name)
-                             : fmt::format("  {:<24} {:9.6f} to {:9.6f} rad\n", joint.name,
-                                           joint.lower, joint.upper);
+    text += HasNoLimits(joint) ? fmt::format("  {:<24} without limits\n", joint.name)
+                               : fmt::format("  {:<24} {:9.6f} to {:9.6f} rad\n", joint.name,
+                                             joint.lower, joint.upper);
     json["joints"].push_back(
         {{"name", joint.name}, {"lower_rad", joint.lower}, {"upper_rad", joint.upper}});
   }

@@ -25,6 +25,7 @@ bool HasRoot(const FileStart& file) {
 
 constexpr const char* kMotion = "MMM";
 constexpr const char* kModel = "Robot";
+constexpr const char* kOsim = "OpenSimDocument";
 constexpr const char* kConfiguration = "ConverterConfig";
 constexpr const char* kMarkerSet = "MarkerSet";
 constexpr const char* kSubject = "Subject";
@@ -78,6 +79,7 @@ const std::vector<FileKind>& FileKinds() {
       {"plugins", IsPlugin, DescribePlugin},
       {"MMM motions", HasRoot<kMotion>, DescribeMotions},
       {"models (MMM, URDF)", HasRoot<kModel>, DescribeModel},
+      {"OpenSim models", HasRoot<kOsim>, DescribeOsim},
       {"configurations", HasRoot<kConfiguration>, DescribeConfiguration},
       {"marker sets", HasRoot<kMarkerSet>, DescribeMarkerSet},
       {"subjects", HasRoot<kSubject>, DescribeSubjectFile},

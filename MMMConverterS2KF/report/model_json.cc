@@ -9,6 +9,18 @@ namespace {
 
 Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Pieces of polynomials, lowest power first, one stage after the other.
+Json FunctionJson(const ScalarFunction& function) {
+  Json stages = Json::array();
+  for (const ScalarFunction::Stage& stage : function.stages()) {
+    stages.push_back({{"breaks", stage.breaks},
+                      {"origins", stage.origins},
+                      {"order", stage.order},
+                      {"coefficients", stage.coefficients}});
+  }
+  return stages;
+}
+
 }  // namespace
 
 Json ToJson(const KinematicModel& model) {
@@ -21,6 +33,9 @@ Json ToJson(const KinematicModel& model) {
                         {"orientation", {q.x(), q.y(), q.z(), q.w()}},
                         {"axis", VectorJson(segment.axis)},
                         {"joint", segment.joint}});
+    if (segment.type == JointType::kSliding) segments.back()["slides"] = true;
+    if (segment.function) segments.back()["function"] = FunctionJson(*segment.function);
+    if (segment.rest != 0) segments.back()["rest"] = segment.rest;
   }
   Json markers = Json::array();
   for (const ModelMarker& marker : model.markers()) {

@@ -28,7 +28,7 @@ constexpr double kBadFactor = 2.5;
 
 KinematicModel WithOffsets(const KinematicModel& model, const std::vector<MarkerIx>& markers,
                            const Matrix3Xd& offsets) {
-  ModelDescription moved{model.name(), model.segments(), model.markers(), model.node_sets()};
+  ModelDescription moved = DescriptionOf(model);
   for (std::size_t m = 0; m < markers.size(); ++m) {
     moved.markers[markers[m]].p_SM += offsets.col(static_cast<Eigen::Index>(m));
   }

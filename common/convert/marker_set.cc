@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include "common/io/bytes/file_content.h"
+#include "common/io/osim/osim_xml.h"
 #include "common/io/recording/marker_labels.h"
 #include "common/io/xml/xml_document.h"
 #include "common/model/kinematic_model.h"
@@ -127,10 +130,23 @@ std::vector<std::string> NamesOfSegments(const LoadedModel& model) {
   return names;
 }
 
+MarkerSet SetOfTasks(const IkTasks& tasks, const std::string& path) {
+  MarkerSet set;
+  set.file = path;
+  set.name = std::filesystem::path(path).stem().string();
+  for (const IkTasks::OfMarker& one : tasks.markers) {
+    set.pairs.push_back({one.name, one.name, 1 / std::sqrt(one.weight)});
+  }
+  set.coordinate_tasks = tasks.coordinates;
+  return set;
+}
+
 }  // namespace
 
 MarkerSet ReadMarkerSet(const std::string& path) {
-  const XmlElement root = ReadXmlFile(path);
+  const std::string content = ReadFileContent(path);
+  if (IsOsimPart(content, "IKTaskSet")) return SetOfTasks(ParseIkTasks(content, path), path);
+  const XmlElement root = ParseXml(content, path);
   Diagnostics diagnostics(path);
   MarkerSet set;
   set.file = path;
@@ -184,7 +200,7 @@ std::vector<MarkerSet> ReadMarkerSets(const std::string& folder) {
 
 KinematicModel PlaceMarkers(const MarkerSet& set, const LoadedModel& model) {
   const KinematicModel& bare = model.model;
-  ModelDescription description{bare.name(), bare.segments(), bare.markers(), bare.node_sets()};
+  ModelDescription description = DescriptionOf(bare);
   Diagnostics diagnostics(set.file);
   for (const MarkerPlace& place : set.places) {
     const int segment = FindSegment(model, place.segment);

@@ -6,6 +6,7 @@
 
 #include "common/convert/marker_mapping.h"
 #include "common/io/model_file.h"
+#include "common/io/osim/ik_tasks.h"
 
 namespace mmm_converter {
 
@@ -21,12 +22,16 @@ struct MarkerPlace {
 /// markers. Several `<Mapping source="" target="" noiseScale="" warning=""/>` with the same target
 /// are substitutes, the best first. Markers that the set places need no mapping: their label is
 /// their name.
+///
+/// An IKTaskSet file of OpenSim is one too: the markers that have a task, under their own names, a
+/// weight being 1 / noiseScale^2, and the coordinates that have one.
 struct MarkerSet {
   std::string file;
   std::string name;
   std::string description;
   std::vector<MarkerPair> pairs;
   std::vector<MarkerPlace> places;  ///< for models without these markers, or with them elsewhere
+  std::vector<IkTasks::OfCoordinate> coordinate_tasks = {};
 };
 
 /// @throws Error with file and line for anything that is not well-formed or not allowed.

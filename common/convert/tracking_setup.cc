@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "common/convert/coordinate_tasks.h"
+#include "common/convert/marker_set.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/text.h"
 
@@ -33,6 +36,16 @@ void WarnOfFreeJoints(const TrackingSetup& setup, const ConverterConfig& config,
                              names.size(), kinematics.num_joints(), FirstNames(names, kShown)));
 }
 
+std::vector<JointPull> PullsOf(const TrackingSetup& setup) {
+  std::vector<JointPull> pulls;
+  for (const JointTask& task : setup.joint_tasks) {
+    const auto tracked = std::find(setup.joints.begin(), setup.joints.end(), task.joint);
+    if (tracked == setup.joints.end()) continue;
+    pulls.push_back({static_cast<int>(tracked - setup.joints.begin()), task.value, task.weight});
+  }
+  return pulls;
+}
+
 TrackingSetup MatchMarkers(const MarkerLabels& labels,
                            std::shared_ptr<const KinematicModel> reference,
                            const ConverterConfig& config, Warnings* warnings) {
@@ -42,6 +55,9 @@ TrackingSetup MatchMarkers(const MarkerLabels& labels,
       ResolveMarkerPairs(config, labels, *setup.model, &setup.marker_set);
   setup.mapping = ResolveMarkerMapping(pairs, labels, *setup.model, warnings);
   setup.joints = ResolveJoints(config, *setup.model);
+  if (const auto set = ReadOwnMarkerSet(config)) {
+    setup.joint_tasks = ResolveCoordinateTasks(set->coordinate_tasks, *setup.model, warnings);
+  }
   return setup;
 }
 

@@ -9,6 +9,7 @@
 #include "common/convert/converter_config.h"
 #include "common/convert/marker_mapping.h"
 #include "common/fit/height_estimate.h"
+#include "common/fit/posture_fit.h"
 #include "common/model/kinematic_model.h"
 #include "common/model/model_scaling.h"
 #include "common/model/subject.h"
@@ -16,12 +17,22 @@
 
 namespace mmm_converter {
 
+/// A joint that is drawn to a value beside what its markers say, as OpenSim's coordinate tasks are:
+/// the goal is sum w |p - y|^2 / sum w + weight (q - value)^2, w = 1 / noise_scale^2 of each marker
+/// seen.
+struct JointTask {
+  int joint = 0;      ///< index of the model
+  double value = 0;   ///< [rad], sliding [m]
+  double weight = 0;  ///< [m^2/rad^2], sliding [1]
+};
+
 /// What is tracked by which markers: all that a converter knows before the first frame.
 struct TrackingSetup {
   std::shared_ptr<const KinematicModel> model;  ///< scaled to the person; of an object: as it is
   std::vector<int> joints;                      ///< tracked, indices of the model, in output order
   MarkerMapping mapping;
   std::string marker_set = {};  ///< its name; empty: the configuration has its own list
+  std::vector<JointTask> joint_tasks = {};
 
   const std::vector<MarkerAssignment>& assignments() const { return mapping.assignments; }
 };
@@ -31,6 +42,9 @@ struct PersonScaling {
   std::optional<WinterScaling> size;            ///< nothing: the model is as large as it is
   std::shared_ptr<const Subject> subject = {};  ///< what is known beyond the size; null: nothing
 };
+
+/// The joint tasks of a setup for fits of its tracked joints.
+std::vector<JointPull> PullsOf(const TrackingSetup& setup);
 
 /// Matches the labels with the markers of a model that is not scaled yet, by ResolveMarkerPairs,
 /// ResolveMarkerMapping and ResolveJoints. The setup's model is the reference itself.

@@ -59,6 +59,7 @@ void NormalEquations::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& n
   H_.SetZero();
   AddSquare(1, at_.J_transposed, &H_);
   g_.noalias() = J_transposed * residual_;
+  if (kinematics_.is_root_fixed()) H_.view().diagonal().head<6>().setOnes();
 }
 
 void NormalEquations::Hold(int joint, double step) {

@@ -14,9 +14,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 VectorXd NaturalAngles(const MarkerKinematics& kinematics) {
-  return VectorXd::Zero(kinematics.num_joints())
-      .cwiseMax(kinematics.lower())
-      .cwiseMin(kinematics.upper());
+  return kinematics.rest().cwiseMax(kinematics.lower()).cwiseMin(kinematics.upper());
 }
 
 void RestEndlessJoints(const MarkerKinematics& kinematics, const VectorXd& angles,
@@ -48,12 +46,14 @@ PostureFit::Result PostureFit::ComputeCost(const Ref<const Matrix3Xd>& z,
   const Matrix3Xd& markers = equations_.Place(posture);
   Result result;
   int seen = 0;
+  double weights = 0;
   const double h = options.robust_distance;
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
     const double r = (z.col(m) - markers.col(m)).norm();
     if (!std::isfinite(r)) continue;
     result.cost += (r <= h ? r * r : 2 * h * r - h * h) / (noise_scale[m] * noise_scale[m]);
     result.mean_distance += r;
+    if (!options.pulls.empty()) weights += 1 / (noise_scale[m] * noise_scale[m]);
     ++seen;
   }
   result.mean_distance /= std::max(seen, 1);
@@ -61,6 +61,11 @@ PostureFit::Result PostureFit::ComputeCost(const Ref<const Matrix3Xd>& z,
                  (posture.joint_angles - natural_).squaredNorm();
   result.cost +=
       options.start_weight * options.start_weight * (posture.joint_angles - start_).squaredNorm();
+  for (const JointPull& pull : options.pulls) {
+    const double off = posture.joint_angles[pull.joint] - pull.value;
+    result.cost += weights * pull.weight * off * off;
+  }
+  seen_weight_ = weights;
   return result;
 }
 
@@ -73,6 +78,11 @@ void PostureFit::Linearize(const Ref<const Matrix3Xd>& z, const VectorXd& noise_
   equations_.H().diagonal().tail(joints).array() += w2 + v2;
   equations_.g().tail(joints) +=
       w2 * (natural_ - posture.joint_angles) + v2 * (start_ - posture.joint_angles);
+  for (const JointPull& pull : options.pulls) {
+    const double weight = seen_weight_ * pull.weight;
+    equations_.H()(6 + pull.joint, 6 + pull.joint) += weight;
+    equations_.g()[6 + pull.joint] += weight * (pull.value - posture.joint_angles[pull.joint]);
+  }
 }
 
 const VectorXd& PostureFit::Step(const Posture& posture, double damping) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "common/fit/normal_equations.h"
 #include "common/model/marker_kinematics.h"
@@ -9,13 +10,21 @@
 
 namespace mmm_converter {
 
-/// A zero angle for every tracked joint, clamped into its limits: where a joint rests that no
-/// marker determines.
+/// The rest of every tracked joint (0), clamped into its limits: where a joint is that no marker
+/// determines.
 Eigen::VectorXd NaturalAngles(const MarkerKinematics& kinematics);
 
 /// A joint without limits rests wherever it is: its natural angle becomes that of `angles`.
 void RestEndlessJoints(const MarkerKinematics& kinematics, const Eigen::VectorXd& angles,
                        Eigen::VectorXd* natural);
+
+/// A pull of its own of one tracked joint: adds weight sum(1 / s_m^2) (theta - value)^2 over the
+/// seen markers m to the cost.
+struct JointPull {
+  int joint = 0;      ///< tracked
+  double value = 0;   ///< [rad], sliding [m]
+  double weight = 0;  ///< [m^2/rad^2], sliding [1]
+};
 
 struct PostureFitOptions {
   int max_iterations = 30;
@@ -27,6 +36,7 @@ struct PostureFitOptions {
   double natural_weight = 0.003;
   /// Pull to the angles that the fit starts from, in the same unit.
   double start_weight = 0;
+  std::vector<JointPull> pulls = {};
 };
 
 /// Levenberg-Marquardt fit of a posture to marker positions, inside the joint limits:
@@ -73,6 +83,7 @@ class PostureFit {
   Eigen::VectorXd start_;  // joint angles
   NormalEquations equations_;
   Posture trial_;
+  double seen_weight_ = 0;  // of the markers seen
 };
 
 }  // namespace mmm_converter

@@ -40,6 +40,11 @@ PostureSearch::PostureSearch(const MarkerKinematics& kinematics)
 }
 
 void PostureSearch::FitRigid(const Ref<const Matrix3Xd>& z, Posture* posture) {
+  if (kinematics_.is_root_fixed()) {
+    posture->orientation = Eigen::Quaterniond(kinematics_.X_WS().linear());
+    posture->position = kinematics_.X_WS().translation();
+    return;
+  }
   kinematics_.ComputeMarkers(Vector3d::Zero(), Matrix3d::Identity(), posture->joint_angles, &at_);
   const Eigen::Isometry3d X_WS = FitRigidPose(at_.p_WM, z, rigidity_);
   posture->orientation = Eigen::Quaterniond(X_WS.linear()).normalized();
@@ -48,7 +53,7 @@ void PostureSearch::FitRigid(const Ref<const Matrix3Xd>& z, Posture* posture) {
 
 void PostureSearch::Unwind(const VectorXd& reference, Posture* posture) const {
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    if (!kinematics_.IsEndless(j)) continue;
+    if (!kinematics_.TurnsFreely(j)) continue;
     const double turned = posture->joint_angles[j] - reference[j];
     posture->joint_angles[j] = reference[j] + std::remainder(turned, kTurn);
   }
@@ -96,15 +101,13 @@ PostureFit::Result PostureSearch::Assemble(const Ref<const Matrix3Xd>& z,
                                            const PostureFitOptions& options, int attempts,
                                            Posture* posture) {
   random_.seed(1);
-  posture->joint_angles.setZero(kinematics_.num_joints());
-  posture->joint_angles =
-      posture->joint_angles.cwiseMax(kinematics_.lower()).cwiseMin(kinematics_.upper());
+  posture->joint_angles = NaturalAngles(kinematics_);
   FitRigid(z, posture);
   fit_.Solve(z, noise_scale, options, posture);
   for (int i = 0; i < attempts; ++i) Improve(z, noise_scale, options, posture);
   PostureFitOptions polish = options;
   polish.tolerance *= 0.01;
-  trial_.joint_angles.setZero();
+  trial_.joint_angles = kinematics_.rest();
   Unwind(trial_.joint_angles, posture);
   return fit_.Solve(z, noise_scale, polish, posture);
 }

@@ -18,8 +18,8 @@ class PostureSearch {
   explicit PostureSearch(const MarkerKinematics& kinematics);
 
   /// Starts over. z: 3 x markers [m], NaN = not seen, at least three seen.
-  /// attempts: random restarts after the first fit. Joints without limits end near their middle
-  /// turn, -pi to pi.
+  /// attempts: random restarts after the first fit. Joints that turn freely end within half a
+  /// turn of their rest.
   PostureFit::Result Assemble(const Eigen::Ref<const Eigen::Matrix3Xd>& z,
                               const Eigen::VectorXd& noise_scale, const PostureFitOptions& options,
                               int attempts, Posture* posture);
@@ -36,11 +36,11 @@ class PostureSearch {
   std::mt19937& random() { return random_; }
 
  private:
-  /// Root pose that brings the model's markers at `posture->joint_angles` nearest to z (Kabsch
-  /// 1976). Markers count less the more joints lie between them and the root.
+  /// Of a root that floats: the pose that brings the model's markers at `posture->joint_angles`
+  /// nearest to z (Kabsch 1976). Markers count less the more joints lie between them and the root.
   void FitRigid(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Posture* posture);
 
-  /// Joints without limits, by whole turns, to within half a turn of the angles of `reference`.
+  /// Joints that turn freely, by whole turns, to within half a turn of the angles of `reference`.
   void Unwind(const Eigen::VectorXd& reference, Posture* posture) const;
 
   void RandomizeLimb(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Posture* posture);

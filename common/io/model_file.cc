@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "common/io/model_file.h"
 
+#include <fmt/format.h>
+
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_model.h"
+#include "common/io/osim/osim_model_reader.h"
+#include "common/io/osim/osim_xml.h"
 #include "common/io/urdf/urdf_model_reader.h"
 #include "common/io/xml/xml_text.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
+
+constexpr std::size_t kHeadBytes = 1 << 16;  // a root stands behind comments of fewer
 
 /// Simox models are <Robot> in any case, with nodes instead of links.
 bool IsUrdf(const std::string& content) {
@@ -16,7 +23,15 @@ bool IsUrdf(const std::string& content) {
 
 }  // namespace
 
-LoadedModel ReadModelFile(const std::string& path, Warnings* warnings) {
+LoadedModel ReadModelFile(const std::string& path, Warnings* warnings,
+                          const std::string& marker_file) {
+  if (IsOsimDocument(ReadFileStart(path, kHeadBytes))) {
+    return {ReadOsimModel(path, marker_file, warnings), false, {}};
+  }
+  if (!marker_file.empty()) {
+    throw Error(fmt::format("{}: is a set of markers for a model of OpenSim, and {} is none",
+                            marker_file, path));
+  }
   const std::string content = ReadFileContent(path, kMaxModelBytes);
   if (IsUrdf(content)) {
     UrdfModel urdf = ParseUrdfModel(content, path, warnings);

@@ -12,14 +12,16 @@ namespace mmm_converter {
 /// A model, of whichever format.
 struct LoadedModel {
   KinematicModel model;
-  /// Of a person of 1 m and 1 kg (MMM), to be scaled. Otherwise as large as it is (URDF).
+  /// Of a person of 1 m and 1 kg (MMM), to be scaled. Otherwise as large as it is (URDF, OpenSim).
   bool is_reference = true;
   std::map<std::string, std::string> segment_of_link;  ///< of a URDF: segment names of its links
 };
 
-/// Reads an MMM or Simox model (`<Robot>` of `<RobotNode>`) or a URDF (`<robot>` of `<link>`), told
-/// by its content.
-/// @throws Error as ReadMmmModel and ReadUrdfModel.
-LoadedModel ReadModelFile(const std::string& path, Warnings* warnings);
+/// Reads an MMM or Simox model (`<Robot>` of `<RobotNode>`), a URDF (`<robot>` of `<link>`) or a
+/// model of OpenSim, told by its content. marker_file: a MarkerSet of OpenSim, whose markers come
+/// to such a model; empty: none.
+/// @throws Error as ReadMmmModel, ReadUrdfModel and ReadOsimModel.
+LoadedModel ReadModelFile(const std::string& path, Warnings* warnings,
+                          const std::string& marker_file = {});
 
 }  // namespace mmm_converter

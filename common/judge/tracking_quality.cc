@@ -64,7 +64,7 @@ void MeasureJoints(const QualityReference& reference, const PoseTrajectory& traj
   double on_limit = 0;
   for (std::size_t j = 0; j < reference.joints.size(); ++j) {
     const Segment& joint = reference.model->joint(reference.joints[j]);
-    if (IsEndless(joint)) continue;
+    if (HasNoLimits(joint)) continue;
     const double margin = kNearLimit * (joint.upper - joint.lower);
     const auto row = angles.row(static_cast<int>(j)).array();
     on_limit += (row <= joint.lower + margin || row >= joint.upper - margin).count();

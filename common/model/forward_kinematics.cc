@@ -16,7 +16,12 @@ std::vector<Eigen::Isometry3d> SegmentPoses(const KinematicModel& model, const P
     const Segment& segment = model.segments()[i];
     Eigen::Isometry3d X = X_WS[segment.parent] * segment.X_PF;
     if (segment.joint >= 0) {
-      X.rotate(Eigen::AngleAxisd(posture.joint_angles[segment.joint], segment.axis));
+      const double value = JointValue(segment, posture.joint_angles[segment.joint]);
+      if (segment.type == JointType::kSliding) {
+        X.translate(value * segment.axis);
+      } else {
+        X.rotate(Eigen::AngleAxisd(value, segment.axis));
+      }
     }
     X_WS.push_back(X);
   }

@@ -15,13 +15,17 @@ namespace {
 constexpr double kUnitTolerance = 1e-6;  // of axes and rotations; a double's rounding is far below
 
 bool IsJoint(const Segment& segment) {
-  return segment.type == JointType::kRevolute && segment.lower < segment.upper;
+  const bool moves = segment.type == JointType::kRevolute || segment.type == JointType::kSliding;
+  return moves && segment.lower < segment.upper;
 }
 
 bool IsFinite(const Segment& s) {
   return s.X_PF.matrix().allFinite() && s.axis.allFinite() && s.p_SB.allFinite() &&
-         s.inertia.allFinite() && std::isfinite(s.mass) &&
-         ((std::isfinite(s.lower) && std::isfinite(s.upper)) || IsEndless(s));
+         s.inertia.allFinite() && std::isfinite(s.mass) && std::isfinite(s.rest) &&
+         std::isfinite(s.reach) &&
+         ((std::isfinite(s.lower) && std::isfinite(s.upper)) || IsEndless(s) ||
+          (HasNoLimits(s) && s.reach > 0)) &&
+         (s.function == nullptr || s.function->IsFinite());
 }
 
 void CheckSegment(const Segment& s, int num_segments) {
@@ -31,6 +35,7 @@ void CheckSegment(const Segment& s, int num_segments) {
   };
   if (!IsFinite(s)) fail("one of its numbers is not finite");
   if (s.parent < -1 || s.parent >= num_segments) fail("its parent does not exist");
+  if (s.leader < -1 || s.leader >= num_segments) fail("its leader does not exist");
   if (s.lower > s.upper) {
     fail(fmt::format("its joint limits are crossed: lower {} is above upper {}", s.lower, s.upper));
   }
@@ -92,7 +97,19 @@ std::vector<Segment> SortSegments(std::vector<Segment> segments, std::vector<int
   for (const int old_index : order) {
     Segment& segment = sorted.emplace_back(std::move(segments[old_index]));
     if (segment.parent >= 0) segment.parent = new_index[segment.parent];
-    segment.joint = IsJoint(segment) ? num_joints++ : -1;
+    if (segment.leader >= 0) segment.leader = new_index[segment.leader];
+    segment.joint = segment.leader < 0 && IsJoint(segment) ? num_joints++ : -1;
+  }
+  for (Segment& segment : sorted) {
+    if (segment.leader < 0) continue;
+    const Segment& leader = sorted[segment.leader];
+    if (leader.leader >= 0 || leader.joint < 0 || !IsJoint(segment)) {
+      throw Error(
+          fmt::format("model node '{}' follows '{}', but both must be joints, and that one "
+                      "its own",
+                      segment.name, leader.name));
+    }
+    segment.joint = leader.joint;
   }
   return sorted;
 }
@@ -120,7 +137,9 @@ void CheckNamesDiffer(const std::vector<Named>& all, const char* what) {
 KinematicModel::KinematicModel(ModelDescription description)
     : name_(std::move(description.name)),
       markers_(std::move(description.markers)),
-      node_sets_(std::move(description.node_sets)) {
+      node_sets_(std::move(description.node_sets)),
+      is_root_fixed_(description.is_root_fixed),
+      coordinates_(std::move(description.coordinates)) {
   if (description.segments.empty()) throw Error("the model has no nodes");
   const int num_segments = static_cast<int>(description.segments.size());
   for (const Segment& segment : description.segments) CheckSegment(segment, num_segments);
@@ -135,7 +154,7 @@ KinematicModel::KinematicModel(ModelDescription description)
     marker.segment = new_index[marker.segment];
   }
   for (int i = 0; i < num_segments; ++i) {
-    if (segments_[i].joint >= 0) joint_segments_.push_back(i);
+    if (segments_[i].joint >= 0 && segments_[i].leader < 0) joint_segments_.push_back(i);
   }
 }
 
@@ -152,6 +171,19 @@ double KinematicModel::total_mass() const {
   double mass = 0;
   for (const Segment& segment : segments_) mass += segment.mass;
   return mass;
+}
+
+ModelDescription DescriptionOf(const KinematicModel& model) {
+  return {model.name(),      model.segments(),      model.markers(),
+          model.node_sets(), model.is_root_fixed(), model.coordinates()};
+}
+
+Eigen::Isometry3d JointTransform(const Segment& segment, double q) {
+  const double value = JointValue(segment, q);
+  if (segment.type == JointType::kSliding) {
+    return Eigen::Isometry3d(Eigen::Translation3d(value * segment.axis));
+  }
+  return Eigen::Isometry3d(Eigen::AngleAxisd(value, segment.axis));
 }
 
 }  // namespace mmm_converter

@@ -76,6 +76,17 @@ void MoveToChild(const TrackedLink& link, const Lanes& angle, Frame* frame) {
   }
 }
 
+void Slide(const TrackedLink& link, const Lanes& way, Frame* frame) {
+  for (int row = 0; row < 3; ++row) {
+    const Lanes* r = frame->R + 3 * row;
+    const double* s = link.slide_P;
+    frame->p[row] =
+        Transform(*frame, link.p_PF, row) + way * (r[0] * s[0] + r[1] * s[1] + r[2] * s[2]);
+  }
+  if (link.rotated) Rotate(link.R_PF, frame);
+}
+
+template <bool kAnySlides>
 void PlaceMarkers(const TrackedLink* links, int num_links, const MarkerSite* sites,
                   const MarkerBatchColumns& batch) {
   for (std::ptrdiff_t row = 0; row < batch.rows; row += kLanes) {
@@ -87,7 +98,11 @@ void PlaceMarkers(const TrackedLink* links, int num_links, const MarkerSite* sit
       if (l > 0) {
         if (link.parent != l - 1) frame = LoadFrame(batch.frames + link.parent * kFrameSize);
         const double* angles = batch.angles + link.column * batch.rows + row;
-        MoveToChild(link, link.sign * LoadLanes(angles), &frame);
+        if (kAnySlides && link.slides) {
+          Slide(link, LoadLanes(angles), &frame);
+        } else {
+          MoveToChild(link, link.slope * LoadLanes(angles), &frame);
+        }
       }
       if (link.kept) StoreFrame(frame, batch.frames + l * kFrameSize);
       const MarkerSite* site = sites + link.first_site;
@@ -104,7 +119,7 @@ void PlaceMarkers(const TrackedLink* links, int num_links, const MarkerSite* sit
 }  // namespace
 
 const MarkerKernels& GetMarkerKernels() {
-  static constexpr MarkerKernels kKernels = {PlaceMarkers};
+  static constexpr MarkerKernels kKernels = {PlaceMarkers<false>, PlaceMarkers<true>};
   return kKernels;
 }
 

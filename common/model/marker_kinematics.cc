@@ -26,20 +26,48 @@ Eigen::Map<const Matrix3d> Rotation(const TrackedLink& link) {
 Eigen::Map<const Vector3d> Translation(const TrackedLink& link) {
   return Eigen::Map<const Vector3d>(link.p_PF);
 }
+Eigen::Map<const Vector3d> Slide(const TrackedLink& link) {
+  return Eigen::Map<const Vector3d>(link.slide_P);
+}
+
+/// A joint that is not tracked is where the model's frames have it.
+bool IsAtRest(const Segment& segment) {
+  return segment.joint < 0 ||
+         (segment.leader < 0 && segment.rest == 0 && segment.function == nullptr);
+}
+
+double RestOf(const KinematicModel& model, const Segment& segment) {
+  return model.joint(segment.joint).rest;
+}
 
 }  // namespace
 
 MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
                                    std::vector<MarkerIx> markers)
-    : joints_(std::move(joints)), markers_(std::move(markers)) {
+    : joints_(std::move(joints)),
+      markers_(std::move(markers)),
+      is_root_fixed_(model.is_root_fixed()),
+      X_WS_(is_root_fixed_ ? model.segments().front().X_PF : Isometry3d::Identity()) {
   const int num_segments = static_cast<int>(model.segments().size());
   std::vector<int> column_of_joint(model.num_joints(), -1);
   lower_.resize(num_joints());
   upper_.resize(num_joints());
+  rest_.resize(num_joints());
+  reach_.resize(num_joints());
   for (int j = 0; j < num_joints(); ++j) {
+    const Segment& joint = model.joint(joints_[j]);
     column_of_joint[joints_[j]] = j;
-    lower_[j] = model.joint(joints_[j]).lower;
-    upper_[j] = model.joint(joints_[j]).upper;
+    lower_[j] = joint.lower;
+    upper_[j] = joint.upper;
+    rest_[j] = joint.rest;
+    reach_[j] = joint.reach;
+  }
+
+  std::vector<bool> is_shown(num_segments, false);  // by a marker on it, or on what it carries
+  for (const MarkerIx marker : markers_) {
+    for (int s = model.markers()[marker].segment; s >= 0; s = model.segments()[s].parent) {
+      is_shown[s] = true;
+    }
   }
 
   // For every segment the link that carries it and its constant pose X_LS there.
@@ -50,33 +78,25 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
     const Segment& segment = model.segments()[s];
     const Isometry3d X_LF = X_LS[segment.parent] * segment.X_PF;
     const int column = segment.joint < 0 ? -1 : column_of_joint[segment.joint];
-    if (column < 0) {
+    const bool is_plain = segment.leader < 0 && segment.function == nullptr;
+    if (column < 0 || (!is_plain && !is_shown[s])) {
       link_of_segment[s] = link_of_segment[segment.parent];
-      X_LS[s] = X_LF;
+      X_LS[s] = IsAtRest(segment) ? X_LF : X_LF * JointTransform(segment, RestOf(model, segment));
       continue;
     }
-    TrackedLink link;
+    TrackedLink link = MakeLink(segment, column, X_LF, &X_LS[s]);
     link.parent = link_of_segment[segment.parent];
-    link.column = column;
-    Matrix3d R_PF = X_LF.linear();
-    int axis = 0;
-    if (segment.axis.cwiseAbs().maxCoeff(&axis) > 1 - kIdentityTolerance) {
-      link.axis = axis;
-      link.sign = segment.axis[axis] > 0 ? 1 : -1;
-    } else {
-      const Matrix3d A = FrameWithZ(segment.axis);
-      R_PF = R_PF * A;
-      X_LS[s].linear() = A.transpose();
-    }
-    link.rotated = !R_PF.isIdentity(kIdentityTolerance);
-    link.translated = X_LF.translation().squaredNorm() > 0;
-    Eigen::Map<Matrix3d>(link.R_PF) = R_PF;
-    Eigen::Map<Vector3d>(link.p_PF) = X_LF.translation();
     link_of_segment[s] = static_cast<int>(links_.size());
     links_[link.parent].kept |= link.parent + 1 < link_of_segment[s];
     links_.push_back(link);
   }
 
+  for (const double upper : upper_) turns_freely_.push_back(std::isinf(upper));
+  for (std::size_t l = 1; l < links_.size(); ++l) {
+    const TrackedLink& link = links_[l];
+    const bool is_angle = link.column < num_joints() && std::abs(link.slope) == 1;
+    if (link.slides || !is_angle) turns_freely_[JointOfColumn(link.column)] = false;
+  }
   moves_.setConstant(num_joints(), num_markers(), false);
   std::vector<Vector3d> p_LM;
   for (int m = 0; m < num_markers(); ++m) {
@@ -84,7 +104,7 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
     link_of_marker_.push_back(link_of_segment[marker.segment]);
     p_LM.emplace_back(X_LS[marker.segment] * marker.p_SM);
     for (int link = link_of_marker_[m]; link > 0; link = links_[link].parent) {
-      moves_(links_[link].column, m) = true;
+      moves_(JointOfColumn(links_[link].column), m) = true;
     }
   }
   for (std::size_t l = 0; l < links_.size(); ++l) {
@@ -95,6 +115,47 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
       ++links_[l].num_sites;
     }
   }
+}
+
+/// A link that moves by the segment's joint; X_LS: the segment's constant pose in it.
+TrackedLink MarkerKinematics::MakeLink(const Segment& segment, int column, const Isometry3d& X_LF,
+                                       Isometry3d* X_LS) {
+  TrackedLink link;
+  link.column = column;
+  Isometry3d X = X_LF;
+  double slope = 1;
+  is_plain_ = is_plain_ && segment.leader < 0 && segment.type == JointType::kRevolute;
+  if (segment.function) {
+    if (const auto line = segment.function->AsLine()) {
+      Segment offset = segment;
+      offset.function = nullptr;
+      X = X * JointTransform(offset, line->offset);
+      slope = line->slope;
+    } else {
+      link.column = num_joints() + static_cast<int>(functions_.size());
+      functions_.push_back({column, segment.function});
+    }
+    is_plain_ = false;
+  }
+  Matrix3d R_PF = X.linear();
+  int axis = 0;
+  if (segment.type == JointType::kSliding) {
+    link.slides = true;
+    Eigen::Map<Vector3d>(link.slide_P) = slope * (R_PF * segment.axis);
+  } else if (segment.axis.cwiseAbs().maxCoeff(&axis) > 1 - kIdentityTolerance) {
+    link.axis = axis;
+    link.slope = segment.axis[axis] > 0 ? slope : -slope;
+  } else {
+    const Matrix3d A = FrameWithZ(segment.axis);
+    R_PF = R_PF * A;
+    X_LS->linear() = A.transpose();
+    link.slope = slope;
+  }
+  link.rotated = !R_PF.isIdentity(kIdentityTolerance);
+  link.translated = X.translation().squaredNorm() > 0;
+  Eigen::Map<Matrix3d>(link.R_PF) = R_PF;
+  Eigen::Map<Vector3d>(link.p_PF) = X.translation();
+  return link;
 }
 
 MarkerKinematics MarkerKinematics::WithMarkersMoved(const Eigen::Matrix3Xd& offsets) const {
@@ -109,7 +170,7 @@ MarkerBatch MarkerKinematics::MakeBatch(int num_samples) const {
   MarkerBatch batch;
   batch.rotation = PaddedMatrix(num_samples, 9);
   batch.position = PaddedMatrix(num_samples, 3);
-  batch.angles = PaddedMatrix(num_samples, num_joints());
+  batch.angles = PaddedMatrix(num_samples, num_joints() + static_cast<int>(functions_.size()));
   batch.markers = PaddedMatrix(num_samples, 3 * num_markers());
   batch.frames = PaddedMatrix(kFrameSize, static_cast<int>(links_.size()));
   return batch;
@@ -121,6 +182,8 @@ MarkerJacobian MarkerKinematics::MakeJacobian() const {
   result.J_transposed = PaddedMatrix(num_dofs(), 3 * num_markers());
   result.R_WL.resize(links_.size());
   result.p_WL.resize(links_.size());
+  result.values.setZero(num_joints() + static_cast<int>(functions_.size()));
+  result.slopes.setOnes(result.values.size());
   return result;
 }
 
@@ -129,8 +192,25 @@ void MarkerKinematics::ComputeBatch(MarkerBatch* batch, InstructionSet set) cons
   const MarkerBatchColumns columns = {batch->rotation.data(), batch->position.data(),
                                       batch->angles.data(),   batch->markers.data(),
                                       batch->frames.data(),   batch->rotation.padded_rows()};
-  kTables.For(set).place_markers(links_.data(), static_cast<int>(links_.size()), sites_.data(),
-                                 columns);
+  const MarkerKernels& kernels = kTables.For(set);
+  for (std::size_t i = 0; i < functions_.size(); ++i) {
+    functions_[i].function->Values(batch->angles.col(functions_[i].joint),
+                                   batch->angles.padded_rows(),
+                                   batch->angles.col(num_joints() + static_cast<int>(i)));
+  }
+  (is_plain_ ? kernels.place_markers : kernels.place_markers_of_slides)(
+      links_.data(), static_cast<int>(links_.size()), sites_.data(), columns);
+}
+
+const double* MarkerKinematics::ComputeFunctions(const Eigen::Ref<const Eigen::VectorXd>& angles,
+                                                 MarkerJacobian* result) const {
+  result->values.head(num_joints()) = angles;
+  for (std::size_t i = 0; i < functions_.size(); ++i) {
+    const auto column = num_joints() + static_cast<Eigen::Index>(i);
+    const double angle = angles[functions_[i].joint];
+    result->values[column] = functions_[i].function->Value(angle, &result->slopes[column]);
+  }
+  return result->values.data();
 }
 
 void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& R_WS,
@@ -138,6 +218,7 @@ void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& 
                                       MarkerJacobian* result) const {
   result->R_WL[0] = R_WS;
   result->p_WL[0] = position;
+  const double* values = functions_.empty() ? angles.data() : ComputeFunctions(angles, result);
   for (std::size_t i = 1; i < links_.size(); ++i) {
     const TrackedLink& link = links_[i];
     const Matrix3d& R_WP = result->R_WL[link.parent];
@@ -148,7 +229,11 @@ void MarkerKinematics::ComputeMarkers(const Vector3d& position, const Matrix3d& 
     } else {
       R = R_WP;
     }
-    const double angle = link.sign * angles[link.column];
+    if (link.slides) {
+      result->p_WL[i] += R_WP * (values[link.column] * Slide(link));
+      continue;
+    }
+    const double angle = link.slope * values[link.column];
     const double sine = std::sin(angle);
     const double cosine = std::cos(angle);
     const int u = (link.axis + 1) % 3;
@@ -175,16 +260,43 @@ void MarkerKinematics::ComputeJacobian(MarkerJacobian* result) const {
     const auto set = [&](int dof, const Vector3d& slope) {
       for (int i = 0; i < 3; ++i) rows[i * stride + dof] = slope[i];
     };
-    const Vector3d arm = p - result->p_WL[0];
-    for (int i = 0; i < 3; ++i) {
-      set(i, Vector3d::Unit(i));
-      set(3 + i, R_WS.col(i).cross(arm));
+    if (!is_root_fixed_) {
+      const Vector3d arm = p - result->p_WL[0];
+      for (int i = 0; i < 3; ++i) {
+        set(i, Vector3d::Unit(i));
+        set(3 + i, R_WS.col(i).cross(arm));
+      }
+    }
+    if (!is_plain_) {
+      AddSlopes(k, result);
+      continue;
     }
     for (int link = link_of_marker_[k]; link > 0; link = links_[link].parent) {
       const TrackedLink& l = links_[link];
-      const Vector3d axis = l.sign * result->R_WL[link].col(l.axis);
+      const Vector3d axis = l.slope * result->R_WL[link].col(l.axis);
       set(6 + l.column, axis.cross(p - result->p_WL[link]));
     }
+  }
+}
+
+/// What the joints move a marker by, where several may move by one angle.
+void MarkerKinematics::AddSlopes(int marker, MarkerJacobian* result) const {
+  const Vector3d p = result->p_WM.col(marker);
+  auto columns = result->J_transposed.view().middleCols<3>(3 * marker);
+  for (int link = link_of_marker_[marker]; link > 0; link = links_[link].parent) {
+    columns.row(6 + JointOfColumn(links_[link].column)).setZero();
+  }
+  for (int link = link_of_marker_[marker]; link > 0; link = links_[link].parent) {
+    const TrackedLink& l = links_[link];
+    const double slope = result->slopes[l.column];
+    Vector3d way;
+    if (l.slides) {
+      way = result->R_WL[l.parent] * Slide(l);
+    } else {
+      const Vector3d axis = l.slope * result->R_WL[link].col(l.axis);
+      way = axis.cross(p - result->p_WL[link]);
+    }
+    columns.row(6 + JointOfColumn(l.column)) += slope * way.transpose();
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,9 +20,11 @@ namespace mmm_converter {
 struct MarkerBatch {
   PaddedMatrix rotation;  ///< in: rows of R_WS of the root, samples x 9 (R00 R01 R02 R10 ...)
   PaddedMatrix position;  ///< in: root origin in W [m], samples x 3
-  PaddedMatrix angles;    ///< in: tracked joint angles [rad], samples x joints
-  PaddedMatrix markers;   ///< out: p_WM [m], samples x (3 * markers), marker-major x y z
-  PaddedMatrix frames;    // scratch: frames of links for one group of samples
+  /// in: tracked joint angles [rad], sliding [m], samples x joints; behind these the values of
+  /// functions of them, which are scratch
+  PaddedMatrix angles;
+  PaddedMatrix markers;  ///< out: p_WM [m], samples x (3 * markers), marker-major x y z
+  PaddedMatrix frames;   // scratch: frames of links for one group of samples
 };
 
 /// One posture with its derivative. Sized once by MarkerKinematics::MakeJacobian.
@@ -32,10 +35,14 @@ struct MarkerJacobian {
   PaddedMatrix J_transposed;
   std::vector<Eigen::Matrix3d> R_WL;  ///< out: orientation of each link
   std::vector<Eigen::Vector3d> p_WL;  // scratch
+  Eigen::VectorXd values;             // scratch: angles, then functions of them
+  Eigen::VectorXd slopes;             // scratch: derivatives of these by their angle
 };
 
 /// What a tracker needs of a model: tracked joints, used markers, and the rigid links between them.
-/// All other joints stay at 0 and are folded into the links. Immutable; may be shared by threads.
+/// All other joints stay at rest and are folded into the links, and so are sums and linear
+/// functions: only joints that move by other functions of an angle cost more than one that turns by
+/// it. Immutable; may be shared by threads.
 class MarkerKinematics {
  public:
   /// joints, markers: indices of the model, in the order that all results use.
@@ -51,15 +58,27 @@ class MarkerKinematics {
   int num_markers() const { return static_cast<int>(markers_.size()); }
   const std::vector<int>& joints() const { return joints_; }
   const std::vector<MarkerIx>& markers() const { return markers_; }
-  const Eigen::VectorXd& lower() const { return lower_; }  ///< [rad], tracked joints
-  const Eigen::VectorXd& upper() const { return upper_; }  ///< [rad], tracked joints
+  const Eigen::VectorXd& lower() const { return lower_; }  ///< [rad], sliding [m], tracked joints
+  const Eigen::VectorXd& upper() const { return upper_; }  ///< [rad], sliding [m], tracked joints
+  /// Where nothing moves the tracked joints [rad], sliding [m]; may be outside of the limits.
+  const Eigen::VectorXd& rest() const { return rest_; }
   /// Of a tracked joint: turns as far as it likes.
-  bool IsEndless(int joint) const { return std::isinf(upper_[joint]); }
-  /// Of a tracked joint, all angles that differ [rad]: between its limits, or one turn about zero.
+  bool IsEndless(int joint) const { return std::isinf(upper_[joint]) && reach_[joint] == 0; }
+  /// Of a tracked joint: has no limits, and a full turn of its angle changes nothing.
+  bool TurnsFreely(int joint) const { return turns_freely_[joint]; }
+  /// Of a tracked joint, all angles that differ [rad]: between its limits, or one turn about zero;
+  /// of one that has a reach instead, those that it usually takes.
   std::pair<double, double> Range(int joint) const {
     if (IsEndless(joint)) return {-EIGEN_PI, EIGEN_PI};
+    if (std::isinf(upper_[joint])) {
+      return {rest_[joint] - reach_[joint], rest_[joint] + reach_[joint]};
+    }
     return {lower_[joint], upper_[joint]};
   }
+  /// The root's pose is not tracked: no marker says anything of it.
+  bool is_root_fixed() const { return is_root_fixed_; }
+  /// That pose, or the identity.
+  const Eigen::Isometry3d& X_WS() const { return X_WS_; }
 
   MarkerBatch MakeBatch(int num_samples) const;
   MarkerJacobian MakeJacobian() const;
@@ -75,19 +94,41 @@ class MarkerKinematics {
   /// Jacobian at the posture whose markers ComputeMarkers put into `result` last.
   void ComputeJacobian(MarkerJacobian* result) const;
 
-  /// True where the tracked joint moves the marker.
+  /// True where the tracked joint moves the marker, through one joint or several.
   bool Moves(int joint, int marker) const { return moves_(joint, marker); }
   /// The rigid link that carries the marker: the index of MarkerJacobian::R_WL.
   int link_of_marker(int marker) const { return link_of_marker_[marker]; }
 
  private:
+  /// A column of values that is no angle.
+  struct Function {
+    int joint = 0;
+    std::shared_ptr<const ScalarFunction> function;
+  };
+
+  TrackedLink MakeLink(const Segment& segment, int column, const Eigen::Isometry3d& X_LF,
+                       Eigen::Isometry3d* X_LS);
+  int JointOfColumn(int column) const {
+    return column < num_joints() ? column : functions_[column - num_joints()].joint;
+  }
+  const double* ComputeFunctions(const Eigen::Ref<const Eigen::VectorXd>& angles,
+                                 MarkerJacobian* result) const;
+  void AddSlopes(int marker, MarkerJacobian* result) const;
+
   std::vector<int> joints_;
   std::vector<MarkerIx> markers_;
-  std::vector<TrackedLink> links_;  // the root first, then one for each joint, in tree order
+  std::vector<Function> functions_;
+  bool is_plain_ = true;  ///< every link turns by an angle of its own
+  bool is_root_fixed_;
+  Eigen::Isometry3d X_WS_;
+  std::vector<TrackedLink> links_;  // the root first, then one for each moving segment, in order
   std::vector<MarkerSite> sites_;   // by link
   std::vector<int> link_of_marker_;
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
+  Eigen::VectorXd rest_;
+  Eigen::VectorXd reach_;
+  std::vector<bool> turns_freely_;
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> moves_;
 };
 

@@ -73,8 +73,7 @@ std::vector<double> WinterLengths(const KinematicModel& reference, const WinterS
 
 KinematicModel ScaleWinter(const KinematicModel& reference, const WinterScaling& person) {
   const std::vector<double> lengths = WinterLengths(reference, person);
-  ModelDescription scaled{reference.name(), reference.segments(), reference.markers(),
-                          reference.node_sets()};
+  ModelDescription scaled = DescriptionOf(reference);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     ScaleSegment(scaled.segments[i], lengths[i], person.mass);
   }

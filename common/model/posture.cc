@@ -11,11 +11,23 @@ namespace mmm_converter {
 
 Posture ZeroPosture(const KinematicModel& model) {
   Posture posture;
+  if (model.is_root_fixed()) {
+    const Eigen::Isometry3d& X_WS = model.segments().front().X_PF;
+    posture.position = X_WS.translation();
+    posture.orientation = Eigen::Quaterniond(X_WS.linear());
+  }
   posture.joint_angles.resize(model.num_joints());
   for (int i = 0; i < model.num_joints(); ++i) {
-    posture.joint_angles[i] = std::clamp(0.0, model.joint(i).lower, model.joint(i).upper);
+    const Segment& joint = model.joint(i);
+    posture.joint_angles[i] = std::clamp(joint.rest, joint.lower, joint.upper);
   }
   return posture;
+}
+
+Eigen::VectorXd RestAngles(const KinematicModel& model) {
+  Eigen::VectorXd angles(model.num_joints());
+  for (int i = 0; i < model.num_joints(); ++i) angles[i] = model.joint(i).rest;
+  return angles;
 }
 
 Posture Retract(const Posture& q, const Eigen::Ref<const Eigen::VectorXd>& dq) {

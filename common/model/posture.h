@@ -11,15 +11,19 @@ class KinematicModel;
 /// Markers that must be seen for a pose in space to be determined.
 inline constexpr int kFewestMarkers = 3;
 
-/// A posture of a KinematicModel: pose X_WS of the floating root and all joint angles.
+/// A posture of a KinematicModel: pose X_WS of the root and all joint angles.
 struct Posture {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< root origin in W [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< root R_WS, unit
-  Eigen::VectorXd joint_angles;                                     ///< [rad], size num_joints()
+  Eigen::VectorXd joint_angles;  ///< [rad], sliding [m], size num_joints()
 };
 
-/// The posture with identity root and every joint angle 0, clamped into its limits.
+/// The posture with identity root, or the fixed root where it is, and every joint at rest (0),
+/// clamped into its limits.
 Posture ZeroPosture(const KinematicModel& model);
+
+/// Where joints are that are not tracked [rad], sliding [m]; size num_joints().
+Eigen::VectorXd RestAngles(const KinematicModel& model);
 
 /// q moved by the tangent vector dq = [root position (W) 3; rotation (body) 3; joint angles]:
 /// orientation * Exp(dq[3..5]).

@@ -36,7 +36,7 @@ double Deviation(const MarkerOffset& offset) {
 }
 
 KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject) {
-  ModelDescription fitted{scaled.name(), scaled.segments(), scaled.markers(), scaled.node_sets()};
+  ModelDescription fitted = DescriptionOf(scaled);
   std::vector<std::string> unknown;
   for (const SegmentScale& scale : subject.scales) {
     const int index = scaled.FindSegment(scale.segment);

@@ -21,9 +21,10 @@ struct Twist {
   Vector3d w = Vector3d::Zero();  // [rad/s], W
 };
 
-// Of all segments; column: of PoseTrajectory::velocities. joint_rows: row of each joint of the
-// model, -1 where it does not move.
+// Of all segments; angles: of all joints; column: of PoseTrajectory::velocities. joint_rows: row of
+// each joint of the model, -1 where it does not move.
 std::vector<Twist> SegmentTwists(const KinematicModel& model, const std::vector<Isometry3d>& X_WS,
+                                 const Eigen::VectorXd& angles,
                                  const Eigen::Ref<const Eigen::VectorXd>& column,
                                  const std::vector<int>& joint_rows) {
   std::vector<Twist> twists(X_WS.size());
@@ -34,8 +35,12 @@ std::vector<Twist> SegmentTwists(const KinematicModel& model, const std::vector<
     const Vector3d arm = X_WS[i].translation() - X_WS[segment.parent].translation();
     twists[i] = {parent.v + parent.w.cross(arm), parent.w};
     const int row = segment.joint < 0 ? -1 : joint_rows[segment.joint];
+    if (row < 0) continue;
+    double slope = 1;
+    if (segment.function) segment.function->Value(angles[segment.joint], &slope);
     // The axis is the same before and behind the joint.
-    if (row >= 0) twists[i].w += column[row] * (X_WS[i].linear() * segment.axis);
+    const Vector3d rate = slope * column[row] * (X_WS[i].linear() * segment.axis);
+    (segment.type == JointType::kSliding ? twists[i].v : twists[i].w) += rate;
   }
   return twists;
 }
@@ -107,7 +112,8 @@ class PoseTable {
   }
 
   void Fill(int k) {
-    X_WS_ = SegmentPoses(model_, ModelPosture(model_, motion_, k));
+    posture_ = ModelPosture(model_, motion_, k);
+    X_WS_ = SegmentPoses(model_, posture_);
     const Isometry3d X_BW =
         selection_.relative_to_root ? X_WS_[0].inverse() : Isometry3d::Identity();
     int body = 0;
@@ -149,7 +155,7 @@ class PoseTable {
 
   void FillVelocities(int k) {
     const std::vector<Twist> twists =
-        SegmentTwists(model_, X_WS_, motion_.velocities.col(k), joint_rows_);
+        SegmentTwists(model_, X_WS_, posture_.joint_angles, motion_.velocities.col(k), joint_rows_);
     const bool is_relative = selection_.relative_to_root;
     const Eigen::Matrix3d R_BW = X_WS_[0].linear().transpose();
     const Vector3d origin = X_WS_[0].translation();
@@ -183,6 +189,7 @@ class PoseTable {
   const BodySelection& selection_;
   std::vector<int> joint_rows_;
   double total_mass_ = 0;
+  Posture posture_;               // of the frame, all joints
   std::vector<Isometry3d> X_WS_;  // of the frame that is filled
   BodyPoses poses_;
 };

@@ -149,6 +149,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   plan.object =
       FindObject(ObjectRequestOf(request, plan, is_one_of_several), plan.input, config, warnings);
   if (plan.object) {
+    CheckIsNoOsim(plan.input, "converting a rigid object");
     UseModel(*plan.object, &plan.input);
     config = ConfigOfObject(plan.input, config);
   }
@@ -164,6 +165,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   CheckHasSubject(request, plan);
+  CheckExports(request.exports, *plan.setup.model);
   plan.subject_output = request.subject_output;
   plan.model_output = request.model_output;
   plan.self_calibrates = request.self_calibrate && !plan.object;
@@ -190,6 +192,7 @@ void CheckOutputs(const ConversionRequest& request,
     }
   }
   outputs.Rewrite(plans.front()->output, request.input.file);
+  outputs.Write(DeviationsOutput(*plans.front()));
   outputs.Write(request.subject_output);
   outputs.Write(request.model_output);
   for (const auto& [unused, file] : request.exports) outputs.Write(file);

@@ -115,15 +115,19 @@ std::vector<Option> PersonOptions(InputRequest* input) {
       Row({"subject-file", "subjectFile", "subject"}, kSubject,
           "calibrated person: height, mass, segment lengths and marker places", "",
           kPersons & ~(task::kCalibrate | task::kLearnMarkers), &person->subject_file),
-      Row({"model", "model", "model"}, kFile, "MMM model, or a URDF as it is",
+      Row({"model", "model", "model"}, kFile, "MMM model, or a URDF or a model of OpenSim as it is",
           "the shipped MMM model", kPersons, &input->model_file,
           {.alias = "outputModelFile",
            .of_motions = "the one that the motion's file names, else the shipped one",
            .remedy = Remedy::kModel}),
       Row({"marker-set", "markerSet", "marker_set"}, kShipped,
-          "assigns labels to model markers, and can place these", "what the configuration says",
-          kPersons & ~(kMotions | task::kLearnMarkers), &input->marker_set,
-          {.remedy = Remedy::kMarkerSet})};
+          "assigns labels to model markers, and can place these; or an IKTaskSet of OpenSim, which "
+          "weighs them",
+          "what the configuration says", kPersons & ~(kMotions | task::kLearnMarkers),
+          &input->marker_set, {.remedy = Remedy::kMarkerSet}),
+      Row({"marker-file", "markerFile", "marker_file"}, kFile,
+          "markers for a model of OpenSim: a MarkerSet of its own", "",
+          kPersons & ~(kMotions | task::kLearnMarkers), &input->marker_file)};
 }
 
 std::vector<Option> ConverterOptions(ConverterRequest* converter) {

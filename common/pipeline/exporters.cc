@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "common/pipeline/exporters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
 #include "common/io/tables/bvh_writer.h"
 #include "common/io/tables/covariance_npz.h"
 #include "common/io/tables/mot_writer.h"
+#include "common/io/tables/osim_tables.h"
 #include "common/io/tables/pose_table.h"
 #include "common/io/tables/trajectory_csv.h"
 #include "common/io/tables/trc_writer.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/pose_output.h"
 #include "common/support/atomic_file.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -38,8 +42,27 @@ void WriteTrc(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteMot(const std::string& file, const ConversionReport& report) {
-  const std::string& root = report.plan.setup.model->segments().front().name;
-  WriteFileAtomically(file, FormatMot(report.result.trajectory, root));
+  const KinematicModel& model = *report.plan.setup.model;
+  if (model.coordinates()) {
+    WriteFileAtomically(file, FormatOsimMotion(model, report.result.trajectory));
+    return;
+  }
+  WriteFileAtomically(file, FormatMot(report.result.trajectory, model.segments().front().name));
+}
+
+void WriteMarkerErrors(const std::string& file, const ConversionReport& report) {
+  std::vector<std::string> names;
+  for (const MarkerAssignment& one : report.plan.setup.assignments()) {
+    names.push_back(report.plan.setup.model->markers()[one.marker].name);
+  }
+  WriteFileAtomically(
+      file, FormatOsimMarkerErrors(names, report.result.residuals, report.result.trajectory));
+}
+
+void WriteModelMarkers(const std::string& file, const ConversionReport& report) {
+  const ConversionPlan& plan = report.plan;
+  WriteFileAtomically(file, FormatOsimMarkers(*plan.setup.model, report.result.trajectory,
+                                              MarkerIndices(plan.setup.assignments())));
 }
 
 void WritePoses(const std::string& file, const ConversionReport& report) {
@@ -81,15 +104,25 @@ const std::vector<Exporter>& Exporters() {
        "them (LABEL_model)",
        WriteTrc},
       {"mot", "export-mot", "mot", "postures for OpenSim",
-       "postures as OpenSim's motion, in metres and degrees with y up", WriteMot},
+       "postures as OpenSim's motion, in metres and degrees with y up; with a model of OpenSim its "
+       "coordinates",
+       WriteMot},
+      {"marker-errors", "export-marker-errors", "sto",
+       "distances of the markers from the model's, for OpenSim",
+       "distances of the markers from where the model has them [m], of each frame and marker, as "
+       "OpenSim reports them",
+       WriteMarkerErrors},
+      {"model-markers", "export-model-markers", "sto", "the model's markers, for OpenSim",
+       "where the model has its markers [m], as OpenSim reports it", WriteModelMarkers},
       {"poses", "export-poses", "npz", "poses of all segments, as NumPy's .npz",
        "poses of all segments and of the file's objects, 21 points of the body and the centre of "
        "mass: .npz for NumPy, else CSV; see export-poses",
        WritePoses},
       {"bvh", "export-bvh", "bvh", "the skeleton and its motion as BVH",
-       "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh},
-      {"bvh-m", "export-bvh-m", "bvh", "the same in metres", "the same in metres",
-       WriteBvhInMetres},
+       "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh,
+       false, true},
+      {"bvh-m", "export-bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres,
+       false, true},
       {"covariance", "export-covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "
@@ -103,6 +136,17 @@ bool NeedCovariances(const ExportFiles& files) {
   return std::any_of(all.begin(), all.end(), [&](const Exporter& one) {
     return one.of_covariances && files.count(one.name) > 0;
   });
+}
+
+void CheckExports(const ExportFiles& files, const KinematicModel& model) {
+  if (!model.coordinates()) return;
+  for (const Exporter& exporter : Exporters()) {
+    if (!exporter.of_turns || files.count(exporter.name) == 0) continue;
+    throw Error(
+        fmt::format("{}: the format has joints that turn only, and those of model {} of "
+                    "OpenSim are functions of coordinates",
+                    files.at(exporter.name), model.name()));
+  }
 }
 
 void WriteExports(const ExportFiles& files, const ConversionReport& report) {

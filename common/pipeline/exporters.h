@@ -7,6 +7,7 @@
 
 namespace mmm_converter {
 
+class KinematicModel;
 struct ConversionReport;
 
 /// A format of a conversion's results for other programs. A row of Exporters() is all there is to
@@ -22,6 +23,7 @@ struct Exporter {
   void (*write)(const std::string& file, const ConversionReport& report) = nullptr;
   /// Of covariances, which are kept where they are asked for before a whole recording is tracked.
   bool of_covariances = false;
+  bool of_turns = false;  ///< of joints that turn, each by an angle of its own
 };
 
 const std::vector<Exporter>& Exporters();
@@ -31,6 +33,9 @@ using ExportFiles = std::map<std::string, std::string>;
 
 /// Whether one of these is made of covariances.
 bool NeedCovariances(const ExportFiles& files);
+
+/// @throws Error where one of these can't be written of that model.
+void CheckExports(const ExportFiles& files, const KinematicModel& model);
 
 /// @throws Error; each file is then as it was before, or whole.
 void WriteExports(const ExportFiles& files, const ConversionReport& report);

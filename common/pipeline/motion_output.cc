@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/io/bytes/file_content.h"
+#include "common/io/tables/osim_tables.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -67,8 +68,27 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
   return first.plan.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
-std::string DefaultOutput(const fs::path& input) {
-  return (input.parent_path() / (input.stem().string() + "_mmm.xml")).string();
+std::string DefaultOutput(const fs::path& input, bool is_osim) {
+  return (input.parent_path() / (input.stem().string() + (is_osim ? ".mot" : "_mmm.xml"))).string();
+}
+
+/// Of coordinates, in OpenSim's own format: the model has some, and the file's ending says so.
+bool WritesCoordinates(const KinematicModel& model, const fs::path& output) {
+  return model.coordinates() && (output.extension() == ".mot" || output.extension() == ".sto");
+}
+
+void CheckHoldsMotion(const ConversionPlan& plan, bool is_one_of_several) {
+  const KinematicModel& model = *plan.input.reference;
+  if (WritesCoordinates(model, plan.output)) {
+    if (!is_one_of_several) return;
+    throw Error(fmt::format("{}: holds one motion; name it, or give the output the ending .xml",
+                            plan.output));
+  }
+  if (!model.coordinates() || !model.is_root_fixed()) return;
+  throw Error(
+      fmt::format("{}: MMM's motions are of a body that moves freely, and {} hangs on the "
+                  "ground; give the output the ending .mot",
+                  plan.output, model.name()));
 }
 
 std::string NameOf(const Recording& recording) {
@@ -84,7 +104,10 @@ void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several
   const Recording& recording = plan->input.recording;
   plan->output_format =
       request.output_format.empty() ? plan->converter.config.output_format : request.output_format;
-  plan->output = request.output.empty() ? DefaultOutput(request.input.file) : request.output;
+  const bool is_osim = plan->input.reference->coordinates() != nullptr;
+  plan->output =
+      request.output.empty() ? DefaultOutput(request.input.file, is_osim) : request.output;
+  CheckHoldsMotion(*plan, is_one_of_several);
   std::error_code failure;
   const bool keeps_all = IsMmm2(recording) && plan->output_format != "1.0";
   if (!keeps_all && fs::equivalent(plan->output, request.input.file, failure)) {
@@ -111,7 +134,22 @@ MmmMotionOutput DescribeMotion(const ConversionRequest& request, const Conversio
   return output;
 }
 
+std::string DeviationsOutput(const ConversionPlan& plan) {
+  if (!WritesCoordinates(*plan.setup.model, plan.output)) return "";
+  const fs::path output = plan.output;
+  return (output.parent_path() / (output.stem().string() + "_deviations.sto")).string();
+}
+
 void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
+  const ConversionPlan& plan = reports.front()->plan;
+  if (WritesCoordinates(*plan.setup.model, plan.output)) {
+    const PoseTrajectory& trajectory = reports.front()->result.trajectory;
+    WriteFileAtomically(plan.output, FormatOsimMotion(*plan.setup.model, trajectory));
+    if (trajectory.standard_deviations.array().isNaN().all()) return;
+    WriteFileAtomically(DeviationsOutput(plan),
+                        FormatOsimDeviations(*plan.setup.model, trajectory));
+    return;
+  }
   WriteFileAtomically(reports.front()->plan.output, Format(request, reports));
 }
 

@@ -345,6 +345,7 @@ LabelReport LabelPoints(const LabelRequest& request, const ReadBefore& read_befo
   LabelHints hints = request.hints;
   hints.taken = NamesThatStay(request.output, recording);
   MatchModel(request.input, &report.input, &config);
+  CheckIsNoOsim(report.input, "finding names of points");
   report.found = FindLabels(request.input, hints, report.input, config, progress, warnings);
   return report;
 }

@@ -35,9 +35,10 @@ JacobianConverter::JacobianConverter(const TrackingSetup& setup, const JacobianS
   fit_options_.natural_weight = settings.natural_weight;
   fit_options_.start_weight = settings.previous_weight;
   if (settings.robust_distance > 0) fit_options_.robust_distance = settings.robust_distance;
+  fit_options_.pulls = PullsOf(setup);
   step_options_ = {settings.damping, settings.step_limit, fit_options_};
   posture_.joint_angles.setZero(kinematics_.num_joints());
-  estimate_.posture.joint_angles.setZero(setup.model->num_joints());
+  estimate_.posture.joint_angles = RestAngles(*setup.model);
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
   estimate_.residuals.setConstant(kinematics_.num_markers(), kNaN);
 }

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "common/model/marker_kinematics.h"
+
 namespace mmm_converter::s2kf {
 
 enum class LimitFunction { kSine, kTanh };
@@ -10,16 +12,20 @@ enum class LimitFunction { kSine, kTanh };
 /// Maps unbounded joint parameters Theta to joint angles inside their limits,
 ///   theta = (u - l)/2 f(Theta) + (l + u)/2,   f = sin (Steinbring et al., eq. for the joints) or
 ///   tanh.
-/// Without limits (-infinity to infinity) theta = 2 pi Theta: Theta counts turns.
+/// Without limits (-infinity to infinity) theta = 2 pi Theta: Theta counts turns; or, of a joint
+/// with a reach, theta = rest + reach Theta.
 class JointLimitTransform {
  public:
   JointLimitTransform(LimitFunction function, const Eigen::VectorXd& lower,
                       const Eigen::VectorXd& upper);
+  JointLimitTransform(LimitFunction function, const MarkerKinematics& kinematics);
 
   LimitFunction function() const { return function_; }
-  bool is_endless(int joint) const { return is_endless_[joint]; }    ///< without limits
-  const Eigen::VectorXd& half_range() const { return half_range_; }  ///< (u - l)/2, or 2 pi [rad]
-  const Eigen::VectorXd& middle() const { return middle_; }          ///< (l + u)/2, or 0 [rad]
+  bool is_linear(int joint) const { return is_linear_[joint]; }  ///< without limits
+  /// (u - l)/2; 2 pi or the reach [rad], sliding [m]
+  const Eigen::VectorXd& half_range() const { return half_range_; }
+  /// (l + u)/2; 0 or the rest [rad], sliding [m]
+  const Eigen::VectorXd& middle() const { return middle_; }
 
   double Angle(int joint, double parameter) const;  ///< theta [rad]
   double Slope(int joint, double parameter) const;  ///< d theta / d Theta [rad]
@@ -38,7 +44,7 @@ class JointLimitTransform {
 
  private:
   LimitFunction function_;
-  Eigen::Array<bool, Eigen::Dynamic, 1> is_endless_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_linear_;
   Eigen::VectorXd half_range_;
   Eigen::VectorXd middle_;
 };

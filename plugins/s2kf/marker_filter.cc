@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/fit/posture_fit.h"
 #include "common/math/dense.h"
@@ -38,19 +39,21 @@ MatrixXd HalfSamples(const S2kfSettings& settings, int n) {
   return MatrixXd(n, 0);
 }
 
+// Of a root that does not move, each coordinate [m, rad]: as good as 0, and no pivot is.
+constexpr double kFixedRoot = 1e-9;
+
 MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransform& transform,
-                            const VectorXd& natural_angles) {
+                            const MarkerKinematics& kinematics) {
   MotionModel model;
   model.velocity = settings.motion_model == MotionModelType::kVelocity;
   model.noise = (model.velocity ? settings.velocity_noise : settings.noise)
                     .Scaled(settings.process_noise_scale);
+  if (kinematics.is_root_fixed()) model.noise.position = model.noise.orientation = 0;
   model.natural_spread = settings.natural_spread;
   model.velocity_decay = settings.velocity_decay;
-  model.natural.resize(natural_angles.size());
-  for (Eigen::Index j = 0; j < natural_angles.size(); ++j) {
-    const int joint = static_cast<int>(j);
-    model.natural[j] =
-        transform.is_endless(joint) ? kNaN : transform.Parameter(joint, natural_angles[j]);
+  model.natural = NaturalAngles(kinematics);
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    model.natural[j] = kinematics.IsEndless(j) ? kNaN : transform.Parameter(j, model.natural[j]);
   }
   return model;
 }
@@ -63,17 +66,16 @@ int NumStates(const S2kfSettings& settings, const MarkerKinematics& kinematics) 
 }  // namespace
 
 MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSettings& settings,
-                           const VectorXd& noise_scale)
+                           const VectorXd& noise_scale, std::vector<JointPull> pulls)
     : kinematics_(kinematics),
       settings_(settings),
       noise_scale_(noise_scale),
-      measurement_model_(
-          kinematics, JointLimitTransform(settings.limits, kinematics.lower(), kinematics.upper()),
-          settings.root, HalfSamples(settings, kinematics.num_dofs())),
+      pulls_(std::move(pulls)),
+      measurement_model_(kinematics, JointLimitTransform(settings.limits, kinematics),
+                         settings.root, HalfSamples(settings, kinematics.num_dofs())),
       C_sz_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
       prior_moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
-  motion_model_ =
-      MakeMotionModel(settings, measurement_model_.transform(), NaturalAngles(kinematics));
+  motion_model_ = MakeMotionModel(settings, measurement_model_.transform(), kinematics);
   const int n = kinematics.num_dofs();
   const int all = NumStates(settings, kinematics);
   z_.setZero(3 * kinematics.num_markers());
@@ -108,9 +110,11 @@ void MarkerFilter::StartAt(const Posture& posture, Belief* belief) const {
   }
   belief->P.resize(P_.rows(), P_.rows());
   belief->P.setZero();
-  const auto set = [](auto&& diagonal, double position, double orientation, double parameter) {
+  const bool is_fixed = kinematics_.is_root_fixed();
+  const auto set = [&](auto&& diagonal, double position, double orientation, double parameter) {
     diagonal.template head<3>().setConstant(position * position);
     diagonal.template segment<3>(3).setConstant(orientation * orientation);
+    if (is_fixed) diagonal.template head<6>().setConstant(kFixedRoot * kFixedRoot);
     diagonal.tail(diagonal.size() - 6).setConstant(parameter * parameter);
   };
   set(belief->P.diagonal().head(n), kPosition, kOrientation, kParameter);
@@ -136,15 +140,45 @@ void MarkerFilter::StartAsPaper(const Ref<const Matrix3Xd>& z, Belief* belief) c
     const Vector3d d = z.col(m) - posture.position;
     spread += d * d.transpose() / (seen - 1);
   }
+  if (kinematics_.is_root_fixed()) {
+    posture.position = kinematics_.X_WS().translation();
+    posture.orientation = Eigen::Quaterniond(kinematics_.X_WS().linear());
+  }
   StartAt(posture, belief);
-  belief->P.topLeftCorner<3, 3>() = spread;
-  belief->P.diagonal().segment<3>(3).setConstant(1e-6);
+  if (!kinematics_.is_root_fixed()) {
+    belief->P.topLeftCorner<3, 3>() = spread;
+    belief->P.diagonal().segment<3>(3).setConstant(1e-6);
+  }
   belief->P.diagonal().segment(6, kinematics_.num_joints()).setConstant(1e-10);
 }
 
-void MarkerFilter::Predict(double dt, Belief* belief) const {
+void MarkerFilter::Predict(double dt, Belief* belief) {
   Fold(measurement_model_.transform(), belief);
   motion_model_.Predict(dt, settings_.root, belief);
+  for (const JointPull& pull : pulls_) Pull(pull, belief);
+}
+
+/// The pull weighs against all markers as it does in a fit: the joint is measured at its value,
+/// theta + v, v ~ N(0, s^2 / (weight sum(1 / s_m^2))), s the deviation of a marker of s_m = 1.
+void MarkerFilter::Pull(const JointPull& pull, Belief* belief) {
+  const JointLimitTransform& transform = measurement_model_.transform();
+  const double parameter = belief->parameters[pull.joint];
+  const double slope = transform.Slope(pull.joint, parameter);
+  const double off = pull.value - transform.Angle(pull.joint, parameter);
+  const double marker = settings_.marker_deviation * settings_.marker_deviation;
+  const double noise = marker / (pull.weight * noise_scale_.cwiseAbs2().cwiseInverse().sum());
+  const Eigen::Index i = 6 + pull.joint;
+  const Eigen::Index n = L_.cols();
+  auto column = belief->P.col(i);
+  const double spread = slope * slope * column[i] + noise;
+  dx_ = (slope * off / spread) * column;
+  const double share = slope * slope / spread;
+  for (Eigen::Index k = 0; k < belief->P.cols(); ++k) {
+    if (k != i) belief->P.col(k) -= share * column[k] * column;
+  }
+  column *= noise / spread;
+  Move(dx_.head(n), settings_.root, belief);
+  if (motion_model_.velocity) belief->rate += dx_.tail(n);
 }
 
 void MarkerFilter::Weigh(const Ref<const Matrix3Xd>& z, UpdateOutcome* outcome) {

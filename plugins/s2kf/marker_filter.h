@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
+#include "common/fit/posture_fit.h"
 #include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
 #include "plugins/s2kf/belief.h"
@@ -18,9 +20,10 @@ namespace mmm_converter::s2kf {
 /// Postures hold the tracked joints of `kinematics`.
 class MarkerFilter {
  public:
-  /// noise_scale: factor on the marker standard deviation, per marker. kinematics must outlive it.
+  /// noise_scale: factor on the marker standard deviation, per marker. pulls: each is one more
+  /// measurement of its joint in every frame. kinematics must outlive the filter.
   MarkerFilter(const MarkerKinematics& kinematics, const S2kfSettings& settings,
-               const Eigen::VectorXd& noise_scale);
+               const Eigen::VectorXd& noise_scale, std::vector<JointPull> pulls = {});
 
   /// A belief about a fitted posture, with the spread that a fit leaves.
   void StartAt(const Posture& posture, Belief* belief) const;
@@ -29,8 +32,8 @@ class MarkerFilter {
   /// orientation 0 with 1e-6 rad^2, joint parameters 0 with 1e-10.
   void StartAsPaper(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Belief* belief) const;
 
-  /// Folds the joint parameters (JointLimitTransform::Fold), then moves on by dt.
-  void Predict(double dt, Belief* belief) const;
+  /// Folds the joint parameters (JointLimitTransform::Fold), moves on by dt, and pulls.
+  void Predict(double dt, Belief* belief);
 
   /// What Update writes into, of the right sizes.
   UpdateOutcome MakeOutcome() const { return {kinematics_.num_dofs(), kinematics_.num_markers()}; }
@@ -54,6 +57,7 @@ class MarkerFilter {
  private:
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, UpdateOutcome* outcome);
+  void Pull(const JointPull& pull, Belief* belief);
   void FactorizeCovariance(const Belief& belief);
   /// L_, and the moments about the belief.
   void Expect(const Belief& belief, MeasurementMoments* moments);
@@ -66,6 +70,7 @@ class MarkerFilter {
   const MarkerKinematics& kinematics_;
   S2kfSettings settings_;
   Eigen::VectorXd noise_scale_;
+  std::vector<JointPull> pulls_;
   MotionModel motion_model_;
   MarkerMeasurementModel measurement_model_;
   Eigen::VectorXd expected_;  // of z, by the latest estimate

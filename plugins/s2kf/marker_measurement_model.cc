@@ -88,7 +88,7 @@ void MarkerMeasurementModel::PlaceAngles(const Belief& belief, const VectorXd& c
     const double* offsets = offsets_.col(6 + j);
     double* plus = batch_.angles.col(j);
     double* minus = plus + rows_;
-    if (transform_.function() == LimitFunction::kTanh || transform_.is_endless(j)) {
+    if (transform_.function() == LimitFunction::kTanh || transform_.is_linear(j)) {
       for (int row = 0; row < rows_; ++row) {
         plus[row] = transform_.Angle(j, mean + offsets[row]);
         minus[row] = transform_.Angle(j, mean - offsets[row]);

@@ -15,7 +15,8 @@ OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& 
     : markers_(markers),
       settings_(settings),
       clip_(FitOptions(settings).robust_distance),
-      filter_(markers.kinematics(), settings, markers.FilterScale(settings.marker_deviation)),
+      filter_(markers.kinematics(), settings, markers.FilterScale(settings.marker_deviation),
+              markers.pulls()),
       update_(markers, settings.gate_probability),
       watch_(markers.UsualDeviation(settings.marker_deviation), settings.smoothing),
       recovery_(markers, settings) {

@@ -24,6 +24,7 @@ PostureRecovery::PostureRecovery(const TrackedMarkers& markers, const S2kfSettin
       start_attempts_(settings.start_attempts),
       search_(markers.kinematics()) {
   options_.max_iterations = kFitIterations;
+  options_.pulls = markers.pulls();
 }
 
 void PostureRecovery::Assemble(const TrackedFrame& frame, std::mt19937* random, Posture* posture) {

@@ -36,6 +36,7 @@ constexpr double kLeastPull = 1e-4;
 constexpr double kUniformVariance = 1.0 / 3;
 // Where the root can be at all [m, rad].
 constexpr double kRootDeviation = 10;
+constexpr double kFixedRoot = 1e-9;
 constexpr double kFarAway = 1e3;  // not seen yet [s]
 
 }  // namespace
@@ -63,8 +64,7 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
   const VectorXd natural = NaturalAngles(kinematics_);
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
     const bool is_endless = kinematics_.IsEndless(j);
-    const double lower = kinematics_.lower()[j];
-    const double upper = kinematics_.upper()[j];
+    const auto [lower, upper] = kinematics_.Range(j);
     unit_[6 + j] = is_endless ? std::numbers::pi : 0.5 * (upper - lower);
     if (is_endless) continue;
     middle_[j] = 0.5 * (upper + lower);
@@ -167,12 +167,13 @@ void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian
   const double weak =
       std::max(kLeastPull, look_variance_ / (variance_ * kPullDeviation * kPullDeviation));
   for (int j = 0; j < n - 6; ++j) pull_[j] = IsShown(j) ? weak : 1 / spread_[j];
+  const double root_deviation = kinematics_.is_root_fixed() ? kFixedRoot : kRootDeviation;
   H_.SetZero();
   AddWeightedSquare(at.J_transposed, weights_, &H_);
   auto H = H_.view();
   for (int j = 0; j < n; ++j) {
     for (int i = j; i < n; ++i) H(i, j) *= unit_[i] * unit_[j];
-    H(j, j) += j < 6 ? 1 / (kRootDeviation * kRootDeviation) : pull_[j - 6];
+    H(j, j) += j < 6 ? 1 / (root_deviation * root_deviation) : pull_[j - 6];
   }
   Factorize(&H_);
   root_.SetIdentity();

@@ -36,7 +36,7 @@ S2kfConverter::S2kfConverter(const TrackingSetup& setup, const S2kfSettings& set
       has_deviations_(deviations == Deviations::kOfEachFrame),
       of_model_(markers_.kinematics().MakeJacobian()) {
   own_deviations_.setZero(markers_.kinematics().num_dofs());
-  estimate_.posture.joint_angles.setZero(setup.model->num_joints());
+  estimate_.posture.joint_angles = RestAngles(*setup.model);
   estimate_.standard_deviations.setConstant(6 + setup.model->num_joints(), kNaN);
   estimate_.residuals.setConstant(markers_.kinematics().num_markers(), kNaN);
   estimate_.verdicts.setConstant(markers_.kinematics().num_markers(), kAsLabelled);

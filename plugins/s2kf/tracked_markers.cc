@@ -24,6 +24,7 @@ TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
     : kinematics_(*setup.model, setup.joints, MarkerIndices(setup.assignments())),
       mirror_(MirroredMarkers(*setup.model, kinematics_.markers())),
       labels_(LabelIndices(setup.assignments())),
+      pulls_(PullsOf(setup)),
       noise_scale_(NoiseScales(setup.assignments())),
       place_deviation_(noise_scale_.size()),
       skin_deviation_(noise_scale_.size()),

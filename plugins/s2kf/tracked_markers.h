@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
+#include "common/fit/posture_fit.h"
 #include "common/model/marker_kinematics.h"
 
 namespace mmm_converter::s2kf {
@@ -30,6 +31,8 @@ class TrackedMarkers {
   const std::vector<int>& mirror() const { return mirror_; }
   /// Of a frame, the column that is a marker's.
   LabelIx label(int m) const { return labels_[m]; }
+  /// Joints that are drawn to a value.
+  const std::vector<JointPull>& pulls() const { return pulls_; }
   /// Factor on a marker's standard deviation.
   const Eigen::VectorXd& noise_scale() const { return noise_scale_; }
 
@@ -56,6 +59,7 @@ class TrackedMarkers {
   MarkerKinematics kinematics_;
   std::vector<int> mirror_;
   std::vector<LabelIx> labels_;
+  std::vector<JointPull> pulls_;
   Eigen::VectorXd noise_scale_;
   Eigen::VectorXd place_deviation_;
   Eigen::VectorXd skin_deviation_;  // NaN: not measured

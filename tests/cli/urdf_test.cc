@@ -241,16 +241,16 @@ TEST(Urdf, RobotsAreNotScaled) {
   };
   auto run = with({"--height", "1.7"});
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF, "));
+  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF or one of OpenSim, "));
   run = with({"--self-calibrate"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("but a subject is relative to the scaled one"));
   run = RunProgram({"calibrate", recording, "--model", Humanoid(), "-o", TestFolder() + "/s.xml"});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF, "));
+  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF or one of OpenSim, "));
   run = RunProgram({"export-urdf", "--model", Humanoid(), "-o", TestFolder() + "/again.urdf"});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF)"));
+  EXPECT_THAT(run.err, HasSubstr("the model is not scaled (it is a URDF or one of OpenSim)"));
 }
 
 TEST(Urdf, InfoDescribesIt) {

@@ -23,6 +23,7 @@ const std::map<std::string, FuzzTarget>& FuzzTargets() {
       {"motive_csv", ReadMotiveCsvBytes},
       {"natnet", ReadNatNetBytes},
       {"nexus_csv", ReadNexusCsvBytes},
+      {"osim", ReadOsimBytes},
       {"person", ReadPersonBytes},
       {"qtm", ReadQtmBytes},
       {"qtm_tsv", ReadQtmTsvBytes},

@@ -33,6 +33,7 @@ void ReadMotiveCsvBytes(std::string_view bytes);
 void ReadQtmTsvBytes(std::string_view bytes);
 void ReadMmmMotionBytes(std::string_view bytes);
 void ReadMmmModelBytes(std::string_view bytes);
+void ReadOsimBytes(std::string_view bytes);
 void ReadUrdfBytes(std::string_view bytes);
 void ReadPersonBytes(std::string_view bytes);
 void ReadConverterConfigBytes(std::string_view bytes);

@@ -40,6 +40,7 @@ TARGETS = {
     "motive_csv": (4096, [TRC], []),
     "natnet": (4096, [], []),
     "nexus_csv": (4096, [TRC], []),
+    "osim": (8192, ["common/io/osim"], []),
     "person": (4096, [MMM], []),
     "qtm": (8192, ["common/live/qtm"], []),
     "qtm_tsv": (4096, [TRC], []),

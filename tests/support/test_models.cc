@@ -71,9 +71,8 @@ Posture RandomPosture(const MarkerKinematics& kinematics, double share, std::mt1
       Exp(6 * Eigen::Vector3d(uniform(*random), uniform(*random), uniform(*random)));
   posture.joint_angles.resize(kinematics.num_joints());
   for (int j = 0; j < kinematics.num_joints(); ++j) {
-    const double range = kinematics.upper()[j] - kinematics.lower()[j];
-    posture.joint_angles[j] =
-        0.5 * (kinematics.lower()[j] + kinematics.upper()[j]) + share * range * uniform(*random);
+    const auto [lower, upper] = kinematics.Range(j);
+    posture.joint_angles[j] = 0.5 * (lower + upper) + share * (upper - lower) * uniform(*random);
   }
   return posture;
 }

@@ -10,6 +10,20 @@ function makeBoneGeometry() {
   return new THREE.LatheBufferGeometry(outline.map(([x, y]) => new THREE.Vector2(x, y)), 10);
 }
 
+// What a segment turns or shifts by where its joint has this angle: stages of polynomials, piece by
+// piece, lowest power first; undefined: the angle itself.
+function valueOf(stages, angle) {
+  return (stages || []).reduce((x, {breaks, origins, order, coefficients}) => {
+    let piece = breaks.findIndex((end) => x < end);
+    if (piece < 0) piece = breaks.length;
+    let value = 0;
+    for (let power = order - 1; power >= 0; --power) {
+      value = value * (x - origins[piece]) + coefficients[piece * order + power];
+    }
+    return value;
+  }, angle);
+}
+
 class Body {
   // labels: which model marker belongs to which label, as trial.markers.
   constructor(model, markers) {
@@ -101,10 +115,20 @@ class Body {
     const turn = new THREE.Quaternion();
     const axis = new THREE.Vector3();
     this.model.segments.forEach((segment, i) => {
-      const column = segment.joint < 0 ? -1 : motion.joints.indexOf(segment.joint);
-      if (column < 0) return;
-      turn.setFromAxisAngle(axis.fromArray(segment.axis), motion.angles[column * frames + k]);
-      this.nodes[i].quaternion.fromArray(segment.orientation).multiply(turn);
+      if (segment.joint < 0) return;
+      const column = motion.joints.indexOf(segment.joint);
+      if (column < 0 && !segment.rest && !segment.function) return;
+      const angle = column < 0 ? segment.rest || 0 : motion.angles[column * frames + k];
+      const value = valueOf(segment.function, angle);
+      const node = this.nodes[i];
+      node.quaternion.fromArray(segment.orientation);
+      if (segment.slides) {
+        axis.fromArray(segment.axis).applyQuaternion(node.quaternion);
+        node.position.fromArray(segment.position).addScaledVector(axis, value);
+      } else {
+        turn.setFromAxisAngle(axis.fromArray(segment.axis), value);
+        node.quaternion.multiply(turn);
+      }
     });
     this.root.updateMatrixWorld(true);
   }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/io/xml/xml_text.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -219,6 +220,12 @@ UrdfText UrdfWriter::Write() {
 }  // namespace
 
 UrdfText FormatUrdf(const KinematicModel& model, const std::string& comment, Warnings* warnings) {
+  if (model.coordinates()) {
+    throw Error(
+        fmt::format("model {} is one of OpenSim, whose joints are functions of coordinates; "
+                    "a URDF has none of these",
+                    model.name()));
+  }
   return UrdfWriter(model, comment, warnings).Write();
 }
 

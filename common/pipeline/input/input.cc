@@ -42,6 +42,7 @@ void NameInputs(const InputRequest& request, OutputPlan* plan) {
   plan->Read(request.file);
   plan->Read(ModelFile(request));
   plan->Read(request.marker_set);
+  plan->Read(request.marker_file);
   plan->Read(request.person.processor_file);
   plan->Read(request.person.subject_file);
 }
@@ -53,16 +54,25 @@ Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warn
     input.model = read_before.model.value;
     warnings->Append(read_before.model.warnings);
   } else {
-    input.model = std::make_shared<const LoadedModel>(ReadModelFile(input.model_file, warnings));
+    input.model = std::make_shared<const LoadedModel>(
+        ReadModelFile(input.model_file, warnings, request.marker_file));
   }
   input.reference = std::shared_ptr<const KinematicModel>(input.model, &input.model->model);
   return input;
 }
 
+void CheckIsNoOsim(const Input& input, const std::string& what) {
+  if (!input.model->model.coordinates()) return;
+  throw Error(
+      fmt::format("{}: {} can't be done with a model of OpenSim; its recordings can be "
+                  "converted and compared",
+                  input.model_file, what));
+}
+
 WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputRequest& request) {
   WithWarnings<std::shared_ptr<const LoadedModel>> model;
-  model.value =
-      std::make_shared<const LoadedModel>(ReadModelFile(ModelFile(request), &model.warnings));
+  model.value = std::make_shared<const LoadedModel>(
+      ReadModelFile(ModelFile(request), &model.warnings, request.marker_file));
   return model;
 }
 

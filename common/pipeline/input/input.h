@@ -24,7 +24,8 @@ struct InputRequest {
   ReadRecordingOptions reading;
   std::optional<int> first_frame;  ///< counted from 0
   std::optional<int> end_frame;    ///< the frame behind the last
-  std::string model_file;          ///< reference model, or a URDF
+  std::string model_file;          ///< reference model, a URDF, or a model of OpenSim
+  std::string marker_file;         ///< markers for a model of OpenSim
   std::string marker_set;          ///< file or name; comes before the configuration's
   PersonRequest person;
 };
@@ -63,6 +64,9 @@ std::string ModelFile(const InputRequest& request);
 /// The model only; no recording.
 /// @throws Error
 Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
+
+/// @throws Error where the model is one of OpenSim: `what` can't be done with it.
+void CheckIsNoOsim(const Input& input, const std::string& what);
 
 /// The model for several inputs: to be ReadBefore::model.
 /// @throws Error

@@ -154,7 +154,7 @@ std::string DescribeHeight(const Person& person) {
 }
 
 std::string WhyUnscaled(const ConverterConfig& config) {
-  const std::string why = "the model is not scaled (it is a URDF";
+  const std::string why = "the model is not scaled (it is a URDF or one of OpenSim";
   if (config.file.empty()) return why + ")";
   return why + ", or " + config.file + " has <Model name=\"None\">)";
 }

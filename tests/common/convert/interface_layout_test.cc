@@ -120,11 +120,12 @@ std::string DescribeModel() {
       Whole<KinematicModel>("KinematicModel") + Whole<MarkerSequence>("MarkerSequence");
   {
     const Segment object;
-    MEMBERS(a, b, c, d, e, f, g, h, i, j, k);
+    MEMBERS(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
     text += Whole<Segment>("Segment") + PART(Segment, name) + PART(Segment, parent) +
             PART(Segment, X_PF) + PART(Segment, type) + PART(Segment, axis) + PART(Segment, lower) +
             PART(Segment, upper) + PART(Segment, joint) + PART(Segment, mass) +
-            PART(Segment, p_SB) + PART(Segment, inertia);
+            PART(Segment, p_SB) + PART(Segment, inertia) + PART(Segment, leader) +
+            PART(Segment, function) + PART(Segment, rest) + PART(Segment, reach);
   }
   const ModelMarker object;
   MEMBERS(a, b, c, d, e);
@@ -148,10 +149,10 @@ std::string DescribeSetup() {
             PART(MarkerMapping, ignored_labels) + PART(MarkerMapping, absent_markers);
   }
   const TrackingSetup object;
-  MEMBERS(a, b, c, d);
+  MEMBERS(a, b, c, d, e);
   return text + Whole<TrackingSetup>("TrackingSetup") + PART(TrackingSetup, model) +
          PART(TrackingSetup, joints) + PART(TrackingSetup, mapping) +
-         PART(TrackingSetup, marker_set);
+         PART(TrackingSetup, marker_set) + PART(TrackingSetup, joint_tasks);
 }
 
 std::string DescribeConfig() {

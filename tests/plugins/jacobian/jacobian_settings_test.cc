@@ -48,6 +48,8 @@ TEST(JacobianSettings, ShippedConfigurationsSayWhatTheyAreNamed) {
   EXPECT_EQ(shipped("jacobian_least_squares").method, Method::kLeastSquares);
   EXPECT_EQ(shipped("jacobian_least_squares").previous_weight, 0);
   EXPECT_GT(shipped("jacobian_pull").previous_weight, 0);
+  EXPECT_EQ(shipped("jacobian_opensim").natural_weight, 0);
+  EXPECT_LT(shipped("jacobian_opensim").tolerance, 1e-10);
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/support/warnings.h"
+
+namespace mmm_converter {
+
+/// What OpenSim's inverse kinematics is to follow: the goal
+///   sum w |p - y|^2 / (2 sum w) + sum w_c (q - value)^2 / 2
+/// of the seen markers and the coordinates. Tasks that are not applied are left out.
+struct IkTasks {
+  struct OfMarker {
+    std::string name;
+    double weight = 1;
+  };
+  struct OfCoordinate {
+    std::string name;
+    double weight = 1;            ///< [m^2/rad^2], or 1 for a shift
+    std::optional<double> value;  ///< [rad, m]; nothing: the default of the model
+  };
+
+  std::vector<OfMarker> markers;
+  std::vector<OfCoordinate> coordinates;
+};
+
+/// Parses an `<IKTaskSet>`, in an `<OpenSimDocument>`; file: named in messages.
+/// @throws Error where it is none, a number is none, or values are to come from a file.
+IkTasks ParseIkTasks(std::string_view content, const std::string& file);
+
+}  // namespace mmm_converter

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+#include "common/motion/pose_trajectory.h"
+#include "common/support/text_pieces.h"
+
+namespace mmm_converter {
+
+// Tables as OpenSim's tools write and read them (.mot, .sto): tab separated, time in seconds, in
+// the axes of the model's ground (y up, where the model is not one of OpenSim). Postures must be
+// finite. Models, errors and trajectories must outlive the texts.
+
+/// Of a model that has coordinates(), all of the model, with those that are locked or follow
+/// others, as its inverse kinematics writes them: turns in degrees, all else in metres and radians.
+TextPieces FormatOsimMotion(const KinematicModel& model, const PoseTrajectory& trajectory);
+
+/// Of such a model the standard deviations of the coordinates, in their units. Coordinates that the
+/// tracker says nothing of are 0 where they are constant, else nan.
+TextPieces FormatOsimDeviations(const KinematicModel& model, const PoseTrajectory& trajectory);
+
+/// Where the model has its markers [m], NAME_tx, NAME_ty and NAME_tz of each.
+TextPieces FormatOsimMarkers(const KinematicModel& model, const PoseTrajectory& trajectory,
+                             const std::vector<MarkerIx>& markers);
+
+/// How far the model's markers are from the measured ones [m]: total_squared_error,
+/// marker_error_RMS and marker_error_max of each frame, then of each marker that is seen.
+/// errors: markers x frames [m], NaN where it is not seen.
+TextPieces FormatOsimMarkerErrors(const std::vector<std::string>& names,
+                                  const Eigen::MatrixXd& errors, const PoseTrajectory& trajectory);
+
+}  // namespace mmm_converter

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/osim/osim_model_reader.h"
+#include "common/model/coordinate_map.h"
+#include "common/model/forward_kinematics.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace mmm_converter::testing {
+
+void ReadOsimBytes(std::string_view bytes) {
+  Warnings warnings;
+  Diagnostics diagnostics(kInputName, &warnings);
+  const KinematicModel model = MakeOsimModel(ParseOsim(bytes, {}, &diagnostics), &diagnostics);
+  CoordinateSeries series(model);
+  const Eigen::VectorXd values = series.Next(ZeroPosture(model));
+  const Posture posture = PostureOf(model, values);
+  Require(posture.joint_angles.size() == model.num_joints(), "an angle of each joint");
+  Require(
+      MarkerPositions(model, posture).cols() == static_cast<Eigen::Index>(model.markers().size()),
+      "a place of each marker");
+}
+
+}  // namespace mmm_converter::testing
