@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "MMMConverterS2KF/live/live_source.h"
 #include "MMMConverterS2KF/live/motion_journal.h"
+#include "common/live/source_address.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/output_plan.h"
 
@@ -16,7 +16,7 @@ namespace mmm_converter {
 LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
   OutputPlan outputs;
   InputRequest inputs = request.input;
-  inputs.file = ReplayedFile(request.input.file);
+  inputs.file = FileOfSource(request.input.file);
   NameInputs(inputs, &outputs);
   outputs.Write(request.output);
   if (!request.output.empty()) outputs.Write(JournalOf(request.output));

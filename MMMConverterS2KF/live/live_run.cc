@@ -16,10 +16,10 @@
 
 #include "MMMConverterS2KF/live/live_output.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
-#include "MMMConverterS2KF/live/live_source.h"
 #include "MMMConverterS2KF/live/web_sink.h"
 #include "common/live/frame_mailbox.h"
 #include "common/live/sink_runner.h"
+#include "common/live/source_address.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -132,7 +132,12 @@ class LiveRun {
  private:
   static LiveSource Open(const LiveRequest& request, const LiveObserver& observer) {
     Warnings warnings;
-    LiveSource source = OpenLiveSource(request, &warnings);
+    SourceOptions options;
+    options.needs_labels = !request.label;
+    options.reading = request.input.reading;
+    options.reading.with_unlabelled = request.label;
+    options.loops = request.loops;
+    LiveSource source = OpenLiveSource(request.input.file, options, &warnings);
     for (const std::string& text : warnings.texts()) observer.warning(text);
     return source;
   }

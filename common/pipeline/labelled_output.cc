@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/c3d/c3d_file.h"
@@ -106,39 +109,56 @@ void WriteAsMmm(const LabelReport& report, const MarkerSequence& markers) {
                                          : FormatMmmMotion2(motion));
 }
 
-// Of the table of formats.
-std::string FormatOf(const std::string& file) {
+// How a recording under the names that were found is written in a format of the table of formats.
+struct LabelledFormat {
+  std::string_view format;
+  bool holds_several;  // bodies, whose names stand before their labels
+  void (*write)(const LabelReport& report, const MarkerSequence& markers);
+};
+
+constexpr std::array kLabelledFormats = {LabelledFormat{"C3D", true, WriteAsC3d},
+                                         LabelledFormat{"TRC", true, WriteAsTrc},
+                                         LabelledFormat{"MMM motion", false, WriteAsMmm}};
+
+// By the name of the file; null: none.
+const LabelledFormat* FindLabelledFormat(const std::string& file) {
   const RecordingFormat* format = FindFormatOfName(file);
-  return format == nullptr || !format->is_written ? "" : format->name;
+  const auto* const found = std::find_if(
+      kLabelledFormats.begin(), kLabelledFormats.end(),
+      [&](const LabelledFormat& one) { return format != nullptr && one.format == format->name; });
+  return found == kLabelledFormats.end() ? nullptr : found;
+}
+
+bool IsOfFormat(const std::string& file, std::string_view name) {
+  const LabelledFormat* format = FindLabelledFormat(file);
+  return format != nullptr && format->format == name;
 }
 
 }  // namespace
 
 void CheckLabelledOutput(const std::string& file, bool of_several) {
-  const std::string format = FormatOf(file);
-  if (of_several && !format.empty() && format != "C3D" && format != "TRC") {
+  const LabelledFormat* format = FindLabelledFormat(file);
+  if (format == nullptr) {
     throw Error(fmt::format(
-        "{}: labels of several persons or objects go to a .c3d or .trc; each is then a {} of it",
-        file, OptionText("subject")));
+        "{}: the name must end as that of a recording: .c3d, .trc or .xml (an MMM motion)", file));
   }
-  if (!format.empty()) return;
+  if (!of_several || format->holds_several) return;
   throw Error(fmt::format(
-      "{}: the name must end as that of a recording: .c3d, .trc or .xml (an MMM motion)", file));
+      "{}: labels of several persons or objects go to a .c3d or .trc; each is then a {} of it",
+      file, OptionText("subject")));
 }
 
 void CheckKeepsRecording(const std::string& file, const Recording& recording) {
   std::error_code failure;
   if (!std::filesystem::equivalent(file, recording.file, failure)) return;
-  const std::string format = FormatOf(file);
-  if (format == recording.format || (format == "MMM motion" && recording.format == "MMM 2.0")) {
-    return;
-  }
+  const bool is_of_mmm = recording.format == "MMM 2.0" && IsOfFormat(file, "MMM motion");
+  if (is_of_mmm || IsOfFormat(file, recording.format)) return;
   throw Error(
       fmt::format("{}: is the recording itself, which would be lost; give another file", file));
 }
 
 std::set<std::string> NamesThatStay(const std::string& file, const Recording& recording) {
-  if (FormatOf(file) != "C3D" || recording.format != "C3D") return {};
+  if (recording.format != "C3D" || !IsOfFormat(file, "C3D")) return {};
   const std::vector<std::string> labels = C3dPointNames(C3dFile(recording.file), nullptr);
   const std::string prefix = PrefixOf(recording, labels);
   std::vector<bool> is_of_recording(labels.size(), false);
@@ -155,16 +175,8 @@ std::set<std::string> NamesThatStay(const std::string& file, const Recording& re
 }
 
 void WriteLabelled(const LabelReport& report) {
-  const Recording& recording = report.input.recording;
-  const MarkerSequence markers = Relabelled(report.found.points, recording.markers);
-  const std::string format = FormatOf(report.output);
-  if (format == "C3D") {
-    WriteAsC3d(report, markers);
-  } else if (format == "TRC") {
-    WriteAsTrc(report, markers);
-  } else {
-    WriteAsMmm(report, markers);
-  }
+  FindLabelledFormat(report.output)
+      ->write(report, Relabelled(report.found.points, report.input.recording.markers));
 }
 
 }  // namespace mmm_converter

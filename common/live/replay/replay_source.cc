@@ -8,7 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "common/io/recording/recording.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -64,13 +63,6 @@ ReplayAddress ParseReplayAddress(const std::string& text) {
         "replay:{}: the speed after @ is a number above 0 or \"max\", not \"{}\"", text, speed));
   }
   return {file, *number};
-}
-
-std::unique_ptr<FrameSource> OpenReplay(const std::string& address) {
-  const ReplayAddress parsed = ParseReplayAddress(address);
-  Recording recording = ReadRecording(parsed.file, {});
-  return std::make_unique<ReplaySource>(std::move(recording.markers), recording.first_frame,
-                                        PlaybackOptions{.speed = parsed.speed}, parsed.file);
 }
 
 }  // namespace mmm_converter

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "common/live/frame_source.h"
@@ -43,9 +42,5 @@ struct ReplayAddress {
 /// @throws Error where what follows the last @ is neither a number above 0 nor "max", and no file
 /// has the whole name.
 ReplayAddress ParseReplayAddress(const std::string& text);
-
-/// A recording that is read as its file states it, by what stands behind "replay:".
-/// @throws Error as ParseReplayAddress and ReadRecording.
-std::unique_ptr<FrameSource> OpenReplay(const std::string& address);
 
 }  // namespace mmm_converter
