@@ -80,6 +80,10 @@ expect_fault(common/pipeline/dynamics/a.cc "${licence}#include \"common/pipeline
              "common/pipeline/dynamics must not include common/pipeline/comparison")
 expect_fault(MMMConverterS2KF/terminal/a.cc "${licence}#include \"MMMConverterS2KF/used.h\"\n"
              "MMMConverterS2KF/terminal must not include MMMConverterS2KF ")
+expect_fault(MMMConverterS2KF/report/a.cc "${licence}#include \"MMMConverterS2KF/terminal/used.h\"\n"
+             "MMMConverterS2KF/report must not include MMMConverterS2KF/terminal")
+expect_fault(MMMConverterS2KF/python/a.cc "${licence}#include \"MMMConverterS2KF/terminal/used.h\"\n"
+             "MMMConverterS2KF/python must not include MMMConverterS2KF/terminal")
 expect_fault(MMMConverterS2KF/report/a.cc "${licence}#include \"plugins/one/used.h\"\n"
              "MMMConverterS2KF/report must not include plugins")
 expect_fault(MMMConverterS2KF/new/a.cc "${licence}" "its folder is no layer")
