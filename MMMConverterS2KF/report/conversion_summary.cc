@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/report/names_summary.h"
 #include "common/judge/conversion_figures.h"
 #include "common/judge/coverage.h"
+#include "common/pipeline/motion_output.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -146,8 +147,11 @@ std::string FormatSummary(const ConversionReport& report) {
   text += DescribeWrongMarkers(report);
   text += fmt::format("time       median {:.3f} ms a frame, p99 {:.3f}\n", figures.median_ms,
                       figures.p99_ms);
-  text += fmt::format("motion     {} (MMM {}, \"{}\")\n", plan.output, plan.output_format,
+  text += fmt::format("motion     {} ({}, \"{}\")\n", plan.output, MotionFormat(plan),
                       plan.motion_name);
+  const bool has_deviations = !report.result.trajectory.standard_deviations.array().isNaN().all();
+  const std::string deviations = DeviationsOutput(plan);
+  if (has_deviations && !deviations.empty()) text += "deviations " + deviations + "\n";
   text += DescribeSubjectOutput(report);
   return text + FormatVerdict(report.verdict);
 }

@@ -267,7 +267,7 @@ const MarkerSet& ChooseMarkerSet(const std::vector<MarkerSet>& sets, const Marke
   throw Error(
       fmt::format(
           "{}no marker set ({}) knows three labels of the recording, which has {}; "
-          "name links of the URDF <label>_marker, or say which labels stand for which markers "
+          "name links of a URDF <label>_marker, or say which labels stand for which markers "
           "and where these are, in the configuration or in a marker set",
           labels.source.empty() ? "" : labels.source + ": ", fmt::join(names, ", "),
           FirstNames(labels.names)),

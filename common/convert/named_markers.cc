@@ -138,6 +138,50 @@ NamedMarkers ComposeNamedMarkers(const MarkerLabels& labels, const KinematicMode
   return ComposeNamedMarkers(labels.names, read, model, table);
 }
 
+NamedMarkers PairByLandmarks(const MarkerLabels& labels, const KinematicModel& model,
+                             const LandmarkTable& table) {
+  std::vector<std::string> markers;
+  std::map<std::string, std::size_t> alike;
+  for (const ModelMarker& marker : model.markers()) {
+    alike.emplace(NormalizeLabel(marker.name), markers.size());
+    markers.push_back(marker.name);
+  }
+  const std::vector<ReadLabel> meant = ReadLabels(markers, {}, table);
+  const std::vector<ReadLabel> read = ReadLabels(labels.names, labels.seen, table);
+  NamedMarkers named;
+  named.set.name = "names";
+  named.set.description = "labels and markers of the model that are named after the same landmarks";
+  std::set<std::size_t> taken;
+  const auto pair = [&](std::size_t marker, double noise_scale, NamedLabel* one) {
+    if (!one->marker.empty() || !taken.insert(marker).second) return;
+    one->marker = markers[marker];
+    named.set.pairs.push_back({one->label, one->marker, noise_scale});
+  };
+  for (std::size_t i = 0; i < labels.names.size(); ++i) {
+    NamedLabel& one = named.labels.emplace_back();
+    one.label = labels.names[i];
+    one.readings = read[i].readings;
+    if (!one.readings.empty()) {
+      const LabelReading& reading = one.readings.front();
+      one.landmark = DescribeReading(reading, table);
+      one.part = WithSide(LandmarkOf(reading, table).part, reading.side);
+    }
+    const auto found = alike.find(NormalizeLabel(one.label));
+    if (found != alike.end()) pair(found->second, 1, &one);
+  }
+  for (NamedLabel& one : named.labels) {
+    if (one.readings.empty()) continue;
+    const LabelReading& reading = one.readings.front();
+    const Landmark& landmark = LandmarkOf(reading, table);
+    for (std::size_t m = 0; m < markers.size(); ++m) {
+      const bool is_same = !meant[m].readings.empty() && meant[m].readings.front() == reading;
+      if (is_same && landmark.kind != LandmarkKind::kSegment) pair(m, NoiseScaleOf(landmark), &one);
+    }
+    if (one.marker.empty()) one.note = "no marker of the model is named after it";
+  }
+  return named;
+}
+
 bool TellMore(const NamedMarkers& named, const MarkerSet& set, const MarkerLabels& labels,
               const LandmarkTable& table) {
   const std::map<std::string, std::string> parts = PartsOfMarkers(table);

@@ -54,6 +54,11 @@ NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
                                  const std::vector<ReadLabel>& read, const KinematicModel& model,
                                  const LandmarkTable& table);
 
+/// Labels and the markers of a model that are named after the same landmark, or alike. Nothing is
+/// placed: a label whose landmark no marker of the model is named after is left out.
+NamedMarkers PairByLandmarks(const MarkerLabels& labels, const KinematicModel& model,
+                             const LandmarkTable& table);
+
 /// Whether names tell more of the body than a set does: a part of which more labels are understood,
 /// as far as more of them tell more of it.
 bool TellMore(const NamedMarkers& named, const MarkerSet& set, const MarkerLabels& labels,

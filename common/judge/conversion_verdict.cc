@@ -10,6 +10,7 @@
 #include "common/fit/rigid_shape.h"
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
+#include "common/model/coordinate_map.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -169,8 +170,9 @@ class Judge {
     if (recording.up_axis_is_doubtful) return;  // that has been said
     double lying = 0;
     double upside_down = 0;
+    const Eigen::Vector3d up_S = UpOfRoot(*evidence_.setup.model);
     for (const Posture& posture : evidence_.result.trajectory.postures) {
-      const double up = posture.orientation.toRotationMatrix()(2, 2);
+      const double up = (posture.orientation * up_S).z();
       lying += up < kUpright ? 1 : 0;
       upside_down += up < -kUpright ? 1 : 0;
     }

@@ -168,4 +168,9 @@ Posture PostureOf(const KinematicModel& model, const VectorXd& values) {
   return posture;
 }
 
+Vector3d UpOfRoot(const KinematicModel& model) {
+  if (model.coordinates() == nullptr) return Vector3d::UnitZ();
+  return model.coordinates()->R_WG().transpose() * Vector3d::UnitZ();
+}
+
 }  // namespace mmm_converter

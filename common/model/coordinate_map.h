@@ -93,4 +93,8 @@ class CoordinateSeries {
 /// follow others are not used; joints that no coordinate tells are at rest.
 Posture PostureOf(const KinematicModel& model, const Eigen::VectorXd& values);
 
+/// The unit vector of the root's axes that is up where the model stands: z, or as the files' ground
+/// has it.
+Eigen::Vector3d UpOfRoot(const KinematicModel& model);
+
 }  // namespace mmm_converter

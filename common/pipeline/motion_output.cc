@@ -8,6 +8,7 @@
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/tables/osim_tables.h"
+#include "common/support/advice.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -72,9 +73,13 @@ std::string DefaultOutput(const fs::path& input, bool is_osim) {
   return (input.parent_path() / (input.stem().string() + (is_osim ? ".mot" : "_mmm.xml"))).string();
 }
 
+bool IsNamedAsOfOpenSim(const fs::path& output) {
+  return output.extension() == ".mot" || output.extension() == ".sto";
+}
+
 /// Of coordinates, in OpenSim's own format: the model has some, and the file's ending says so.
 bool WritesCoordinates(const KinematicModel& model, const fs::path& output) {
-  return model.coordinates() && (output.extension() == ".mot" || output.extension() == ".sto");
+  return model.coordinates() && IsNamedAsOfOpenSim(output);
 }
 
 void CheckHoldsMotion(const ConversionPlan& plan, bool is_one_of_several) {
@@ -83,6 +88,12 @@ void CheckHoldsMotion(const ConversionPlan& plan, bool is_one_of_several) {
     if (!is_one_of_several) return;
     throw Error(fmt::format("{}: holds one motion; name it, or give the output the ending .xml",
                             plan.output));
+  }
+  if (IsNamedAsOfOpenSim(plan.output)) {
+    throw Error(
+        fmt::format("{}: the motion of such a model is an XML file of MMM; {} writes joint "
+                    "angles for OpenSim",
+                    plan.output, OptionText("export-mot")));
   }
   if (!model.coordinates() || !model.is_root_fixed()) return;
   throw Error(
@@ -132,6 +143,11 @@ MmmMotionOutput DescribeMotion(const ConversionRequest& request, const Conversio
   output.hand_length = plan.person.hand_length;
   output.comment = SubjectComment(plan);
   return output;
+}
+
+std::string MotionFormat(const ConversionPlan& plan) {
+  const bool is_osim = WritesCoordinates(*plan.setup.model, plan.output);
+  return is_osim ? "OpenSim" : "MMM " + plan.output_format;
 }
 
 std::string DeviationsOutput(const ConversionPlan& plan) {

@@ -21,6 +21,9 @@ void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several
 /// What a plan's motion is written with, but for its postures and markers.
 MmmMotionOutput DescribeMotion(const ConversionRequest& request, const ConversionPlan& plan);
 
+/// "MMM 2.0", "OpenSim": what the motion is written as.
+std::string MotionFormat(const ConversionPlan& plan);
+
 /// Where the deviations of coordinates go, beside a motion of OpenSim; empty: they are not written.
 std::string DeviationsOutput(const ConversionPlan& plan);
 

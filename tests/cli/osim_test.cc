@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -177,6 +178,37 @@ TEST(Osim, MarkersMayComeFromAFileAndTasksWeighThem) {
     EXPECT_THAT(run.out + run.err, HasSubstr("1 labels ignored"));  // hand3 has no task
     EXPECT_NEAR(ReadStrictMot(ReadText(output)).At(50, "knee_angle"), -0.5 * kDegrees, 0.1);
   }
+}
+
+// Labels of another laboratory are the model's markers of the same landmarks.
+TEST(Osim, LabelsAreUnderstoodByTheirLandmarks) {
+  std::string text = Floating();
+  const std::vector<std::array<const char*, 3>> names = {{"hand1", "R.ASIS", "RASI"},
+                                                         {"hand2", "L.ASIS", "LASI"},
+                                                         {"hand3", "V.Sacral", "SACR"},
+                                                         {"patella1", "R.Knee.Lat", "RKNE"},
+                                                         {"patella2", "L.Knee.Lat", "LKNE"}};
+  for (const auto& [marker, landmark, unused] : names) {
+    const std::string before = std::string("name=\"") + marker + "\"";
+    text.replace(text.find(before), before.size(), std::string("name=\"") + landmark + "\"");
+  }
+  const OsimCase made = MakeCase(text, "landmarks");
+  const MarkerSequence seen = SynthesizeMarkers(made.model, made.truth, {0, 0, 0, 0}, 1);
+  std::vector<std::string> labels = seen.labels();
+  for (std::string& label : labels) {
+    for (const auto& [unused, landmark, other] : names) {
+      if (label == landmark) label = other;
+    }
+  }
+  MarkerSequence renamed(labels, seen.num_frames(), seen.rate(), seen.first_time());
+  for (int k = 0; k < seen.num_frames(); ++k) renamed.frame(k) = seen.frame(k);
+  WriteC3d(made.recording, renamed);
+  const auto run = RunProgram({"convert", made.recording, "--model", made.model_file, "-c",
+                               "jacobian_opensim", "-o", TestFolder() + "/landmarks.mot"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("36 used"), HasSubstr("(OpenSim, \"landmarks\")")));
+  EXPECT_LT(LargestCoordinateError(made, ReadStrictMot(ReadText(TestFolder() + "/landmarks.mot"))),
+            kFitted);
 }
 
 TEST(Osim, InfoDescribesIt) {

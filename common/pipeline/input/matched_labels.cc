@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "common/convert/marker_set.h"
 #include "common/convert/understood_labels.h"
+#include "common/model/coordinate_map.h"
 
 namespace mmm_converter {
 namespace {
@@ -28,12 +30,26 @@ std::shared_ptr<const NamedMarkers> FindNames(const MarkerLabels& labels, const 
   return std::make_shared<const NamedMarkers>(std::move(named));
 }
 
+/// Of a model with markers of its own: names of landmarks, where they pair more than names alike
+/// do.
+std::shared_ptr<const NamedMarkers> PairNames(const MarkerLabels& labels, const Input& input,
+                                              const ConverterConfig& config) {
+  constexpr int kFewest = 4;
+  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
+  if (!is_free || input.reference->coordinates() == nullptr) return nullptr;
+  NamedMarkers named = PairByLandmarks(labels, *input.reference, ShippedLandmarks());
+  const int alike = CountMappedMarkers(OwnMarkerSet(*input.reference), labels.names);
+  if (named.num_used() < kFewest || named.num_used() <= alike) return nullptr;
+  return std::make_shared<const NamedMarkers>(std::move(named));
+}
+
 }  // namespace
 
 MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
                           const ConverterConfig& config, Warnings* warnings) {
   MatchedLabels matched;
   matched.names = FindNames(labels, input, config);
+  if (!matched.names) matched.names = PairNames(labels, input, config);
   if (!matched.names) {
     matched.setup = MatchMarkers(labels, input.reference, config, warnings);
     return matched;
