@@ -34,6 +34,7 @@ constexpr double kWrong = 0.2;        ///< it is not there at all [m]
 constexpr double kWrongDeviations = 4.5;
 constexpr double kNearby = 0.08;  ///< another meaning is right
 constexpr double kBetter = 0.5;
+constexpr double kExchangedShare = 0.75;  ///< of the distance, with sides exchanged
 constexpr double kMostClusterStray =
     0.06;                              ///< of a cluster's label about its place on the segment [m]
 constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such are usually [m]
@@ -53,6 +54,7 @@ NameJudge::NameJudge(const KinematicModel& reference, const std::vector<int>& jo
 void NameJudge::Run(bool places_clusters) {
   const double height = FindHeight();
   Pose(height);
+  if (places_clusters && !clusters_.empty()) ExchangeSides(height);
   for (int round = 0; round < 4 && Reconsider(); ++round) Pose(height);
   if (places_clusters) PlaceClusters(height);
 }
@@ -191,6 +193,42 @@ double NameJudge::Distance(int label, int marker) const {
     if (p.allFinite()) distances.push_back((p - p_WM_[f].col(marker)).norm());
   }
   return distances.empty() ? kNaN : Median(distances);
+}
+
+std::size_t NameJudge::MirroredReading(const Hypothesis& one) const {
+  const std::vector<LabelReading>& readings = named_.labels[Ix(one.label)].readings;
+  const LabelReading& chosen = readings[one.chosen];
+  for (std::size_t r = 0; r < one.markers.size(); ++r) {
+    const bool is_mirrored = readings[r].landmark == chosen.landmark &&
+                             readings[r].side != chosen.side && chosen.side != BodySide::kNone;
+    if (is_mirrored && one.markers[r] >= 0) return r;
+  }
+  return one.chosen;
+}
+
+void NameJudge::ExchangeSides(double height) {
+  const std::vector<Hypothesis> places = places_;
+  const std::vector<Posture> postures = postures_;
+  const std::vector<Matrix3Xd> p_WM = p_WM_;
+  const double distance = MeanDistance();
+  for (Hypothesis& one : places_) one.chosen = MirroredReading(one);
+  Pose(height);
+  const double exchanged = MeanDistance();
+  if (exchanged > kExchangedShare * distance) {
+    places_ = places;
+    postures_ = postures;
+    p_WM_ = p_WM;
+    return;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].chosen == places_[i].chosen) continue;
+    NamedLabel& label = named_.labels[Ix(places[i].label)];
+    label.is_contradicted = true;
+    label.note = fmt::format(
+        "left and right are exchanged, or coordinates mirrored: {:.0f} mm from the model, "
+        "exchanged {:.0f}",
+        kMillimetres * distance, kMillimetres * exchanged);
+  }
 }
 
 bool NameJudge::Reconsider() {

@@ -323,5 +323,27 @@ TEST_F(NamedPersons, HaveTheJointsThatKitsNamesGive) {
   }
 }
 
+// Clusters would take up what exchanged sides do to the other labels.
+TEST_F(NamedPersons, WhoseLegsHaveExchangedSidesAreContradicted) {
+  Vocabulary vocabulary = Vocabularies()[3];
+  vocabulary.labels["%THI"] = "%thigh1_study";
+  vocabulary.labels["%TIP"] = "%sh1_study";
+  for (const bool are_exchanged : {false, true}) {
+    if (are_exchanged) std::swap(vocabulary.left, vocabulary.right);
+    std::vector<std::string> kit;
+    const MarkerSequence legs = Rename(Record(12), vocabulary, BodyPart::kLegs, &kit);
+    const NamedMarkers named =
+        UnderstandLabels(LabelsOf(legs), legs, reference_, table_, {joints_, true});
+    const auto contradicted =
+        std::count_if(named.labels.begin(), named.labels.end(),
+                      [](const NamedLabel& one) { return one.is_contradicted; });
+    if (are_exchanged) {
+      EXPECT_GT(2 * contradicted, static_cast<std::ptrdiff_t>(named.labels.size()));
+    } else {
+      EXPECT_EQ(contradicted, 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mmm_converter
