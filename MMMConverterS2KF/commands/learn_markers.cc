@@ -29,12 +29,12 @@ const OptionGroup kLearnMarkersFiles = {
      {"summary", "FILE", "write a summary as JSON", ""}}};
 
 constexpr const char* kLearnMarkersUsage = R"(MMMConverterS2KF learn-markers RECORDING... [options]
-Learns a laboratory's marker set from recordings whose labels are consistent, but whose meaning is
-not known: on which segment each marker is worn, and where on it, by how it moves. The result is a
-marker set for --marker-set of convert, calibrate and batch, and for people to read and change.
-Usual names (LASI, R.Knee.Lateral) count where the movement leaves a choice. Markers of which this
-is not sure and points that are computed from others are left out; the file says which and why. The
-more the joints move in the recordings, the surer it is.
+Learns a laboratory's marker set from recordings whose labels are consistent: on which segment each
+marker is worn, and where on it, by its name where that is a landmark's (LASI, R.Knee.Lateral) and
+the body does not contradict it, else by how it moves. The result is a marker set for --marker-set
+of convert, calibrate and batch, and for people to read and change. Markers of which this is not
+sure and points that are computed from others are left out; the file says which and why. The more
+the joints move in the recordings, the surer it is.
 
 {}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
 for each recording in the same order.

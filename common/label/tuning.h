@@ -302,8 +302,7 @@ struct LearnPlaceTuning {
   static constexpr double kMostOfNear = 9;
   static constexpr double kLeastRadius = 0.04, kMargin = 0.025;  ///< [m] of a site about its bones
   static constexpr double kUnlikeOtherSide = 4;                  ///< where the other side has fewer
-  static constexpr double kNamedElsewhere = 4;  ///< of 50 usual names one is worn elsewhere
-  static constexpr double kRigidWeight = 4;     ///< of distances that are not kept
+  static constexpr double kRigidWeight = 4;                      ///< of distances that are not kept
   static constexpr double kRigidUsual = 0.004;  ///< [m] deviation of those that are
   static constexpr double kRigidMost = 0.1;     ///< [m] beyond, all are alike
   static constexpr double kWeight = 1.5;        ///< of a frame's three coordinates
@@ -311,6 +310,18 @@ struct LearnPlaceTuning {
   static constexpr double kTrimmed = 0.9;     ///< of the frames, the nearest ones: others are wrong
   static constexpr int kFewestSeen = 5;       ///< frames of a label that has a place
   static constexpr double kImpossible = 1e6;  ///< cost of a site that is not tried
+};
+
+/// What names count (FindNamedPlaces, LearnedPlaces).
+// Tests: NamedPlacesTest, LearnMarkersTest.
+struct NamedTuning {
+  static constexpr int kFewest = 6;                  ///< labels that are understood
+  static constexpr double kMostContradicted = 0.34;  ///< of these, else no name is believed
+  static constexpr double kFewestOfAll = 0.25;       ///< of the labels, that tell the body alone
+  static constexpr double kDeviation = 0.028;        ///< [m] of each axis, at noise scale 1
+  static constexpr double kReachOfJoints = 0.07;     ///< [m]: across a joint is as good as on it
+  static constexpr double kNextToNamed = 4;          ///< cost there
+  static constexpr double kElsewhere = 12;           ///< cost anywhere else
 };
 
 /// The postures of these (LearnedPlaces).
@@ -338,17 +349,31 @@ struct LearnTuning {
   static constexpr double kLeastGain = 0.5;             ///< of a move
   static constexpr double kHopeless = 60;               ///< more cost of a label: not tried
   static constexpr double kMostLead = 60;               ///< exp(-60) of doubt is none
+  static constexpr double kWorseStart = 80;             ///< cost by which one counts less, 1/e
   static constexpr double kAngleWeight = 0.05;          ///< [1/rad] of the frame that is shown
+};
+
+/// How sure a site is: a logistic curve, fitted to made persons of two seeds.
+// Tests: LearnMarkersTest.
+struct SurenessTuning {
+  static constexpr double kOffset = -1;
+  static constexpr double kLead = 1;              ///< cost that is one in the log of the odds
+  static constexpr double kUsualScatter = 0.012;  ///< [m]
+  static constexpr double kScatter = 0.005;       ///< [m] beyond, the same
+  static constexpr double kWholeBody = 0.6;       ///< of the sites; fewer are a part of one
+  static constexpr double kPartOfBody = 0.25;     ///< that one without names is the one it seems
 };
 
 /// What is left out (LeaveOutDoubtful).
 // Tests: LearnedPlacesTest, LearnMarkersTest.
 struct DoubtTuning {
-  static constexpr double kSure = 0.9;       ///< probability of a site that is believed
-  static constexpr double kClearly = 1;      ///< of cost, by which another place is likelier
-  static constexpr double kFarBetter = 3;    ///< times as well, that distances are kept
-  static constexpr double kRigidly = 0.004;  ///< [m] deviation of a distance that is kept
-  static constexpr double kOutside = 0.03;   ///< [m] of a site: too far
+  static constexpr double kSure = 0.9;          ///< probability of a site that is believed
+  static constexpr double kClearly = 1;         ///< of cost, by which another place is likelier
+  static constexpr double kFarBetter = 3;       ///< times as well, that distances are kept
+  static constexpr double kRigidly = 0.004;     ///< [m] deviation of a distance that is kept
+  static constexpr double kOutside = 0.03;      ///< [m] of a site: too far
+  static constexpr double kLongestWand = 0.15;  ///< [m] the same, of what keeps its distances
+  static constexpr double kMostScatter = 0.04;  ///< [m] about a place, each coordinate
 };
 
 /// Points that are no markers (WhyNoMarkers).

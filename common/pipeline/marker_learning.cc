@@ -60,10 +60,11 @@ LearnReport RunLearning(const LearnRequest& request,
   MatchModel(request.inputs.front(), &report.inputs.front(), &choice.config);
   const Input& first = report.inputs.front();
   report.person = FindWearer(request, first, choice.config, warnings);
-  const KinematicModel scaled =
-      ScaleModel(*first.reference, ScalingOf(report.person, choice.config));
+  const PersonScaling scaling = ScalingOf(report.person, choice.config);
+  const auto scale = [&](const KinematicModel& model) { return ScaleModel(model, scaling); };
   report.learned =
-      LearnMarkers(scaled, ResolveJoints(choice.config, *first.reference), recordings, progress);
+      LearnMarkers({*first.reference, scale, ResolveJoints(choice.config, *first.reference)},
+                   recordings, progress);
   for (const std::string& warning : report.learned.warnings) warnings->Add(warning);
   return report;
 }

@@ -158,6 +158,33 @@ double BodySites::DistanceFromJoints(int site, const Vector3d& p_SM) const {
   return nearest;
 }
 
+std::pair<int, Vector3d> BodySites::OnSite(int node, const Vector3d& p_SM) const {
+  const Vector3d p_WM = X_WS_[node] * p_SM;
+  for (int link = LinkOf(model_, joints_, node);;
+       link = LinkOf(model_, joints_, model_.segments()[link].parent)) {
+    for (int s = 0; s < static_cast<int>(sites_.size()); ++s) {
+      const int segment = sites_[s].segment;
+      if (LinkOf(model_, joints_, segment) == link) return {s, X_WS_[segment].inverse() * p_WM};
+    }
+    if (link == 0) return {-1, p_SM};
+  }
+}
+
+std::pair<int, Vector3d> BodySites::Mirrored(int site, const Vector3d& p_SM) const {
+  const int other = sites_[site].mirror >= 0 ? sites_[site].mirror : site;
+  Vector3d p_WM = X_WS_[sites_[site].segment] * p_SM;
+  p_WM.x() = -p_WM.x();
+  return {other, X_WS_[sites_[other].segment].inverse() * p_WM};
+}
+
+bool BodySites::IsAtJointBetween(int site, int other, const Vector3d& p_SM, double reach) const {
+  const bool is_below = sites_[other].parent == site;
+  if (!is_below && sites_[site].parent != other) return false;
+  const int lower = is_below ? other : site;
+  const Vector3d joint_W = X_WS_[LinkOf(model_, joints_, sites_[lower].segment)].translation();
+  return (X_WS_[sites_[site].segment] * p_SM - joint_W).norm() < reach;
+}
+
 std::pair<int, Vector3d> BodySites::OnUsualNode(int site, const Vector3d& p_SM) const {
   const BodySite& at = sites_[site];
   std::size_t nearest = 0;

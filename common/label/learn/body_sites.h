@@ -50,6 +50,14 @@ class BodySites {
   /// Distance from the nearest joint at the end of a bone [m].
   double DistanceFromJoints(int site, const Eigen::Vector3d& p_SM) const;
 
+  /// The site that carries a node, and a place of the node in its axes; -1: none does.
+  std::pair<int, Eigen::Vector3d> OnSite(int node, const Eigen::Vector3d& p_SM) const;
+  /// The site of the other side and the place there that mirrors a place, where left is -x in the
+  /// model's zero posture.
+  std::pair<int, Eigen::Vector3d> Mirrored(int site, const Eigen::Vector3d& p_SM) const;
+  /// Whether a place is near the joint between two sites.
+  bool IsAtJointBetween(int site, int other, const Eigen::Vector3d& p_SM, double reach) const;
+
   /// The place in axes of the node that the model has its nearest marker of the site on.
   std::pair<int, Eigen::Vector3d> OnUsualNode(int site, const Eigen::Vector3d& p_SM) const;
 

@@ -9,6 +9,7 @@
 #include "common/label/learn/marker_names.h"
 #include "common/label/tuning.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -29,21 +30,26 @@ std::string DoubtOf(const LearnEvidence& evidence, int label, double probability
   };
   const double own = deviation_from(site).value_or(DoubtTuning::kRigidly);
   const auto prior = learned.prior_costs().row(label);
-  const auto named = evidence.named.row(label);
+  const bool is_named = evidence.named[label].site == site;
   int usual = site;
   for (const int other : evidence.sites.Neighbours(site)) {
     const auto others = deviation_from(other);
     const bool is_far_better =
         others && (own < DoubtTuning::kRigidly) && (*others > DoubtTuning::kFarBetter * own);
-    const bool is_named = named[site] > 0 && named[other] < 0;
     if (!is_far_better && !is_named &&
         prior[other] < std::min(prior[site] - DoubtTuning::kClearly, prior[usual])) {
       usual = other;
     }
   }
-  if (own > DoubtTuning::kRigidly &&
-      learned.DistanceBeyond(site, learned.places()[label].p_SM) > DoubtTuning::kOutside) {
+  const WornPlace& worn = learned.places()[label];
+  const bool is_rigid = own < DoubtTuning::kRigidly;
+  if (learned.DistanceBeyond(site, worn.p_SM) >
+      (is_rigid ? DoubtTuning::kLongestWand : DoubtTuning::kOutside)) {
     return fmt::format("moves like {}, but too far from it", NameOfSite(evidence, site));
+  }
+  if (worn.scatter > DoubtTuning::kMostScatter) {
+    return fmt::format("moves by {:.0f} mm on {}", kMillimetres * worn.scatter,
+                       NameOfSite(evidence, site));
   }
   if (usual != site) {
     return fmt::format("moves like {}, but is where {} has its markers", NameOfSite(evidence, site),
@@ -95,7 +101,7 @@ void CheckNamedParts(const LearnEvidence& evidence, LearnedMarkers* result) {
     const int site = evidence.learned.places()[l].site;
     const LearnedMarker& marker = result->markers[l];
     if (site < 0 || !marker.left_out.empty()) continue;
-    if (evidence.named(static_cast<Eigen::Index>(l), site) < 0) {
+    if (evidence.named[l].site >= 0 && evidence.named[l].site != site) {
       contradicted.push_back(fmt::format("{} ({})", marker.label, marker.segment));
     }
   }

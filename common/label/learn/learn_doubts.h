@@ -17,7 +17,7 @@ struct LearnEvidence {
   const LearnedPlaces& learned;
   const Eigen::MatrixXd& deviations;      ///< DistanceDeviations
   const std::vector<std::string>& names;  ///< labels
-  const Eigen::MatrixXi& named;           ///< WhatNamesSay
+  const std::vector<NamedPlace>& named;   ///< by label
 };
 
 /// Leaves out, with the reason, those of which what is known is not enough, and warns where names

@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
+#include <tuple>
 
 #include "common/label/learn/body_sites.h"
 #include "common/label/learn/computed_points.h"
 #include "common/label/learn/learn_doubts.h"
 #include "common/label/learn/learn_frames.h"
 #include "common/label/learn/learned_places.h"
-#include "common/label/learn/usual_names.h"
+#include "common/label/learn/named_places.h"
 #include "common/label/search/body_search.h"
 #include "common/label/tuning.h"
 #include "common/support/error.h"
@@ -86,33 +88,87 @@ class AnyBodySearch {
   BodySearch own_, other_;
 };
 
-/// The best of what comes of the body as it is found in several frames.
-std::unique_ptr<LearnedPlaces> LearnFromStarts(const BodySites& sites,
-                                               const std::vector<LearnFrame>& frames,
-                                               const MatrixXd& deviations,
-                                               const Eigen::MatrixXi& named,
-                                               const std::function<void(int, int)>& progress) {
+/// Whether names alone tell how the body stands.
+bool TellTheBody(const std::vector<NamedPlace>& named, std::ptrdiff_t markers) {
+  const auto placed = std::count_if(named.begin(), named.end(),
+                                    [](const NamedPlace& one) { return one.is_at_place; });
+  return placed >= NamedTuning::kFewest &&
+         static_cast<double>(placed) >= NamedTuning::kFewestOfAll * static_cast<double>(markers);
+}
+
+void IterateFromStart(LearnedPlaces* learned) {
+  for (const double independent : LearnTuning::kIndependent) {
+    learned->Iterate(LearnTuning::kTurnsOfEach, independent);
+  }
+}
+
+/// The best of several starts, and by label how far the others agree with it, as they are good.
+class Starts {
+ public:
+  void Add(std::unique_ptr<LearnedPlaces> learned) {
+    IterateFromStart(learned.get());
+    costs_.push_back(learned->cost());
+    sites_.push_back(learned->SitesOfLabels());
+    if (!best_ || learned->cost() < best_->cost()) best_ = std::move(learned);
+  }
+
+  const LearnedPlaces* best() const { return best_.get(); }
+  std::unique_ptr<LearnedPlaces> TakeBest() { return std::move(best_); }
+
+  /// The share of the starts that have a label on a site; the worse a start, the less it counts.
+  double Agreement(int label, int site) const {
+    const double least = *std::min_element(costs_.begin(), costs_.end());
+    double same = 0, all = 0;
+    for (std::size_t i = 0; i < costs_.size(); ++i) {
+      const double weight = std::exp((least - costs_[i]) / LearnTuning::kWorseStart);
+      all += weight;
+      if (sites_[i][static_cast<std::size_t>(label)] == site) same += weight;
+    }
+    return same / all;
+  }
+
+ private:
+  std::vector<double> costs_;
+  std::vector<std::vector<int>> sites_;
+  std::unique_ptr<LearnedPlaces> best_;
+};
+
+/// From the body as it is found in several frames, and the best of these mirrored.
+void StartFromSearches(const LearnedPlaces& blank, const BodySites& sites,
+                       const std::function<void(int, int)>& progress, Starts* starts) {
   AnyBodySearch search(sites);
-  std::unique_ptr<LearnedPlaces> best;
+  const std::vector<LearnFrame>& frames = blank.frames();
   for (int i = 0; i < LearnTuning::kSearched; ++i) {
     const auto k = static_cast<int>((2 * i + 1) * frames.size() / (2 * LearnTuning::kSearched));
     const Matrix3Xd points = SeenPoints(frames[k]);
     if (points.cols() < BodyLimits::kFewestMarkers) continue;
-    auto learned = std::make_unique<LearnedPlaces>(sites, frames, deviations, named);
+    auto learned = std::make_unique<LearnedPlaces>(blank);
     learned->Start(k, search.Find(points));
-    for (const double independent : LearnTuning::kIndependent) {
-      learned->Iterate(LearnTuning::kTurnsOfEach, independent);
-    }
-    if (!best || learned->cost() < best->cost()) best = std::move(learned);
+    starts->Add(std::move(learned));
     if (progress) progress(i + 1, LearnTuning::kSearched + 1);
   }
-  if (!best) {
+  if (starts->best() == nullptr) {
     throw Error(fmt::format("no frame shows {} labels, so that nobody is found",
                             BodyLimits::kFewestMarkers));
   }
-  best->Iterate(LearnTuning::kTurnsAtLast, LearnTuning::kIndependent.back());
-  best->AllowForSkinAtJoints();
-  return best;
+  std::vector<WornPlace> mirrored = starts->best()->places();
+  for (WornPlace& worn : mirrored) {
+    if (worn.site >= 0) std::tie(worn.site, worn.p_SM) = sites.Mirrored(worn.site, worn.p_SM);
+  }
+  auto learned = std::make_unique<LearnedPlaces>(blank);
+  learned->Start(mirrored);
+  starts->Add(std::move(learned));
+}
+
+void StartFromNames(const LearnedPlaces& blank, const std::vector<NamedPlace>& named,
+                    Starts* starts) {
+  std::vector<WornPlace> places(named.size());
+  for (std::size_t l = 0; l < named.size(); ++l) {
+    if (named[l].is_at_place) places[l] = {named[l].site, named[l].p_SM, named[l].deviation, 0};
+  }
+  auto learned = std::make_unique<LearnedPlaces>(blank);
+  learned->Start(places);
+  starts->Add(std::move(learned));
 }
 
 /// Moves labels to sites nearby as long as that is better, and tells how much worse the next best
@@ -200,9 +256,90 @@ void ShowOneFrame(const LearnedPlaces& learned, LearnedMarkers* result) {
   }
 }
 
+/// The probability of the site of a label, if the body stands as it was found. lead: how much less
+/// that costs than the next best site.
+double SurenessOf(const WornPlace& worn, double lead) {
+  const double excess = std::max(0.0, worn.scatter - SurenessTuning::kUsualScatter);
+  return 1 / (1 + std::exp(-SurenessTuning::kOffset - lead / SurenessTuning::kLead +
+                           excess / SurenessTuning::kScatter));
+}
+
+/// The share of a body's sites that wear labels.
+double WornShare(const std::vector<int>& sites_of_labels, std::size_t sites) {
+  std::set<int> worn(sites_of_labels.begin(), sites_of_labels.end());
+  worn.erase(-1);
+  return static_cast<double>(worn.size()) / static_cast<double>(sites);
+}
+
+/// What is known before places are learnt.
+struct Known {
+  std::vector<std::string> labels;
+  std::vector<std::string> computed;  ///< WhyNoMarkers
+  std::vector<NamedPlace> named;
+  MatrixXd deviations;
+};
+
+void CheckAreEnough(const std::vector<std::string>& computed) {
+  const auto count = std::count(computed.begin(), computed.end(), "");
+  if (count < BodyLimits::kFewestMarkers) {
+    throw Error(fmt::format("{} markers are too few to find a body; at least {} are needed", count,
+                            BodyLimits::kFewestMarkers));
+  }
+}
+
+LearnedMarkers LearnOnFrames(const Known& known, const BodySites& sites,
+                             std::vector<LearnFrame> frames,
+                             const std::function<void(int, int)>& progress) {
+  LearnedMarkers result;
+  result.frames = static_cast<int>(frames.size());
+  const LearnedPlaces blank(sites, std::move(frames), known.deviations, known.named);
+  Starts starts;
+  const auto markers = std::count(known.computed.begin(), known.computed.end(), "");
+  const bool are_named = TellTheBody(known.named, markers);
+  if (are_named) {
+    StartFromNames(blank, known.named, &starts);
+  } else {
+    StartFromSearches(blank, sites, progress, &starts);
+  }
+  auto best = starts.TakeBest();
+  best->Iterate(LearnTuning::kTurnsAtLast, LearnTuning::kIndependent.back());
+  best->AllowForSkinAtJoints();
+  Mover mover(sites, known.deviations, std::move(best));
+  mover.Run();
+  const LearnedPlaces& learned = mover.learned();
+  double whole = 1;  // the probability that the body stands as it was found
+  if (!are_named &&
+      WornShare(learned.SitesOfLabels(), sites.sites().size()) < SurenessTuning::kWholeBody) {
+    whole = SurenessTuning::kPartOfBody;
+    result.warnings.emplace_back(
+        "labels are worn on a part of a body, and no names tell on which: legs look like arms; "
+        "give them usual names, or more of the body");
+  }
+  result.mean_distance = learned.mean_distance();
+  for (std::size_t l = 0; l < known.labels.size(); ++l) {
+    const WornPlace& worn = learned.places()[l];
+    LearnedMarker& marker = result.markers.emplace_back();
+    marker.label = known.labels[l];
+    marker.left_out = known.computed[l];
+    if (worn.site < 0) {
+      if (marker.left_out.empty()) marker.left_out = "hardly seen";
+      continue;
+    }
+    const auto [node, p_SM] = sites.OnUsualNode(worn.site, worn.p_SM);
+    marker.segment = sites.model().segments()[node].name;
+    marker.p_SM = p_SM;
+    marker.scatter = worn.scatter;
+    marker.probability = SurenessOf(worn, std::min(mover.leads()[l], worn.lead)) *
+                         starts.Agreement(static_cast<int>(l), worn.site) * whole;
+  }
+  LeaveOutDoubtful({sites, learned, known.deviations, known.labels, known.named}, &result);
+  ShowOneFrame(learned, &result);
+  return result;
+}
+
 }  // namespace
 
-LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>& joints,
+LearnedMarkers LearnMarkers(const Wearer& wearer,
                             const std::vector<const MarkerSequence*>& recordings,
                             const std::function<void(int, int)>& progress) {
   const CommonLabels labels = FindCommonLabels(recordings);
@@ -213,37 +350,16 @@ LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>&
   std::vector<LearnFrame> frames = ChooseLearnFrames(recordings, labels);
   const std::vector<std::string> computed = WhyNoMarkers(labels.names, frames);
   LeaveOut(computed, &frames);
-  const auto count = std::count(computed.begin(), computed.end(), "");
-  if (count < BodyLimits::kFewestMarkers) {
-    throw Error(fmt::format("{} markers are too few to find a body; at least {} are needed", count,
-                            BodyLimits::kFewestMarkers));
-  }
-  const BodySites sites(model, joints);
-  const Eigen::MatrixXi named = WhatNamesSay(labels.names, sites);
+  CheckAreEnough(computed);
+  const KinematicModel model = wearer.scale(wearer.reference);
+  const BodySites sites(model, wearer.joints);
+  NamedPlaces named =
+      FindNamedPlaces(labels.names, recordings, {wearer.reference, sites, wearer.scale});
   const MatrixXd deviations = DistanceDeviations(frames);
-  Mover mover(sites, deviations, LearnFromStarts(sites, frames, deviations, named, progress));
-  mover.Run();
-  const LearnedPlaces& learned = mover.learned();
-  LearnedMarkers result;
-  result.mean_distance = learned.mean_distance();
-  result.frames = static_cast<int>(frames.size());
-  for (std::size_t l = 0; l < labels.names.size(); ++l) {
-    const WornPlace& worn = learned.places()[l];
-    LearnedMarker& marker = result.markers.emplace_back();
-    marker.label = labels.names[l];
-    marker.left_out = computed[l];
-    if (worn.site < 0) {
-      if (marker.left_out.empty()) marker.left_out = "hardly seen";
-      continue;
-    }
-    const auto [node, p_SM] = sites.OnUsualNode(worn.site, worn.p_SM);
-    marker.segment = model.segments()[node].name;
-    marker.p_SM = p_SM;
-    marker.scatter = worn.scatter;
-    marker.probability = 1 / (1 + std::exp(-std::min(mover.leads()[l], worn.lead)));
-  }
-  LeaveOutDoubtful({sites, learned, deviations, labels.names, named}, &result);
-  ShowOneFrame(learned, &result);
+  LearnedMarkers result =
+      LearnOnFrames({labels.names, computed, std::move(named.labels), deviations}, sites,
+                    std::move(frames), progress);
+  result.warnings.insert(result.warnings.begin(), named.warnings.begin(), named.warnings.end());
   if (progress) progress(LearnTuning::kSearched + 1, LearnTuning::kSearched + 1);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/label/learn/named_places.h"
 #include "common/model/kinematic_model.h"
 #include "common/model/posture.h"
 #include "common/motion/marker_sequence.h"
@@ -30,12 +31,20 @@ struct LearnedMarkers {
   std::vector<std::string> warnings;   ///< of names that contradict what is seen
 };
 
-/// Learns where a person wears markers whose labels mean nothing yet, or are usual ones, which
-/// count where what is seen leaves a choice. Points that are computed from others are told apart.
-/// model: of the person's size, with its own markers; joints: tracked. Labels are the same thing in
-/// all recordings. progress(done, all) may be empty.
+/// Who wears the markers.
+struct Wearer {
+  const KinematicModel& reference;  ///< of 1 m
+  /// The reference, its markers or others, of the person's size.
+  std::function<KinematicModel(const KinematicModel&)> scale;
+  std::vector<int> joints;  ///< tracked
+};
+
+/// Learns where a person wears markers: from the places that their names say (FindNamedPlaces),
+/// which the body may contradict; of labels that mean nothing by how they move. Points that are
+/// computed from others are told apart. Labels are the same thing in all recordings.
+/// progress(done, all) may be empty.
 /// @throws Error where there are fewer than ten markers, more than a thousand labels, or nobody.
-LearnedMarkers LearnMarkers(const KinematicModel& model, const std::vector<int>& joints,
+LearnedMarkers LearnMarkers(const Wearer& wearer,
                             const std::vector<const MarkerSequence*>& recordings,
                             const std::function<void(int, int)>& progress);
 

@@ -43,7 +43,7 @@ std::pair<Vector3d, double> MiddleAndScatter(const Matrix3Xd& p) {
 }  // namespace
 
 LearnedPlaces::LearnedPlaces(const BodySites& sites, std::vector<LearnFrame> frames,
-                             Eigen::MatrixXd deviations, Eigen::MatrixXi named)
+                             Eigen::MatrixXd deviations, std::vector<NamedPlace> named)
     : sites_(sites),
       frames_(std::move(frames)),
       places_(static_cast<std::size_t>(deviations.rows())),
@@ -72,6 +72,22 @@ void LearnedPlaces::Start(int frame, const Posture& posture) {
   for (LearnFrame& one : frames_) one.posture = Posture();
   start_ = frame;
   frames_[frame].posture = posture;
+  ChoosePlaces();
+}
+
+void LearnedPlaces::Start(const std::vector<WornPlace>& places) {
+  for (LearnFrame& one : frames_) one.posture = Posture();
+  places_ = places;
+  Eigen::Index most = -1;
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    Eigen::Index seen = 0;
+    for (std::size_t l = 0; l < places_.size(); ++l) {
+      seen += places_[l].site >= 0 && frames_[k].z.col(static_cast<Eigen::Index>(l)).allFinite();
+    }
+    if (seen > most) start_ = static_cast<int>(k);
+    most = std::max(most, seen);
+  }
+  FitPostures();
   ChoosePlaces();
 }
 
@@ -125,11 +141,23 @@ double LearnedPlaces::DistanceBeyond(int site, const Vector3d& p_SM) const {
   return std::max(0.0, sites_.DistanceFromBones(site, p_SM) - radii_[site]);
 }
 
-double LearnedPlaces::PriorCost(int site, const Vector3d& p_SM) const {
+double LearnedPlaces::PriorCost(int label, int site, const Vector3d& p_SM) const {
   const double beyond = DistanceBeyond(site, p_SM) / LearnPlaceTuning::kBeyond;
-  const double near = sites_.DistanceFromMarkers(site, p_SM) / LearnPlaceTuning::kNear;
+  const NamedPlace& named = named_[static_cast<std::size_t>(label)];
+  const double near =
+      named.is_at_place && named.site == site
+          ? (p_SM - named.p_SM).norm() / std::max(named.deviation, LearnPlaceTuning::kNear)
+          : sites_.DistanceFromMarkers(site, p_SM) / LearnPlaceTuning::kNear;
   return std::min(beyond * beyond / 2, LearnPlaceTuning::kMostOfBeyond) +
          std::min(near * near / 2, LearnPlaceTuning::kMostOfNear);
+}
+
+double LearnedPlaces::CostOfOtherThanNamed(int label, int site) const {
+  const NamedPlace& named = named_[static_cast<std::size_t>(label)];
+  if (named.site < 0 || named.site == site) return 0;
+  const bool is_next = named.is_at_place && sites_.IsAtJointBetween(named.site, site, named.p_SM,
+                                                                    NamedTuning::kReachOfJoints);
+  return is_next ? NamedTuning::kNextToNamed : NamedTuning::kElsewhere;
 }
 
 std::unique_ptr<LearnedPlaces> LearnedPlaces::Moved(const std::vector<int>& labels, int site,
@@ -187,10 +215,9 @@ void LearnedPlaces::ChoosePlaces() {
         p.col(static_cast<Eigen::Index>(i)) = X_SW[seen[i]][s] * frames_[seen[i]].z.col(l);
       }
       const auto [middle, scatter] = MiddleAndScatter(p);
-      double cost = weight * std::log1p(std::pow(scatter / skin_[l], 2)) + PriorCost(s, middle) +
-                    strangeness(l, s);
-      prior_costs_(l, s) = PriorCost(s, middle);
-      if (named_(l, s) < 0) cost += LearnPlaceTuning::kNamedElsewhere;
+      double cost = weight * std::log1p(std::pow(scatter / skin_[l], 2)) + PriorCost(l, s, middle) +
+                    strangeness(l, s) + CostOfOtherThanNamed(l, s);
+      prior_costs_(l, s) = PriorCost(l, s, middle);
       if (s == before) cost -= LearnPlaceTuning::kStays;
       costs_(l, s) = cost;
       if (worn.site < 0 || cost < costs_(l, worn.site)) {

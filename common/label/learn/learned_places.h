@@ -8,6 +8,7 @@
 #include "common/fit/posture_fit.h"
 #include "common/label/learn/body_sites.h"
 #include "common/label/learn/learn_frames.h"
+#include "common/label/learn/named_places.h"
 
 namespace mmm_converter {
 
@@ -24,12 +25,14 @@ struct WornPlace {
 class LearnedPlaces {
  public:
   /// sites must outlive it. deviations: labels x labels, of their distances over the frames [m].
-  /// named: labels x sites, what names say (WhatNamesSay).
+  /// named: by label, what names say.
   LearnedPlaces(const BodySites& sites, std::vector<LearnFrame> frames, Eigen::MatrixXd deviations,
-                Eigen::MatrixXi named);
+                std::vector<NamedPlace> named);
 
   /// Starts over with the body that was found in one frame.
   void Start(int frame, const Posture& posture);
+  /// Starts over with the body as it wears the labels there; those without site are not used.
+  void Start(const std::vector<WornPlace>& places);
   /// Postures, then places, so often.
   /// independent: frames that count each for itself, at most.
   void Iterate(int times, double independent);
@@ -61,7 +64,9 @@ class LearnedPlaces {
  private:
   /// What it costs that a label keeps no distance from those of a site, labels x sites.
   Eigen::MatrixXd Strangeness() const;
-  double PriorCost(int site, const Eigen::Vector3d& p_SM) const;
+  double PriorCost(int label, int site, const Eigen::Vector3d& p_SM) const;
+  /// What it costs that a label is on a site although its name says another one.
+  double CostOfOtherThanNamed(int label, int site) const;
   void FitPostures();
   void ChoosePlaces();
   std::unique_ptr<const MarkerKinematics> MakeKinematics(KinematicModel* model) const;
@@ -72,7 +77,7 @@ class LearnedPlaces {
   std::vector<int> held_;  // by label: the only site that it may be on; -1: any
   bool is_searching_ = true;
   Eigen::MatrixXd deviations_;
-  Eigen::MatrixXi named_;
+  std::vector<NamedPlace> named_;
   Eigen::MatrixXd costs_, prior_costs_;
   Eigen::VectorXd skin_;   // by label, each coordinate [m]
   Eigen::VectorXd radii_;  // of sites [m]

@@ -9,9 +9,11 @@
 #include <numeric>
 
 #include "common/convert/converter_config.h"
+#include "common/io/mmm/mmm_model.h"
 #include "common/io/recording/recording.h"
 #include "common/label/learn/body_sites.h"
 #include "common/math/seeded_random.h"
+#include "common/model/model_scaling.h"
 #include "common/support/error.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
@@ -93,13 +95,21 @@ std::vector<std::string> SegmentsOf(const KinematicModel& model, int labels,
   return segments;
 }
 
+LearnedMarkers Learn(double height, const MarkerSequence& recording) {
+  const KinematicModel reference = ReadMmmModel(SourcePath("xml_config/models/mmm.xml"));
+  const auto scale = [height](const KinematicModel& model) {
+    return ScaleWinter(model, {height, 70, {}});
+  };
+  return LearnMarkers({reference, scale, TrackedJoints(reference)}, {&recording}, {});
+}
+
 SiteScore LearnMadePerson(std::uint64_t seed) {
   const KinematicModel model = ScaledReferenceModel(kWearerHeight);
   const KinematicModel person = FitToSubject(model, DrawPerson(model, seed));
   const MarkerSequence recorded = RecordPerson(person, RangeOfMotion(model, 6, 0.6, seed), seed);
   const Renamed renamed = Rename(recorded, seed);
   const std::vector<int> joints = TrackedJoints(model);
-  const LearnedMarkers learned = LearnMarkers(model, joints, {&renamed.recording}, {});
+  const LearnedMarkers learned = Learn(kWearerHeight, renamed.recording);
   return ScoreOf(model, joints, learned, renamed,
                  SegmentsOf(model, recorded.num_labels(), AssignAll(model, recorded)));
 }
@@ -121,7 +131,7 @@ SiteScore LearnReal(const std::string& file, double height) {
   const auto reference = std::make_shared<const KinematicModel>(model);
   const TrackingSetup setup = MatchMarkers(LabelsOf(recording.markers), reference, config);
   const Renamed renamed = Rename(recording.markers, 5);
-  const LearnedMarkers learned = LearnMarkers(model, setup.joints, {&renamed.recording}, {});
+  const LearnedMarkers learned = Learn(height, renamed.recording);
   return ScoreOf(model, setup.joints, learned, renamed,
                  SegmentsOf(model, recording.markers.num_labels(), setup.assignments()));
 }
@@ -140,18 +150,64 @@ TEST(LearnMarkersRealFilesTest, PluginGait) {
   EXPECT_GE(score.right, 35);
 }
 
-TEST(LearnMarkersTest, TooFewLabels) {
+/// The legs' markers under Plug-in Gait's names, in twelve equal frames.
+MarkerSequence StandingLegs(const MarkerSequence& recorded, std::vector<int>* columns) {
+  std::vector<std::string> labels;
+  for (const char* name : {"LASI", "RASI", "LPSI", "RPSI", "LTHI", "RTHI", "LKNE", "RKNE", "LTIP",
+                           "RTIP", "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"}) {
+    columns->push_back(recorded.FindLabel(name));
+    labels.emplace_back(name);
+    if (labels.back().ends_with("TIP")) labels.back().back() = 'B';
+  }
+  MarkerSequence legs(labels, 12, 100, 0);
+  for (int k = 0; k < 12; ++k) legs.frame(k) = recorded.frame(0)(Eigen::all, *columns);
+  return legs;
+}
+
+TEST(LearnMarkersTest, NamedLegsOfOneWhoStandsAreLegs) {
   const KinematicModel model = ScaledReferenceModel(kWearerHeight);
+  const KinematicModel person = FitToSubject(model, DrawPerson(model, 923));
+  const MarkerSequence recorded = RecordPerson(person, RangeOfMotion(model, 1, 0.1, 923), 923);
+  Renamed legs;
+  legs.recording = StandingLegs(recorded, &legs.from);
+  const LearnedMarkers learned = Learn(kWearerHeight, legs.recording);
+  const SiteScore score =
+      ScoreOf(model, TrackedJoints(model), learned, legs,
+              SegmentsOf(model, recorded.num_labels(), AssignAll(model, recorded)));
+  EXPECT_EQ(score.wrong, 0);
+  EXPECT_GE(score.right, 12);
+}
+
+// One who exchanged all sides: told, and the markers are where the body has them.
+TEST(LearnMarkersTest, ExchangedSidesAreTold) {
+  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
+  const KinematicModel person = FitToSubject(model, DrawPerson(model, 924));
+  const MarkerSequence recorded = RecordPerson(person, RangeOfMotion(model, 2, 0.4, 924), 924);
+  std::vector<std::string> labels = recorded.labels();
+  for (std::string& label : labels) {
+    if (label.starts_with('R')) {
+      label.front() = 'L';
+    } else if (label.starts_with('L') && label != "L3") {
+      label.front() = 'R';
+    }
+  }
+  MarkerSequence exchanged(labels, recorded.num_frames(), recorded.rate(), 0);
+  for (int k = 0; k < recorded.num_frames(); ++k) exchanged.frame(k) = recorded.frame(k);
+  const LearnedMarkers learned = Learn(kWearerHeight, exchanged);
+  const auto told = [](const std::string& text) { return text.find("xchanged") != text.npos; };
+  EXPECT_TRUE(std::any_of(learned.warnings.begin(), learned.warnings.end(), told));
+}
+
+TEST(LearnMarkersTest, TooFewLabels) {
   const MarkerSequence recording({"a", "b", "c"}, 10, 100, 0);
-  EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
+  EXPECT_THROW(Learn(kWearerHeight, recording), Error);
 }
 
 TEST(LearnMarkersTest, NothingIsSeen) {
-  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
   std::vector<std::string> labels;
   for (int i = 0; i < 12; ++i) labels.push_back("m" + std::to_string(i));
   const MarkerSequence recording(labels, 10, 100, 0);
-  EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
+  EXPECT_THROW(Learn(kWearerHeight, recording), Error);
 }
 
 TEST(LearnMarkersTest, TooManyLabelsAreAnErrorAtOnce) {
@@ -159,8 +215,7 @@ TEST(LearnMarkersTest, TooManyLabelsAreAnErrorAtOnce) {
   for (int i = 0; i < 65535; ++i) labels.push_back("m" + std::to_string(i));
   MarkerSequence recording(labels, 1, 100, 0);
   recording.frame(0).setOnes();
-  const KinematicModel model = ScaledReferenceModel(kWearerHeight);
-  EXPECT_THROW(LearnMarkers(model, TrackedJoints(model), {&recording}, {}), Error);
+  EXPECT_THROW(Learn(kWearerHeight, recording), Error);
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ class LearnedPlacesTest : public ::testing::Test {
         sites_(made_.model, made_.setup.joints),
         frames_(ChooseLearnFrames({&made_.recording}, FindCommonLabels({&made_.recording}))),
         deviations_(DistanceDeviations(frames_)),
-        named_(Eigen::MatrixXi::Zero(made_.recording.num_labels(),
-                                     static_cast<Eigen::Index>(sites_.sites().size()))) {}
+        named_(static_cast<std::size_t>(made_.recording.num_labels())) {}
 
   LearnedPlaces Learn() const {
     LearnedPlaces learned(sites_, frames_, deviations_, named_);
@@ -53,7 +52,7 @@ class LearnedPlacesTest : public ::testing::Test {
   BodySites sites_;
   std::vector<LearnFrame> frames_;
   Eigen::MatrixXd deviations_;
-  Eigen::MatrixXi named_;
+  std::vector<NamedPlace> named_;
 };
 
 TEST_F(LearnedPlacesTest, LabelsAreOnTheSitesThatTheyMoveWith) {
@@ -92,9 +91,27 @@ TEST_F(LearnedPlacesTest, ALabelOnAnotherSiteCostsMore) {
 TEST_F(LearnedPlacesTest, WhatANameContradictsCostsMore) {
   const double before = Learn().cost();
   const int site = Learn().places()[0].site;
-  named_.row(0).setConstant(1);
-  named_(0, site) = -1;
+  named_[0].site = site;
+  EXPECT_EQ(Learn().cost(), before);
+  named_[0].site = sites_.sites()[static_cast<std::size_t>(site)].mirror;
+  ASSERT_GE(named_[0].site, 0);
   EXPECT_GT(Learn().cost(), before + 1);
+}
+
+// No posture is given.
+TEST_F(LearnedPlacesTest, PlacesTellHowTheBodyStands) {
+  std::vector<WornPlace> places;
+  for (int l = 0; l < made_.recording.num_labels(); ++l) {
+    const ModelMarker& marker = made_.model.markers()[made_.setup.assignments()[l].marker];
+    const auto [site, p_SM] = sites_.OnSite(marker.segment, marker.p_SM);
+    places.push_back({site, p_SM, 0.028, 0});
+  }
+  LearnedPlaces learned(sites_, frames_, deviations_, named_);
+  learned.Start(places);
+  for (int l = 0; l < made_.recording.num_labels(); ++l) {
+    EXPECT_EQ(learned.places()[static_cast<std::size_t>(l)].site, TrueSite(l)) << l;
+  }
+  EXPECT_LT(learned.mean_distance(), 0.012);
 }
 
 TEST_F(LearnedPlacesTest, LabelsOfTheOtherSideAreDoubted) {
