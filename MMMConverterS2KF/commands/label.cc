@@ -35,7 +35,8 @@ of points without labels, of trajectories that break and go on under another num
 without a name; no measured point is lost. A C3D file keeps its parameters, analog samples and
 events byte for byte.
 
-The names are, of a repair, the recording's own; else those of the markers that a --subject-file
+The names are, of a repair and of a recording whose labels are all known, the recording's own, which
+are changed where they are wrong; else those of the markers that a --subject-file
 knows or that the recording --like has; else, with --height alone, all of the --marker-set, which by
 default is KIT's. A calibrated person is labelled most surely. The verdict (good, check or failed)
 says whether the names can be trusted: whether all were found, and whether the points that have them
@@ -93,7 +94,7 @@ int RunLabel(const Arguments& arguments) {
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatLabelPage(report));
   }
-  std::cout << FormatLabelSummary(report, request.hints.repair);
+  std::cout << FormatLabelSummary(report);
   return 0;
 }
 

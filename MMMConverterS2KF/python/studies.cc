@@ -198,10 +198,8 @@ void BindStudies(py::module_* module) {
   py::class_<LabelledRecording>(*module, "LabelledRecording")
       .def_property_readonly("summary",
                              [](const LabelledRecording& l) { return PythonOf(ToJson(l.report)); })
-      .def_property_readonly("text",
-                             [](const LabelledRecording& l) {
-                               return FormatLabelSummary(l.report, l.request.hints.repair);
-                             })
+      .def_property_readonly(
+          "text", [](const LabelledRecording& l) { return FormatLabelSummary(l.report); })
       .def_property_readonly("warnings",
                              [](const LabelledRecording& l) { return l.report.warnings.texts(); })
       .def_property_readonly("recording", &RecordingOf)

@@ -58,7 +58,8 @@ std::string DescribeWrongMarkers(const ConversionReport& report) {
     text += fmt::format("           and {} shorter ones (all in --summary)\n",
                         incidents.size() - kMostLines);
   }
-  if (!incidents.empty()) text += "           label --repair mends what is wrong in a recording\n";
+  if (!incidents.empty())
+    text += "           label --repair tells which of these are wrong labels, and mends them\n";
   return text;
 }
 

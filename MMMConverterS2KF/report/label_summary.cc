@@ -100,7 +100,7 @@ std::string DescribeLabels(const FoundLabels& found) {
                      unnamed == 1 ? "1 point stays" : fmt::format("{} points stay", unnamed));
 }
 
-std::string FormatLabelSummary(const LabelReport& report, bool is_repair) {
+std::string FormatLabelSummary(const LabelReport& report) {
   const Recording& recording = report.input.recording;
   const MarkerSequence& markers = recording.markers;
   std::string text =
@@ -111,7 +111,7 @@ std::string FormatLabelSummary(const LabelReport& report, bool is_repair) {
   text += fmt::format(
       "names      {}{}\n", DescribeLabels(report.found),
       report.found.setup.marker_set.empty() ? "" : "; marker set " + report.found.setup.marker_set);
-  if (is_repair) text += DescribeChanges(report);
+  if (report.found.is_repair) text += DescribeChanges(report);
   if (std::isfinite(report.mean_distance)) {
     text += fmt::format("distance   mean {:.1f} mm, named points from the person's markers\n",
                         1000 * report.mean_distance);

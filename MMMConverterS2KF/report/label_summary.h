@@ -9,7 +9,7 @@
 namespace mmm_converter {
 
 /// The labels of a recording in a few lines, for people; of a repair also what was changed.
-std::string FormatLabelSummary(const LabelReport& report, bool is_repair);
+std::string FormatLabelSummary(const LabelReport& report);
 
 /// The same as JSON, with every change; README.md says what is in it.
 Json ToJson(const LabelReport& report);

@@ -314,12 +314,17 @@ FoundLabels FindNames(const InputRequest& request, const Input& input,
 FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, const Input& input,
                        const ConverterConfig& config, const std::function<bool(int, int)>& progress,
                        Warnings* warnings) {
+  LabelHints known = hints;
+  if (hints.like.empty() && !hints.has_others()) {
+    known.repair |= AreAllNamed(LabelsOf(input.recording.markers), input, config);
+  }
   if (hints.repair && hints.has_others()) {
     throw Error("labels can be repaired for one person at a time, without objects");
   }
   LabelScene scene;
   LabelOptions options;
-  FoundLabels found = FindNamesAndPerson(request, hints, input, config, &scene, &options, warnings);
+  FoundLabels found = FindNamesAndPerson(request, known, input, config, &scene, &options, warnings);
+  found.is_repair = known.repair;
   const Recording& recording = input.recording;
   found.labelling =
       LabelRecording(scene, found.labelling.names, recording.markers, options, progress);

@@ -19,8 +19,10 @@ namespace mmm_converter {
 
 /// What is known of the names, beside the input's model and person.
 struct LabelHints {
-  std::string like;     ///< a labelled recording of the person; empty: none
-  bool repair = false;  ///< the recording's own labels are right unless the body says otherwise
+  std::string like;  ///< a labelled recording of the person; empty: none
+  /// The recording's own labels are right unless the body says otherwise; so they are without
+  /// other hints where all of them are known (AreAllNamed).
+  bool repair = false;
   std::vector<std::string> other_persons;  ///< their subject files
   std::string object_models;               ///< folder with models of rigid objects; empty: none
   std::set<std::string> taken;             ///< names that can't be given
@@ -40,6 +42,7 @@ struct OtherBody {
 
 /// Whose markers the points of a recording are.
 struct FoundLabels {
+  bool is_repair = false;  ///< of the recording's own labels
   Person person;
   TrackingSetup setup;            ///< of the labelling's names; its model is the person's
   std::string prefix;             ///< of the person's names, as in `anna:`

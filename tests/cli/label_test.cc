@@ -82,6 +82,16 @@ TEST(LabelRealFiles, NamesByAnotherRecordingOfThePerson) {
   ExpectLabelled(output);
 }
 
+// The shipped recording has all its labels; they are right.
+TEST(Label, NamesThatAreThereAndRightStay) {
+  const std::string summary = InFolder("summary.json");
+  const ProgramRun run =
+      RunProgram({"label", Handstand(), "--height", "1.75", "--summary", summary});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("changed    nothing"), HasSubstr("verdict    good")));
+  EXPECT_EQ(nlohmann::json::parse(ReadText(summary)).at("changes").size(), 0);
+}
+
 // Half of a file, by the subject file of somebody else.
 TEST(LabelRealFiles, TheVerdictTellsWhatIsWrong) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();

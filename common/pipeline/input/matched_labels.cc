@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/pipeline/input/matched_labels.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/convert/marker_set.h"
@@ -62,6 +63,28 @@ MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
                    of_names, warnings);
   matched.setup.marker_set = set.name;
   return matched;
+}
+
+bool AreAllNamed(const MarkerLabels& labels, const Input& input, const ConverterConfig& config) {
+  constexpr double kMost = 0.75;
+  int seen = 0;
+  for (std::size_t i = 0; i < labels.names.size(); ++i) {
+    if (!labels.seen.empty() && !labels.seen[i]) continue;
+    if (labels.names[i].empty() || labels.names[i].starts_with('*')) return false;
+    ++seen;
+  }
+  int known = 0;
+  if (config.marker_pairs.empty() && config.marker_set == "auto") {
+    const auto set = FindKnownSet(labels, *input.reference);
+    if (set) known = CountMappedMarkers(*set, labels.names);
+    const NamedMarkers named = ComposeNamedMarkers(labels, *input.reference, ShippedLandmarks());
+    known = std::max(known, named.num_used());
+  } else {
+    MarkerSet set;
+    set.pairs = ResolveMarkerPairs(config, {}, *input.reference, &set.name);
+    known = CountMappedMarkers(set, labels.names);
+  }
+  return seen > 0 && known >= kMost * seen;
 }
 
 TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const ConverterConfig& config,

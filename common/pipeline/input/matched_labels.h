@@ -21,6 +21,10 @@ struct MatchedLabels {
 MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
                           const ConverterConfig& config, Warnings* warnings);
 
+/// Whether every label that is seen is a name (not *12), and the marker set or the landmarks know
+/// most of them.
+bool AreAllNamed(const MarkerLabels& labels, const Input& input, const ConverterConfig& config);
+
 /// The setup of MatchLabels; the input gets the rest.
 TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const ConverterConfig& config,
                           Warnings* warnings);
