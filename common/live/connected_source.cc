@@ -15,6 +15,8 @@ constexpr std::chrono::milliseconds kFirstRetry{500};
 constexpr std::chrono::milliseconds kLongestRetry{8000};
 constexpr std::int64_t kMostLostAtOnce = 1000000;  // else the numbers begin anew
 constexpr std::int64_t kMostLate = 1000;
+// Of a layout: each costs memory in every frame that is kept.
+constexpr std::size_t kMostLabels = 2000;
 
 }  // namespace
 
@@ -78,6 +80,11 @@ void ConnectedSource::ConnectAnew() {
 }
 
 ConnectedSource::Event ConnectedSource::TakeLayout(StreamLayout layout) {
+  if (layout.labels.size() > kMostLabels) {
+    return Lose(fmt::format("it has {} labelled markers, and at most {} are taken",
+                            layout.labels.size(), kMostLabels),
+                "stream those of the person only");
+  }
   const bool is_new = !had_layout_ || layout.labels != layout_.labels ||
                       layout.rate != layout_.rate || layout.source != layout_.source;
   layout_ = std::move(layout);

@@ -51,7 +51,8 @@ class ConnectedSource : public FrameSource {
   /// Ends the connection to begin another at once.
   void ConnectAnew();
 
-  /// kLayout where it is new, unless it is said before the next frame anyway.
+  /// kLayout where it is new, unless it is said before the next frame anyway. One of too many
+  /// labels ends the connection as Lose.
   Event TakeLayout(StreamLayout layout);
   /// FillFrame, where the layout need not be said before.
   Event FrameCame(StreamFrame* frame);

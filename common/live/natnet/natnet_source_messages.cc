@@ -105,6 +105,7 @@ NatNetSource::Event NatNetSource::BeginStreaming() {
       {fmt::format("{} {}.{}, NatNet {}", info_.application, info_.application_version[0],
                    info_.application_version[1], Format(info_.version)),
        columns_.labels(), rate_});
+  if (!is_connected()) return event;
   if (step_ == Step::kModel) {
     step_ = Step::kStreaming;
     limit_ = now() + kFrameLimit;

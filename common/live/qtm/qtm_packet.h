@@ -37,8 +37,8 @@ enum class QtmEvent : std::uint8_t {
 };
 
 inline constexpr std::size_t kQtmHeaderBytes = 8;
-/// Of a packet; what is larger is refused.
-inline constexpr std::size_t kMostQtmBytes = std::size_t{64} << 20;
+/// Of a packet; what is larger is refused. Parameters of some thousand markers have room.
+inline constexpr std::size_t kMostQtmBytes = std::size_t{2} << 20;
 
 /// The minor numbers of the versions 1.x that are spoken here: their 3D data are the same.
 inline constexpr int kOldestQtmMinor = 8;

@@ -19,6 +19,7 @@ constexpr std::size_t kHoldUpBytes = std::size_t{1} << 18;
 constexpr std::size_t kSkipBytes = std::size_t{1} << 23;
 constexpr std::size_t kSendAwayBytes = std::size_t{1} << 25;
 constexpr std::size_t kMostDatagramBytes = 65507;
+constexpr int kMostAtOnce = 64;  // connections, questions
 
 }  // namespace
 
@@ -55,7 +56,10 @@ void QtmServer::Step(std::chrono::milliseconds wait) {
     QtmConnection& connection = session->connection;
     std::string_view packet;
     if (!connection.Receive() && !connection.tcp().is_open()) continue;
-    while (connection.tcp().is_open() && connection.Take(&packet)) Answer(session.get(), packet);
+    while (connection.tcp().is_open() && connection.bytes_to_send() <= kSendAwayBytes &&
+           connection.Take(&packet)) {
+      Answer(session.get(), packet);
+    }
     if (connection.bytes_to_send() > kSendAwayBytes) connection.Close();
   }
   Play();
@@ -69,7 +73,7 @@ void QtmServer::Flush() {
 
 void QtmServer::Accept() {
   TcpConnection connection;
-  while (listener_.Accept(&connection)) {
+  for (int i = 0; i < kMostAtOnce && listener_.Accept(&connection); ++i) {
     auto session = std::make_unique<Session>();
     session->connection.Use(std::move(connection));
     if (sessions_.size() < options_.most_clients) {
@@ -86,7 +90,10 @@ void QtmServer::Accept() {
 
 void QtmServer::AnswerDiscovery() {
   UdpAddress sender;
-  while (const auto datagram = discovery_ ? discovery_->Receive(&sender) : std::nullopt) {
+  if (!discovery_) return;
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    const auto datagram = discovery_->Receive(&sender);
+    if (!datagram) return;
     try {
       sender.port = ParseQtmDiscovery(*datagram);
       discovery_->Send(FormatQtmAnnouncement({"MMMConverterS2KF, QTM 2.3 (build 0), 0 cameras",

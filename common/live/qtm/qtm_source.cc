@@ -18,6 +18,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kDiscoveryTime{1000};
 constexpr int kPacketsAtOnce = 64;
+constexpr std::size_t kMostAnnouncements = 16;  // that are told apart
 
 }  // namespace
 
@@ -122,7 +123,9 @@ QtmSource::Event QtmSource::Connect() {
 
 QtmSource::Event QtmSource::Discover() {
   UdpAddress sender;
-  while (const auto datagram = udp_->Receive(&sender)) {
+  for (int i = 0; i < kPacketsAtOnce; ++i) {
+    const auto datagram = udp_->Receive(&sender);
+    if (!datagram) break;
     try {
       const QtmAnnouncement found = ParseQtmAnnouncement(*datagram);
       // A computer may answer from several of its addresses.
@@ -130,7 +133,8 @@ QtmSource::Event QtmSource::Discover() {
           std::any_of(announcements_.begin(), announcements_.end(), [&](const auto& other) {
             return other.second.text == found.text && other.second.base_port == found.base_port;
           });
-      if (!is_known) announcements_.emplace_back(sender, found);
+      if (!is_known && announcements_.size() < kMostAnnouncements)
+        announcements_.emplace_back(sender, found);
     } catch (const Error&) {
       CountBroken();
     }

@@ -16,6 +16,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSoftwareLimit{1000};
 constexpr milliseconds kQuietAfterStop{1000};
 constexpr milliseconds kAskAgainAfter{1000};
+constexpr std::size_t kMostTextBytes = 500;  // that are repeated in messages
 constexpr const char* kGreetingText = "QTM RT Interface connected";
 constexpr const char* kSoftwareText = "QTM Version is ";
 
@@ -47,7 +48,7 @@ QtmSource::Event QtmSource::Handle(std::string_view bytes, StreamFrame* frame) {
 }
 
 QtmSource::Event QtmSource::HandleText(const QtmPacket& packet) {
-  const std::string text = ToUtf8(QtmText(packet));
+  const std::string text = ToUtf8(QtmText(packet).substr(0, kMostTextBytes));
   const bool is_error = packet.type == QtmPacketType::kError;
   switch (step_) {
     case Step::kConnecting:
@@ -97,7 +98,7 @@ QtmSource::Event QtmSource::HandleText(const QtmPacket& packet) {
 }
 
 QtmSource::Event QtmSource::HandleVersion(const QtmPacket& packet) {
-  const std::string text = ToUtf8(QtmText(packet));
+  const std::string text = ToUtf8(QtmText(packet).substr(0, kMostTextBytes));
   if (packet.type == QtmPacketType::kCommand && ToLower(text).starts_with("version set to")) {
     connection_.SendCommand("QTMVersion");
     software_ = "QTM";
@@ -179,6 +180,7 @@ QtmSource::Event QtmSource::HandleParameters(const QtmPacket& packet) {
   rotation_ = RotationToZUp(parameters_.up_axis) / kMillimetres;
   const Event event = TakeLayout(
       {fmt::format("{}, protocol 1.{}", software_, minor_), parameters_.labels, parameters_.rate});
+  if (!is_connected()) return event;
   if (is_first || restarts_stream_ || is_paused_) {
     is_paused_ = false;
     pause_reason_.clear();

@@ -7,6 +7,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -28,6 +29,8 @@ using asio::ip::tcp;
 using Failure = beast::error_code;
 
 constexpr int kMostClients = 32;
+constexpr int kMostConnections = 2 * kMostClients;      // of clients, and of who asks for the page
+constexpr std::chrono::milliseconds kAcceptAgain(100);  // where the system has no room
 constexpr std::chrono::seconds kRequestTime(10);
 constexpr std::size_t kMostRequestBytes = 16 * 1024;
 
@@ -62,12 +65,8 @@ bool IsLetIn(const http::request<http::string_body>& request) {
 class Client : public std::enable_shared_from_this<Client> {
  public:
   Client(tcp::socket socket, const WebServerOptions& options, const Texts& texts,
-         std::atomic<int>* clients, bool is_one_too_many)
-      : stream_(std::move(socket)),
-        options_(options),
-        texts_(texts),
-        clients_(clients),
-        is_one_too_many_(is_one_too_many) {
+         std::atomic<int>* clients)
+      : stream_(std::move(socket)), options_(options), texts_(texts), clients_(clients) {
     parser_.header_limit(kMostRequestBytes);
     parser_.body_limit(0);
   }
@@ -84,7 +83,7 @@ class Client : public std::enable_shared_from_this<Client> {
   }
 
   void Stop() { beast::get_lowest_layer(stream_).cancel(); }
-  bool is_open() const { return is_counted_ && !is_closed_; }
+  bool is_open() const { return is_open_ && !is_closed_; }
 
   // Sends what is new, if the last text has been taken.
   void Send() {
@@ -109,7 +108,7 @@ class Client : public std::enable_shared_from_this<Client> {
     if (websocket::is_upgrade(request)) {
       if (request.target() != options_.path) return Refuse(http::status::not_found);
       if (!IsLetIn(request)) return Refuse(http::status::forbidden);
-      if (is_one_too_many_) return Refuse(http::status::service_unavailable);
+      if (*clients_ >= kMostClients) return Refuse(http::status::service_unavailable);
       return Accept();
     }
     if (request.method() != http::verb::get) return Refuse(http::status::method_not_allowed);
@@ -123,10 +122,11 @@ class Client : public std::enable_shared_from_this<Client> {
     beast::get_lowest_layer(stream_).expires_never();
     stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     stream_.read_message_max(kMostRequestBytes);
+    is_counted_ = true;
+    ++*clients_;
     stream_.async_accept(parser_.get(), [self = shared_from_this()](Failure failure) {
       if (failure) return;
-      self->is_counted_ = true;
-      ++*self->clients_;
+      self->is_open_ = true;
       self->ReadOn();
       self->Send();
     });
@@ -170,13 +170,12 @@ class Client : public std::enable_shared_from_this<Client> {
   const WebServerOptions& options_;
   const Texts& texts_;
   std::atomic<int>* clients_;
-  bool is_one_too_many_;
   beast::flat_buffer buffer_{kMostRequestBytes};
   beast::flat_buffer heard_{kMostRequestBytes};
   http::request_parser<http::string_body> parser_;
   Text sending_;
   std::uint64_t sent_ = 0, sent_greeting_ = 0;
-  bool is_sending_ = false, is_counted_ = false, is_closed_ = false;
+  bool is_sending_ = false, is_counted_ = false, is_open_ = false, is_closed_ = false;
 };
 
 }  // namespace web
@@ -185,7 +184,8 @@ using namespace web;  // NOLINT(google-build-using-namespace)
 
 class WebServer::Impl {
  public:
-  explicit Impl(const WebServerOptions& options) : options_(options), acceptor_(context_) {
+  explicit Impl(const WebServerOptions& options)
+      : options_(options), acceptor_(context_), timer_(context_) {
     Listen();
     AcceptNext();
     thread_ = std::thread([this] { context_.run(); });
@@ -247,17 +247,29 @@ class WebServer::Impl {
   void AcceptNext() {
     acceptor_.async_accept([this](Failure failure, tcp::socket socket) {
       if (failure == asio::error::operation_aborted) return;
-      if (!failure) {
-        socket.set_option(tcp::no_delay(true), failure);
-        clients_.remove_if([](const auto& one) { return one.expired(); });
-        const bool is_one_too_many = clients_.size() >= kMostClients;
-        const auto client = std::make_shared<Client>(std::move(socket), options_, texts_,
-                                                     &num_clients_, is_one_too_many);
-        clients_.push_back(client);
-        client->Run();
-      }
+      if (failure) return AcceptLater();
+      Take(std::move(socket));
       AcceptNext();
     });
+  }
+
+  // A process without a handle left fails at once, again and again.
+  void AcceptLater() {
+    timer_.expires_after(kAcceptAgain);
+    timer_.async_wait([this](Failure failure) {
+      if (!failure) AcceptNext();
+    });
+  }
+
+  void Take(tcp::socket socket) {
+    clients_.remove_if([](const auto& one) { return one.expired(); });
+    if (clients_.size() >= kMostConnections) return;  // which closes it
+    Failure ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    const auto client =
+        std::make_shared<Client>(std::move(socket), options_, texts_, &num_clients_);
+    clients_.push_back(client);
+    client->Run();
   }
 
   void SendAll() {
@@ -271,6 +283,7 @@ class WebServer::Impl {
   std::atomic<int> num_clients_ = 0;
   asio::io_context context_;
   tcp::acceptor acceptor_;
+  asio::steady_timer timer_;
   std::list<std::weak_ptr<Client>> clients_;
   int port_ = 0;
   std::thread thread_;

@@ -15,8 +15,8 @@ struct WebServerOptions {
 
 /// Serves one page and sends texts to any number of WebSocket clients at the same path, on a thread
 /// of its own. A client that does not take what it is sent misses texts, and costs no more than the
-/// last of them. At most 32 clients; others are refused. Browsers are let in from pages of this
-/// machine and of the server itself only.
+/// last of them. At most 32 clients; others are refused. Nor are there more than 64 connections.
+/// Browsers are let in from pages of this machine and of the server itself only.
 class WebServer {
  public:
   /// @throws Error where it can't listen there.

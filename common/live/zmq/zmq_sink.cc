@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <zmq.hpp>
 
 #include "common/live/stream_address.h"
 #include "common/live/zmq/posture_message.h"
+#include "common/live/zmq/subscriber_guard.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -16,6 +18,10 @@ namespace {
 
 constexpr int kZmqPort = 5556;
 constexpr int kMostWaiting = 64;  // messages for a subscriber
+// Of what a subscriber says: its properties and topics. Beyond, ZeroMQ ends the connection.
+constexpr std::int64_t kMostMessageBytes = 256;
+constexpr int kMostUnread = 16;   // messages of a subscriber
+constexpr int kHandshake = 5000;  // [ms] until a connection is a subscriber
 
 class ZmqSink : public PoseSink {
  public:
@@ -24,11 +30,16 @@ class ZmqSink : public PoseSink {
     const StreamAddress at = ParseStreamAddress(address);
     at.AllowOnly({});
     const std::string host = at.HostOr("127.0.0.1");
+    const int port = at.port.value_or(kZmqPort);
+    guard_.emplace(context_.handle(), socket_.handle(), port);
     try {
       socket_.set(zmq::sockopt::sndhwm, kMostWaiting);
+      socket_.set(zmq::sockopt::rcvhwm, kMostUnread);
+      socket_.set(zmq::sockopt::maxmsgsize, kMostMessageBytes);
+      socket_.set(zmq::sockopt::handshake_ivl, kHandshake);
       socket_.set(zmq::sockopt::linger, 0);
       socket_.set(zmq::sockopt::ipv6, host.find(':') != std::string::npos);
-      socket_.bind(fmt::format("tcp://{}:{}", InAddress(host), at.port.value_or(kZmqPort)));
+      socket_.bind(fmt::format("tcp://{}:{}", InAddress(host), port));
     } catch (const zmq::error_t& error) {
       throw Error(fmt::format(
           "{}: can't publish there: {}; choose another port or an address of this computer",
@@ -58,6 +69,7 @@ class ZmqSink : public PoseSink {
   std::string name_;
   zmq::context_t context_;
   zmq::socket_t socket_;
+  std::optional<SubscriberGuard> guard_;
   std::shared_ptr<const LiveBody> body_;
   std::optional<PostureMessageFormat> format_;
 };

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <list>
+
 #include "common/live/natnet/natnet_layout.h"
 #include "common/live/natnet/natnet_server.h"
 #include "common/live/natnet/natnet_source.h"
@@ -187,6 +189,27 @@ TEST(NatNetStream, SilenceIsLossAndBrokenMessagesAreCounted) {
   EXPECT_THAT(source.message(), HasSubstr("no frames"));
 }
 
+// Datagrams of somebody else between those of the server: all frames come all the same.
+TEST(NatNetStream, AFloodOfNonsense) {
+  TestClock clock;
+  NatNetServer server(SampleRecording(), FastNatNet());
+  const NatNetSourceOptions options = To(server, clock);
+  NatNetSource source(options);
+  StreamFrame frame;
+  EXPECT_EQ(NextOf(&source, &server, &frame), StreamEvent::kLayout);
+  UdpSocket other("127.0.0.1", 0);
+  const UdpAddress data = FindUdpAddress("127.0.0.1", *options.data_port);
+  const std::string nonsense = FormatNatNetMessage(NatNetId::kFrame, std::string(1000, '\xFF'));
+  std::int64_t frames = 0;
+  for (bool is_there = true; is_there; ++frames) {
+    for (int i = 0; i < 200; ++i) other.Send(nonsense, data);
+    is_there = NextOf(&source, &server, &frame) == StreamEvent::kFrame;
+  }
+  EXPECT_EQ(frame.number, SampleRecording().num_frames());
+  EXPECT_EQ(source.counts().lost, 0);
+  EXPECT_EQ(source.counts().broken, 200 * frames);
+}
+
 TEST(NatNetStream, NobodyThere) {
   TestClock clock;
   NatNetSourceOptions options;
@@ -266,6 +289,15 @@ TEST(NatNetServer, Messages) {
   clock.GoOn(2s);
   EXPECT_EQ(client.Next(), std::string("\xB\0\0\0", 4));
   EXPECT_EQ(server.num_clients(), 0U);
+}
+
+TEST(NatNetServer, ClientsAreLimited) {
+  NatNetServer server(SampleRecording(), FastNatNet());
+  std::list<RawNatNetClient> clients;
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_NE(clients.emplace_back(&server).Ask(NatNetId::kConnect), "");
+  }
+  EXPECT_EQ(server.num_clients(), 32U);
 }
 
 TEST(NatNetServer, TheVersionThatAClientConnectsWith) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <deque>
 
 #include "common/live/qtm/qtm_server.h"
@@ -133,7 +134,25 @@ TEST(QtmHostile, RefusalsAreErrorsThatSayWhatToDo) {
          "open a file or a new measurement");
   expect({kHello, kVersionSet, kSoftware, Parameters({})}, "no labelled markers");
   expect({kHello, kVersionSet, kSoftware, Parameters({"A"}, "")}, "calibrate it");
+  expect({kHello, kVersionSet, kSoftware, Parameters(std::vector<std::string>(2001, "A"))},
+         "at most 2000 are taken");
   expect({kHello, kVersionSet, kSoftware, Text("<QTM", QtmPacketType::kXml)}, "can't be read");
+}
+
+// Its first bytes say how large it is: no more is received.
+TEST(QtmHostile, APacketThatIsTooLargeIsNotReceived) {
+  std::string huge = Text(std::string(1000, 'x'));
+  const std::uint32_t size = 400'000'000;
+  std::memcpy(huge.data(), &size, sizeof size);
+  Pair first({huge});
+  EXPECT_THAT([&] { first.Next(); },
+              ThrowsMessage<Error>(HasSubstr("a packet of 400000000 bytes")));
+  Pair later({kHello, kVersionSet, kSoftware, Parameters({"A"}), Data(1, 1)});
+  EXPECT_EQ(later.Next(), StreamEvent::kLayout);
+  EXPECT_EQ(later.Next(), StreamEvent::kFrame);
+  later.server.Send(huge);
+  EXPECT_EQ(later.Next(), StreamEvent::kLost);
+  EXPECT_EQ(later.source.counts().broken, 1);
 }
 
 TEST(QtmHostile, WhoDoesNotAnswerIsNotWaitedForForever) {
@@ -336,6 +355,21 @@ TEST(QtmServer, WhatIsNoPacketEndsTheConnection) {
   client.Next();
   client.Send(std::string("GET / HTTP/1.1\r\n\r\n"));
   EXPECT_EQ(client.Next(), "");
+  EXPECT_EQ(server.num_clients(), 0U);
+}
+
+// Small questions with large answers: what waits for who does not take them is bounded.
+TEST(QtmServer, WhoAsksAndDoesNotTakeTheAnswersIsSentAway) {
+  std::vector<std::string> labels;
+  for (int i = 0; i < 20000; ++i) labels.push_back(fmt::format("marker {}", i));
+  QtmServer server(testing::SampleRecording(labels, 1), Quick());
+  RawClient client(&server);
+  client.Next();
+  client.Ask("Version 1.25");
+  std::string questions;
+  for (int i = 0; i < 1000; ++i) questions += Text("GetParameters 3D");
+  client.Send(questions);
+  for (int i = 0; i < 100 && server.num_clients() > 0; ++i) server.Step(0ms);
   EXPECT_EQ(server.num_clients(), 0U);
 }
 

@@ -11,6 +11,9 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <list>
+#include <vector>
+
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -44,6 +47,14 @@ class WebClient {
     beast::flat_buffer buffer;
     stream_.read(buffer);
     return beast::buffers_to_string(buffer.data());
+  }
+  // Whether the server ends the connection for such a text, or while it is being sent.
+  bool IsEndedBy(const std::string& text) {
+    beast::error_code failure;
+    stream_.write(asio::buffer(text), failure);
+    beast::flat_buffer buffer;
+    if (!failure) stream_.read(buffer, failure);
+    return bool(failure);
   }
 
  private:
@@ -121,6 +132,34 @@ TEST(WebServer, AClientThatStallsMissesTextsAndTheOthersGetThem) {
   int texts = 1;
   while (stalled.Read() != "39" + padding) ++texts;
   EXPECT_LT(texts, 40);
+}
+
+TEST(WebServer, ClientsAndConnectionsAreLimited) {
+  WebServer server(Secret());
+  std::list<WebClient> clients;
+  for (int i = 0; i < 32; ++i) EXPECT_TRUE(clients.emplace_back(server, "/secret/").is_in()) << i;
+  EXPECT_FALSE(WebClient(server, "/secret/").is_in());
+  EXPECT_EQ(Get(server, "/secret/").first, 200);
+  asio::io_context context;
+  std::vector<tcp::socket> silent;
+  for (int i = 0; i < 40; ++i) silent.push_back(Connect(&context, server));
+  // Those for which there is no room are closed at once, not only when they have said nothing for
+  // long.
+  char byte = 0;
+  beast::error_code failure;
+  silent.back().read_some(asio::buffer(&byte, 1), failure);
+  EXPECT_TRUE(failure) << failure.message();
+  EXPECT_EQ(server.clients(), 32);
+  server.Publish("text");
+  EXPECT_EQ(clients.back().Read(), "text");
+}
+
+TEST(WebServer, WhoSaysTooMuchAtOnceIsOut) {
+  WebServer server(Secret());
+  WebClient talkative(server, "/secret/"), other(server, "/secret/");
+  EXPECT_TRUE(talkative.IsEndedBy(std::string(std::size_t{16} << 20, 'x')));
+  server.Publish("text");
+  EXPECT_EQ(other.Read(), "text");
 }
 
 TEST(WebServer, OnlyPagesOfThisMachineAreLetIn) {

@@ -5,8 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -15,42 +13,15 @@
 #include "common/live/zmq/zmq_sink.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
-#include "common/support/units.h"
-#include "tests/common/live/fake_converter.h"
+#include "tests/common/live/zmq/small_body.h"
 
 namespace mmm_converter {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::SmallSetup;
-
-std::shared_ptr<const LiveBody> SmallBody() {
-  auto body = std::make_shared<LiveBody>();
-  body->name = "anna";
-  body->setup = SmallSetup(3);
-  body->setup.joints = {1, 0};
-  body->labels = {"a", "b", "c", "spare"};
-  return body;
-}
-
-PoseFrame Frame(const LiveBody& body) {
-  PoseFrame frame;
-  frame.number = 42;
-  frame.time = 1.25;
-  frame.is_tracking = true;
-  frame.points.setConstant(3, 4, 0.5);
-  frame.points.col(1).setConstant(kNaN);
-  FrameEstimate& estimate = frame.estimate;
-  estimate.posture = ZeroPosture(*body.setup.model);
-  estimate.posture.position << 1, 2, 3;
-  estimate.posture.joint_angles[0] = 0.1;
-  estimate.posture.joint_angles[1] = 0.2;
-  estimate.standard_deviations =
-      Eigen::VectorXd::LinSpaced(6 + body.setup.model->num_joints(), 0.01, 0.02);
-  estimate.residuals = Eigen::Vector3d(0.01, kNaN, 0.03);
-  estimate.verdicts = Eigen::Vector3i(kAsLabelled, kAsLabelled, 0);
-  return frame;
-}
+using testing::FreePort;
+using testing::SmallBody;
+using testing::SmallFrame;
 
 // Arrays of f64 by name.
 std::map<std::string, std::vector<double>> Unpack(const nlohmann::json& header,
@@ -99,14 +70,14 @@ void ExpectPosture(const LiveBody& body, const PoseFrame& frame, const std::stri
 
 TEST(PostureMessage, SaysThePosture) {
   const auto body = SmallBody();
-  const PoseFrame frame = Frame(*body);
+  const PoseFrame frame = SmallFrame(*body);
   const PostureMessage message = PostureMessageFormat(*body).Format(*body, frame, {});
   ExpectPosture(*body, frame, message.header, message.arrays);
 }
 
 TEST(PostureMessage, WithoutAPersonThePostureIsUnknown) {
   const auto body = SmallBody();
-  PoseFrame frame = Frame(*body);
+  PoseFrame frame = SmallFrame(*body);
   frame.is_tracking = false;
   const PostureMessage message = PostureMessageFormat(*body).Format(*body, frame, {});
   const auto header = nlohmann::json::parse(message.header);
@@ -119,14 +90,6 @@ TEST(PostureMessage, WithoutAPersonThePostureIsUnknown) {
   EXPECT_THAT(arrays["marker_states"], ElementsAre(3, 0, 3, 3));
 }
 
-// A port that is free now.
-int FreePort() {
-  boost::asio::io_context context;
-  using boost::asio::ip::tcp;
-  const tcp::acceptor acceptor(context, {boost::asio::ip::make_address("127.0.0.1"), 0});
-  return acceptor.local_endpoint().port();
-}
-
 TEST(ZmqSink, ASubscriberGetsThreeParts) {
   const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", FreePort());
   zmq::context_t context;
@@ -137,7 +100,7 @@ TEST(ZmqSink, ASubscriberGetsThreeParts) {
   subscriber.set(zmq::sockopt::rcvtimeo, 20);
   subscriber.connect(endpoint);
   const auto body = SmallBody();
-  const PoseFrame frame = Frame(*body);
+  const PoseFrame frame = SmallFrame(*body);
   std::vector<std::string> parts;
   // A publisher says nothing to who has not subscribed yet.
   for (int tries = 0; tries < 500 && parts.empty(); ++tries) {
