@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
+#include "MMMConverterS2KF/batch/crash_note.h"
 #include "MMMConverterS2KF/batch/entry_conversion.h"
 #include "MMMConverterS2KF/batch/entry_result.h"
 #include "MMMConverterS2KF/batch/journal.h"
@@ -48,6 +49,7 @@ class BatchRunner {
   }
 
   BatchOutcome Run() {
+    const CrashWatch watch;
     progress_->Start(static_cast<int>(entries_.size()));
     std::vector<std::thread> threads;
     threads.reserve(options_.jobs);
@@ -84,14 +86,20 @@ class BatchRunner {
 
   void Process(const BatchEntry& entry) {
     const Clock::time_point start = Clock::now();
-    std::string fingerprint;
+    JournalRecord record = Begin(entry);
+    CrashNote note(options_.output, options_.shard, options_.shards, record);
     std::string reason;
     try {
+      if (const JournalRecord* crash = FindCrash(entry, "")) return NoteCrash(*crash);
       const ReadBefore read_before = inputs_.ReadFor(entry.request);
-      fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
+      record.fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
+      if (const JournalRecord* crash = FindCrash(entry, record.fingerprint)) {
+        return NoteCrash(*crash);
+      }
+      note.Update(record);
       for (const std::string& output : folder_.OutputsOf(entry)) folder_.MakeReady(output);
-      if (IsDone(entry, fingerprint)) return NoteUnchanged();
-      return Convert(entry, read_before, fingerprint, start);
+      if (IsDone(entry, record.fingerprint)) return NoteUnchanged();
+      return Convert(entry, read_before, &record, &note, start);
     } catch (const WriteError& error) {
       if (error.concerns_disk()) return End(error.what());
       reason = error.what();
@@ -103,7 +111,26 @@ class BatchRunner {
       reason = fmt::format("{}: unexpected: {}", entry.request.input.file, error.what());
     }
     if (IsEnding()) return;  // that is why it failed
-    NoteFailed(entry, fingerprint, reason, SecondsSince(start));
+    NoteFailed(entry, record.fingerprint, reason, SecondsSince(start));
+  }
+
+  JournalRecord Begin(const BatchEntry& entry) {
+    JournalRecord record;
+    record.id = entry.id;
+    const std::scoped_lock lock(mutex_);
+    record.time = journal_.NextTime();
+    return record;
+  }
+
+  // What is known of an entry that ended the process of an earlier run, and would do so again.
+  // fingerprint: empty: it is not known yet, and it ended the process before it was.
+  const JournalRecord* FindCrash(const BatchEntry& entry, const std::string& fingerprint) const {
+    const auto found = done_.find(entry.id);
+    if (found == done_.end() || options_.retry_crashed) return nullptr;
+    const JournalRecord& record = found->second;
+    const bool is_as_then = record.crashed && record.fingerprint == fingerprint &&
+                            (record.recording.hash.empty() || IsRecordingUnchanged(entry, record));
+    return is_as_then ? &record : nullptr;
   }
 
   bool IsDone(const BatchEntry& entry, const std::string& fingerprint) const {
@@ -126,16 +153,14 @@ class BatchRunner {
     }
   }
 
-  void Convert(const BatchEntry& entry, const ReadBefore& read_before,
-               const std::string& fingerprint, Clock::time_point start) {
+  void Convert(const BatchEntry& entry, const ReadBefore& read_before, JournalRecord* record,
+               CrashNote* note, Clock::time_point start) {
     const ConversionRequest request = RequestOf(entry, folder_);
-    JournalRecord record;
-    record.id = entry.id;
-    record.fingerprint = fingerprint;
     const std::string& file = request.input.file;
-    record.recording = InspectFile(file);
+    record->recording = InspectFile(file);
+    note->Update(*record);
     const std::uint64_t bytes =
-        ConversionMemory(file, record.recording.bytes, options_.reports.all);
+        ConversionMemory(file, record->recording.bytes, options_.reports.all);
     const auto part = memory_.Take(file, bytes);
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     ConversionReport report = ConvertEntry(request, read_before, [this] { return !IsEnding(); });
@@ -145,16 +170,25 @@ class BatchRunner {
       WritePage(entry, report, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
-    record.models = InspectNamedModels(report);
-    record.outputs = folder_.Inspect(outputs);
-    record.result = Converted(report, SecondsSince(start));
-    NoteConverted(record);
+    record->models = InspectNamedModels(report);
+    record->outputs = folder_.Inspect(outputs);
+    record->result = Converted(report, SecondsSince(start));
+    NoteConverted(*record);
   }
 
   void NoteUnchanged() {
     const std::scoped_lock lock(mutex_);
     ++outcome_.unchanged;
     progress_->Unchanged();
+  }
+
+  // Its line is in the journals already.
+  void NoteCrash(const JournalRecord& record) {
+    const std::scoped_lock lock(mutex_);
+    ++outcome_.failed;
+    progress_->Failed(fmt::format("{}: {}, in an earlier run; --retry-crashed tries it again",
+                                  record.id, record.result.reason));
+    if (options_.fail_fast) EndLocked("ended by the first failure, as --fail-fast asks for");
   }
 
   void NoteConverted(const JournalRecord& record) {

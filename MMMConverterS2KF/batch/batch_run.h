@@ -18,9 +18,10 @@ struct ReportChoice {
 struct BatchOptions {
   std::string output;  ///< folder
   int jobs = 1;
-  std::uint64_t memory = 0;  ///< [bytes] for all jobs together
-  bool resume = false;       ///< keep what is done and unchanged
-  bool fail_fast = false;    ///< end with the first failure
+  std::uint64_t memory = 0;    ///< [bytes] for all jobs together
+  bool resume = false;         ///< keep what is done and unchanged
+  bool retry_crashed = false;  ///< with resume: those, too, that ended the process of a run
+  bool fail_fast = false;      ///< end with the first failure
   int shard = 1, shards = 1;
   ReportChoice reports;
 };

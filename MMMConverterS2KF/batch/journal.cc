@@ -23,11 +23,6 @@ constexpr const char* kBegin = "journal";
 constexpr const char* kEnd = ".jsonl";
 constexpr std::int64_t kYear10000 = 253402300800000;  // [ms since 1970]
 
-std::string JournalFile(const std::string& folder, int shard, int shards) {
-  const std::string part = shards == 1 ? "" : fmt::format(".{}of{}", shard, shards);
-  return (fs::path(folder) / (kBegin + part + kEnd)).string();
-}
-
 Json ToJson(const FileState& state) {
   return {{"bytes", state.bytes}, {"modified_ns", state.modified}, {"hash", state.hash}};
 }
@@ -62,6 +57,7 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
     if (json.contains("models")) record.models = ParseStates(json.at("models"));
     record.outputs = ParseStates(json.at("outputs"));
     record.result = ParseEntryResult(json.at("result"));
+    record.crashed = json.value("crashed", false);
     return record;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
@@ -110,19 +106,33 @@ Journal::Journal(const std::string& folder, int shard, int shards)
   CheckIsJournal(JournalFile(folder, shard, shards));
 }
 
-void Journal::Append(const JournalRecord& record) {
+std::int64_t Journal::NextTime() const {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  latest_ = std::max<std::int64_t>(
-      latest_ + 1, std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+  return std::max<std::int64_t>(latest_ + 1,
+                                std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+void Journal::Append(JournalRecord record) {
+  record.time = latest_ = NextTime();
+  file_.Append(FormatJournalLine(record));
+}
+
+std::string JournalFile(const std::string& folder, int shard, int shards, const std::string& kind) {
+  const std::string part = shards == 1 ? "" : fmt::format(".{}of{}", shard, shards);
+  return (fs::path(folder) / (kBegin + part + kind + kEnd)).string();
+}
+
+std::string FormatJournalLine(const JournalRecord& record) {
   Json line = {{"id", record.id},
-               {"time_ms", latest_},
+               {"time_ms", record.time},
                {"converted", record.result.converted()},
                {"fingerprint", record.fingerprint},
                {"recording", ToJson(record.recording)},
                {"outputs", ToJson(record.outputs)},
                {"result", ToJson(record.result)}};
   if (!record.models.empty()) line["models"] = ToJson(record.models);
-  file_.Append(FormatJsonLine(line));
+  if (record.crashed) line["crashed"] = true;
+  return FormatJsonLine(line);
 }
 
 std::unordered_map<std::string, JournalRecord> ReadJournals(const std::string& folder) {

@@ -22,6 +22,7 @@ struct JournalRecord {
   std::map<std::string, FileState> models;
   std::map<std::string, FileState> outputs;  ///< by path in the output folder
   EntryResult result;
+  bool crashed = false;  ///< the process ended while it ran; of failed ones
 };
 
 /// The file to which one shard's process adds a line when an entry has ended (JSON lines). Lines
@@ -33,12 +34,21 @@ class Journal {
 
   /// The record's time is now, or just after the latest of the folder's journals when that was
   /// read, where the clock was set back. Not for several threads at a time. @throws WriteError
-  void Append(const JournalRecord& record);
+  void Append(JournalRecord record);
+  /// Of a record that is made now.
+  std::int64_t NextTime() const;
 
  private:
   LineFile file_;
   std::int64_t latest_;  // time of the last record [ms since 1970]
 };
+
+/// kind: of a journal beside the usual one.
+std::string JournalFile(const std::string& folder, int shard, int shards,
+                        const std::string& kind = "");
+
+/// A journal's line, without its end.
+std::string FormatJournalLine(const JournalRecord& record);
 
 /// Of all journals of an output folder the latest record of each entry, by id. Lines that are not
 /// understood are left out: their entries are done again. None where there is no such folder.

@@ -31,6 +31,8 @@ const std::vector<OptionGroup> kBatchOptions = {
      {{"output,o", "FOLDER", "where motions, reports, journal and results go", ""},
       {"resume", "", "keep what an earlier run has done, if nothing that it depends on has changed",
        ""},
+      {"retry-crashed", "",
+       "with --resume: try those again, too, that ended the process of an earlier run", ""},
       {"fail-fast", "", "end with the first recording that can't be converted", ""},
       {"reports", "WHICH",
        "pages: worst:N, the N with the largest distance; all or none; "
@@ -108,6 +110,7 @@ BatchOptions MakeOptions(const Arguments& arguments) {
   options.jobs = arguments.GetInteger("jobs", 1, kMostJobs).value_or(AvailableCores());
   options.resume = arguments.Has("resume");
   options.fail_fast = arguments.Has("fail-fast");
+  options.retry_crashed = arguments.Has("retry-crashed");
   options.memory =
       static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(AvailableMemory()));
   if (const auto memory = arguments.Get("memory")) {

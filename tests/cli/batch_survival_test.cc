@@ -10,11 +10,13 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <random>
 #include <vector>
 
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
+#include "tests/support/test_plugins.h"
 
 namespace mmm_converter {
 namespace {
@@ -29,6 +31,7 @@ using testing::RunProgram;
 using testing::StartedProgram;
 using testing::TestFolder;
 using testing::WriteManifest;
+using testing::WriteText;
 
 // More than a run gets done before it is ended, on any machine.
 #if defined(__SANITIZE_ADDRESS__)
@@ -71,6 +74,50 @@ TEST(BatchSurvival, KilledTenTimesTheOutputsAreThoseOfAnUndisturbedRun) {
             Contents(SurvivalOut("undisturbed") + "/motions"));
   EXPECT_EQ(Contents(SurvivalOut() + "/csv"), Contents(SurvivalOut("undisturbed") + "/csv"));
   EXPECT_EQ(LinesOf(Journal()), kEntries);
+}
+
+// One recording's converter ends the process. The run after it goes on, says which it was, and does
+// not try it again unasked.
+TEST(BatchSurvival, ResumeGoesOnAfterARecordingThatEndsTheProcess) {
+  const std::map<std::string, std::string> endings = {{"stack", "segmentation fault"},
+                                                      {"creation", "it was aborted"},
+                                                      {"exit", "exit() was called"}};
+  const std::string manifest = WriteManifest(
+      3, QuickConverter(),
+      fmt::format("<Recording file='handstand.c3d' id='bad' frames=':40' plugin='{}'/>",
+                  testing::TestPlugin("faulty_converter")));
+  for (const auto& [fault, ending] : endings) {
+    SCOPED_TRACE(fault);
+    const std::map<std::string, std::string> environment = {{"MMM_CONVERTER_TEST_FAULT", fault}};
+    const auto words = [&](const std::string& more) {
+      std::vector<std::string> all = Words(manifest, SurvivalOut(fault));
+      if (!more.empty()) all.push_back(more);
+      return all;
+    };
+    const std::string why = "bad: the process ended while it ran: " + ending;
+    const auto crashed = RunProgram(words(""), environment);
+    EXPECT_NE(crashed.exit_code, 0);
+    EXPECT_THAT(crashed.err, HasSubstr(why + "; --resume goes on after it"));
+    const auto resumed = RunProgram(words(""), environment);
+    EXPECT_EQ(resumed.exit_code, 1);
+    EXPECT_THAT(resumed.err, HasSubstr(why + ", in an earlier run; --retry-crashed"));
+    EXPECT_THAT(resumed.out, HasSubstr("4 recordings, 3 converted, 1 failed, 0 missing"));
+    EXPECT_THAT(ReadText(SurvivalOut(fault) + "/results.jsonl"), HasSubstr(ending));
+    const auto retried = RunProgram(words("--retry-crashed"));
+    EXPECT_EQ(retried.exit_code, 0) << retried.err;
+    EXPECT_THAT(retried.out, HasSubstr("4 recordings, 4 converted, 0 failed, 0 missing"));
+  }
+}
+
+TEST(BatchSurvival, ARecordingThatEndedTheProcessIsTriedAgainWhenItHasChanged) {
+  const std::string plugin = testing::TestPlugin("faulty_converter");
+  const std::string manifest = WriteManifest(1, "config='' plugin='" + plugin + "'");
+  const std::map<std::string, std::string> environment = {{"MMM_CONVERTER_TEST_FAULT", "abort"}};
+  EXPECT_NE(RunProgram(Words(manifest, SurvivalOut()), environment).exit_code, 0);
+  EXPECT_THAT(RunProgram(Words(manifest, SurvivalOut())).err, HasSubstr("in an earlier run"));
+  WriteText(TestFolder() + "/handstand.c3d", ReadText(testing::Handstand()) + "1");
+  const auto run = RunProgram(Words(manifest, SurvivalOut()));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
 TEST(BatchSurvival, InterruptedItEndsInOrder) {

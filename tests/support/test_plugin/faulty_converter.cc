@@ -21,6 +21,13 @@ bool IsFault(const std::string& fault) {
   return wanted != nullptr && fault == wanted;
 }
 
+// The stack, to its end.
+int Fill(int calls) {
+  volatile char some[1024] = {};
+  some[0] = static_cast<char>(calls);
+  return calls == 0 ? 0 : Fill(calls - 1) + some[0];
+}
+
 class FaultyConverter final : public MotionConverter {
  public:
   explicit FaultyConverter(TrackingSetup setup) : MotionConverter(std::move(setup)) {}
@@ -35,6 +42,9 @@ class FaultyConverter final : public MotionConverter {
     estimate_.posture = ZeroPosture(*setup().model);
     estimate_.residuals.setZero(assignments);
     estimate_.verdicts.setConstant(assignments, kAsLabelled);
+    if (IsFault("stack")) Fill(1000000000);
+    if (IsFault("abort")) std::abort();
+    if (IsFault("exit")) std::exit(0);
     if (IsFault("int")) throw 42;
     if (IsFault("exception")) throw std::runtime_error("an iterator went astray");
     if (IsFault("angles")) estimate_.posture.joint_angles.setZero(joints + 1);
@@ -83,6 +93,7 @@ class FaultyFactory final : public MotionConverterFactory {
   std::unique_ptr<MotionConverter> Create(const TrackingSetup& setup,
                                           const ConverterConfig&) const override {
     if (IsFault("null")) return nullptr;
+    if (IsFault("creation")) std::abort();
     TrackingSetup own = setup;
     if (IsFault("joint")) own.joints[0] = 1000000;
     if (IsFault("marker")) own.mapping.assignments[0].marker = MarkerIx(1000000);
