@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "common/io/bytes/file_content.h"
+#include "common/io/osim/osim_xml.h"
 #include "common/pipeline/exporters.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
@@ -20,9 +22,20 @@ void MakeFolder(const std::string& path) {
   if (failure) throw WriteError(path, failure.value());
 }
 
+constexpr std::size_t kHeadBytes = 4096;  // of a model: its root is there
+
+bool IsOsimFile(const std::string& path) {
+  std::error_code failure;
+  return fs::is_regular_file(path, failure) && IsOsimDocument(ReadFileStart(path, kHeadBytes));
+}
+
 }  // namespace
 
-std::string MotionPath(const std::string& id) { return "motions/" + id + ".xml"; }
+std::string MotionPath(const BatchEntry& entry) {
+  const bool is_osim = IsOsimFile(entry.request.input.model_file);
+  return "motions/" + entry.id + (is_osim ? ".mot" : ".xml");
+}
+
 std::string ExportPath(const std::string& format, const std::string& id) {
   for (const Exporter& exporter : Exporters()) {
     if (format == exporter.name) return format + "/" + id + "." + exporter.ending;
@@ -47,7 +60,7 @@ bool BatchFolder::Has(const std::string& relative) const {
 }
 
 std::vector<std::string> BatchFolder::OutputsOf(const BatchEntry& entry) {
-  std::vector<std::string> outputs = {MotionPath(entry.id)};
+  std::vector<std::string> outputs = {MotionPath(entry)};
   for (const std::string& format : entry.exports) {
     outputs.push_back(ExportPath(format, entry.id));
   }

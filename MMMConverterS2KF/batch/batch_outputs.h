@@ -13,7 +13,8 @@
 namespace mmm_converter {
 
 /// Where an entry's files are, relative to the output folder.
-std::string MotionPath(const std::string& id);
+/// The motion is MMM's, of a model of OpenSim a .mot.
+std::string MotionPath(const BatchEntry& entry);
 std::string ExportPath(const std::string& format, const std::string& id);
 std::string SubjectPath(const std::string& id);
 std::string PagePath(const std::string& id);

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder) {
   ConversionRequest request = entry.request;
-  request.output = folder.Full(MotionPath(entry.id));
+  request.output = folder.Full(MotionPath(entry));
   for (const std::string& format : entry.exports) {
     request.exports[format] = folder.Full(ExportPath(format, entry.id));
   }

@@ -72,7 +72,7 @@ class ResultsWriter {
     if (record == nullptr) return {&entry, std::nullopt, "", ""};
     if (!record->result.converted()) return {&entry, record->result, "", ""};
     const std::string page = PagePath(entry.id);
-    return {&entry, record->result, MotionPath(entry.id), folder_.Has(page) ? page : ""};
+    return {&entry, record->result, MotionPath(entry), folder_.Has(page) ? page : ""};
   }
 
   // By verdict, then those with the largest mean distance first.

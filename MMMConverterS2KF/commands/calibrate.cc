@@ -10,12 +10,14 @@
 #include "MMMConverterS2KF/commands/comparison_output.h"
 #include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/report/calibration_summary.h"
+#include "MMMConverterS2KF/report/osim_scaling_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/pipeline/comparison/comparison_setup.h"
+#include "common/pipeline/osim_scaling_run.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/support/atomic_file.h"
 
@@ -24,7 +26,10 @@ namespace {
 
 const OptionGroup kCalibrateFiles = {
     "Files",
-    {{"output,o", "FILE", "the subject; default: RECORDING without its ending + _subject.xml", ""},
+    {{"output,o", "FILE",
+      "the subject; default: RECORDING without its ending + _subject.xml, or _scaled.osim", ""},
+     {"scale-setup", "FILE",
+      "a ScaleTool set-up of OpenSim: scale the .osim of --model by the recording as it says", ""},
      {"model-out", "FILE", "also write the person's model, for other MMM programs", ""},
      {"report", "FILE", "write a page (HTML): the recordings converted with the subject", ""},
      {"summary", "FILE", "write a summary as JSON", ""},
@@ -43,7 +48,10 @@ Examples
   MMMConverterS2KF calibrate range_of_motion.c3d --height 1.75 -o anna.xml
   MMMConverterS2KF calibrate walk.c3d jump.c3d --height 1.75 -o anna.xml --report anna.html
   MMMConverterS2KF convert run.c3d --subject-file anna.xml -o run_mmm.xml
+  MMMConverterS2KF calibrate static.trc --model generic.osim --scale-setup setup.xml -o anna.osim
 )";
+
+constexpr const char* kSubjectEnding = "_subject.xml";
 
 // Given once for all recordings, or once for each in their order.
 const std::vector<std::string> kCalibratePerRecording = {"frames", "subject", "motion",
@@ -57,10 +65,10 @@ CalibrationRequest MakeCalibrationRequest(const Arguments& arguments) {
   return request;
 }
 
-std::string CalibrateOutputFile(const Arguments& arguments) {
+std::string CalibrateOutputFile(const Arguments& arguments, const char* ending) {
   if (const auto file = arguments.Get("output")) return *file;
   const std::filesystem::path input = arguments.positionals().front();
-  return (input.parent_path() / (input.stem().string() + "_subject.xml")).string();
+  return (input.parent_path() / (input.stem().string() + ending)).string();
 }
 
 void CheckOutputs(const Arguments& arguments, const CalibrationRequest& request,
@@ -68,7 +76,7 @@ void CheckOutputs(const Arguments& arguments, const CalibrationRequest& request,
   OutputPlan plan;
   for (const InputRequest& input : request.inputs) NameInputs(input, &plan);
   NameInputs(choice, &plan);
-  plan.Write(CalibrateOutputFile(arguments));
+  plan.Write(CalibrateOutputFile(arguments, kSubjectEnding));
   for (const char* output : {"model-out", "report", "summary"}) {
     plan.Write(arguments.Get(output).value_or(""));
   }
@@ -102,6 +110,30 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
                           std::move(contender));
 }
 
+// A model of OpenSim instead of a subject.
+int ScaleOsimModel(const Arguments& arguments, const std::string& setup_file) {
+  if (arguments.positionals().size() != 1) {
+    throw UsageError("calibrate --scale-setup: one recording is expected, of the person standing");
+  }
+  for (const char* output : {"model-out", "report", "summary"}) {
+    if (!arguments.Get(output)) continue;
+    throw UsageError(fmt::format(
+        "calibrate --scale-setup writes a model of OpenSim (-o); --{} is of a subject", output));
+  }
+  const OsimScalingRequest request = {
+      MakeInputs(task::kCalibrate, arguments, kCalibratePerRecording).front(), setup_file};
+  const std::string output = CalibrateOutputFile(arguments, "_scaled.osim");
+  OutputPlan plan;
+  NameInputs(request, &plan);
+  plan.Write(output);
+  plan.Check();
+  const OsimScalingReport report = RunOsimScaling(request);
+  LogWarnings(report.warnings);
+  WriteFileAtomically(output, report.scaled.content);
+  std::cout << FormatOsimScalingSummary(report, output);
+  return 0;
+}
+
 }  // namespace
 
 Manual CalibrateManual() {
@@ -116,8 +148,9 @@ int RunCalibrate(const Arguments& arguments) {
         "1.75 -o anna.xml");
   }
   StartLog(arguments.Get("log").value_or("info"));
+  if (const auto setup = arguments.Get("scale-setup")) return ScaleOsimModel(arguments, *setup);
   const CalibrationRequest request = MakeCalibrationRequest(arguments);
-  const std::string output = CalibrateOutputFile(arguments);
+  const std::string output = CalibrateOutputFile(arguments, kSubjectEnding);
   Warnings of_choice;
   ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
   CheckOutputs(arguments, request, choice);

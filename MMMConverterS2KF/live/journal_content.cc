@@ -228,10 +228,14 @@ void CheckHasBegun(const std::string& file) {
 }
 
 std::string FreeName(const std::filesystem::path& output) {
+  // It is written without its model, as MMM's.
+  const std::string ending = output.extension() == ".mot" || output.extension() == ".sto"
+                                 ? ".xml"
+                                 : output.extension().string();
   for (int i = 1;; ++i) {
-    const auto name = output.parent_path() / fmt::format("{}_recovered{}{}", output.stem().string(),
-                                                         i == 1 ? "" : fmt::format("_{}", i),
-                                                         output.extension().string());
+    const auto name =
+        output.parent_path() / fmt::format("{}_recovered{}{}", output.stem().string(),
+                                           i == 1 ? "" : fmt::format("_{}", i), ending);
     if (!std::filesystem::exists(name)) return name.string();
   }
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/pipeline/input/matched_labels.h"
+#include "common/pipeline/motion_output.h"
 #include "common/pipeline/object.h"
 #include "common/support/error.h"
 
@@ -30,7 +31,6 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   plan.converter = ChosenConverter(request.converter, {}, warnings);
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
-  CheckIsNoOsim(plan.input, "tracking a live stream");
   if (request.calibration_time > 0) config.subject_file.clear();
   const Recording& recording = plan.input.recording;
   if (request.label) {
@@ -50,6 +50,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   }
   plan.output = request.output;
   plan.output_format = request.output_format.empty() ? config.output_format : request.output_format;
+  if (!plan.output.empty()) CheckHoldsMotion(plan);
   plan.motion_name = NameOf(request, head);
   plan.subject_output = request.subject_output;
   return plan;

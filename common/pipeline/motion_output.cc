@@ -82,13 +82,17 @@ bool WritesCoordinates(const KinematicModel& model, const fs::path& output) {
   return model.coordinates() && IsNamedAsOfOpenSim(output);
 }
 
-void CheckHoldsMotion(const ConversionPlan& plan, bool is_one_of_several) {
+std::string NameOf(const Recording& recording) {
+  if (!recording.motion().empty()) return recording.motion();
+  if (!recording.subject.empty()) return recording.subject;
+  return fs::path(recording.file).stem().string();
+}
+
+}  // namespace
+
+void CheckHoldsMotion(const ConversionPlan& plan) {
   const KinematicModel& model = *plan.input.reference;
-  if (WritesCoordinates(model, plan.output)) {
-    if (!is_one_of_several) return;
-    throw Error(fmt::format("{}: holds one motion; name it, or give the output the ending .xml",
-                            plan.output));
-  }
+  if (WritesCoordinates(model, plan.output)) return;
   if (IsNamedAsOfOpenSim(plan.output)) {
     throw Error(
         fmt::format("{}: the motion of such a model is an XML file of MMM; {} writes joint "
@@ -102,14 +106,6 @@ void CheckHoldsMotion(const ConversionPlan& plan, bool is_one_of_several) {
                   plan.output, model.name()));
 }
 
-std::string NameOf(const Recording& recording) {
-  if (!recording.motion().empty()) return recording.motion();
-  if (!recording.subject.empty()) return recording.subject;
-  return fs::path(recording.file).stem().string();
-}
-
-}  // namespace
-
 void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
                         ConversionPlan* plan) {
   const Recording& recording = plan->input.recording;
@@ -118,7 +114,11 @@ void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several
   const bool is_osim = plan->input.reference->coordinates() != nullptr;
   plan->output =
       request.output.empty() ? DefaultOutput(request.input.file, is_osim) : request.output;
-  CheckHoldsMotion(*plan, is_one_of_several);
+  CheckHoldsMotion(*plan);
+  if (is_one_of_several && WritesCoordinates(*plan->input.reference, plan->output)) {
+    throw Error(fmt::format("{}: holds one motion; name it, or give the output the ending .xml",
+                            plan->output));
+  }
   std::error_code failure;
   const bool keeps_all = IsMmm2(recording) && plan->output_format != "1.0";
   if (!keeps_all && fs::equivalent(plan->output, request.input.file, failure)) {

@@ -29,6 +29,11 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
   CalibrationInput one;
   one.input = ReadInput(request, {}, warnings);
   const WarningContext context(warnings, request.file, one.input.recording.motion());
+  if (one.input.model->model.coordinates()) {
+    throw Error(
+        fmt::format("{}: a model of OpenSim is scaled by a ScaleTool set-up; give it with {}",
+                    one.input.model_file, OptionText("scale-setup")));
+  }
   MatchModel(request, &one.input, matched);
   const ConverterConfig& config = *matched;
   if (config.model_processor == "None") {

@@ -40,6 +40,18 @@ class Models(Case):
         still = model.forward([0, 0, 1], [1, 0, 0, 0])
         np.testing.assert_array_equal(still.positions[0], [0, 0, 1])
 
+    def test_a_model_of_opensim_gives_its_coordinates(self):
+        model, walk = (ROOT / "examples/opensim" / name for name in ("generic.osim", "walk.trc"))
+        result = mmmconverter.convert(str(walk), model=str(model))
+        result.save(self.folder / "python.mot")
+        self.run_program("convert", walk, "--model", model, "-o", self.folder / "program.mot")
+        self.assert_same_files(self.folder / "python.mot", self.folder / "program.mot")
+        result.report(self.folder / "page.html")
+        self.assertIn("knee_angle_r", (self.folder / "page.html").read_text())
+        read = mmmconverter.read_model(str(model))
+        self.assertIn("knee_angle_r", read.joint_names)
+        self.assertEqual(read.forward(result).positions.shape[0], 166)
+
     def test_arguments_are_checked(self):
         model = mmmconverter.read_model(height=1.75)
         position, quaternion = np.zeros((4, 3)), np.tile([1.0, 0, 0, 0], (4, 1))

@@ -26,25 +26,29 @@ IkTasks::OfCoordinate ReadCoordinateTask(const XmlElement& task, double weight,
 
 }  // namespace
 
-IkTasks ParseIkTasks(std::string_view content, const std::string& file) {
-  Diagnostics diagnostics(file);
-  const XmlElement set = ParseOsimPart(content, file, "IKTaskSet");
+IkTasks ReadIkTasks(const XmlElement& set, Diagnostics* diagnostics) {
   IkTasks tasks;
   const XmlElement* objects = set.FindChild("objects");
   if (objects == nullptr) return tasks;
   for (const XmlElement& task : objects->children) {
-    const bool is_applied = ReadOsimFlag(task, "apply", true, &diagnostics);
-    const double weight = ReadOsimNumber(task, "weight", 1, &diagnostics);
+    const bool is_applied = ReadOsimFlag(task, "apply", true, diagnostics);
+    const double weight = ReadOsimNumber(task, "weight", 1, diagnostics);
     if (weight < 0) {
-      diagnostics.AddError(task.line,
-                           fmt::format("task '{}': a weight can't be negative", OsimName(task)));
+      diagnostics->AddError(task.line,
+                            fmt::format("task '{}': a weight can't be negative", OsimName(task)));
     }
     if (!is_applied || weight <= 0) continue;
     if (task.Is("IKMarkerTask")) tasks.markers.push_back({OsimName(task), weight});
     if (task.Is("IKCoordinateTask")) {
-      tasks.coordinates.push_back(ReadCoordinateTask(task, weight, &diagnostics));
+      tasks.coordinates.push_back(ReadCoordinateTask(task, weight, diagnostics));
     }
   }
+  return tasks;
+}
+
+IkTasks ParseIkTasks(std::string_view content, const std::string& file) {
+  Diagnostics diagnostics(file);
+  IkTasks tasks = ReadIkTasks(ParseOsimPart(content, file, "IKTaskSet"), &diagnostics);
   diagnostics.ThrowIfErrors();
   return tasks;
 }

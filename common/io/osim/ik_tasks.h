@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/support/warnings.h"
+#include "common/io/xml/xml_document.h"
+#include "common/support/diagnostics.h"
 
 namespace mmm_converter {
 
@@ -27,6 +28,9 @@ struct IkTasks {
   std::vector<OfMarker> markers;
   std::vector<OfCoordinate> coordinates;
 };
+
+/// Of an `<IKTaskSet>`. What is wrong is added to the diagnostics.
+IkTasks ReadIkTasks(const XmlElement& set, Diagnostics* diagnostics);
 
 /// Parses an `<IKTaskSet>`, in an `<OpenSimDocument>`; file: named in messages.
 /// @throws Error where it is none, a number is none, or values are to come from a file.

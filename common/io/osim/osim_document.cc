@@ -40,6 +40,7 @@ std::optional<OsimMarker> ReadMarker(const XmlElement& element, OsimFrames* fram
   if (marker.name.empty()) diagnostics->AddError(element.line, "a marker has no name");
   marker.body = place->body;
   marker.p_BM = place->X_BF * ReadOsimVector(element, "location", Vector3d::Zero(), diagnostics);
+  marker.is_fixed = ReadOsimFlag(element, "fixed", false, diagnostics);
   return marker;
 }
 

@@ -82,6 +82,7 @@ struct OsimMarker {
   int line = 0;
   int body = 0;
   Eigen::Vector3d p_BM = Eigen::Vector3d::Zero();  ///< [m]
+  bool is_fixed = false;                           ///< stays where scaling puts it
 };
 
 /// What moves in an OpenSim model: `<OpenSimDocument><Model>` of the versions 10901, 203xx, 30000

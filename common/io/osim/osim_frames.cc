@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/io/osim/osim_values.h"
 #include "common/support/error.h"
 
@@ -64,6 +66,31 @@ void OsimFrames::AddOffsetFrames(const std::string& owner, const XmlElement& obj
   for (const XmlElement& element : elements->children) {
     if (element.Is("PhysicalOffsetFrame")) AddOffsetFrame(owner, element);
   }
+}
+
+void OsimFrames::AddModel(const XmlElement& model) {
+  AddBody("/ground", 0);
+  if (const XmlElement* ground = model.FindChild("Ground")) {
+    AddOffsetFrames("/ground", *ground, "components");
+  }
+  AddOffsetFrames("", model, "components");
+  int bodies = 0;
+  const auto for_each = [&model](const char* set, const auto& visit) {
+    const XmlElement* objects = FindOsimObjects(model, set);
+    if (objects != nullptr)
+      std::for_each(objects->children.begin(), objects->children.end(), visit);
+  };
+  for_each("BodySet", [&](const XmlElement& body) {
+    if (OsimName(body) == "ground") return;
+    AddBody("/bodyset/" + OsimName(body), ++bodies);
+    AddOffsetFrames("/bodyset/" + OsimName(body), body, "components");
+  });
+  for_each("JointSet", [&](const XmlElement& joint) {
+    AddOffsetFrames("/jointset/" + OsimName(joint), joint, "frames");
+  });
+  for_each("ComponentSet", [&](const XmlElement& one) {
+    if (one.Is("PhysicalOffsetFrame")) AddOffsetFrame("/componentset", one);
+  });
 }
 
 int OsimFrames::Look(const std::string& owner, std::string_view socket) const {

@@ -31,6 +31,10 @@ class OsimFrames {
   /// The offset frames among the elements of a list that is a property (`components`, `frames`).
   void AddOffsetFrames(const std::string& owner, const XmlElement& object, std::string_view list);
 
+  /// Bodies, numbered as OsimDocument numbers them, and offset frames of a model, of any version,
+  /// that has all of its sets in its file.
+  void AddModel(const XmlElement& model);
+
   /// The frame that a socket of the component `owner` names; nothing, and an error, where there is
   /// none. what: the socket's owner for the message.
   std::optional<Place> Find(const std::string& owner, std::string_view socket, int line,

@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kRoot = "OpenSimDocument";
 
-/// The content up to the end of its first element; all of it where that does not end.
+}  // namespace
+
 std::string_view FirstElement(std::string_view content) {
   const ByteSource bytes = BytesOf(content);
   XmlScanner scanner(bytes);
@@ -27,8 +28,6 @@ std::string_view FirstElement(std::string_view content) {
   }
   return content;
 }
-
-}  // namespace
 
 bool IsOsimDocument(std::string_view content) {
   return EqualIgnoringCase(RootName(content), kRoot);

@@ -8,6 +8,9 @@
 
 namespace mmm_converter {
 
+/// The content up to the end of its first element; all of it where that does not end.
+std::string_view FirstElement(std::string_view content);
+
 /// By the name of its root.
 bool IsOsimDocument(std::string_view content);
 /// Whether it may be a file of that set: its root is the set or OpenSim's.

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/report/osim_scaling_summary.h"
+
+#include <fmt/format.h>
+
+namespace mmm_converter {
+
+std::string FormatOsimScalingSummary(const OsimScalingReport& report, const std::string& file) {
+  const ScaledOsim& scaled = report.scaled;
+  std::string text;
+  for (const auto& [body, factor] : scaled.factors) {
+    text += factor.isConstant(factor[0]) ? fmt::format("{:24} {:.4f}\n", body, factor[0])
+                                         : fmt::format("{:24} {:.4f} {:.4f} {:.4f}\n", body,
+                                                       factor[0], factor[1], factor[2]);
+  }
+  text += fmt::format("{:24} {:.3f} kg\n", "mass", scaled.mass);
+  if (scaled.placed_markers > 0) {
+    text += fmt::format(
+        "{:24} {} moved onto the recording's; before, those with tasks were "
+        "{:.1f} mm from them (rms)\n",
+        "markers", scaled.placed_markers, 1e3 * scaled.distance);
+  }
+  return text + fmt::format("Scaled {} bodies by {} frames: wrote {}\n", scaled.factors.size(),
+                            report.frames, file);
+}
+
+}  // namespace mmm_converter

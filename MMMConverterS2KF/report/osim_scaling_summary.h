@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "common/pipeline/osim_scaling_run.h"
+
+namespace mmm_converter {
+
+/// Factors of the bodies, mass and markers, for people; the last line is a sentence. file: the
+/// model that was written.
+std::string FormatOsimScalingSummary(const OsimScalingReport& report, const std::string& file);
+
+}  // namespace mmm_converter
