@@ -7,6 +7,7 @@
 #include "MMMConverterS2KF/report/names_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/judge/conversion_figures.h"
+#include "common/pipeline/motion_output.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -122,7 +123,7 @@ Json ToJson(const ConversionReport& report) {
       {"frames", markers.num_frames()},
       {"rate_hz", markers.rate()},
       {"output", plan.output},
-      {"output_format", plan.output_format},
+      {"output_format", IsOsimMotion(plan) ? "OpenSim" : plan.output_format},
       {"motion", plan.motion_name},
       {"model", plan.input.model_file},
       {"person", DescribePerson(report)},

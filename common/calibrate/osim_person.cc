@@ -35,13 +35,6 @@ KinematicModel MakeModel(const OsimDocument& document, const std::string& file) 
   return MakeOsimModel(document, &diagnostics);
 }
 
-Posture DefaultPosture(const KinematicModel& model) {
-  const auto& all = model.coordinates()->coordinates();
-  Eigen::VectorXd values(static_cast<Eigen::Index>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i) values[static_cast<Eigen::Index>(i)] = all[i].rest;
-  return PostureOf(model, values);
-}
-
 struct FrameRange {
   int begin = 0, end = 0;
 };
@@ -156,7 +149,7 @@ std::map<std::string, Vector3d> PersonScaler::Factors(const KinematicModel& mode
     for (const ScaleSetup::Factors& one : setup_.factors) factors[one.body] = one.factors;
   };
   if (!setup_.measures_first) by_hand();
-  const Matrix3Xd p_WM = MarkerPositions(model, DefaultPosture(model));
+  const Matrix3Xd p_WM = MarkerPositions(model, RestPosture(model));
   for (const ScaleSetup::Measurement& measurement : setup_.measurements) {
     const double factor = Measure(measurement, model, p_WM);
     for (const auto& [body, axes] : measurement.bodies) {
@@ -229,7 +222,7 @@ std::vector<OsimMarker> PersonScaler::PlaceMarkers(const OsimDocument& document,
   for (const JointTask& task : ResolveCoordinateTasks(setup_.tasks.coordinates, model, warnings_)) {
     options.pulls.push_back({task.joint, task.value, task.weight});
   }
-  Posture posture = DefaultPosture(model);
+  Posture posture = RestPosture(model);
   PostureSearch search(kinematics);
   search.Assemble(target.places, target.noise_scale, options, 0, &posture);
   search.fit().Solve(target.places, target.noise_scale, options, &posture);

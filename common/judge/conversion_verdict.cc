@@ -168,11 +168,15 @@ class Judge {
     constexpr double kUpright = 0.5;  // cosine of 60 degrees
     const Recording& recording = evidence_.recording;
     if (recording.up_axis_is_doubtful) return;  // that has been said
+    const KinematicModel& model = *evidence_.setup.model;
+    if (model.is_root_fixed()) return;
+    // Of the root that is upright.
+    Eigen::Vector3d up_S = Eigen::Vector3d::UnitZ();
+    if (model.coordinates()) up_S = RestPosture(model).orientation.inverse() * up_S;
     double lying = 0;
     double upside_down = 0;
-    const Eigen::Vector3d up_S = UpOfRoot(*evidence_.setup.model);
     for (const Posture& posture : evidence_.result.trajectory.postures) {
-      const double up = (posture.orientation * up_S).z();
+      const double up = (posture.orientation.toRotationMatrix() * up_S).z();
       lying += up < kUpright ? 1 : 0;
       upside_down += up < -kUpright ? 1 : 0;
     }

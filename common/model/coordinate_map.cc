@@ -168,9 +168,11 @@ Posture PostureOf(const KinematicModel& model, const VectorXd& values) {
   return posture;
 }
 
-Vector3d UpOfRoot(const KinematicModel& model) {
-  if (model.coordinates() == nullptr) return Vector3d::UnitZ();
-  return model.coordinates()->R_WG().transpose() * Vector3d::UnitZ();
+Posture RestPosture(const KinematicModel& model) {
+  const std::vector<ModelCoordinate>& all = model.coordinates()->coordinates();
+  VectorXd values(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) values[static_cast<Eigen::Index>(i)] = all[i].rest;
+  return PostureOf(model, values);
 }
 
 }  // namespace mmm_converter

@@ -92,9 +92,7 @@ class CoordinateSeries {
 /// The posture of a model with coordinates() at these values [rad, m]. Those of coordinates that
 /// follow others are not used; joints that no coordinate tells are at rest.
 Posture PostureOf(const KinematicModel& model, const Eigen::VectorXd& values);
-
-/// The unit vector of the root's axes that is up where the model stands: z, or as the files' ground
-/// has it.
-Eigen::Vector3d UpOfRoot(const KinematicModel& model);
+/// The same where all coordinates rest.
+Posture RestPosture(const KinematicModel& model);
 
 }  // namespace mmm_converter

@@ -90,6 +90,10 @@ std::string NameOf(const Recording& recording) {
 
 }  // namespace
 
+bool IsOsimMotion(const ConversionPlan& plan) {
+  return plan.setup.model && WritesCoordinates(*plan.setup.model, plan.output);
+}
+
 void CheckHoldsMotion(const ConversionPlan& plan) {
   const KinematicModel& model = *plan.input.reference;
   if (WritesCoordinates(model, plan.output)) return;
@@ -146,8 +150,7 @@ MmmMotionOutput DescribeMotion(const ConversionRequest& request, const Conversio
 }
 
 std::string MotionFormat(const ConversionPlan& plan) {
-  const bool is_osim = WritesCoordinates(*plan.setup.model, plan.output);
-  return is_osim ? "OpenSim" : "MMM " + plan.output_format;
+  return IsOsimMotion(plan) ? "OpenSim" : "MMM " + plan.output_format;
 }
 
 std::string DeviationsOutput(const ConversionPlan& plan) {

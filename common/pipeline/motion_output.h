@@ -18,6 +18,9 @@ namespace mmm_converter {
 void ChooseMotionOutput(const ConversionRequest& request, bool is_one_of_several,
                         ConversionPlan* plan);
 
+/// Whether the output is of coordinates, in OpenSim's own format.
+bool IsOsimMotion(const ConversionPlan& plan);
+
 /// @throws Error where the output of the plan, in its format, can't hold a motion of its model.
 void CheckHoldsMotion(const ConversionPlan& plan);
 

@@ -73,13 +73,21 @@ std::string ReadModelText(const std::string& file) {
   return WriteOsimMarkers(text, file, document, markers);
 }
 
+/// "knee_angle_r" and "knee_angle_l" are one group.
+std::string GroupOf(std::string name) {
+  if (name.ends_with("_r") || name.ends_with("_l")) name.resize(name.size() - 2);
+  return name;
+}
+
 std::string MakePerson(const std::string& text, int seed) {
   Diagnostics diagnostics("model");
   SeededRandom random(1000 + seed);
   OsimScaling scaling;
+  std::map<std::string, double> sizes;  // of both sides
   for (const OsimBody& body : ParseOsim(text, {}, &diagnostics).bodies) {
-    const double size = 1 + 0.05 * std::clamp(random.Normal(), -2.0, 2.0);
-    if (body.mass > 0) scaling.factors[body.name] = Eigen::Vector3d::Constant(size);
+    const auto [size, is_new] = sizes.try_emplace(GroupOf(body.name), 1);
+    if (is_new) size->second += 0.05 * std::clamp(random.Normal(), -2.0, 2.0);
+    if (body.mass > 0) scaling.factors[body.name] = Eigen::Vector3d::Constant(size->second);
   }
   return ScaleOsim(text, "model", scaling, nullptr);
 }
@@ -164,12 +172,6 @@ struct Share {
     ++all;
   }
 };
-
-/// "knee_angle_r" and "knee_angle_l" are one group.
-std::string GroupOf(std::string name) {
-  if (name.ends_with("_r") || name.ends_with("_l")) name.resize(name.size() - 2);
-  return name;
-}
 
 void AddShares(const Case& made, const ModelPtr& model, const ConversionResult& result,
                std::map<std::string, Share>* shares) {

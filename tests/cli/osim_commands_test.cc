@@ -26,21 +26,21 @@ using testing::TestFolder;
 using testing::WriteText;
 using Json = nlohmann::json;
 
-std::string Example(const std::string& name) {
+std::string ExampleFile(const std::string& name) {
   return testing::SourcePath("examples/opensim/" + name);
 }
 
-std::string Out(const std::string& name) { return TestFolder() + "/" + name; }
+std::string OutFile(const std::string& name) { return TestFolder() + "/" + name; }
 
 void ExpectSuccess(const std::vector<std::string>& arguments) {
   const auto run = RunProgram(arguments);
   ASSERT_EQ(run.exit_code, 0) << run.err;
 }
 
-std::string ScaledModel() {
-  ExpectSuccess({"calibrate", Example("static.trc"), "--model", Example("generic.osim"),
-                 "--scale-setup", Example("scale_setup.xml"), "-o", Out("person.osim")});
-  return Out("person.osim");
+std::string ScaleExample() {
+  ExpectSuccess({"calibrate", ExampleFile("static.trc"), "--model", ExampleFile("generic.osim"),
+                 "--scale-setup", ExampleFile("scale_setup.xml"), "-o", OutFile("person.osim")});
+  return OutFile("person.osim");
 }
 
 /// Root mean square of the differences of all turns [deg], after the first tenth of a second.
@@ -62,25 +62,28 @@ double AngleError(const StrictTable& table, const StrictTable& truth) {
 
 TEST(OsimCommands, ThePersonIsScaledAndItsWalkIsFound) {
   const auto run =
-      RunProgram({"calibrate", Example("static.trc"), "--model", Example("generic.osim"),
-                  "--scale-setup", Example("scale_setup.xml"), "-o", Out("person.osim")});
+      RunProgram({"calibrate", ExampleFile("static.trc"), "--model", ExampleFile("generic.osim"),
+                  "--scale-setup", ExampleFile("scale_setup.xml"), "-o", OutFile("person.osim")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("68.000 kg"), HasSubstr("25 moved"),
                              HasSubstr("Scaled 8 bodies by 41 frames: wrote ")));
-  ExpectSuccess({"convert", Example("walk.trc"), "--model", Out("person.osim"), "-c",
-                 "s2kf_offline", "-o", Out("walk.mot"), "--report", Out("walk.html")});
-  const StrictTable truth = ReadStrictMot(ReadText(Example("walk_true.mot")));
-  const double error = AngleError(ReadStrictMot(ReadText(Out("walk.mot"))), truth);
+  const auto walk =
+      RunProgram({"convert", ExampleFile("walk.trc"), "--model", OutFile("person.osim"), "-c",
+                  "s2kf_offline", "-o", OutFile("walk.mot"), "--report", OutFile("walk.html")});
+  ASSERT_EQ(walk.exit_code, 0) << walk.err;
+  const StrictTable truth = ReadStrictMot(ReadText(ExampleFile("walk_true.mot")));
+  const double error = AngleError(ReadStrictMot(ReadText(OutFile("walk.mot"))), truth);
   // Markers 6 mm off on lengths of 0.1 to 0.3 m, of which scaling knows some: 1 to 3 degrees.
   EXPECT_LT(error, 2.5);
-  EXPECT_THAT(ReadText(Out("walk.html")), HasSubstr("knee_angle_r"));
-  ExpectSuccess({"convert", Example("walk.trc"), "--model", Example("generic.osim"), "-c",
-                 "s2kf_offline", "-o", Out("generic.mot")});
-  EXPECT_LT(error, 0.7 * AngleError(ReadStrictMot(ReadText(Out("generic.mot"))), truth));
+  EXPECT_THAT(ReadText(OutFile("walk.html")), HasSubstr("knee_angle_r"));
+  EXPECT_THAT(walk.out, AllOf(HasSubstr("(OpenSim, \"walk\")"), HasSubstr("verdict    good")));
+  ExpectSuccess({"convert", ExampleFile("walk.trc"), "--model", ExampleFile("generic.osim"), "-c",
+                 "s2kf_offline", "-o", OutFile("generic.mot")});
+  EXPECT_LT(error, 0.7 * AngleError(ReadStrictMot(ReadText(OutFile("generic.mot"))), truth));
 }
 
 TEST(OsimCommands, AScaledModelIsReadAgain) {
-  const std::string text = ReadText(ScaledModel());
+  const std::string text = ReadText(ScaleExample());
   const KinematicModel model = ParseOsimModel(text, "person.osim");
   EXPECT_NEAR(model.total_mass(), 68, 1e-9);
   EXPECT_THAT(text, HasSubstr("<!-- A made model of trunk and legs, with round numbers. -->"));
@@ -90,59 +93,61 @@ TEST(OsimCommands, AScaledModelIsReadAgain) {
 TEST(OsimCommands, ScaleSetupsAreMisused) {
   const auto refusal = [](std::vector<std::string> more, int code) {
     std::vector<std::string> words = {
-        "calibrate", Example("static.trc"), "--scale-setup", Example("scale_setup.xml"),
-        "-o",        Out("none.osim")};
+        "calibrate", ExampleFile("static.trc"), "--scale-setup", ExampleFile("scale_setup.xml"),
+        "-o",        OutFile("none.osim")};
     words.insert(words.end(), more.begin(), more.end());
     const auto run = RunProgram(words);
     EXPECT_EQ(run.exit_code, code) << run.err;
-    EXPECT_FALSE(std::filesystem::exists(Out("none.osim")));
+    EXPECT_FALSE(std::filesystem::exists(OutFile("none.osim")));
     return run.err;
   };
   EXPECT_THAT(refusal({}, 1), HasSubstr("is no model of OpenSim"));
-  const std::string model = Example("generic.osim");
-  EXPECT_THAT(refusal({"--model", model, "--summary", Out("s.json")}, 2), HasSubstr("--summary"));
-  EXPECT_THAT(refusal({Example("walk.trc"), "--model", model}, 2), HasSubstr("one recording"));
-  EXPECT_THAT(refusal({"--model", model, "--marker-file", Example("scale_setup.xml")}, 1),
+  const std::string model = ExampleFile("generic.osim");
+  EXPECT_THAT(refusal({"--model", model, "--summary", OutFile("s.json")}, 2),
+              HasSubstr("--summary"));
+  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--model", model}, 2), HasSubstr("one recording"));
+  EXPECT_THAT(refusal({"--model", model, "--marker-file", ExampleFile("scale_setup.xml")}, 1),
               HasSubstr("MarkerSet"));
 }
 
 TEST(OsimCommands, CompareComparesPresets) {
-  ExpectSuccess({"compare", Example("walk.trc"), "--model", Example("generic.osim"), "-c",
-                 "s2kf_default", "-c", "jacobian_opensim", "--json", Out("c.json"), "--report",
-                 Out("c.html")});
-  const Json json = Json::parse(ReadText(Out("c.json")));
+  ExpectSuccess({"compare", ExampleFile("walk.trc"), "--model", ExampleFile("generic.osim"), "-c",
+                 "s2kf_default", "-c", "jacobian_opensim", "--json", OutFile("c.json"), "--report",
+                 OutFile("c.html")});
+  const Json json = Json::parse(ReadText(OutFile("c.json")));
   EXPECT_THAT(json.dump(), AllOf(HasSubstr("s2kf_default"), HasSubstr("jacobian_opensim")));
-  EXPECT_THAT(ReadText(Out("c.html")), HasSubstr("knee_angle_r"));
+  EXPECT_THAT(ReadText(OutFile("c.html")), HasSubstr("knee_angle_r"));
 }
 
 TEST(OsimCommands, BatchWritesCoordinatesAndResumes) {
-  WriteText(Out("m.xml"), "<Batch model='" + Example("generic.osim") + "' config='s2kf_default'>" +
-                              "<Recording file='" + Example("walk.trc") +
-                              "' id='walk'/><Recording file='" + Example("static.trc") +
-                              "' id='static'/></Batch>");
-  ExpectSuccess({"batch", Out("m.xml"), "-o", Out("out"), "--reports", "all"});
-  ExpectSuccess(
-      {"convert", Example("walk.trc"), "--model", Example("generic.osim"), "-o", Out("walk.mot")});
-  EXPECT_EQ(ReadText(Out("out/motions/walk.mot")), ReadText(Out("walk.mot")));
-  EXPECT_TRUE(std::filesystem::exists(Out("out/reports/static.html")));
-  EXPECT_THAT(ReadText(Out("out/results.csv")), HasSubstr("motions/static.mot"));
-  const auto again = RunProgram({"batch", Out("m.xml"), "-o", Out("out"), "--resume"});
+  WriteText(OutFile("m.xml"), "<Batch model='" + ExampleFile("generic.osim") +
+                                  "' config='s2kf_default'>" + "<Recording file='" +
+                                  ExampleFile("walk.trc") + "' id='walk'/><Recording file='" +
+                                  ExampleFile("static.trc") + "' id='static'/></Batch>");
+  ExpectSuccess({"batch", OutFile("m.xml"), "-o", OutFile("out"), "--reports", "all"});
+  ExpectSuccess({"convert", ExampleFile("walk.trc"), "--model", ExampleFile("generic.osim"), "-o",
+                 OutFile("walk.mot")});
+  EXPECT_EQ(ReadText(OutFile("out/motions/walk.mot")), ReadText(OutFile("walk.mot")));
+  EXPECT_TRUE(std::filesystem::exists(OutFile("out/reports/static.html")));
+  EXPECT_THAT(ReadText(OutFile("out/results.csv")), HasSubstr("motions/static.mot"));
+  const auto again = RunProgram({"batch", OutFile("m.xml"), "-o", OutFile("out"), "--resume"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_THAT(again.out + again.err, HasSubstr("2 "));
 }
 
 TEST(OsimCommands, ALiveReplayGivesWhatAConversionGives) {
   for (const bool is_grounded : {false, true}) {
-    std::string text = ReadText(Example("generic.osim"));
+    std::string text = ReadText(ExampleFile("generic.osim"));
     const std::string tz = "<Coordinate name=\"pelvis_tz\">";
     if (is_grounded) text.insert(text.find(tz) + tz.size(), "<locked>true</locked>");
-    WriteText(Out("m.osim"), text);
-    const auto live = RunProgram({"live", "replay:" + Example("walk.trc") + "@max", "--model",
-                                  Out("m.osim"), "-o", Out("live.mot")});
+    WriteText(OutFile("m.osim"), text);
+    const auto live = RunProgram({"live", "replay:" + ExampleFile("walk.trc") + "@max", "--model",
+                                  OutFile("m.osim"), "-o", OutFile("live.mot")});
     ASSERT_EQ(live.exit_code, 0) << live.err;
-    ExpectSuccess({"convert", Example("walk.trc"), "--model", Out("m.osim"), "-o", Out("o.mot")});
-    const StrictTable ours = ReadStrictMot(ReadText(Out("live.mot")));
-    const StrictTable theirs = ReadStrictMot(ReadText(Out("o.mot")));
+    ExpectSuccess(
+        {"convert", ExampleFile("walk.trc"), "--model", OutFile("m.osim"), "-o", OutFile("o.mot")});
+    const StrictTable ours = ReadStrictMot(ReadText(OutFile("live.mot")));
+    const StrictTable theirs = ReadStrictMot(ReadText(OutFile("o.mot")));
     ASSERT_EQ(ours.rows.size(), theirs.rows.size());
     ASSERT_EQ(ours.columns, theirs.columns);
     for (int k = 0; k < static_cast<int>(ours.rows.size()); ++k) {
@@ -151,8 +156,8 @@ TEST(OsimCommands, ALiveReplayGivesWhatAConversionGives) {
       }
     }
   }
-  const auto refused = RunProgram({"live", "replay:" + Example("walk.trc") + "@max", "--model",
-                                   Out("m.osim"), "-o", Out("live.xml")});
+  const auto refused = RunProgram({"live", "replay:" + ExampleFile("walk.trc") + "@max", "--model",
+                                   OutFile("m.osim"), "-o", OutFile("live.xml")});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_THAT(refused.err, HasSubstr("give the output the ending .mot"));
 }

@@ -22,6 +22,7 @@ class OsimEdit {
   const OsimDocument& document() const { return document_; }
   XmlPlace model() const { return model_; }
   XmlEdit& edit() { return edit_; }
+  Diagnostics* diagnostics() { return &diagnostics_; }
   /// The objects of a set of the model, or of one that is a property of an object.
   static std::vector<XmlPlace> Objects(const XmlPlace& owner, std::string_view set);
 

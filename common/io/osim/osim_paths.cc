@@ -21,13 +21,8 @@ class PathMeter {
   explicit PathMeter(OsimEdit* edit) : edit_(*edit) {
     const OsimDocument& document = edit_.document();
     for (const OsimCoordinate& one : document.coordinates) rest_[one.name] = one.default_value;
-    Diagnostics diagnostics("");
-    const KinematicModel model = MakeOsimModel(document, &diagnostics);
-    Eigen::VectorXd values(static_cast<Eigen::Index>(document.coordinates.size()));
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      values[i] = document.coordinates[i].default_value;
-    }
-    const auto poses = SegmentPoses(model, PostureOf(model, values));
+    const KinematicModel model = MakeOsimModel(document, edit_.diagnostics());
+    const auto poses = SegmentPoses(model, RestPosture(model));
     for (const OsimBody& body : document.bodies) {
       const int segment = model.FindSegment(body.name);
       X_WB_.push_back(segment < 0 ? Eigen::Isometry3d(model.coordinates()->R_WG())
@@ -58,8 +53,8 @@ class PathMeter {
 
   bool IsActive(const XmlElement& point) {
     if (!point.Is("ConditionalPathPoint")) return true;
-    Diagnostics diagnostics("");
-    const std::vector<double> range = ReadOsimNumbers(point, "range", 2, {0, 0}, &diagnostics);
+    const std::vector<double> range =
+        ReadOsimNumbers(point, "range", 2, {0, 0}, edit_.diagnostics());
     // A coordinate that is on the end of the range is in it, whatever the digits of the file.
     constexpr double kTolerance = 1e-4;
     const double q = RestOf(point, "coordinate");
@@ -75,8 +70,8 @@ class PathMeter {
       const XmlElement* function = FindOsimObject(point, axis + "_location");
       if (function == nullptr) continue;
       const double q = RestOf(point, axis + "_coordinate");
-      Diagnostics diagnostics("");
-      const OsimExpression value = ReadOsimFunction(function, {"q"}, false, nullptr, &diagnostics);
+      const OsimExpression value =
+          ReadOsimFunction(function, {"q"}, false, nullptr, edit_.diagnostics());
       location[i] = value.constant;
       for (const auto& term : value.terms) location[i] += term.function.Value(q);
     }

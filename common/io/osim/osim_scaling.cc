@@ -263,6 +263,13 @@ std::string ScaleLengths(const std::vector<OsimPath>& before, const std::string&
   return edit.Finish();
 }
 
+bool IsAsInFile(const OsimMarker& marker, const OsimDocument& document) {
+  return std::any_of(document.markers.begin(), document.markers.end(), [&](const OsimMarker& one) {
+    return one.name == marker.name && one.body == marker.body && one.p_BM == marker.p_BM &&
+           one.is_fixed == marker.is_fixed;
+  });
+}
+
 }  // namespace
 
 std::string ScaleOsim(std::string_view content, const std::string& file, const OsimScaling& scaling,
@@ -300,6 +307,7 @@ std::string WriteOsimMarkers(std::string_view content, const std::string& file,
           marker.is_fixed);
       continue;
     }
+    if (IsAsInFile(marker, edit.document())) continue;
     if (OsimText(place->element(), socket) != frame) {
       edit.edit().SetProperty(*place, socket, EscapeXml(frame));
     }

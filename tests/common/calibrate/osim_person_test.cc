@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using testing::SharedData;
 
-OsimDocument Parse(const std::string& content) {
+OsimDocument ReadDocument(const std::string& content) {
   Diagnostics diagnostics("scaled.osim");
   return ParseOsim(content, {}, &diagnostics);
 }
@@ -69,10 +69,7 @@ MarkerSequence Standing(const KinematicModel& model) {
   PoseTrajectory motion;
   motion.rate = 50;
   for (int j = 0; j < model.num_joints(); ++j) motion.joint_names.push_back(model.joint(j).name);
-  const auto& all = model.coordinates()->coordinates();
-  Eigen::VectorXd values(static_cast<Eigen::Index>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i) values[static_cast<Eigen::Index>(i)] = all[i].rest;
-  for (int k = 0; k < 5; ++k) motion.postures.push_back(PostureOf(model, values));
+  for (int k = 0; k < 5; ++k) motion.postures.push_back(RestPosture(model));
   return SynthesizeMarkers(model, motion, {0, 0, 1, 0}, 1).Slice(0, 5);
 }
 
@@ -145,7 +142,7 @@ TEST(OsimPerson, MarkersMoveOntoThePerson) {
   const ScaledOsim scaled =
       ScaleOsimPerson({fixed, "m.osim"}, {}, setup, "setup.xml", recording, nullptr);
   EXPECT_LT(scaled.distance, 1e-6);
-  const OsimDocument document = Parse(scaled.content);
+  const OsimDocument document = ReadDocument(scaled.content);
   EXPECT_EQ(scaled.placed_markers, static_cast<int>(document.markers.size()) - 1);
   int checked = 0;
   for (const OsimMarker& marker : document.markers) {
@@ -219,9 +216,9 @@ GoldenScaling ScaleGoldenPerson() {
   GoldenScaling golden;
   golden.scaled = ScaleOsimPerson({model, "gait2354_simbody.osim"}, {{markers, "markers.xml"}},
                                   setup, "setup.xml", recording.markers, nullptr);
-  golden.ours = Parse(golden.scaled.content);
+  golden.ours = ReadDocument(golden.scaled.content);
   golden.their_text = file("std_subject01_simbody.osim");
-  golden.theirs = Parse(golden.their_text);
+  golden.theirs = ReadDocument(golden.their_text);
   return golden;
 }
 

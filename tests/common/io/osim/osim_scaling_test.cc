@@ -19,13 +19,13 @@ using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-OsimDocument Parse(const std::string& content) {
+OsimDocument ReadDocument(const std::string& content) {
   Diagnostics diagnostics("m.osim");
   return ParseOsim(content, {}, &diagnostics);
 }
 
 /// The numbers of all elements of that name, in order.
-std::vector<double> Numbers(const std::string& text, const std::string& name) {
+std::vector<double> NumbersOf(const std::string& text, const std::string& name) {
   std::vector<double> numbers;
   const std::string tag = "<" + name + ">";
   for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at + 1)) {
@@ -68,9 +68,9 @@ std::string WithMuscles(const std::string& model) {
   return text;
 }
 
-OsimScaling All(double factor) {
+OsimScaling ScaleAll(double factor) {
   OsimScaling scaling;
-  for (const OsimBody& body : Parse(testing::OsimOfAllKinds()).bodies) {
+  for (const OsimBody& body : ReadDocument(testing::OsimOfAllKinds()).bodies) {
     scaling.factors[body.name] = Vector3d::Constant(factor);
   }
   return scaling;
@@ -78,7 +78,7 @@ OsimScaling All(double factor) {
 
 TEST(OsimScaling, NothingToScaleIsNothingChanged) {
   const std::string text = WithMuscles(testing::OsimOfAllKinds()) + "\n</Odd> behind the end";
-  EXPECT_TRUE(ScaleOsim(text, "m.osim", All(1), nullptr) == text);
+  EXPECT_TRUE(ScaleOsim(text, "m.osim", ScaleAll(1), nullptr) == text);
 }
 
 // Twice as large a body at the same angles: twice as far is every marker from the ground's origin
@@ -88,7 +88,7 @@ TEST(OsimScaling, AllBodiesAlikeMakeALargerModel) {
   const double factor = 1.25;
   const KinematicModel before = ParseOsimModel(text, "m.osim");
   const KinematicModel after =
-      ParseOsimModel(ScaleOsim(text, "m.osim", All(factor), nullptr), "m.osim");
+      ParseOsimModel(ScaleOsim(text, "m.osim", ScaleAll(factor), nullptr), "m.osim");
   const auto& all = before.coordinates()->coordinates();
   for (int trial = 0; trial < 5; ++trial) {
     Eigen::VectorXd small(static_cast<Eigen::Index>(all.size()));
@@ -118,7 +118,9 @@ TEST(OsimScaling, MassesAndInertias) {
   scaling.factors["thigh"] = {2, 2, 2};
   scaling.factors["shank"] = {1, 3, 2};
   scaling.mass = 24;  // of 12 bodies of 1 kg
-  const auto bodies = [&] { return Parse(ScaleOsim(text, "m.osim", scaling, nullptr)).bodies; };
+  const auto bodies = [&] {
+    return ReadDocument(ScaleOsim(text, "m.osim", scaling, nullptr)).bodies;
+  };
   const std::vector<OsimBody> kept = bodies();
   Eigen::Matrix3d I;
   I << 0.01, 0.001, 0, 0.001, 0.02, 0, 0, 0, 0.03;
@@ -149,11 +151,11 @@ TEST(OsimScaling, MusclesGoWithTheirPaths) {
   const std::string scaled = ScaleOsim(text, "m.osim", scaling, &warnings);
   // At -0.3 rad from (0.01, 0.02, 0.03) to (0.08, 0.02, 0.13), past the point that is not active.
   const double ratio = std::hypot(0.07, 0.3) / std::hypot(0.07, 0.1);
-  const std::vector<double> fibres = Numbers(scaled, "optimal_fiber_length");
+  const std::vector<double> fibres = NumbersOf(scaled, "optimal_fiber_length");
   ASSERT_EQ(fibres.size(), 2U);
   EXPECT_NEAR(fibres[0], 0.06 * ratio, 1e-14);
   EXPECT_EQ(fibres[1], 0.05);
-  EXPECT_NEAR(Numbers(scaled, "tendon_slack_length").front(), 0.2 * ratio, 1e-14);
+  EXPECT_NEAR(NumbersOf(scaled, "tendon_slack_length").front(), 0.2 * ratio, 1e-14);
   EXPECT_TRUE(warnings.empty());  // the one that wraps keeps its length
   EXPECT_THAT(scaled, HasSubstr("<Odd-One here='1'>  <!-- stays -->\n <x:y>0.30 </x:y></Odd-One>"));
   scaling.factors["pelvis"] = {1, 2, 1};
@@ -175,8 +177,8 @@ TEST(OsimScaling, WrapsAndWhatIsDrawnGoWithTheirBody) {
   EXPECT_THAT(scaled, HasSubstr("<scale_factors>2 6 4</scale_factors>"));
   EXPECT_THAT(scaled, HasSubstr("<translation>2 3 4</translation>"));
   EXPECT_THAT(scaled, HasSubstr("<dimensions>2 3 4</dimensions>"));
-  EXPECT_NEAR(Numbers(scaled, "length").front(), 1.5, 1e-14);  // its z is the body's y
-  EXPECT_NEAR(Numbers(scaled, "radius").front(), 0.3, 1e-14);
+  EXPECT_NEAR(NumbersOf(scaled, "length").front(), 1.5, 1e-14);  // its z is the body's y
+  EXPECT_NEAR(NumbersOf(scaled, "radius").front(), 0.3, 1e-14);
 }
 
 TEST(OsimScaling, MarkersAreAddedAndMoved) {
@@ -187,12 +189,12 @@ TEST(OsimScaling, MarkersAreAddedAndMoved) {
                                          testing::OsimJointText("PinJoint", "j", "ground", "a"));
     const std::string set = "<MarkerSet name=\"markerset\"><objects>\n</objects></MarkerSet>";
     text.replace(text.find(set), set.size(), empty);
-    const OsimDocument document = Parse(text);
+    const OsimDocument document = ReadDocument(text);
     const std::vector<OsimMarker> markers = {{"x & y", 0, 1, {0.1, 0.2, 0.3}, true},
                                              {"z", 0, 0, {1, 2, 3}, false}};
     std::string written = WriteOsimMarkers(text, "m.osim", document, markers);
     written = WriteOsimMarkers(written, "m.osim", document, {{"z", 0, 1, {3, 2, 1}, false}});
-    const std::vector<OsimMarker> read = Parse(written).markers;
+    const std::vector<OsimMarker> read = ReadDocument(written).markers;
     ASSERT_EQ(read.size(), 2U) << empty;
     EXPECT_EQ(read[0].name, "x & y");
     EXPECT_EQ(read[0].p_BM, Vector3d(0.1, 0.2, 0.3));
@@ -200,6 +202,7 @@ TEST(OsimScaling, MarkersAreAddedAndMoved) {
     EXPECT_EQ(read[1].body, 1);
     EXPECT_EQ(read[1].p_BM, Vector3d(3, 2, 1));
     EXPECT_FALSE(read[1].is_fixed);
+    EXPECT_TRUE(WriteOsimMarkers(written, "m.osim", document, read) == written);
   }
 }
 
@@ -218,11 +221,31 @@ TEST(OsimScaling, ABodyMustBeThereAndKeepASize) {
   }
 }
 
+// Cut anywhere it is no model; with bytes that are others it is one, or an error tells.
+TEST(OsimScaling, DamagedFilesAreErrors) {
+  const std::string text = WithMuscles(testing::OsimOfAllKinds());
+  for (std::size_t size = 0; size < text.size() - 30; size += 211) {
+    EXPECT_THROW(ScaleOsim(text.substr(0, size), "m.osim", ScaleAll(1.1), nullptr), Error) << size;
+  }
+  int scaled = 0;
+  for (std::size_t at = 100; at < text.size(); at += 173) {
+    std::string damaged = text;
+    damaged[at] = "<>/\"x0-"[at % 7];
+    try {
+      ScaleOsim(damaged, "m.osim", ScaleAll(1.1), nullptr);
+      ++scaled;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("m.osim"));
+    }
+  }
+  EXPECT_GT(scaled, 5);
+}
+
 TEST(OsimScaling, ASetInAnotherFileIsRefused) {
   std::string text = testing::OsimOfAllKinds();
   text.insert(text.find("<MarkerSet"), "<ForceSet file=\"forces.xml\"/>");
   try {
-    ScaleOsim(text, "m.osim", All(1), nullptr);
+    ScaleOsim(text, "m.osim", ScaleAll(1), nullptr);
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("<ForceSet> stands in another file, forces.xml"));
