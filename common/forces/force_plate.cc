@@ -8,7 +8,6 @@
 #include <cmath>
 #include <string>
 
-#include "common/io/recording/recording_axes.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -104,9 +103,8 @@ double MomentUnit(const std::string& text, double file_unit) {
 
 }  // namespace
 
-std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& analog,
+std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& analog, double unit,
                                         Warnings* warnings) {
-  const double unit = DecideUnit(MarkerSequence(), file.parameters().Text("POINT", "UNITS")).metres;
   std::vector<ForcePlate> plates;
   int number = 0;
   for (const C3dForcePlate& stored : ReadC3dForcePlates(file.parameters(), warnings)) {

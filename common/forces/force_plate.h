@@ -40,8 +40,9 @@ struct ForcePlate {
 };
 
 /// The plates of a file that can be read; the others are refused in a warning that names the plate
-/// and the reason. Corners 1 to 4 lie at (+x, +y), (-x, +y), (-x, -y), (+x, -y) of P.
-std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& analog,
+/// and the reason. unit [m]: of lengths. Corners 1 to 4 lie at (+x, +y), (-x, +y), (-x, -y), (+x,
+/// -y) of P.
+std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& analog, double unit,
                                         Warnings* warnings);
 
 }  // namespace mmm_converter

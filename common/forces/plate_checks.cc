@@ -18,6 +18,8 @@ constexpr double kUnloadedShare = 0.03;   // of the samples, at least, to be cal
 constexpr double kUnloadedSpread = 40;    // [N] stairs shake by 20 to 40
 constexpr double kContactThreshold = 20;  // [N] the common one (BTK 10, pyCGM2 50)
 constexpr double kSurelyLoaded = 50;      // [N]
+constexpr double kShakes = 3;             // standard deviations of what an unloaded plate shows
+constexpr double kRobustSpread = 1.4826;  // a normal deviation is so many median ones
 constexpr double kLoadedShare = 0.2;   // of the peak: what positions of the pressure are told from
 constexpr double kShortest = 0.05;     // [s] of a gap that stays, and of a load
 constexpr double kBesidePlate = 0.05;  // [m] a foot's pressure may be told beyond the edge
@@ -54,13 +56,25 @@ void Negate(PlateForces* forces) {
   forces->unloaded_level *= -1;
 }
 
+/// Above what an unloaded plate shows: stairs shake by 20 to 40 N.
+double ThresholdOf(const PlateForces& forces) {
+  if (!forces.is_seen_unloaded) return kContactThreshold;
+  std::vector<double> distances;
+  for (int k = 0; k < static_cast<int>(forces.force.cols()); ++k) {
+    const double load = std::abs(forces.Load(k));
+    if (load <= kFarthestOffset) distances.push_back(load);
+  }
+  return std::clamp(kShakes * kRobustSpread * Median(distances), kContactThreshold, kSurelyLoaded);
+}
+
 /// Where the load is beyond the threshold; short gaps closed, short loads dropped.
 std::vector<LoadInterval> LoadsOf(const PlateForces& forces, double rate) {
   const int shortest = static_cast<int>(std::lround(kShortest * rate));
   std::vector<LoadInterval> loads;
   const int samples = static_cast<int>(forces.force.cols());
+  const double threshold = ThresholdOf(forces);
   for (int k = 0; k < samples; ++k) {
-    if (!(forces.Load(k) > kContactThreshold)) continue;
+    if (!(forces.Load(k) > threshold)) continue;
     if (!loads.empty() && k - loads.back().end < shortest) {
       loads.back().end = k + 1;
     } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct PlateForces {
   bool is_reversed = false;   ///< the file held the forces on the plate, not on the person
   bool tells_contact = true;  ///< false: the sign of its forces can't be told
   double largest_load = 0;    ///< vertical, above the unloaded level [N]
+  std::string applied_to;     ///< the body, where a file of forces says it: "calcn_r"
   std::vector<LoadInterval> loads;
 
   /// Along the surface's normal, up, above the unloaded level [N].
@@ -39,16 +41,21 @@ struct PlateForces {
 
 /// All plates of a recording.
 struct RecordedForces {
-  double rate = 0;  ///< of samples [Hz]
+  double rate = 0;        ///< of samples [Hz]
+  double first_time = 0;  ///< of sample 0 [s]
   int samples_per_frame = 1;
   std::vector<PlateForces> plates;
+
+  double time(int sample) const { return first_time + sample / rate; }
 };
 
-/// Plates and their forces. Nothing in a file without plates. What files are known to hold wrong -
-/// ORIGIN and forces reversed, moments in another unit, offsets - is found from the loaded centre
-/// of pressure and told in warnings that name the plate.
+/// Plates and their forces; W: the file's axes, the first sample at 0 s. Nothing in a file without
+/// plates. What files are known to hold wrong - ORIGIN and forces reversed, moments in another
+/// unit, offsets - is found from the loaded centre of pressure and told in warnings that name the
+/// plate. unit [m]: of its lengths; nothing: as the file says.
 /// @throws Error where the file is no C3D file, or has become shorter meanwhile.
-RecordedForces ReadForces(const std::string& path, Warnings* warnings);
+RecordedForces ReadForces(const std::string& path, Warnings* warnings,
+                          std::optional<double> unit = {});
 
 /// The forces of a plate from its channels, in the order of PlateType: a row for each, a column for
 /// each sample. The centre of pressure is told of unloaded samples too, where it means little.

@@ -9,6 +9,7 @@
 #include "common/forces/plate_checks.h"
 #include "common/forces/plate_forces.h"
 #include "common/io/c3d/c3d_file.h"
+#include "common/io/recording/recording_axes.h"
 
 namespace mmm_converter {
 namespace {
@@ -57,12 +58,15 @@ PlateForces ReadPlate(ForcePlate plate, const Eigen::MatrixXd& samples, const Re
 
 }  // namespace
 
-RecordedForces ReadForces(const std::string& path, Warnings* warnings) {
+RecordedForces ReadForces(const std::string& path, Warnings* warnings, std::optional<double> unit) {
   C3dFile file(path, nullptr);  // what there is to say of its points, their reader says
   const WarningContext context(warnings, path);
   RecordedForces forces;
   const C3dAnalog analog = ReadC3dAnalog(file, nullptr);
-  std::vector<ForcePlate> plates = ReadForcePlates(file, analog, warnings);
+  if (!unit) {
+    unit = DecideUnit(MarkerSequence(), file.parameters().Text("POINT", "UNITS")).metres;
+  }
+  std::vector<ForcePlate> plates = ReadForcePlates(file, analog, *unit, warnings);
   forces.rate = analog.rate;
   forces.samples_per_frame = std::max(analog.samples_per_frame, 1);
   if (plates.empty()) return forces;

@@ -9,6 +9,7 @@
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/judge/conversion_verdict.h"
+#include "common/pipeline/force_exports.h"
 #include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/advice.h"
@@ -169,6 +170,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   plan.subject_output = request.subject_output;
   plan.model_output = request.model_output;
   plan.self_calibrates = request.self_calibrate && !plan.object;
+  CheckForces(request.exports, &plan);
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   return plan;
 }
@@ -195,7 +197,7 @@ void CheckOutputs(const ConversionRequest& request,
   outputs.Write(DeviationsOutput(*plans.front()));
   outputs.Write(request.subject_output);
   outputs.Write(request.model_output);
-  for (const auto& [unused, file] : request.exports) outputs.Write(file);
+  for (const std::string& file : FilesOf(request.exports)) outputs.Write(file);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   outputs.Check();
 }

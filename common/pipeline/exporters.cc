@@ -14,6 +14,7 @@
 #include "common/io/tables/trajectory_csv.h"
 #include "common/io/tables/trc_writer.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/force_exports.h"
 #include "common/pipeline/pose_output.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
@@ -127,7 +128,14 @@ const std::vector<Exporter>& Exporters() {
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "
        "some 13 a second",
-       WriteCovariances, true}};
+       WriteCovariances, true},
+      {"contacts", "export-contacts", "csv", "when which foot is on the ground, as CSV",
+       "when which foot is on the ground and on which force plate: .json with events, else CSV",
+       WriteContacts},
+      {"grf", "export-grf", "mot", "ground reaction forces for OpenSim",
+       "what force plates measured as OpenSim's .mot, with axes and time of the TRC, and the "
+       "ExternalLoads as .xml beside it",
+       WriteGrf}};
   return exporters;
 }
 

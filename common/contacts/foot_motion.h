@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+#include "common/motion/pose_trajectory.h"
+
+namespace mmm_converter {
+
+enum class Side { kLeft, kRight };
+inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
+const char* Name(Side side);  ///< "left", "right"
+
+/// Where a foot would touch the ground, a column a frame [m], W, and how fast that is, after a
+/// low-pass [m/s].
+struct FootPath {
+  Eigen::Matrix3Xd heel, toe;
+  Eigen::VectorXd heel_speed, toe_speed;
+};
+
+/// Both feet of a tracked person.
+struct FootMotion {
+  double rate = 0;        ///< [Hz]
+  double first_time = 0;  ///< [s]
+  std::array<FootPath, 2> feet;
+
+  const FootPath& foot(Side side) const { return feet[static_cast<std::size_t>(side)]; }
+  int num_frames() const { return static_cast<int>(feet[0].heel.cols()); }
+  double time(double frame) const { return first_time + frame / rate; }
+};
+
+/// Whether a model has the feet of MMM's reference model.
+bool HasFeet(const KinematicModel& model);
+
+/// From the postures alone: where markers were on the feet does not matter.
+/// @throws Error where the model has no feet that are known.
+FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion);
+
+}  // namespace mmm_converter

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/pipeline/exporters.h"
+
+namespace mmm_converter {
+
+struct ConversionPlan;
+
+// Exports that are made of where feet stand and of what force plates measured.
+
+/// When which foot is on the ground: JSON where the file is called so, else CSV.
+void WriteContacts(const std::string& file, const ConversionReport& report);
+
+/// The ground's forces for OpenSim: a table, and beside it the ExternalLoads, called as the table
+/// with ".xml".
+void WriteGrf(const std::string& file, const ConversionReport& report);
+
+/// Before anything is tracked: says what there is to say of the plates.
+/// @throws Error where an export can't be made.
+void CheckForces(const ExportFiles& files, ConversionPlan* plan);
+
+/// All files that exports write.
+std::vector<std::string> FilesOf(const ExportFiles& files);
+
+}  // namespace mmm_converter

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "common/contacts/contacts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "common/contacts/contact_table.h"
+#include "common/contacts/external_loads_writer.h"
+#include "common/forces/external_loads.h"
+#include "common/forces/plate_checks.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+#include "tests/support/test_folder.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using testing::TestFolder;
+
+constexpr double kRate = 100;         // of frames
+constexpr double kSampleRate = 1000;  // of plates
+constexpr double kSeconds = 4;
+constexpr double kFoot = 0.25;  // length
+constexpr double kStep = 0.5;   // between the places where a foot stands
+constexpr double kExact = 1e-9;
+
+/// Two feet that step along x: the left stands in [0.5, 1.5) and [2, 3) s at x = 0.5 and 1.5, the
+/// right in [1.3, 2.2) s at x = 1, and before and after these.
+class WalkTest : public ::testing::Test {
+ protected:
+  struct Stand {
+    double begin, end, x;
+  };
+
+  static void PutFoot(const std::vector<Stand>& stands, double y, FootPath* foot) {
+    const auto frames = static_cast<Eigen::Index>(kSeconds * kRate);
+    foot->heel.resize(3, frames);
+    foot->heel_speed.resize(frames);
+    for (Eigen::Index k = 0; k < frames; ++k) {
+      const double t = static_cast<double>(k) / kRate;
+      double x = 0;
+      bool stands_there = false;
+      for (const Stand& one : stands) {
+        if (t >= one.begin) x = one.x;
+        stands_there |= t >= one.begin && t < one.end;
+      }
+      foot->heel.col(k) =
+          Eigen::Vector3d(x + (stands_there ? 0 : kStep), y, stands_there ? 0 : 0.1);
+      foot->heel_speed[k] = stands_there ? 0 : 3;
+    }
+    foot->toe = foot->heel;
+    foot->toe.row(0).array() += kFoot;
+    foot->toe_speed = foot->heel_speed;
+  }
+
+  static FootMotion Walk() {
+    FootMotion motion;
+    motion.rate = kRate;
+    PutFoot({{0.5, 1.5, 0.5}, {2, 3, 1.5}}, 0.1, &motion.feet[0]);
+    PutFoot({{0, 0.6, 0}, {1.3, 2.2, 1}, {2.8, 4, 2}}, -0.1, &motion.feet[1]);
+    return motion;
+  }
+
+  /// A level plate of 0.6 x 0.5 m around (x, y) that bears 700 N at (x, cop_y) in [begin, end) s.
+  static PlateForces Plate(int number, double x, double y, double cop_y, double begin, double end) {
+    const auto samples = static_cast<Eigen::Index>(kSeconds * kSampleRate);
+    PlateForces plate;
+    plate.plate.number = number;
+    plate.plate.R_WP = Eigen::Vector3d(1, -1, -1).asDiagonal();
+    plate.plate.p_WP = {x, y, 0};
+    plate.plate.half_size = {0.3, 0.25};
+    plate.force = Eigen::Matrix3Xd::Zero(3, samples);
+    plate.cop = Eigen::Vector3d(x, cop_y, 0).replicate(1, samples);
+    plate.free_moment = Eigen::Matrix3Xd::Zero(3, samples);
+    plate.moment = plate.free_moment;
+    for (auto k = static_cast<Eigen::Index>(begin * kSampleRate); k < end * kSampleRate; ++k) {
+      plate.force.col(k) = Eigen::Vector3d(20, -10, 700);
+      plate.free_moment.col(k).z() = 3;
+    }
+    JudgeLoads(kSampleRate, &plate, nullptr);
+    return plate;
+  }
+
+  static RecordedForces ForcesOf(std::vector<PlateForces> plates) {
+    RecordedForces forces;
+    forces.rate = kSampleRate;
+    forces.samples_per_frame = 10;
+    forces.plates = std::move(plates);
+    return forces;
+  }
+
+  static std::vector<FootContact> Of(Side side, const Contacts& contacts) {
+    std::vector<FootContact> of;
+    for (const FootContact& one : contacts.contacts) {
+      if (one.side == side) of.push_back(one);
+    }
+    return of;
+  }
+
+  static constexpr double kLeftX = 0.5 + kFoot / 2;
+  static constexpr double kRightX = 1 + kFoot / 2;
+};
+
+TEST_F(WalkTest, WithoutPlatesFeetStandWhereTheyAreSlow) {
+  const Contacts contacts = FindContacts(Walk(), {});
+  EXPECT_THAT(contacts.loads, IsEmpty());
+  const std::vector<FootContact> left = Of(Side::kLeft, contacts);
+  ASSERT_THAT(left, SizeIs(2));
+  EXPECT_NEAR(*left[0].begin, 0.5, 0.03);
+  EXPECT_NEAR(*left[0].end, 1.5, 0.03);
+  EXPECT_GT(left[0].begin_deviation, 0.005);
+  const std::vector<FootContact> right = Of(Side::kRight, contacts);
+  ASSERT_THAT(right, SizeIs(3));
+  EXPECT_FALSE(right[0].begin);  // it stood there when the recording began
+  EXPECT_FALSE(right[2].end);
+}
+
+TEST_F(WalkTest, TheCentreOfPressureTellsTheFoot) {
+  const RecordedForces forces =
+      ForcesOf({Plate(1, kLeftX, 0.1, 0.12, 0.52, 1.5), Plate(2, kRightX, -0.1, -0.13, 1.32, 2.2)});
+  const Contacts contacts = FindContacts(Walk(), forces);
+  ASSERT_THAT(contacts.loads, SizeIs(2));
+  EXPECT_EQ(contacts.loads[0].bearer, Bearer::kLeft);
+  EXPECT_NEAR(contacts.loads[0].distances[0], 0.02, kExact);
+  EXPECT_EQ(contacts.loads[1].bearer, Bearer::kRight);
+  const std::vector<FootContact> left = Of(Side::kLeft, contacts);
+  ASSERT_THAT(left, SizeIs(2));
+  EXPECT_THAT(left[0].plates, ElementsAre(1));
+  EXPECT_EQ(*left[0].begin, 0.52);
+  EXPECT_EQ(*left[0].end, 1.5);
+  // Plates say of two steps that the load begins 30 ms later than the foot is slow: so elsewhere.
+  EXPECT_THAT(left[1].plates, IsEmpty());
+  EXPECT_NEAR(*left[1].begin, 2.02, 0.01);
+}
+
+TEST_F(WalkTest, AFootOverTwoPlatesIsOneContact) {
+  const RecordedForces forces =
+      ForcesOf({Plate(1, 0.55, 0.1, 0.1, 0.5, 1.45), Plate(2, 0.72, 0.1, 0.1, 0.55, 1.5)});
+  const std::vector<FootContact> left = Of(Side::kLeft, FindContacts(Walk(), forces));
+  ASSERT_THAT(left, SizeIs(2));
+  EXPECT_THAT(left[0].plates, ElementsAre(1, 2));
+  EXPECT_EQ(*left[0].begin, 0.5);
+  EXPECT_EQ(*left[0].end, 1.5);
+}
+
+TEST_F(WalkTest, TwoFeetOnOnePlateHaveNoSide) {
+  PlateForces plate = Plate(1, 0.8, 0, 0, 0.5, 2.2);
+  plate.plate.half_size = {0.6, 0.4};
+  const Contacts contacts = FindContacts(Walk(), ForcesOf({plate}));
+  ASSERT_THAT(contacts.loads, SizeIs(1));
+  EXPECT_EQ(contacts.loads[0].bearer, Bearer::kBoth);
+  // Each stands there while it is slow.
+  EXPECT_THAT(Of(Side::kLeft, contacts)[0].plates, ElementsAre(1));
+  EXPECT_THAT(Of(Side::kRight, contacts)[1].plates, ElementsAre(1));
+}
+
+TEST_F(WalkTest, WhatIsFarFromBothFeetIsUnknown) {
+  const Contacts contacts = FindContacts(Walk(), ForcesOf({Plate(1, 0.6, 2, 2, 0.5, 1.5)}));
+  EXPECT_EQ(contacts.loads[0].bearer, Bearer::kUnknown);
+  EXPECT_THAT(Of(Side::kLeft, contacts)[0].plates, IsEmpty());
+}
+
+TEST_F(WalkTest, APlateThatTellsNoContactIsNotAsked) {
+  PlateForces plate = Plate(1, kLeftX, 0.1, 0.12, 0.5, 1.5);
+  plate.tells_contact = false;
+  EXPECT_THAT(FindContacts(Walk(), ForcesOf({plate})).loads, IsEmpty());
+}
+
+TEST_F(WalkTest, TablesSayTheSame) {
+  const RecordedForces forces = ForcesOf({Plate(1, kLeftX, 0.1, 0.12, 0.52, 1.5)});
+  const Contacts contacts = FindContacts(Walk(), forces);
+  const std::string csv = FormatContactsCsv(contacts);
+  EXPECT_NE(csv.find("left,0.52,0.002,1.5,0.002,1\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("right,,,"), std::string::npos) << csv;
+  const auto json = nlohmann::json::parse(FormatContactsJson(contacts, forces));
+  EXPECT_EQ(json["contacts"].size(), 5U);
+  EXPECT_EQ(json["contacts"][0]["plates"], nlohmann::json({1}));
+  EXPECT_EQ(json["loads"][0]["foot"], "left");
+  ASSERT_EQ(json["events"].size(), 8U);  // two of ten are not within the recording
+  EXPECT_EQ(json["events"][0]["label"], "Foot Strike");
+  EXPECT_EQ(json["events"][0]["context"], "Left");
+  EXPECT_EQ(json["events"][0]["time_s"], 0.52);
+}
+
+TEST_F(WalkTest, OpenSimsTableIsReadBackAsItWas) {
+  const RecordedForces forces =
+      ForcesOf({Plate(1, kLeftX, 0.1, 0.12, 0.52, 1.5), Plate(2, kRightX, -0.1, -0.13, 1.32, 2.2)});
+  const Contacts contacts = FindContacts(Walk(), forces);
+  const ExternalLoads loads = {&forces, &contacts, 0.5, 2};
+  const std::string table = TestFolder() + "/grf.mot";
+  WriteFileAtomically(table, FormatExternalLoadsTable(loads, "grf.mot"));
+  for (const bool with_xml : {false, true}) {
+    const std::string xml = TestFolder() + "/grf.xml";
+    WriteFileAtomically(xml, FormatExternalLoadsXml(loads, "grf.mot"));
+    const RecordedForces read =
+        ReadExternalLoads(with_xml ? xml : table, Eigen::Vector3d::UnitY(), nullptr);
+    ASSERT_THAT(read.plates, SizeIs(2));
+    EXPECT_NEAR(read.first_time, 0.5, kExact);
+    EXPECT_NEAR(read.rate, kSampleRate, 1e-6);
+    EXPECT_EQ(read.plates[0].force.cols(), 1501);
+    EXPECT_EQ(read.plates[0].applied_to, with_xml ? "calcn_l" : "ground_force_1_v");
+    // y up: x, z, -y.
+    EXPECT_EQ(read.plates[0].force.col(500), Eigen::Vector3d(20, 700, 10));
+    EXPECT_EQ(read.plates[0].free_moment.col(500), Eigen::Vector3d(0, 3, 0));
+    EXPECT_EQ(read.plates[1].cop.col(1000), Eigen::Vector3d(kRightX, 0, 0.13));
+    // Unloaded: no force, the pressure where it was and where it will be.
+    EXPECT_EQ(read.plates[1].force.col(0), Eigen::Vector3d::Zero());
+    EXPECT_EQ(read.plates[1].cop.col(0), Eigen::Vector3d(kRightX, 0, 0.13));
+    EXPECT_EQ(read.plates[0].cop.col(1400), Eigen::Vector3d(kLeftX, 0, -0.12));
+    ASSERT_THAT(read.plates[1].loads, SizeIs(1));
+    EXPECT_NEAR(read.time(read.plates[1].loads[0].begin), 1.32, kExact);
+  }
+}
+
+TEST_F(WalkTest, TheBodyThatAFileNamesBearsItsPlate) {
+  PlateForces plate = Plate(1, kLeftX, 0.1, 0.12, 0.5, 1.5);
+  plate.applied_to = "calcn_r";
+  EXPECT_EQ(FindContacts(Walk(), ForcesOf({plate})).loads[0].bearer, Bearer::kRight);
+}
+
+TEST_F(WalkTest, OpenSimCantUseALoadWithoutANumber) {
+  RecordedForces forces = ForcesOf({Plate(1, kLeftX, 0.1, 0.12, 0.5, 1.5)});
+  forces.plates[0].force.col(1000).setConstant(kNaN);
+  const Contacts contacts = FindContacts(Walk(), forces);
+  const ExternalLoads loads = {&forces, &contacts, 0, 3};
+  EXPECT_THROW(Join(FormatExternalLoadsTable(loads, "grf.mot")), Error);
+}
+
+class ExternalLoadsTest : public ::testing::Test {
+ protected:
+  static std::string Write(const std::string& name, const std::string& text) {
+    const std::string file = TestFolder() + "/" + name;
+    WriteFileAtomically(file, text);
+    return file;
+  }
+  static std::string MessageOf(const std::string& file) {
+    try {
+      ReadExternalLoads(file, Eigen::Vector3d::UnitY(), nullptr);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(ExternalLoadsTest, WhatIsNoTableIsSaid) {
+  EXPECT_THAT(MessageOf(Write("a.mot", "time x\n0 1\n")), ::testing::HasSubstr("endheader"));
+  EXPECT_THAT(MessageOf(Write("b.mot", "endheader\ntime a b\n0 1 2\n1 2\n")),
+              ::testing::HasSubstr("b.mot:4: 2 numbers, but 3 columns"));
+  EXPECT_THAT(MessageOf(Write("c.mot", "endheader\ntime a\n0 1\n1 2\n")),
+              ::testing::HasSubstr("has no force"));
+  EXPECT_THAT(
+      MessageOf(Write("d.mot", "endheader\ntime f_vx f_vy f_vz\n0 0 0 0\n1 0 0 0\n7 0 0 0\n")),
+      ::testing::HasSubstr("not even"));
+  EXPECT_THAT(MessageOf(Write("e.mot", "endheader\ntime f_vx\n0 0\n1 0\n")),
+              ::testing::HasSubstr("x, y and z"));
+  EXPECT_THAT(MessageOf(Write("f.xml", "<OpenSimDocument><ExternalLoads/></OpenSimDocument>")),
+              ::testing::HasSubstr("names no datafile"));
+}
+
+TEST_F(ExternalLoadsTest, AForceWithoutAPointTellsNoCentreOfPressure) {
+  Warnings warnings;
+  const RecordedForces forces = ReadExternalLoads(
+      Write("g.mot", "endheader\ntime\tf_vx\tf_vy\tf_vz\t\n0\t0\t700\t0\t\n0.01\t0\tnan\t0\t\n"),
+      Eigen::Vector3d::UnitY(), &warnings);
+  ASSERT_THAT(forces.plates, SizeIs(1));
+  EXPECT_FALSE(forces.plates[0].cop.col(0).allFinite());
+  EXPECT_FALSE(forces.plates[0].force.col(1).allFinite());
+  EXPECT_FALSE(warnings.empty());
+}
+
+}  // namespace
+}  // namespace mmm_converter
