@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/contacts/person_mass.h"
 #include "common/io/xml/xml_text.h"
 
 namespace mmm_converter {
@@ -82,8 +83,14 @@ std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& f
                                 Decimal(one.end), Name(one.bearer), JsonNumber(one.distances[0]),
                                 JsonNumber(one.distances[1])));
   }
-  return fmt::format("{{\n  \"contacts\": {},\n  \"events\": {},\n  \"loads\": {}\n}}\n",
-                     JsonList(list), JsonList(events), JsonList(loads));
+  std::string mass = "null";
+  if (const auto found = EstimateMass(contacts, forces)) {
+    mass = fmt::format(R"({{"kg": {}, "deviation_kg": {}, "intervals": {}}})", Decimal(found->mass),
+                       Decimal(found->deviation), found->intervals);
+  }
+  return fmt::format(
+      "{{\n  \"contacts\": {},\n  \"events\": {},\n  \"loads\": {},\n  \"mass\": {}\n}}\n",
+      JsonList(list), JsonList(events), JsonList(loads), mass);
 }
 
 }  // namespace mmm_converter

@@ -11,8 +11,8 @@ namespace mmm_converter {
 /// ; between them). Empty: not within what was recorded.
 std::string FormatContactsCsv(const Contacts& contacts);
 
-/// The same, with the events as C3D files name them ("Foot Strike", "Foot Off"), and who was found
-/// on the plates.
+/// The same, with the events as C3D files name them ("Foot Strike", "Foot Off"), who was found on
+/// the plates, and the mass that they tell.
 std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& forces);
 
 }  // namespace mmm_converter

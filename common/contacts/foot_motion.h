@@ -32,7 +32,7 @@ struct FootMotion {
   double time(double frame) const { return first_time + frame / rate; }
 };
 
-/// Whether a model has the feet of MMM's reference model.
+/// Whether a model has the feet of MMM's reference model, or calcn and toes as OpenSim's have.
 bool HasFeet(const KinematicModel& model);
 
 /// From the postures alone: where markers were on the feet does not matter.

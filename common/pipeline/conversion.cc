@@ -249,6 +249,7 @@ void WriteConversion(const ConversionRequest& request, ConversionReport* report)
   WriteObjectModel(report->plan);
   WriteMotions(request, {report});
   WritePerson(report->plan);
+  CompareMass(request.exports, report);
   WriteExports(request.exports, *report);
 }
 

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
+#include "common/contacts/person_mass.h"
 #include "common/forces/recording_forces.h"
 #include "common/pipeline/conversion.h"
+#include "common/support/advice.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -19,6 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kContacts = "contacts";
 constexpr const char* kGrf = "grf";
+constexpr double kMostApart = 0.03;  // of the mass
+constexpr double kDeviations = 2;
 
 Contacts ContactsOf(const ConversionReport& report, const RecordedForces& forces) {
   return FindContacts(MoveFeet(*report.plan.setup.model, report.result.trajectory), forces);
@@ -59,15 +64,28 @@ void WriteGrf(const std::string& file, const ConversionReport& report) {
   if (!beside.empty()) WriteFileAtomically(beside, FormatExternalLoadsXml(loads, name));
 }
 
+void CompareMass(const ExportFiles& files, ConversionReport* report) {
+  if (files.count(kGrf) == 0 && files.count(kContacts) == 0) return;
+  const RecordedForces forces = ForcesOf(report->plan.input.recording, nullptr);
+  const auto found = EstimateMass(ContactsOf(*report, forces), forces);
+  const PersonValue& mass = report->plan.person.mass;
+  if (!found || !(mass.value > 0)) return;
+  const double apart = std::abs(found->mass - mass.value);
+  if (apart <= kMostApart * mass.value || apart <= kDeviations * found->deviation) return;
+  report->warnings.Add(
+      fmt::format("the force plates bore {:.1f} +- {:.1f} kg; the person's mass is "
+                  "{:.1f} kg ({}; another by {})",
+                  found->mass, found->deviation, mass.value, mass.source, OptionText("mass")));
+}
+
 void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
   const bool needs_plates = files.count(kGrf) > 0;
   if (!needs_plates && files.count(kContacts) == 0) return;
   const Recording& recording = plan->input.recording;
   if (!HasFeet(*plan->setup.model)) {
-    throw Error(
-        fmt::format("{}: feet on the ground are told of MMM's reference model only, not of "
-                    "{}",
-                    recording.file, plan->input.model_file));
+    throw Error(fmt::format(
+        "{}: feet on the ground are told of MMM's and OpenSim's models of persons, not of {}",
+        recording.file, plan->input.model_file));
   }
   const RecordedForces forces = ForcesOf(recording, &plan->warnings);
   if (needs_plates) CheckHasPlates(forces, recording);

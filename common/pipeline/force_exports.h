@@ -23,6 +23,10 @@ void WriteGrf(const std::string& file, const ConversionReport& report);
 /// @throws Error where an export can't be made.
 void CheckForces(const ExportFiles& files, ConversionPlan* plan);
 
+/// After it is tracked, where an export is of forces: warns where the plates tell another mass than
+/// was given, or where none was.
+void CompareMass(const ExportFiles& files, ConversionReport* report);
+
 /// All files that exports write.
 std::vector<std::string> FilesOf(const ExportFiles& files);
 

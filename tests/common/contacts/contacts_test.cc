@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
+#include "common/contacts/person_mass.h"
 #include "common/forces/external_loads.h"
 #include "common/forces/plate_checks.h"
 #include "common/support/atomic_file.h"
@@ -230,6 +230,27 @@ TEST_F(WalkTest, OpenSimCantUseALoadWithoutANumber) {
   const Contacts contacts = FindContacts(Walk(), forces);
   const ExternalLoads loads = {&forces, &contacts, 0, 3};
   EXPECT_THROW(Join(FormatExternalLoadsTable(loads, "grf.mot")), Error);
+}
+
+TEST_F(WalkTest, FromMidStanceToMidStanceThePlatesBearTheWeight) {
+  // Two steps of 1 s whose loads overlap by 0.2 s, the sum always 686.7 N.
+  PlateForces first = Plate(1, kLeftX, 0.1, 0.12, 0.5, 1.5);
+  PlateForces second = Plate(2, kRightX, -0.1, -0.13, 1.3, 2.2);
+  first.force.row(2).segment(500, 1000).setConstant(686.7);
+  second.force.row(2).segment(1300, 900).setConstant(686.7);
+  first.force.row(2).segment(1300, 200).setConstant(386.7);
+  second.force.row(2).segment(1300, 200).setConstant(300);
+  const RecordedForces forces = ForcesOf({first, second});
+  const auto mass = EstimateMass(FindContacts(Walk(), forces), forces);
+  ASSERT_TRUE(mass);
+  EXPECT_NEAR(mass->mass, 70, 1e-6);
+  EXPECT_GE(mass->intervals, 1);
+  EXPECT_LT(mass->deviation, 1.5);
+}
+
+TEST_F(WalkTest, AFootBesideThePlatesTellsNoMass) {
+  const RecordedForces forces = ForcesOf({Plate(1, kLeftX, 0.1, 0.12, 0.52, 1.5)});
+  EXPECT_FALSE(EstimateMass(FindContacts(Walk(), forces), forces));
 }
 
 class ExternalLoadsTest : public ::testing::Test {

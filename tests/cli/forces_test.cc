@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Contacts and forces of recordings with force plates, as the program exports them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/strict_tables.h"
+
+namespace mmm_converter {
+namespace {
+
+using testing::Handstand;
+using ::testing::HasSubstr;
+using testing::ReadStrictMot;
+using testing::ReadStrictTrc;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::StrictTable;
+using testing::TestFolder;
+using testing::WithTestConverter;
+
+TEST(ForceExports, WithoutPlatesThereAreContactsButNoForces) {
+  const std::string contacts = TestFolder() + "/contacts.csv";
+  const auto run =
+      RunProgram(WithTestConverter({"convert", Handstand(), "--height", "1.8", "-o",
+                                    TestFolder() + "/o.xml", "--export-contacts", contacts}));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(ReadText(contacts), HasSubstr("foot,begin_s,begin_deviation_s,end_s"));
+  const auto refused = RunProgram(
+      WithTestConverter({"convert", Handstand(), "--height", "1.8", "-o", TestFolder() + "/o.xml",
+                         "--export-grf", TestFolder() + "/o.mot"}));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("has no force plate"));
+}
+
+class RealForceExports : public ::testing::Test {
+ protected:
+  void SetUp() override { MMM_CONVERTER_NEEDS_SHARED_DATA(); }
+
+  static std::string Out(const char* name) { return TestFolder() + "/" + name; }
+
+  static nlohmann::json ContactsOf(const std::string& file) {
+    const auto run = RunProgram({"convert", testing::SharedData(file), "-o", Out("o.xml"),
+                                 "--export-contacts", Out("contacts.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return nlohmann::json::parse(ReadText(Out("contacts.json")));
+  }
+
+  static void ExpectFeet(const nlohmann::json& contacts, const std::vector<std::string>& feet) {
+    ASSERT_EQ(contacts["loads"].size(), feet.size());
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      EXPECT_EQ(contacts["loads"][i]["foot"], feet[i]) << contacts["loads"][i];
+    }
+  }
+};
+
+TEST_F(RealForceExports, OpenSimsForcesOfAWalk) {
+  const auto run = RunProgram({"convert", testing::SharedData("forces/walking2.c3d"), "-o",
+                               Out("o.xml"), "--export-grf", Out("grf.mot"), "--export-trc",
+                               Out("o.trc"), "--frames", "500:900"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const StrictTable grf = ReadStrictMot(ReadText(Out("grf.mot")));
+  const auto times = ReadStrictTrc(ReadText(Out("o.trc"))).times;
+  EXPECT_NEAR(grf.At(0, "time"), times.front(), 1e-9);
+  EXPECT_NEAR(grf.At(grf.rows.size() - 1, "time"), times.back(), 1e-9);
+  // Plate 1 is first, plate 2 second; y up is z, -y of the file is z. At 2.5 s, as OpenSim has it.
+  const auto row = static_cast<std::size_t>(std::lround((2.5 - times.front()) * 2000));
+  EXPECT_EQ(grf.At(row, "ground_force_1_vy"), 0);
+  EXPECT_GT(grf.At(row, "ground_force_2_vy"), 300);
+  const std::string xml = ReadText(Out("grf.xml"));
+  EXPECT_THAT(xml, HasSubstr("<ExternalForce name=\"plate_1_right\">"));
+  EXPECT_THAT(xml, HasSubstr("<ExternalForce name=\"plate_2_left\">"));
+  EXPECT_THAT(xml, HasSubstr("<datafile>grf.mot</datafile>"));
+}
+
+TEST_F(RealForceExports, StairsAreFourStepsOfTwoFeet) {
+  ExpectFeet(ContactsOf("recordings/whole_body/pycgm_movement_trial.c3d"),
+             {"left", "right", "left", "right"});
+}
+
+TEST_F(RealForceExports, EventsAreThoseOfTheFile) {
+  const nlohmann::json contacts = ContactsOf("field/btk_FunctionalWalk.c3d");
+  ExpectFeet(contacts, {"right", "left", "left"});
+  const std::vector<std::pair<double, std::string>> stored = {
+      {4.525, "Foot Strike Right"}, {4.621, "Foot Off Left"},     {5.05, "Foot Strike Left"},
+      {5.158, "Foot Off Right"},    {5.583, "Foot Strike Right"}, {5.708, "Foot Off Left"},
+      {6.117, "Foot Strike Left"},  {6.225, "Foot Off Right"},    {6.642, "Foot Strike Right"},
+      {6.758, "Foot Off Left"},     {7.183, "Foot Strike Left"}};
+  for (const auto& [time, name] : stored) {
+    double nearest = 1;
+    for (const auto& event : contacts["events"]) {
+      const std::string found =
+          event["label"].get<std::string>() + " " + event["context"].get<std::string>();
+      if (found == name)
+        nearest = std::min(nearest, std::abs(event["time_s"].get<double>() - time));
+    }
+    EXPECT_LT(nearest, 0.02) << name << " at " << time;
+  }
+  // The file says 60 kg.
+  EXPECT_NEAR(contacts["mass"]["kg"].get<double>(), 60, 0.03 * 60);
+}
+
+}  // namespace
+}  // namespace mmm_converter
