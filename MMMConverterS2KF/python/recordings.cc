@@ -8,6 +8,7 @@
 #include "MMMConverterS2KF/python/arrays.h"
 #include "MMMConverterS2KF/python/module.h"
 #include "MMMConverterS2KF/python/requests.h"
+#include "common/forces/recording_forces.h"
 #include "common/io/c3d/c3d_analog.h"
 #include "common/io/c3d/c3d_events.h"
 #include "common/io/c3d/c3d_writer.h"
@@ -135,6 +136,50 @@ py::list ForcePlatesOf(const ReadRecordingResult& read) {
   return plates;
 }
 
+py::dict ForcesOfPlate(const RecordedForces& forces, const PlateForces& plate) {
+  py::dict one;
+  one["number"] = plate.plate.number;
+  one["force"] = RowsOfColumns(plate.force);
+  one["moment"] = RowsOfColumns(plate.moment);
+  one["center"] = py::make_tuple(plate.plate.p_WP.x(), plate.plate.p_WP.y(), plate.plate.p_WP.z());
+  one["center_of_pressure"] = RowsOfColumns(plate.cop);
+  one["free_moment"] = RowsOfColumns(plate.free_moment);
+  one["unloaded"] = plate.unloaded_level;
+  one["tells_contact"] = plate.tells_contact;
+  py::list loads;
+  for (const LoadInterval& load : plate.loads) {
+    loads.append(py::make_tuple(forces.time(load.begin), forces.time(load.end)));
+  }
+  one["loads"] = loads;
+  return one;
+}
+
+// Nothing where the file holds no plates.
+py::dict ForcesOfRecording(const ReadRecordingResult& read) {
+  Recording recording;  // all but its frames
+  recording.file = read.path;
+  recording.format = read.recording->format;
+  recording.unit = read.recording->unit;
+  recording.up_axis = read.recording->up_axis;
+  recording.first_frame = read.recording->first_frame;
+  recording.markers = MarkerSequence({}, 0, read.recording->markers.rate(), 0);
+  Warnings warnings;
+  RecordedForces forces;
+  {
+    const py::gil_scoped_release release;
+    forces = ForcesOf(recording, &warnings);
+  }
+  py::dict result;
+  result["rate"] = forces.rate;
+  result["first_time"] = forces.first_time;
+  result["samples_per_frame"] = forces.samples_per_frame;
+  py::list plates;
+  for (const PlateForces& plate : forces.plates) plates.append(ForcesOfPlate(forces, plate));
+  result["plates"] = plates;
+  result["warnings"] = warnings.texts();
+  return result;
+}
+
 py::dict MotionOf(const MmmMotion& motion) {
   const PoseTrajectory& trajectory = motion.trajectory;
   py::dict one;
@@ -207,6 +252,7 @@ void BindRecordings(py::module_* module) {
       .def_property_readonly("events", &EventsOf)
       .def_property_readonly("analog", &AnalogOf)
       .def_property_readonly("force_plates", &ForcePlatesOf)
+      .def_property_readonly("forces", &ForcesOfRecording)
       .def("save_c3d", [](const ReadRecordingResult& r, const std::string& file) {
         const py::gil_scoped_release release;
         WriteC3d(file, r.recording->markers);

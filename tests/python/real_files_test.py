@@ -41,6 +41,30 @@ class RealRecordings(Case):
                                    [1.1726, 0.84287, 0], [1.1726, 0.37932, 0]], atol=1e-7)
         np.testing.assert_allclose(plates[1]["origin"], [0, 0, 0.05715], atol=1e-7)
 
+    def test_forces_are_what_opensim_stored(self):
+        recording = mmmconverter.read(SHARED / "forces/walking2.c3d")
+        forces = recording.forces
+        self.assertEqual((forces["rate"], forces["samples_per_frame"]), (2000, 8))
+        text = (SHARED / "forces/std_cop_walking2_grfs.sto").read_text().split("endheader")[1]
+        stored = np.array([line.split() for line in text.strip().splitlines()[1:]], float)
+        samples = np.rint(2000 * stored[:, 0]).astype(int)
+        for i, plate in enumerate(forces["plates"]):
+            there = stored[:, 1 + 9 * i:10 + 9 * i]
+            np.testing.assert_allclose(plate["force"][samples], there[:, :3], atol=1e-3)
+            loaded = there[:, 2] > 20
+            self.assertTrue(loaded.any())
+            np.testing.assert_allclose(1e3 * plate["center_of_pressure"][samples][loaded],
+                                       there[loaded, 3:6], atol=1e-2)
+            np.testing.assert_allclose(1e3 * plate["free_moment"][samples][loaded],
+                                       there[loaded, 6:], atol=1e-2)
+            arm = plate["center_of_pressure"] - plate["center"]
+            np.testing.assert_allclose(
+                (np.cross(arm, plate["force"]) + plate["free_moment"])[samples][loaded],
+                plate["moment"][samples][loaded], atol=1e-9)
+        np.testing.assert_allclose(forces["plates"][1]["loads"], [[2.2475, 2.7595]], atol=1e-3)
+        # One for each frame.
+        self.assertEqual(len(forces["plates"][0]["force"][::8]), len(recording))
+
     def test_events_of_a_file(self):
         before = os.getcwd()
         os.chdir(SHARED)

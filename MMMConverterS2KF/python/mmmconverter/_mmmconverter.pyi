@@ -27,6 +27,7 @@ class Recording:
     events: List[Dict[str, Any]]
     analog: Dict[str, Any]
     force_plates: List[Dict[str, Any]]
+    forces: Dict[str, Any]
     def save_c3d(self, file: str) -> None: ...
 
 def read(options: Dict[str, Any]) -> Recording: ...

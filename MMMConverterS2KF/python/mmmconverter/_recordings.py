@@ -52,6 +52,13 @@ class Recording(Presented):
         Of a C3D file: type, as C3D counts them; channels, a numpy.ndarray of columns of the samples;
         corners, shape (4, 3), in metres where the markers are; origin, shape (3,), in metres in the
         plate's own axes; None where the file has none.
+    forces : dict
+        Of a C3D file, what its plates measured, in the markers' axes: rate [Hz], first_time [s],
+        samples_per_frame, warnings, and plates, a list of dict: number, counted from 1; force [N] on
+        the person, moment [N m] about the plate's center [m], center_of_pressure [m] and the
+        free_moment there [N m], arrays of shape (samples, 3), NaN where they are not known; unloaded,
+        the vertical force while nobody is there [N]; loads, begin and end [s]; tells_contact.
+        Every samples_per_frame-th sample is that of a frame.
     warnings : list of str
         What there was to say when it was read.
     """
@@ -70,6 +77,7 @@ class Recording(Presented):
     events = functools.cached_property(lambda self: self._raw.events)
     analog = functools.cached_property(lambda self: self._raw.analog)
     force_plates = functools.cached_property(lambda self: self._raw.force_plates)
+    forces = functools.cached_property(lambda self: self._raw.forces)
 
     @classmethod
     def from_arrays(cls, labels: Sequence[str], markers: Any, rate: float, first_time: float = 0.0,
