@@ -38,6 +38,9 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
     plan.input.recording.markers =
         MarkerSequence(plan.labels->labelling.names, 1, head.markers.rate(), 0);
   }
+  plan.input.keeps_usual_places = request.calibration_time > 0 ||
+                                  !request.input.person.subject_file.empty() ||
+                                  !config.subject_file.empty();
   plan.setup =
       MatchLabels({recording.markers.labels(), {}, recording.file}, &plan.input, config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);

@@ -12,8 +12,8 @@ namespace mmm_converter {
 
 /// The conversion of a stream that has these labels; where points are named by the body, the plan's
 /// recording has the names instead (ConversionPlan::labels). head: what is known of the stream
-/// beyond its frames; its markers are the frames that have come until now, which only an unknown
-/// height needs.
+/// beyond its frames; its markers are the frames that have come until now, or those of the file
+/// that is played, which only an unknown height and labels that are understood by names need.
 /// @throws Error as PlanConversion; where the height is not known and too few frames tell it, one
 /// whose remedy is a height.
 ConversionPlan PlanLive(const LiveRequest& request, const Recording& head);

@@ -16,7 +16,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kMeasuredTime = 3;        // [s] of frames that tell the height
+constexpr double kMeasuredTime = 3;        // [s] of frames that tell the height and the names
 constexpr Eigen::Index kFewestSeen = 10;   // markers
 constexpr double kLongestGathering = 120;  // [s]
 constexpr double kUsualRate = 100;         // [Hz] of a source that states none
@@ -36,7 +36,7 @@ int FramesOf(double seconds, double rate) {
 const char* Describe(LiveStage stage) {
   switch (stage) {
     case LiveStage::kMeasuring:
-      return "the height is estimated";
+      return "the person is measured";
     case LiveStage::kWaiting:
       return "waiting for the person";
     case LiveStage::kTracking:
@@ -55,7 +55,9 @@ LiveSession::LiveSession(const LiveRequest& request, Recording head, bool select
       head_(std::move(head)),
       selects_labels_(selects_labels),
       waits_(waits),
-      calibration_time_(request.calibration_time) {}
+      calibration_time_(request.calibration_time) {
+  std::swap(played_, head_.markers);
+}
 
 double LiveSession::gathered() const {
   return static_cast<double>(num_gathered_) / std::max(1, gathered_.num_frames());
@@ -110,9 +112,13 @@ void LiveSession::NamePoints() {
 }
 
 bool LiveSession::TryToPlan(bool is_last_try) {
-  head_.markers = gathered_.Slice(0, std::max(1, num_gathered_));
+  const bool is_played = played_.num_frames() > 0 && !request_.label;
+  head_.markers = is_played ? played_ : gathered_.Slice(0, std::max(1, num_gathered_));
   try {
-    plan_ = PlanLive(request_, head_);
+    ConversionPlan plan = PlanLive(request_, head_);
+    if (plan.input.names && !is_played && !is_last_try) return false;  // frames are to judge them
+    plan.input.recording.markers = plan.input.recording.markers.Slice(0, 1);
+    plan_ = std::move(plan);
   } catch (const Error& error) {
     if (is_last_try || error.remedy() != Remedy::kHeight) throw;
     return false;

@@ -19,7 +19,7 @@ namespace mmm_converter {
 
 /// What the session is at.
 enum class LiveStage {
-  kMeasuring,   ///< the height is not known, and frames are gathered that tell it
+  kMeasuring,   ///< frames are gathered that tell the height, or where names of labels are worn
   kWaiting,     ///< for a person
   kTracking,    ///< of a person that is known, or of one that will not be calibrated
   kGathering,   ///< tracking; frames are gathered for the calibration
@@ -69,6 +69,8 @@ class LiveSession {
 
   LiveRequest request_;
   Recording head_;
+  MarkerSequence
+      played_;  // of a replay, whose file tells the person as in a conversion; else empty
   bool selects_labels_, waits_;
   std::shared_ptr<const StreamLayout> layout_;
   std::vector<int> columns_;  // of the layout's labels those that count

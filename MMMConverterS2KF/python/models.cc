@@ -13,6 +13,7 @@
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/convert/motion_converter.h"
 #include "common/io/mmm/subject_file.h"
+#include "common/pipeline/input/matched_labels.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -113,8 +114,9 @@ class Tracker {
     MatchModel(input_request, &input, &choice_.config);
     const bool is_scaled = person.scaling.size.has_value();
     if (!is_scaled) choice_.config.model_processor = "None";
-    const TrackingSetup setup =
-        MakeTrackingSetup({labels}, input.reference, choice_.config, person.scaling, &warnings);
+    TrackingSetup setup = MatchLabels({labels}, &input, choice_.config, &warnings);
+    WarnOfFreeJoints(setup, choice_.config, &warnings);
+    if (is_scaled) ScaleToPerson(person.scaling, &setup);
     for (const int joint : setup.joints) joint_names_.push_back(setup.model->joint(joint).name);
     for (const MarkerAssignment& one : setup.assignments()) {
       marker_labels_.push_back(labels[static_cast<std::size_t>(one.label)]);

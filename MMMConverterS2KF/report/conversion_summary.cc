@@ -59,7 +59,7 @@ std::string DescribeWrongMarkers(const ConversionReport& report) {
                         incidents.size() - kMostLines);
   }
   if (!incidents.empty())
-    text += "           label --repair tells which of these are wrong labels, and mends them\n";
+    text += "           label --repair tells which of these are wrong labels, and corrects them\n";
   return text;
 }
 
@@ -103,7 +103,7 @@ std::string DescribeSubjectOutput(const ConversionReport& report) {
   const ConversionPlan& plan = report.plan;
   if (!plan.person.subject) return "";
   std::string text =
-      "played     the angles are the subject's; on the model scaled by height and mass, which the "
+      "note       the angles are the subject's; on the model scaled by height and mass, which the "
       "motion\n           names, segments and markers differ";
   if (plan.model_output.empty()) return text + "; --model-out writes the subject's model\n";
   return text + ". The subject's model: " + plan.model_output + "\n";

@@ -67,8 +67,11 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
 std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFoot>& slow) {
   std::vector<Standing> standings;
   for (const SlowFoot& one : slow) {
-    standings.push_back({motion.time(one.begin), motion.time(one.end), one.begin > 0,
-                         one.end < motion.num_frames() - 1});
+    standings.push_back({motion.time(one.begin),
+                         motion.time(one.end),
+                         one.begin > 0,
+                         one.end < motion.num_frames() - 1,
+                         {}});
   }
   return standings;
 }

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "common/convert/checked_converter.h"
-#include "common/model/forward_kinematics.h"
 #include "common/model/posture.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -95,18 +94,11 @@ class ResultWriter {
     if (estimate.verdicts.size() > 0) verdicts_.col(k) = estimate.verdicts;
   }
 
-  // Frames with too few markers to assemble take the first assembled posture.
+  // Frames with too few markers to assemble take the first assembled posture, which is not theirs.
   void WriteEarlier(int first, const FrameEstimate& estimate) {
-    const Eigen::Matrix3Xd p_WM = MarkerPositions(*setup_.model, estimate.posture);
     for (int k = 0; k < first; ++k) {
       WritePosture(k, estimate);
       result_.frames[k].markers_seen = CountSeen(recording_, setup_, k);
-      const auto points = recording_.frame(k);
-      for (std::size_t i = 0; i < setup_.assignments().size(); ++i) {
-        const MarkerAssignment& assignment = setup_.assignments()[i];
-        result_.residuals(static_cast<int>(i), k) =
-            (points.col(assignment.label) - p_WM.col(assignment.marker)).norm();
-      }
     }
   }
 

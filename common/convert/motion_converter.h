@@ -45,7 +45,7 @@ struct FrameDiagnostic {
 
 struct ConversionResult {
   PoseTrajectory trajectory;  ///< joint_names: the tracked joints, in configuration order
-  Eigen::MatrixXd residuals;  ///< assignments x frames [m]; NaN: not seen
+  Eigen::MatrixXd residuals;  ///< assignments x frames [m]; NaN: not seen, or not tracked yet
   std::vector<FrameDiagnostic> frames;
   /// Factor on the variances of the process noise that the recording asked for, where the converter
   /// chose one.

@@ -3,11 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
+namespace {
+
+// Whether the recordings are of one person who wears the same.
+void JudgeSources(const CalibrationResult& result, VerdictReasons* reasons) {
+  for (const SubjectSource& source : result.subject.sources) {
+    if (source.frames > 0) continue;
+    reasons->Add(Verdict::Level::kCheck,
+                 fmt::format("no frame of {} is taken: it shows too few markers, or is far from "
+                             "what the others have; are they of one person and session?",
+                             source.recording));
+  }
+}
+
+}  // namespace
 
 Verdict JudgeCalibration(const CalibrationEvidence& evidence) {
   VerdictReasons reasons;
@@ -24,6 +40,8 @@ Verdict JudgeCalibration(const CalibrationEvidence& evidence) {
                   kMillimetres * result.distance_after,
                   kMillimetres * kCalibratedMeanDistance.check));
   is_far |= JudgeOffsets(result.subject, &reasons);
+  JudgeProportions(result.subject, &reasons);
+  JudgeSources(result, &reasons);
   for (const MatchedRecording& one : evidence.recordings) {
     JudgeReading(one.recording, &reasons);
     JudgeCoverage(one.setup, LimbsOf(one.setup), &reasons);

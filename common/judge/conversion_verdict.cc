@@ -28,6 +28,11 @@ constexpr Limit kPercentile = {0.15, 0.4};
 constexpr Limit kCalibratedPercentile = {0.06, 0.2};
 // The average of one marker: right at most 0.18; another person's 1.1 to 1.7.
 constexpr Limit kMarkerMean = {0.22, 0.6};
+// One position. A marker on skin or a wand is at most 0.18 from the model (above), and 0.25 for 0.1
+// s of a somersault; the frame, or the label in it, is wrong beyond.
+constexpr Limit kFarthest = {0.3, kNever};
+// Of a posture that is not tracked [s]: what a prediction bridges.
+constexpr Limit kLateStart = {0.5, kNever};
 // A height beside the estimated one, relative, which is within 0.035 of the true one.
 constexpr Limit kHeight = {0.08, 0.2};
 // Share of the frames: right at most 0.06; left and right exchanged 0.1 to 0.8.
@@ -38,6 +43,14 @@ constexpr Limit kWrongLabels = {0.01, 0.2};
 constexpr Limit kLyingFrames = {0.9, kNever};
 // Mean distance over an object's radius.
 constexpr Limit kObject = {kMostStray, 0.5};
+
+int FramesBeforeTrack(const ConversionResult& result) {
+  int first = 0;
+  while (first < result.residuals.cols() && result.residuals.col(first).array().isNaN().all()) {
+    ++first;
+  }
+  return first < result.residuals.cols() ? first : 0;
+}
 
 class Judge {
  public:
@@ -56,6 +69,7 @@ class Judge {
     }
     const bool is_far = JudgeDistances();
     JudgeMarkers();
+    JudgeFarthest();
     JudgeCoverage(evidence_.setup, limbs_, &reasons_);
     if (evidence_.names != nullptr) JudgeNames(*evidence_.names, &reasons_);
     JudgeGaps();
@@ -107,11 +121,12 @@ class Judge {
                     kMillimetres * figures_.distance.mean, person, kMillimetres * mean.check));
     is_far |= reasons_.AddBeyond(
         percentile, figures_.distance.p95,
-        fmt::format("one in twenty marker positions is more than {:.0f} mm from the "
+        fmt::format("5 % of the marker positions are more than {:.0f} mm from the "
                     "model, of {} at most {:.0f}",
                     kMillimetres * figures_.distance.p95, person, kMillimetres * percentile.check));
     if (!is_calibrated) return is_far;
     is_far |= JudgeOffsets(*evidence_.person.subject, &reasons_);
+    JudgeProportions(*evidence_.person.subject, &reasons_);
     return is_far;
   }
 
@@ -132,13 +147,37 @@ class Judge {
                     LabelsOf(far)));
   }
 
+  void JudgeFarthest() {
+    if (!kFarthest.IsBeyond(figures_.distance.max)) return;
+    const auto is_far = evidence_.result.residuals.array() > kFarthest.check;
+    Eigen::Index worst = 0, frame = 0;
+    is_far.select(evidence_.result.residuals, 0).maxCoeff(&worst, &frame);
+    const auto frames = is_far.colwise().any().count();
+    reasons_.AddBeyond(
+        kFarthest, figures_.distance.max,
+        fmt::format("in {} {} a marker is more than {:.0f} mm from the model; farthest is {} in "
+                    "frame {}, by {:.0f} mm",
+                    frames, frames == 1 ? "frame" : "frames", kMillimetres * kFarthest.check,
+                    LabelsOf({static_cast<int>(worst)}), evidence_.first_frame + frame,
+                    kMillimetres * figures_.distance.max));
+  }
+
   void JudgeGaps() {
+    const int late = FramesBeforeTrack(evidence_.result);
     for (const Gap& gap : LongGaps(evidence_.setup, limbs_, markers_)) {
+      if (gap.last_frame < late) continue;
       reasons_.Add(Level::kCheck,
                    fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what, gap.seconds,
                                evidence_.first_frame + gap.first_frame,
                                evidence_.first_frame + gap.last_frame));
     }
+    reasons_.AddBeyond(
+        kLateStart, late / markers_.rate(),
+        WithAdvice(fmt::format("the body is hidden, or shows too few markers to begin, for {:.1f} "
+                               "s, frames {} to {}, which have the posture of the frame after them",
+                               late / markers_.rate(), evidence_.first_frame,
+                               evidence_.first_frame + late - 1),
+                   Remedy::kFrames));
   }
 
   void JudgeTrack() {

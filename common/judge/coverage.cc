@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
@@ -13,7 +12,9 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kLongGap = 1;  // [s]
+// [s]. A prediction bridges the first while other limbs hold the body, the second alone.
+constexpr double kLongGapOfLimb = 1;
+constexpr double kLongGapOfBody = 0.5;
 
 Limb* FindLimb(const std::string& name, std::vector<Limb>* limbs) {
   const auto found = std::find_if(limbs->begin(), limbs->end(),
@@ -23,23 +24,38 @@ Limb* FindLimb(const std::string& name, std::vector<Limb>* limbs) {
   return &limbs->back();
 }
 
-// The longest run of frames in which `is_known` says no to the number of labels that are seen.
+// The longest runs of frames, at most `most` of those that last `least` [s], in which `is_known`
+// says no to the number of labels that are seen; in the order of time.
 template <typename IsKnown>
-std::optional<Gap> LongestGap(const std::string& what, const std::vector<LabelIx>& labels,
-                              const MarkerSequence& recording, const IsKnown& is_known) {
-  std::optional<Gap> longest;
+std::vector<Gap> LongestGaps(const std::string& what, double least, std::size_t most,
+                             const std::vector<LabelIx>& labels, const MarkerSequence& recording,
+                             const IsKnown& is_known) {
+  std::vector<Gap> gaps;
   int begin = 0;
-  for (int k = 0; k < recording.num_frames(); ++k) {
-    const auto frame = recording.frame(k);
-    const auto seen = std::count_if(labels.begin(), labels.end(),
-                                    [&](int label) { return IsSeen(frame.col(label)); });
-    if (is_known(static_cast<int>(seen))) {
-      begin = k + 1;
-    } else if (!longest || k - begin > longest->last_frame - longest->first_frame) {
-      longest = Gap{what, begin, k, (k - begin + 1) / recording.rate()};
+  for (int k = 0; k <= recording.num_frames(); ++k) {
+    if (k < recording.num_frames()) {
+      const auto frame = recording.frame(k);
+      const auto seen = std::count_if(labels.begin(), labels.end(),
+                                      [&](int label) { return IsSeen(frame.col(label)); });
+      if (!is_known(static_cast<int>(seen))) continue;
     }
+    const Gap gap{what, begin, k - 1, (k - begin) / recording.rate()};
+    if (gap.seconds >= least) gaps.push_back(gap);
+    begin = k + 1;
   }
-  return longest;
+  std::stable_sort(gaps.begin(), gaps.end(),
+                   [](const Gap& a, const Gap& b) { return a.seconds > b.seconds; });
+  gaps.resize(std::min(gaps.size(), most));
+  std::stable_sort(gaps.begin(), gaps.end(),
+                   [](const Gap& a, const Gap& b) { return a.first_frame < b.first_frame; });
+  return gaps;
+}
+
+// How long `gap` goes on beyond another one [s]; all of it, where they do not meet.
+double SecondsBeyond(const Gap& gap, const Gap& other, double rate) {
+  const int common =
+      std::min(gap.last_frame, other.last_frame) - std::max(gap.first_frame, other.first_frame) + 1;
+  return gap.seconds - std::max(0, common) / rate;
 }
 
 }  // namespace
@@ -80,19 +96,23 @@ std::string DescribeUnshown(const std::vector<Limb>& limbs) {
 
 std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,
                           const MarkerSequence& recording) {
-  std::vector<Gap> gaps;
-  const auto of_body = LongestGap("the body", LabelIndices(setup.assignments()), recording,
-                                  [](int seen) { return seen > 0; });
-  if (of_body) gaps.push_back(*of_body);
+  constexpr std::size_t kMost = 3;
+  std::vector<Gap> gaps =
+      LongestGaps("the body", kLongGapOfBody, kMost, LabelIndices(setup.assignments()), recording,
+                  [](int seen) { return seen > 0; });
+  const std::size_t of_body = gaps.size();
   for (const Limb& limb : limbs) {
     if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) continue;
-    const auto gap = LongestGap("the " + limb.name, limb.labels, recording,
-                                [&](int seen) { return limb.IsKnownBy(seen); });
-    const bool is_bodys = gap && of_body && gap->first_frame == of_body->first_frame &&
-                          gap->last_frame == of_body->last_frame;
-    if (gap && !is_bodys) gaps.push_back(*gap);
+    const auto longest = LongestGaps("the " + limb.name, kLongGapOfLimb, 1, limb.labels, recording,
+                                     [&](int seen) { return limb.IsKnownBy(seen); });
+    for (const Gap& gap : longest) {
+      const bool is_bodys = std::any_of(
+          gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(of_body), [&](const Gap& body) {
+            return SecondsBeyond(gap, body, recording.rate()) < kLongGapOfLimb;
+          });
+      if (!is_bodys) gaps.push_back(gap);
+    }
   }
-  std::erase_if(gaps, [](const Gap& gap) { return gap.seconds <= kLongGap; });
   return gaps;
 }
 

@@ -34,9 +34,9 @@ struct Gap {
   double seconds = 0;
 };
 
-/// limbs: LimbsOf(setup). The longest time in which no marker is seen, and those in which a limb
-/// has fewer than it is known by, where it is longer than a second, which a prediction bridges;
-/// limbs that have fewer at all times, or are hidden with the whole body, are left out.
+/// limbs: LimbsOf(setup). The three longest times of half a second in which no marker is seen, and
+/// the longest of a second in which a limb has fewer than it is known by; limbs that have fewer at
+/// all times, or are hidden hardly longer than the whole body, are left out.
 std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,
                           const MarkerSequence& recording);
 

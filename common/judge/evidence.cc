@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/convert/exchanged_sides.h"
@@ -20,6 +21,8 @@ using Level = Verdict::Level;
 
 // Offsets of calibrated markers, the 95th percentile: right 0.06 to 0.16; legs exchanged 0.19.
 constexpr Limit kOffset = {0.18, 0.4};
+// A segment's scale less 1, in deviations of what persons have: right at most 3.8 (collarbones).
+constexpr Limit kProportion = {5, kNever};
 // Of a capture below 0.001.
 constexpr Limit kNoise = {0.003, 0.03};
 
@@ -107,13 +110,32 @@ void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
                                  kMillimetres * noise));
 }
 
+bool JudgeProportions(const Subject& subject, VerdictReasons* reasons) {
+  std::vector<std::string> segments;
+  double most = 0;
+  for (const SegmentScale& scale : subject.scales) {
+    if (scale.prior_deviation == 0) continue;  // it was not estimated
+    const double change = scale.scale - 1;
+    const double deviations = std::abs(change) / scale.prior_deviation;
+    most = std::max(most, deviations);
+    if (kProportion.IsBeyond(deviations)) {
+      segments.push_back(fmt::format("{} {:+.0f} %", scale.segment, kPercent * change));
+    }
+  }
+  return reasons->AddBeyond(
+      kProportion, most,
+      fmt::format("segments are not as long as a person's of that height: {}; wrong labels or too "
+                  "little movement do that",
+                  FirstNames(segments, 6)));
+}
+
 bool JudgeOffsets(const Subject& subject, VerdictReasons* reasons) {
   std::vector<double> offsets;
   for (const MarkerOffset& offset : subject.offsets) offsets.push_back(offset.offset.norm());
   const double most = Percentile(offsets, 95);
   return reasons->AddBeyond(
       kOffset, most,
-      fmt::format("one in twenty markers sits more than {:.0f} mm from where the model has it, "
+      fmt::format("5 % of the markers sit more than {:.0f} mm from where the model has them, "
                   "of a person of that height at most {:.0f}",
                   kMillimetres * most, kMillimetres * kOffset.check));
 }

@@ -54,7 +54,7 @@ LiveSource OpenReplay(const std::string& address, const SourceOptions& options,
   live.head = ReadRecording(replayed.file, options.reading, warnings);
   live.head.format = "replay";
   if (live.head.mmm) live.head.mmm->num_motions = 1;
-  MarkerSequence markers = std::move(live.head.markers);
+  MarkerSequence markers = live.head.markers;
   live.source = std::make_unique<ReplaySource>(
       std::move(markers), live.head.first_frame,
       PlaybackOptions{.speed = replayed.speed, .loop = options.loops}, replayed.file);

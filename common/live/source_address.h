@@ -20,7 +20,7 @@ struct SourceOptions {
 /// A source, and what is known of its stream beyond the frames.
 struct LiveSource {
   std::unique_ptr<FrameSource> source;
-  Recording head;               ///< of a recording its person; without markers
+  Recording head;               ///< of a recording all of it
   bool selects_labels = false;  ///< the labels are as the source has them, with prefixes
 };
 

@@ -92,7 +92,7 @@ ConversionResult Track(const ConversionPlan& plan, const std::function<bool(int,
   const int frames = recording.markers.num_frames();
   const auto converter = plan.converter.plugin->factory().Create(plan.setup, plan.converter.config);
   if (plan.keeps_covariances && !converter->KeepCovariances()) {
-    throw Error(fmt::format("{} tells no covariances; use S2KFConverter, or do without them",
+    throw Error(fmt::format("{} estimates no covariances; use S2KFConverter, or do without them",
                             plan.converter.config.type));
   }
   try {
@@ -155,8 +155,9 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
     config = ConfigOfObject(plan.input, config);
   }
 
-  plan.input.keeps_usual_places =
-      !request.input.person.subject_file.empty() || !config.subject_file.empty();
+  plan.input.keeps_usual_places = request.self_calibrate ||
+                                  !request.input.person.subject_file.empty() ||
+                                  !config.subject_file.empty();
   plan.setup =
       MatchLabels(LabelsOf(recording.markers, recording.file), &plan.input, config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);

@@ -70,8 +70,9 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
   };
   return {
       Row({"subject", "subject", "prefix"}, kName,
-          "label prefix of the subject, if a recording has several", "", kReadings | task::kInfo,
-          &reading->subject, {.remedy = Remedy::kSubjectPrefix}),
+          "label prefix of the subject, if a recording has several; A,B: of one person under "
+          "several",
+          "", kReadings | task::kInfo, &reading->subject, {.remedy = Remedy::kSubjectPrefix}),
       Row({"motion", "motion", "motion"}, kName,
           "MMM files: the motion to read (convert: or all); other files: the name of the written "
           "motion",

@@ -329,6 +329,9 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   found.labelling =
       LabelRecording(scene, found.labelling.names, recording.markers, options, progress);
   const std::vector<std::string>& labels = recording.markers.labels();
+  if (known.repair && !hints.repair && found.person.subject == nullptr) {
+    KeepLabelsOfAllFrames(labels, &found.labelling);
+  }
   found.points = RelabelledPoints(found.labelling, labels, recording.markers.num_frames());
   found.changes = ChangesOf(found.labelling, labels);
   return found;

@@ -71,7 +71,9 @@ MatrixXf MisplacedMarkers::Excesses(const ConversionResult& result) const {
   std::vector<Eigen::Matrix3Xf> residuals(kinematics.num_markers(), Eigen::Matrix3Xf(3, frames));
   MarkerJacobian at = kinematics.MakeJacobian();
   Matrix3Xd measured(3, kinematics.num_markers());
+  bool is_early = true;  // not tracked yet
   for (int k = 0; k < frames; ++k) {
+    is_early = is_early && result.residuals.col(k).array().isNaN().all();
     const Posture& q = result.trajectory.postures[k];
     kinematics.ComputeMarkers(q.position, q.orientation.toRotationMatrix(), q.joint_angles, &at);
     markers_.Gather(recording_.frame(k), &measured);
@@ -79,7 +81,7 @@ MatrixXf MisplacedMarkers::Excesses(const ConversionResult& result) const {
       const Vector3d r_W = measured.col(m) - at.p_WM.col(m);
       const Vector3d r = at.R_WL[kinematics.link_of_marker(m)].transpose() * r_W;
       residuals[m].col(k) = r.cast<float>();
-      if (verdicts_(m, k) != kAsLabelled) residuals[m].col(k).setConstant(kNotJudged);
+      if (is_early || verdicts_(m, k) != kAsLabelled) residuals[m].col(k).setConstant(kNotJudged);
     }
   }
   for (const MarkerIncident& incident : result.incidents) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/support/units.h"
 #include "plugins/s2kf/trajectory_smoother.h"
 
 namespace mmm_converter::s2kf {
@@ -176,7 +177,10 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
     }
   }
   const int first = checkpoints_.front().frame;
-  for (int k = 0; k < first; ++k) Write(k, estimate, result);
+  for (int k = 0; k < first; ++k) {
+    Write(k, estimate, result);
+    result->residuals.col(k).setConstant(kNaN);  // the posture is not of this frame
+  }
 }
 
 bool OfflineTracker::IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed,

@@ -30,7 +30,7 @@ using testing::StrictTable;
 using testing::TestFolder;
 using testing::WriteText;
 
-constexpr int kFrames = 60;
+constexpr int kOsimFrames = 60;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// A model file, and a recording of it in which all coordinates move.
@@ -51,7 +51,7 @@ OsimCase MakeCase(const std::string& text, const std::string& name) {
   for (int j = 0; j < made.model.num_joints(); ++j) {
     motion.joint_names.push_back(made.model.joint(j).name);
   }
-  for (int k = 0; k < kFrames; ++k) {
+  for (int k = 0; k < kOsimFrames; ++k) {
     Posture& q = motion.postures.emplace_back(ZeroPosture(made.model));
     const double t = k / motion.rate;
     if (!made.model.is_root_fixed()) {
@@ -72,16 +72,16 @@ OsimCase MakeCase(const std::string& text, const std::string& name) {
 double LargestCoordinateError(const OsimCase& made, const StrictTable& table) {
   const auto& all = made.model.coordinates()->coordinates();
   EXPECT_EQ(table.columns.size(), all.size() + 1);
-  EXPECT_EQ(table.rows.size(), kFrames);
+  EXPECT_EQ(table.rows.size(), kOsimFrames);
   CoordinateSeries series(made.model);
   double largest = 0;
-  for (int k = 0; k < kFrames; ++k) {
+  for (int k = 0; k < kOsimFrames; ++k) {
     const Eigen::VectorXd values = series.Next(made.truth.postures[k]);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double truth = values[static_cast<Eigen::Index>(i)];
       const double found = table.At(k, all[i].name);
       const bool is_turn = all[i].kind == ModelCoordinate::Kind::kTurn;
-      if (2 * k < kFrames) continue;
+      if (2 * k < kOsimFrames) continue;
       largest = std::max(
           largest, is_turn ? std::abs(found - kDegrees * truth) : 1e3 * std::abs(found - truth));
     }

@@ -13,6 +13,7 @@
 #include "common/io/recording/recording.h"
 #include "common/math/seeded_random.h"
 #include "common/motion/occlusion.h"
+#include "common/support/units.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 
@@ -21,6 +22,7 @@ namespace {
 
 using testing::Handstand;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::ReadText;
 using testing::RunProgram;
 using testing::TestFolder;
@@ -294,6 +296,37 @@ TEST(Verdict, LongGaps) {
   judged = ConvertMarkers(HideMarkers(Sample(), of_leg, 60, 165));
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("the left leg is hidden for 1.1 s"));
+}
+
+TEST(Verdict, GapsOfHalfASecond) {
+  const MarkerSequence once = HideAllMarkers(Sample(), 60, 110);
+  Judged judged = ConvertMarkers(once);
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("the body is hidden for 0.5 s, frames 60 to 109;"));
+  judged = ConvertMarkers(HideAllMarkers(once, 140, 190));
+  EXPECT_THAT(judged.reasons,
+              HasSubstr("frames 60 to 109; the body is hidden for 0.5 s, frames 140 to 189;"));
+}
+
+// Frames that are not tracked count in no distance: a marker of a late person is as far from the
+// first posture as the person comes.
+TEST(Verdict, WhoComesLateIsNotFarFromTheModel) {
+  const Judged judged = ConvertMarkers(Changed([](int k, int i, Point p) {
+    if (k < 60 && i > 2) p.setConstant(kNaN);
+    if (k < 60 && i <= 2) p += Eigen::Vector3d(2, 0, 0);
+  }));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("too few markers to begin, for 0.6 s, frames 0 to 59"));
+  EXPECT_THAT(judged.reasons, Not(HasSubstr("from the model")));
+}
+
+TEST(Verdict, AMarkerThatIsFarForAMoment) {
+  const Judged judged = ConvertMarkers(Changed([](int k, int i, Point p) {
+    if (i == 5 && k >= 100 && k < 103) p += Eigen::Vector3d(0, 0, 0.6);
+  }));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("in 3 frames a marker is more than 300 mm from the model"));
+  EXPECT_THAT(judged.reasons, HasSubstr("farthest is " + Sample().labels()[5] + " in frame 10"));
 }
 
 TEST(Verdict, IsInThePageToo) {

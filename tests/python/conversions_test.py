@@ -85,7 +85,7 @@ class Conversions(Case):
                                            result.sd[frames], rtol=1e-9)
                 self.assertGreater(np.linalg.eigvalsh(covariances).min(), 0)
         self.assertIsNone(mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 10)).covariances)
-        with self.assertRaisesRegex(mmmconverter.Error, "JacobianConverter tells no covariances"):
+        with self.assertRaisesRegex(mmmconverter.Error, "JacobianConverter estimates no covariances"):
             mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 10), config="jacobian_pull",
                                  covariances=True)
 

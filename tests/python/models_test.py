@@ -137,6 +137,21 @@ class Models(Case):
         with self.assertRaisesRegex(mmmconverter.Error, "dt: "):
             tracker.track(recording.markers[1], 0)
 
+    def test_a_tracker_understands_names(self):
+        names = {"FHD": "HDF", "BHD": "HDB", "SHO": "SAJ", "AEL": "HLE", "WTS": "RSP", "WPS": "USP",
+                 "ASI": "IAS", "PSI": "IPS", "HIP": "FTC", "KNE": "FLE", "ANK": "FAL", "HEE": "FCC",
+                 "MT1": "FM1", "MT5": "FM5"}
+        recording = mmmconverter.read(SAMPLE)
+        columns = [i for i, label in enumerate(recording.labels) if label[1:] in names]
+        labels = [recording.labels[i] for i in columns]
+        renamed = [f"{label[0]}_{names[label[1:]]}" for label in labels]
+        model = mmmconverter.read_model(height=1.8)
+        frame = recording.markers[0][columns]
+        by_names = mmmconverter.Tracker(model, renamed).assemble(frame)
+        self.assertEqual(by_names.markers_seen, len(renamed))
+        by_set = mmmconverter.Tracker(model, labels).assemble(frame)
+        np.testing.assert_allclose(by_names.root_position, by_set.root_position, atol=0.005)
+
     def test_threads_have_a_tracker_each(self):
         recording = mmmconverter.read(SAMPLE)
         model = mmmconverter.read_model(height=1.8)

@@ -97,13 +97,7 @@ Rows ReadRows(LineReader* lines, const MarkerColumns& columns, const MarkerRowsF
 }
 
 void CheckPlaces(const RowPlaces& placed, std::size_t labels, double most_coordinates,
-                 const std::string& file, const char* name) {
-  if (!(placed.rate > 0)) {
-    throw Error(fmt::format("{}: a {} that gives no frame rate: neither a number nor an even time "
-                            "column",
-                            file, name),
-                Remedy::kRate);
-  }
+                 const std::string& file) {
   const auto places = static_cast<double>(placed.num_places);
   if (places * 3 * static_cast<double>(labels) <= most_coordinates &&
       places <= std::numeric_limits<int>::max()) {
@@ -130,12 +124,13 @@ MarkerTable ReadMarkerRows(LineReader* lines, const MarkerColumns& columns,
   const double most = MostCoordinates(file_bytes);
   Rows rows = ReadRows(lines, columns, format, file, most);
   const RowPlaces placed = PlaceRows(std::move(rows.times), format.said_rate, warnings);
-  CheckPlaces(placed, columns.labels.size(), most, file, format.name);
+  CheckPlaces(placed, columns.labels.size(), most, file);
   MarkerTable table;
   table.first_frame = placed.first_frame;
   table.num_rows = static_cast<long>(placed.places.size());
-  table.markers = MarkerSequence(columns.labels, static_cast<int>(placed.num_places), placed.rate,
-                                 placed.first_time);
+  table.has_rate = placed.rate > 0;
+  table.markers = MarkerSequence(columns.labels, static_cast<int>(placed.num_places),
+                                 table.has_rate ? placed.rate : 1, placed.first_time);
   const auto per_row = static_cast<std::ptrdiff_t>(3 * columns.labels.size());
   for (std::size_t k = 0; k < placed.places.size(); ++k) {
     if (placed.places[k] < 0) continue;

@@ -16,6 +16,7 @@ namespace mmm_converter {
 /// The markers of a table with a row for each frame, as it stands.
 struct MarkerTable {
   MarkerSequence markers;  ///< file units and axes; not seen, or in frames that are missing: NaN
+  bool has_rate = true;    ///< false: neither a number nor an even time column gives one
   std::string unit;        ///< empty: the file does not say
   long first_frame = 1;
   long num_rows = 0;
@@ -47,7 +48,7 @@ struct MarkerRowsFormat {
 
 /// The rows that follow. A marker at the origin, further than 1e6 away or with a cell that is no
 /// number is not seen.
-/// @throws Error where there is no row, no rate, or a place in time for far more frames than rows.
+/// @throws Error where there is no row, or a place in time for far more frames than rows.
 MarkerTable ReadMarkerRows(LineReader* lines, const MarkerColumns& columns,
                            const MarkerRowsFormat& format, const std::string& file,
                            std::size_t file_bytes, Warnings* warnings);

@@ -19,7 +19,7 @@ RecordingContent ContentOf(MarkerTable table, const char* format, std::vector<Up
   content.labels = table.markers.labels();
   content.unit = std::move(table.unit);
   content.usual_up_axes = std::move(usual_up);
-  content.rate = table.markers.rate();
+  content.rate = table.has_rate ? table.markers.rate() : 0;
   content.first_frame = table.first_frame;
   content.declared_frames = table.declared_frames;
   const auto all = std::make_shared<const MarkerSequence>(std::move(table.markers));

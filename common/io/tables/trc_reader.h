@@ -16,7 +16,7 @@ bool LooksLikeTrc(std::string_view content);
 /// Separated by tabs, commas, semicolons or blanks, lines ended by any system's ends; header lines
 /// may be missing or wrong in their counts. Markers without any label are called by number, `*1`.
 /// `file` is only named in messages.
-/// @throws Error where there are no columns, no rows, no rate, or as ReadMarkerRows.
+/// @throws Error where there are no columns, no rows, or as ReadMarkerRows.
 MarkerTable ParseTrc(std::string_view content, const std::string& file,
                      Warnings* warnings = nullptr);
 

@@ -208,4 +208,30 @@ std::vector<LabelChange> ChangesOf(const Labelling& labelling,
   return changes;
 }
 
+void KeepLabelsOfAllFrames(const std::vector<std::string>& labels, Labelling* labelling) {
+  const NameTable table(*labelling, labels);
+  std::set<int> wrong;  // points that never have their own name
+  for (const NamedPiece& piece : labelling->pieces) {
+    if (table.OwnName(piece.point) >= 0) wrong.insert(piece.point);
+  }
+  for (const NamedPiece& piece : labelling->pieces) {
+    if (piece.name == table.OwnName(piece.point)) wrong.erase(piece.point);
+  }
+  for (bool is_settled = false; !is_settled;) {
+    is_settled = true;
+    for (const NamedPiece& piece : labelling->pieces) {
+      if (piece.name < 0 || wrong.contains(piece.point)) continue;
+      const auto owner = std::find_if(wrong.begin(), wrong.end(), [&](int point) {
+        return table.OwnName(point) == piece.name;
+      });
+      if (owner == wrong.end()) continue;
+      wrong.erase(owner);
+      is_settled = false;
+    }
+  }
+  for (NamedPiece& piece : labelling->pieces) {
+    if (wrong.contains(piece.point)) piece.name = table.OwnName(piece.point);
+  }
+}
+
 }  // namespace mmm_converter

@@ -53,4 +53,9 @@ struct LabelChange {
 std::vector<LabelChange> ChangesOf(const Labelling& labelling,
                                    const std::vector<std::string>& labels);
 
+/// Gives points back their labels that have other names, or none, in all of their frames, as far as
+/// these names are then free. A body whose markers' places are not known can't tell a label that is
+/// wrong all along from a marker that is worn elsewhere.
+void KeepLabelsOfAllFrames(const std::vector<std::string>& labels, Labelling* labelling);
+
 }  // namespace mmm_converter

@@ -171,8 +171,8 @@ TEST(OsimPerson, WhatIsMissingIsNamed) {
     try {
       ScaleOsimPerson({generic, "m.osim"}, {}, ParseSetup(setup_text), "setup.xml", recording,
                       nullptr);
-    } catch (const Error& error) {
-      return error.what();
+    } catch (const Error& failure) {
+      return failure.what();
     }
     return "none";
   };

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
 #include "tests/support/stick_model.h"
 
@@ -96,15 +95,11 @@ TEST_F(MotionConverterTest, KeepsTheTrackedJointsOnly) {
 
 TEST_F(MotionConverterTest, FramesBeforeTheFirstPostureTakeItUnconverged) {
   const ConversionResult result = Convert(MakeRecording(5, 2));
-  const KinematicModel& model = *converter_.setup().model;
   for (int k = 0; k < 2; ++k) {
     EXPECT_EQ(result.trajectory.postures[k].position, Eigen::Vector3d(0, -1, 2));
     EXPECT_FALSE(result.frames[k].converged);
     EXPECT_EQ(result.frames[k].markers_seen, 1);
-    const Eigen::Vector3d p_WM =
-        MarkerPositions(model, ZeroPosture(model)).col(0) + Eigen::Vector3d(0, -1, 2);
-    EXPECT_DOUBLE_EQ(result.residuals(0, k), (Eigen::Vector3d(k, 0, 0) - p_WM).norm());
-    EXPECT_TRUE(std::isnan(result.residuals(1, k)));
+    EXPECT_TRUE(result.residuals.col(k).array().isNaN().all());
   }
   EXPECT_TRUE(result.frames[2].converged);
   EXPECT_EQ(result.trajectory.postures[3].position.y(), 0.01);

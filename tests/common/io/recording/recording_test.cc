@@ -347,6 +347,21 @@ TEST(Recording, TheRateGivenIsPossible) {
   }
 }
 
+// Rows are counted by their frames where there is no time.
+TEST(Recording, TheRateGivenIsThatOfAFileWithoutOne) {
+  const std::string file =
+      WriteRecording("no_rate.trc",
+                     "PathFileType\t4\t(X/Y/Z)\ta.trc\nNumFrames\tNumMarkers\tUnits\n2\t2\tmm\n"
+                     "Frame#\tTime\tLHEE\t\t\tLASI\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n"
+                     "1\t\t1\t20\t3\t4\t950\t6\n3\t\t1\t21\t3\t4\t951\t6\n");
+  EXPECT_EQ(RemedyOf(file), Remedy::kRate);
+  ReadRecordingOptions options;
+  options.rate = 50;
+  const MarkerSequence markers = ReadRecording(file, options).markers;
+  EXPECT_EQ(markers.rate(), 50);
+  EXPECT_NEAR(markers.frame(markers.num_frames() - 1)(2, 1), 0.951, 1e-12);
+}
+
 TEST(Recording, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(MessageOf("/no/such/file.c3d"), HasSubstr("no such file"));
   EXPECT_THAT(MessageOf(testing::TestFolder()), HasSubstr("is a folder"));

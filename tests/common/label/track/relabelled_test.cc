@@ -111,5 +111,20 @@ TEST(Relabelled, EveryMeasuredPositionIsThereOnce) {
   }
 }
 
+// Two that are exchanged all along keep their labels, and so does one without a name; two that are
+// exchanged for a while do not, nor one whose name another point has.
+TEST(KeepLabelsOfAllFrames, AsFarAsTheNamesAreFree) {
+  const std::vector<std::string> labels = {"a", "b", "c", "d", "e", "f", "g"};
+  Labelling labelling = {
+      labels,
+      {Piece(0, 0, 9, 1), Piece(1, 0, 9, 0), Piece(2, 0, 4, 2), Piece(2, 4, 9, 3),
+       Piece(3, 0, 4, 3), Piece(3, 4, 9, 2), Piece(4, 0, 9, -1), Piece(5, 0, 9, -1),
+       Piece(6, 0, 4, 6), Piece(6, 4, 9, 5)}};
+  KeepLabelsOfAllFrames(labels, &labelling);
+  std::vector<int> names;
+  for (const NamedPiece& piece : labelling.pieces) names.push_back(piece.name);
+  EXPECT_EQ(names, (std::vector<int>{0, 1, 2, 3, 3, 2, 4, -1, 6, 5}));
+}
+
 }  // namespace
 }  // namespace mmm_converter
