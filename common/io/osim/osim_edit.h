@@ -26,7 +26,7 @@ class OsimEdit {
   /// The objects of a set of the model, or of one that is a property of an object.
   static std::vector<XmlPlace> Objects(const XmlPlace& owner, std::string_view set);
 
-  /// The frame that the object hangs on by its socket (4.x) or <body> (before). @throws Error
+  /// The frame that the object hangs on by its socket (4.x) or `body` (before). @throws Error
   OsimFrames::Place FrameOf(const std::string& owner, const XmlElement& object);
   OsimFrames::Place FrameAt(const std::string& owner, std::string_view socket, int line);
 
