@@ -32,3 +32,11 @@ function(mmm_converter_sources target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
+
+# mmm_converter_per_recording(target...): what runs a few times for each recording, not for each frame or sample, is
+# optimised so far as it costs the compiler little.
+function(mmm_converter_per_recording)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
