@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/angles/anatomical_angles.h"
 #include "common/convert/marker_incidents.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/motion_output.h"
@@ -105,6 +106,17 @@ py::object CovariancesOf(const Conversion& conversion) {
   return py::make_tuple(frames, covariances);
 }
 
+// (joint, side, motion) of each angle, angles and standard deviations (frames, angles) [rad].
+py::tuple AnglesOf(const Conversion& conversion) {
+  const AnatomicalAngles angles =
+      ComputeAnatomicalAngles(*conversion.report.plan.setup.model, conversion.trajectory());
+  py::list names;
+  for (const AnatomicalAngle& one : angles.angles) {
+    names.append(py::make_tuple(one.joint, one.side, one.motion));
+  }
+  return py::make_tuple(names, RowsOfColumns(angles.values), RowsOfColumns(angles.deviations));
+}
+
 py::list IncidentsOf(const Conversion& conversion) {
   py::list incidents;
   for (const MarkerIncident& incident : conversion.report.result.incidents) {
@@ -186,6 +198,7 @@ void BindConversions(py::module_* module) {
       .def_property_readonly(
           "residuals", [](const Conversion& c) { return RowsOfColumns(c.report.result.residuals); })
       .def_property_readonly("covariances", &CovariancesOf)
+      .def_property_readonly("angles", &AnglesOf)
       .def_property_readonly("marker_labels", &MarkerLabelsOf)
       .def_property_readonly("incidents", &IncidentsOf)
       .def_property_readonly("frames", &FramesOf)

@@ -9,6 +9,7 @@
 #include "MMMConverterS2KF/report/model_json.h"
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
+#include "common/angles/anatomical_angles.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/advice.h"
@@ -21,6 +22,21 @@ using Eigen::MatrixXd;
 
 Json Floats(const MatrixXd& numbers) { return ToJson(PackFloats(numbers)); }
 Json Quantised(const MatrixXd& numbers) { return ToJson(PackQuantised(numbers)); }
+
+/// Angles by the names that people have for them: a column each.
+Json AnatomyJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
+  const AnatomicalAngles angles = ComputeAnatomicalAngles(model, trajectory);
+  const DrawnFrames drawn(trajectory.num_frames());
+  Json names = Json::array();
+  for (const AnatomicalAngle& one : angles.angles) {
+    names.push_back({{"joint", one.joint}, {"side", one.side}, {"motion", one.motion}});
+  }
+  Json out = {{"names", names}, {"values", Quantised(drawn.Of(angles.values.transpose()))}};
+  if (angles.deviations.size() > 0) {
+    out["deviations"] = Quantised(drawn.Of(angles.deviations.transpose()));
+  }
+  return out;
+}
 
 Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   const int frames = trajectory.num_frames();
@@ -52,6 +68,7 @@ Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   if (deviations.cols() == frames && deviations.rows() == 6 + num_joints) {
     motion["deviations"] = Quantised(drawn.Of(deviations.bottomRows(num_joints).transpose()));
   }
+  if (HasAnatomy(model)) motion["anatomy"] = AnatomyJson(model, trajectory);
   return motion;
 }
 

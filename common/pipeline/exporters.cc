@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/angles/anatomical_angles.h"
+#include "common/angles/angle_table.h"
 #include "common/io/tables/bvh_writer.h"
 #include "common/io/tables/covariance_npz.h"
 #include "common/io/tables/mot_writer.h"
@@ -24,6 +26,12 @@ namespace {
 
 void WriteCsv(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatTrajectoryCsv(report.result.trajectory));
+}
+
+void WriteAngles(const std::string& file, const ConversionReport& report) {
+  const AnatomicalAngles angles =
+      ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
+  WriteFileAtomically(file, FormatAngleCsv(angles));
 }
 
 void WriteTrc(const std::string& file, const ConversionReport& report) {
@@ -100,6 +108,11 @@ const std::vector<Exporter>& Exporters() {
        "postures as CSV; with standard deviations of S2KF, with velocities and accelerations where "
        "postures are smoothed (-c s2kf_offline)",
        WriteCsv},
+      {"angles", "export-angles", "csv", "joint angles by their anatomical names as CSV",
+       "flexion, adduction and rotation of pelvis, trunk, hips, knees, ankles, shoulders, elbows "
+       "and "
+       "wrists in degrees with their standard deviations: a row for each frame and angle",
+       WriteAngles},
       {"trc", "export-trc", "trc", "markers, measured and the model's, as TRC",
        "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
        "them (LABEL_model)",
@@ -147,6 +160,13 @@ bool NeedCovariances(const ExportFiles& files) {
 }
 
 void CheckExports(const ExportFiles& files, const KinematicModel& model) {
+  const auto angles = files.find("angles");
+  if (angles != files.end() && !HasAnatomy(model)) {
+    throw Error(
+        fmt::format("{}: pelvis, hips and knees are known of MMM's and OpenSim's models of "
+                    "persons, not of {}",
+                    angles->second, model.name()));
+  }
   if (!model.coordinates()) return;
   for (const Exporter& exporter : Exporters()) {
     if (!exporter.of_turns || files.count(exporter.name) == 0) continue;

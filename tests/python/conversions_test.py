@@ -57,6 +57,21 @@ class Conversions(Case):
         self.assertIn("verdict", result._repr_html_())
         self.assertIn("handstand.c3d", result.text)
 
+    def test_angles_by_their_names(self):
+        table = self.folder / "angles.csv"
+        self.run_program("convert", SAMPLE, "--height", "1.8", "-o", self.folder / "m.xml", "--export-angles", table)
+        angles = mmmconverter.convert(SAMPLE, height=1.8).angles
+        rows = [line.split(",") for line in table.read_text().splitlines()[1:]]
+        names = [" ".join(filter(None, (row[2], row[1], row[3]))) for row in rows]
+        self.assertEqual(names[:len(angles.names)], angles.names)
+        figures = np.array([[float(row[4]), float(row[5])] for row in rows]).reshape(675, len(angles.names), 2)
+        np.testing.assert_allclose(angles.values, figures[..., 0], atol=1e-6)
+        np.testing.assert_allclose(angles.sd, figures[..., 1], atol=1e-6)
+        np.testing.assert_array_equal(angles["left knee flexion"],
+                                      angles.values[:, angles.names.index("left knee flexion")])
+        with self.assertRaisesRegex(KeyError, "left knee flexion"):
+            angles["knee"]
+
     def test_smoothed_and_of_a_part(self):
         result = self.expect_the_programs(
             SAMPLE, ["--height", "1.8", "--mass", "80", "-c", "s2kf_offline", "--frames", "100:220"],

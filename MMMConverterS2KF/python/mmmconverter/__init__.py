@@ -14,6 +14,7 @@ NaN. Arrays have frames first.
 'good'
 """
 
+from ._angles import Angles
 from ._conversions import Conversion, convert
 from ._mmmconverter import Error, version_text as _version_text
 from ._models import Estimate, Model, Poses, Tracker, read_model
@@ -26,7 +27,7 @@ Error.__module__ = __name__
 __version__ = _version_text().split()[1]
 
 __all__ = [
-    "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
+    "Angles", "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
     "Model", "Motion", "Poses", "Recording", "Subject", "Tracker", "calibrate", "check_dynamics",
     "compare", "convert", "label", "read", "read_model", "read_motion", "read_motions",
     "read_subject"]

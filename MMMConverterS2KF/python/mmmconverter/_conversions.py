@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Callable, Union
 import numpy as np
 
 from . import _mmmconverter
+from ._angles import Angles
 from ._models import Model
 from ._options import with_options
 from ._present import Presented, path_text
@@ -46,6 +47,8 @@ class Conversion(Presented):
     velocities, accelerations : numpy.ndarray, shape (frames, 6 + J), or None
         Of the root's position and its rotation in the world, and of joints, per second and per second
         squared; where postures are smooth (config="s2kf_offline").
+    angles : Angles
+        Flexion, adduction and rotation of the joints in degrees, by their anatomical names.
     marker_labels : list of str
     residuals : numpy.ndarray, shape (frames, M)
         Distances of measured from model markers in metres; NaN: not seen.
@@ -85,6 +88,7 @@ class Conversion(Presented):
     marker_labels = functools.cached_property(lambda self: self._raw.marker_labels)
     incidents = functools.cached_property(lambda self: self._raw.incidents)
     frames = functools.cached_property(lambda self: self._raw.frames)
+    angles = functools.cached_property(lambda self: Angles(self.times, *self._raw.angles))
     model = functools.cached_property(lambda self: Model(self._raw.model))
 
     @property

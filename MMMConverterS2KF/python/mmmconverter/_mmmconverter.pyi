@@ -71,6 +71,7 @@ class Conversion:
     accelerations: Optional[np.ndarray]
     residuals: np.ndarray
     covariances: Optional[Tuple[np.ndarray, np.ndarray]]
+    angles: Tuple[List[Tuple[str, str, str]], np.ndarray, Optional[np.ndarray]]
     marker_labels: List[str]
     incidents: List[Dict[str, Any]]
     frames: Dict[str, np.ndarray]

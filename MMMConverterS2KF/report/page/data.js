@@ -9,6 +9,25 @@ class Motion {
     for (const name of ["position", "orientation", "angles", "angles_least", "angles_most", "deviations"]) {
       lazily(this, name, json[name]);
     }
+    this.anatomy = json.anatomy ? new Anatomy(json.anatomy) : null;
+  }
+}
+
+// Angles by the names that people have for them, with left and right of one joint together: titles
+// ("knee flexion"), and where the numbers of a title are.
+class Anatomy {
+  constructor(json) {
+    this.columns = new Map();
+    json.names.forEach((name, column) => {
+      const title = `${name.joint} ${name.motion}`;
+      if (!this.columns.has(title)) this.columns.set(title, []);
+      this.columns.get(title).push({side: name.side, column});
+    });
+    for (const name of ["values", "deviations"]) lazily(this, name, json[name]);
+  }
+
+  get titles() {
+    return Array.from(this.columns.keys());
   }
 }
 

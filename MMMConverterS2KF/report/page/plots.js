@@ -2,6 +2,22 @@
 // What is plotted: marker distances, hidden markers, joint angles, times.
 
 const kDegrees = 180 / Math.PI;
+const kSideColours = {left: "#c8553d", right: "#2a7f9e"};
+
+// Which way an angle grows, by the motion's name.
+const kDirections = {
+  "tilt": "Grows as the pelvis tilts forward.",
+  "obliquity": "Positive where the left side is higher.",
+  "rotation": "Positive to the left.",
+  "flexion": "Grows with flexion; 0 where the model stands with hanging arms.",
+  "lateral bending": "Positive to the right.",
+  "adduction": "Positive towards the middle of the body; abduction is negative.",
+  "internal rotation": "Positive inwards; external rotation is negative.",
+  "dorsiflexion": "Grows as the toes rise; plantar flexion is negative.",
+  "inversion": "Positive where the inner edge of the foot rises.",
+  "pronation": "0 where the palm looks to the body; supination is negative.",
+  "radial deviation": "Positive towards the thumb.",
+};
 
 class Plots {
   constructor(view) {
@@ -21,22 +37,39 @@ class Plots {
     this.listJoints(trial);
   }
 
-  // The joints that some converter tracks, starting with the one that moves most.
+  // Angles by their anatomical names, and the joints that some converter tracks, starting with the
+  // one that moves most.
   listJoints(trial) {
     const joints = trial.model.joints.map((_, i) => i)
       .filter((joint) => trial.tracks.some((track) => track.motion.joints.includes(joint)));
     byId("joint-part").hidden = joints.length === 0;
-    replaceContent(byId("joint"), ...joints.map((joint) => option(joint, trial.model.joints[joint].name)));
+    const group = (label, options) => {
+      const made = document.createElement("optgroup");
+      made.label = label;
+      made.append(...options);
+      return made;
+    };
     const motion = trial.tracks[0].motion;
-    let widest = -1;
-    motion.joints.forEach((joint, column) => {
-      const angles = motion.angles.subarray(column * trial.frames, (column + 1) * trial.frames);
+    const titles = motion.anatomy ? motion.anatomy.titles : [];
+    const ofModel = joints.map((joint) => option(joint, trial.model.joints[joint].name));
+    replaceContent(byId("joint"), ...(titles.length === 0 ? ofModel :
+      [group("Anatomical angles", titles.map((title) => option(title, title))),
+        group("Joints of the model", ofModel)]));
+    const widest = {range: -1};
+    const consider = (value, numbers, column) => {
+      const angles = numbers.subarray(column * trial.frames, (column + 1) * trial.frames);
       const range = angles.reduce((most, angle) => Math.max(most, angle), -Infinity) -
         angles.reduce((least, angle) => Math.min(least, angle), Infinity);
-      if (range <= widest) return;
-      widest = range;
-      byId("joint").value = joint;
-    });
+      if (range > widest.range) Object.assign(widest, {range, value});
+    };
+    if (titles.length > 0) {
+      for (const title of titles.filter((one) => !one.startsWith("pelvis"))) {
+        for (const {column} of motion.anatomy.columns.get(title)) consider(title, motion.anatomy.values, column);
+      }
+    } else {
+      motion.joints.forEach((joint, column) => consider(joint, motion.angles, column));
+    }
+    if ("value" in widest) byId("joint").value = widest.value;
   }
 
   refresh() {
@@ -46,12 +79,12 @@ class Plots {
     if (!byId("time-part").hidden) this.charts.push(this.timeChart(tracks));
     if (!byId("nis-part").hidden) this.charts.push(this.nisChart(tracks));
     if (this.view.trial.hidesMarkers) this.charts.push(this.hiddenChart());
-    if (!byId("joint-part").hidden) this.charts.push(this.jointChart(tracks));
+    if (!byId("joint-part").hidden) this.charts.push(this.angleChart(tracks));
   }
 
   refreshJoint() {
     this.charts.pop().destroy();
-    this.charts.push(this.jointChart(this.view.shownTracks));
+    this.charts.push(this.angleChart(this.view.shownTracks));
   }
 
   setFrame(frame) {
@@ -120,6 +153,43 @@ class Plots {
     }
     return new Chart(byId("nis-plot"), this.view, {lines, unit: "", digits: 2, logarithmic: stating.length > 0,
       label: "Normalised innovation squared over its degrees of freedom, logarithmic"});
+  }
+
+  angleChart(tracks) {
+    const chosen = byId("joint").value;
+    const {anatomy} = this.view.trial.tracks[0].motion;
+    return anatomy && anatomy.columns.has(chosen) ? this.anatomyChart(chosen, tracks) : this.jointChart(tracks);
+  }
+
+  // Left and right in colours of their own where there is one converter, else the right dashed.
+  anatomyChart(title, tracks) {
+    const trial = this.view.trial;
+    const lines = [];
+    let hasBand = false;
+    const add = (anatomy, line, name) => {
+      for (const {side, column} of anatomy ? anatomy.columns.get(title) || [] : []) {
+        const of = (numbers) => (k) => kDegrees * numbers[column * trial.frames + k];
+        const value = of(anatomy.values);
+        const one = Object.assign({}, line(side), {name: [name, side].filter(Boolean).join(", ") || title, values: value});
+        if (anatomy.deviations && !name.startsWith("truth")) {
+          const deviation = of(anatomy.deviations);
+          one.band = (k) => [value(k) - 2 * deviation(k), value(k) + 2 * deviation(k)];
+          hasBand = true;
+        }
+        lines.push(one);
+      }
+    };
+    const truth = trial.truth && trial.truth.anatomy;
+    if (truth) add(truth, (side) => ({colour: themeColour("text"), width: 3, dash: side === "right" ? [6, 3] : null}), "truth");
+    for (const track of tracks) {
+      const own = this.lineOf(track);
+      if (tracks.length === 1) add(track.motion.anatomy, (side) => ({colour: kSideColours[side] || own.colour}), "");
+      else add(track.motion.anatomy, (side) => ({colour: own.colour, dash: side === "right" ? [6, 3] : own.dash}), track.name);
+    }
+    byId("joint-caption").textContent = kDirections[title.split(" ").slice(1).join(" ")] +
+      (hasBand ? " The band is ±2 standard deviations, as the converter states them." : "");
+    return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,
+      range: withMargin(extremes(lines, trial.frames)), label: `${title} over time, degrees`});
   }
 
   jointChart(tracks) {

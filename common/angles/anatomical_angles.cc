@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "common/angles/anatomical_angles.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "common/math/rotation.h"
+#include "common/model/coordinate_map.h"
+#include "common/model/forward_kinematics.h"
+#include "common/motion/marker_synthesis.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Of the three turns about the axes left, forward and along, the sign by which one grows; 0: none.
+struct Sense {
+  const char* motion;
+  int turn;          ///< 0: about left, 1: about forward, 2: along
+  double sign;       ///< of a right or a middle joint
+  bool is_mirrored;  ///< the other sign on the left
+};
+
+struct Anatomy {
+  const char* joint;
+  // Segments of MMM's model and of OpenSim's, with | between other names; of the right side, or of
+  // the middle.
+  const char* mmm_proximal;  ///< empty: the laboratory
+  const char* mmm_distal;
+  const char* osim_proximal;
+  const char* osim_distal;
+  std::array<Sense, 3> senses;
+  bool is_sided;
+};
+
+constexpr std::array<Sense, 3> kPelvis = {
+    {{"tilt", 0, 1, false}, {"obliquity", 1, 1, false}, {"rotation", 2, 1, false}}};
+constexpr std::array<Sense, 3> kSpine = {
+    {{"flexion", 0, 1, false}, {"lateral bending", 1, 1, false}, {"rotation", 2, 1, false}}};
+constexpr std::array<Sense, 3> kBall = {
+    {{"flexion", 0, -1, false}, {"adduction", 1, 1, true}, {"internal rotation", 2, 1, true}}};
+constexpr std::array<Sense, 3> kKnee = {
+    {{"flexion", 0, 1, false}, {"adduction", 1, 1, true}, {"internal rotation", 2, 1, true}}};
+constexpr std::array<Sense, 3> kAnkle = {
+    {{"dorsiflexion", 0, -1, false}, {"inversion", 1, 1, true}, {"internal rotation", 2, 1, true}}};
+constexpr std::array<Sense, 3> kElbow = {
+    {{"flexion", 0, -1, false}, {"adduction", 1, 1, true}, {"pronation", 2, 1, true}}};
+constexpr std::array<Sense, 3> kWrist = {{{"flexion", 1, 1, true},
+                                          {"radial deviation", 0, -1, false},
+                                          {"internal rotation", 2, 1, true}}};
+
+constexpr Anatomy kAnatomy[] = {
+    {"pelvis", "", "root_joint", "", "pelvis", kPelvis, false},
+    {"trunk", "root_joint", "BTy_joint", "pelvis", "torso|thorax", kSpine, false},
+    {"neck", "BTy_joint", "BUNy_joint", "torso|thorax", "head|skull|head_neck", kSpine, false},
+    {"hip", "root_joint", "RHy_joint", "pelvis", "femur_r", kBall, true},
+    {"knee", "RHy_joint", "RKx_joint", "femur_r", "tibia_r", kKnee, true},
+    {"ankle", "RKx_joint", "RAy_joint", "tibia_r", "calcn_r|foot_r", kAnkle, true},
+    {"shoulder", "BTy_joint", "RSy_joint", "torso|thorax", "humerus_r", kBall, true},
+    {"elbow", "RSy_joint", "REz_joint", "humerus_r", "radius_r|ulna_r", kElbow, true},
+    {"wrist", "REz_joint", "RWy_joint", "radius_r|ulna_r", "hand_r", kWrist, true}};
+
+// Derivatives of angles by differences [rad], and the least one that makes it an angle of a joint.
+constexpr double kStep = 1e-5;
+constexpr double kLeastEffect = 0.3;
+
+/// The segment of one of these names, with | between them; -1: the model has none.
+int SegmentOf(const KinematicModel& model, std::string_view names, bool is_left) {
+  const bool is_osim = model.coordinates() != nullptr;
+  while (!names.empty()) {
+    std::string name(names.substr(0, names.find('|')));
+    names.remove_prefix(std::min(names.size(), name.size() + 1));
+    if (is_left && is_osim && name.ends_with("_r")) name.back() = 'l';
+    if (is_left && !is_osim && name.starts_with('R')) name.front() = 'L';
+    const int segment = model.FindSegment(name);
+    if (segment >= 0) return segment;
+  }
+  return -1;
+}
+
+/// Columns: forward, left, up of a person who stands in the posture that is all zero, W.
+Matrix3d StandingAxes(const KinematicModel& model) {
+  Matrix3d axes;
+  if (model.coordinates()) {
+    axes << Vector3d::UnitX(), -Vector3d::UnitZ(), Vector3d::UnitY();
+    return model.coordinates()->R_WG() * axes;
+  }
+  axes << Vector3d::UnitY(), -Vector3d::UnitX(), Vector3d::UnitZ();
+  return axes;
+}
+
+Posture StandingPosture(const KinematicModel& model) {
+  if (!model.coordinates()) return ZeroPosture(model);
+  const auto count = static_cast<Eigen::Index>(model.coordinates()->coordinates().size());
+  return PostureOf(model, Eigen::VectorXd::Zero(count));
+}
+
+/// A joint angle by which a segment turns against another, and the segment that turns.
+struct Turning {
+  int segment = 0;
+  int joint = 0;
+};
+
+/// What is computed of one joint of the body.
+struct JointFrames {
+  const Anatomy* anatomy = nullptr;
+  bool is_left = false;
+  int proximal = -1, distal = -1;  // -1: the laboratory
+  Matrix3d R_PA = Matrix3d::Identity(), R_DA = Matrix3d::Identity();
+  std::vector<Turning> turnings;
+};
+
+/// False: the one does not hang on the other.
+bool AddTurnings(const KinematicModel& model, JointFrames* frames) {
+  int at = frames->distal;
+  for (; at >= 0 && at != frames->proximal; at = model.segments()[at].parent) {
+    const Segment& segment = model.segments()[at];
+    if (segment.type != JointType::kRevolute) continue;
+    const int joint = segment.leader >= 0 ? model.segments()[segment.leader].joint : segment.joint;
+    if (joint >= 0) frames->turnings.push_back({at, joint});
+  }
+  return at == frames->proximal;
+}
+
+std::vector<JointFrames> FindJointFrames(const KinematicModel& model) {
+  const bool is_osim = model.coordinates() != nullptr;
+  const Matrix3d R_WA = StandingAxes(model);
+  const auto X_WS = SegmentPoses(model, StandingPosture(model));
+  std::vector<JointFrames> found;
+  for (const Anatomy& anatomy : kAnatomy) {
+    for (const bool is_left : {true, false}) {
+      if (is_left && !anatomy.is_sided) continue;
+      const std::string_view proximal = is_osim ? anatomy.osim_proximal : anatomy.mmm_proximal;
+      JointFrames one;
+      one.anatomy = &anatomy;
+      one.is_left = is_left;
+      one.distal = SegmentOf(model, is_osim ? anatomy.osim_distal : anatomy.mmm_distal, is_left);
+      one.proximal = SegmentOf(model, proximal, is_left);
+      if (one.distal < 0 || (one.proximal < 0 && !proximal.empty())) continue;
+      one.R_DA = X_WS[one.distal].linear().transpose() * R_WA;
+      one.R_PA = R_WA;
+      if (one.proximal >= 0) one.R_PA = X_WS[one.proximal].linear().transpose() * R_WA;
+      if (one.proximal < 0 || AddTurnings(model, &one)) found.push_back(one);
+    }
+  }
+  return found;
+}
+
+/// Turns about left, forward and along (axes y, x, z of R): R = Ry Rx Rz; of the laboratory's child
+/// R = Rz Rx Ry. Both are MMM's Rz Ry Rx in other axes.
+Vector3d TurnsOf(const Matrix3d& R, bool is_of_laboratory) {
+  Matrix3d axes;
+  if (is_of_laboratory) {
+    axes << 0, 1, 0, 1, 0, 0, 0, 0, 1;  // left-handed: angles change their sign
+    const Vector3d rpy = RpyFromRotation(axes * R * axes.transpose());
+    return -rpy;
+  }
+  axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  return RpyFromRotation(axes * R * axes.transpose()).reverse();
+}
+
+Matrix3d Against(const JointFrames& joint, const std::vector<Eigen::Isometry3d>& X_WS) {
+  const Matrix3d R_WD = X_WS[joint.distal].linear() * joint.R_DA;
+  if (joint.proximal < 0) return joint.R_PA.transpose() * R_WD;
+  return (X_WS[joint.proximal].linear() * joint.R_PA).transpose() * R_WD;
+}
+
+/// d turns by a turn of the distal segment about w (axes of the proximal one).
+Vector3d Derivative(const Matrix3d& R, const Vector3d& w, bool is_of_laboratory) {
+  const Vector3d after = TurnsOf(Exp(kStep * w).toRotationMatrix() * R, is_of_laboratory);
+  const Vector3d before = TurnsOf(Exp(-kStep * w).toRotationMatrix() * R, is_of_laboratory);
+  Vector3d change = after - before;
+  for (double& angle : change) angle = std::remainder(angle, 2 * std::numbers::pi);
+  return change / (2 * kStep);
+}
+
+/// By each joint angle, a column; of the laboratory's child by the root's turns about its own axes.
+Eigen::Matrix3Xd DerivativesOf(const KinematicModel& model, const JointFrames& joint,
+                               const Posture& posture, const std::vector<Eigen::Isometry3d>& X_WS,
+                               std::vector<int>* columns) {
+  const Matrix3d R = Against(joint, X_WS);
+  columns->clear();
+  Eigen::Matrix3Xd derivatives;
+  if (joint.proximal < 0) {
+    derivatives.resize(3, 3);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d w = joint.R_PA.transpose() * X_WS[0].linear().col(i);
+      derivatives.col(i) = Derivative(R, w, true);
+      columns->push_back(3 + i);
+    }
+    return derivatives;
+  }
+  const Matrix3d R_AW = (X_WS[joint.proximal].linear() * joint.R_PA).transpose();
+  derivatives.setZero(3, static_cast<Eigen::Index>(joint.turnings.size()));
+  for (const Turning& one : joint.turnings) {
+    const Segment& segment = model.segments()[one.segment];
+    double slope = 1;
+    if (segment.function) segment.function->Value(posture.joint_angles[one.joint], &slope);
+    const Vector3d w = R_AW * X_WS[one.segment].linear() * segment.axis;
+    const int column = 6 + one.joint;
+    const auto known = std::find(columns->begin(), columns->end(), column);
+    const auto at = known - columns->begin();
+    if (known == columns->end()) columns->push_back(column);
+    derivatives.col(at) += slope * Derivative(R, w, false);
+  }
+  return derivatives.leftCols(static_cast<Eigen::Index>(columns->size())).eval();
+}
+
+/// An angle that the model has, and of which turn it is made.
+struct Row {
+  int joint = 0;  // of JointFrames
+  Sense sense;
+  double sign = 1;
+};
+
+std::vector<Row> RowsOf(const KinematicModel& model, const std::vector<JointFrames>& joints) {
+  const Posture standing = StandingPosture(model);
+  const auto X_WS = SegmentPoses(model, standing);
+  std::vector<Row> rows;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    std::vector<int> columns;
+    const Eigen::Matrix3Xd effects = DerivativesOf(model, joints[j], standing, X_WS, &columns);
+    for (const Sense& sense : joints[j].anatomy->senses) {
+      if (effects.cols() == 0) continue;
+      if (effects.row(sense.turn).cwiseAbs().maxCoeff() < kLeastEffect) continue;
+      const double side = sense.is_mirrored && joints[j].is_left ? -1 : 1;
+      rows.push_back({static_cast<int>(j), sense, side * sense.sign});
+    }
+  }
+  return rows;
+}
+
+/// Standard deviations of the model's posture, [6; its joints], from those of a motion.
+class DeviationsOfModel {
+ public:
+  DeviationsOfModel(const KinematicModel& model, const PoseTrajectory& motion) : motion_(motion) {
+    values_.setZero(6 + model.num_joints());
+    for (const std::string& name : motion.joint_names) joints_.push_back(model.FindJoint(name));
+  }
+  const Eigen::VectorXd& Of(int k) {
+    values_.head<6>() = motion_.standard_deviations.col(k).head<6>();
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      values_[6 + joints_[i]] = motion_.standard_deviations(6 + static_cast<Eigen::Index>(i), k);
+    }
+    return values_;
+  }
+
+ private:
+  const PoseTrajectory& motion_;
+  std::vector<int> joints_;
+  Eigen::VectorXd values_;
+};
+
+}  // namespace
+
+bool HasAnatomy(const KinematicModel& model) {
+  const auto joints = FindJointFrames(model);
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const JointFrames& one) { return one.proximal >= 0; });
+}
+
+AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
+                                         const PoseTrajectory& motion) {
+  if (!HasAnatomy(model)) {
+    throw Error(
+        "joint angles by their anatomical names need the segments of MMM's or OpenSim's models of "
+        "persons, which this one does not have");
+  }
+  const std::vector<JointFrames> joints = FindJointFrames(model);
+  const std::vector<Row> rows = RowsOf(model, joints);
+  AnatomicalAngles angles;
+  angles.rate = motion.rate;
+  angles.first_time = motion.first_time;
+  for (const Row& row : rows) {
+    const JointFrames& joint = joints[row.joint];
+    const char* side = joint.is_left ? "left" : "right";
+    angles.angles.push_back(
+        {joint.anatomy->joint, joint.anatomy->is_sided ? side : "", row.sense.motion});
+  }
+  const bool has_deviations = motion.standard_deviations.size() > 0;
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  angles.values.resize(count, motion.num_frames());
+  if (has_deviations) angles.deviations.resize(count, motion.num_frames());
+  DeviationsOfModel deviations(model, motion);
+  std::vector<Vector3d> turns(joints.size(), Vector3d::Zero());
+  std::vector<Vector3d> spreads(joints.size(), Vector3d::Zero());
+  std::vector<int> columns;
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    const Posture posture = ModelPosture(model, motion, k);
+    const auto X_WS = SegmentPoses(model, posture);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      turns[j] = ContinuousRpy(TurnsOf(Against(joints[j], X_WS), joints[j].proximal < 0), turns[j]);
+      if (!has_deviations) continue;
+      const auto D = DerivativesOf(model, joints[j], posture, X_WS, &columns);
+      const Eigen::VectorXd sd = deviations.Of(k)(columns);
+      spreads[j] = (D * sd.asDiagonal()).rowwise().norm();
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Row& row = rows[static_cast<std::size_t>(i)];
+      angles.values(i, k) = row.sign * turns[row.joint][row.sense.turn];
+      if (has_deviations) angles.deviations(i, k) = spreads[row.joint][row.sense.turn];
+    }
+  }
+  return angles;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+#include "common/motion/pose_trajectory.h"
+
+namespace mmm_converter {
+
+/// An angle by the name that people have for it.
+struct AnatomicalAngle {
+  const char* joint = "";   ///< "pelvis", "trunk", "neck", "hip", "knee", "ankle", "shoulder", ...
+  const char* side = "";    ///< "left", "right"; empty: of the middle of the body
+  const char* motion = "";  ///< "flexion": the direction in which it grows
+};
+
+/// Angles of the joints as segments turn against each other (Grood and Suntay 1983; ISB): about the
+/// axis to the left of the proximal segment, then about the forward axis between, then along the
+/// distal segment. All are 0 where the model stands with hanging arms and palms to the body.
+///   pelvis    against the laboratory, in the order of Baker (2001): tilt (forward), obliquity (the
+///             left side up), rotation (to the left)
+///   trunk, neck   flexion (forward), lateral bending (to the right), rotation (to the left) of the
+///             thorax against the pelvis, of the head against the thorax
+///   hip, shoulder   flexion, adduction, internal rotation
+///   knee      flexion; of a model that has them adduction and internal rotation
+///   ankle     dorsiflexion, inversion, internal rotation of the foot against the shank
+///   elbow     flexion; pronation from where the palm looks to the body
+///   wrist     flexion (about the forward axis), radial deviation
+/// An angle that no joint of the model can change is not there. Flexion of an arm that is abducted
+/// by 90 degrees is not determined, nor is its rotation.
+struct AnatomicalAngles {
+  double rate = 0;        ///< [Hz]
+  double first_time = 0;  ///< [s]
+  std::vector<AnatomicalAngle> angles;
+  Eigen::MatrixXd values;      ///< angles x frames [rad], without jumps
+  Eigen::MatrixXd deviations;  ///< standard deviations [rad]; empty: the motion has none
+
+  int num_frames() const { return static_cast<int>(values.cols()); }
+  double time(int k) const { return first_time + k / rate; }
+};
+
+/// Whether a model has a pelvis and legs of MMM's reference model or of OpenSim's persons.
+bool HasAnatomy(const KinematicModel& model);
+
+/// Joints that the motion does not name are as in ZeroPosture. Deviations of joints are taken as
+/// independent of each other. @throws Error where HasAnatomy is false.
+AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model, const PoseTrajectory& motion);
+
+}  // namespace mmm_converter
