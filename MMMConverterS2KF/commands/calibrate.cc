@@ -41,6 +41,10 @@ of the person can be used; the more the joints move, the better. Markers must no
 between these recordings and those that are converted with the result. What the recordings do not
 determine keeps the values of the scaled model. Use the result with convert --subject-file.
 
+With a model of OpenSim (--model generic.osim) the result is the person's model: sizes of bodies and
+places of all markers from these recordings, masses by --mass, everything else as it was. Use it with
+convert --model. With --scale-setup, OpenSim's own rules are followed instead.
+
 {}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
 for each recording in the same order.
 
@@ -48,6 +52,7 @@ Examples
   MMMConverterS2KF calibrate range_of_motion.c3d --height 1.75 -o anna.xml
   MMMConverterS2KF calibrate walk.c3d jump.c3d --height 1.75 -o anna.xml --report anna.html
   MMMConverterS2KF convert run.c3d --subject-file anna.xml -o run_mmm.xml
+  MMMConverterS2KF calibrate static.trc walk.trc --model generic.osim --mass 68 -o anna.osim
   MMMConverterS2KF calibrate static.trc --model generic.osim --scale-setup setup.xml -o anna.osim
 )";
 
@@ -110,24 +115,52 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
                           std::move(contender));
 }
 
+constexpr const char* kOsimEnding = "_scaled.osim";
+
+void CheckOsimOptions(const Arguments& arguments) {
+  for (const char* output : {"model-out", "report", "summary", "name"}) {
+    if (!arguments.Get(output)) continue;
+    throw UsageError(fmt::format(
+        "calibrate writes a model of OpenSim (-o) where one is given; --{} is of a subject",
+        output));
+  }
+}
+
 // A model of OpenSim instead of a subject.
 int ScaleOsimModel(const Arguments& arguments, const std::string& setup_file) {
   if (arguments.positionals().size() != 1) {
     throw UsageError("calibrate --scale-setup: one recording is expected, of the person standing");
   }
-  for (const char* output : {"model-out", "report", "summary"}) {
-    if (!arguments.Get(output)) continue;
-    throw UsageError(fmt::format(
-        "calibrate --scale-setup writes a model of OpenSim (-o); --{} is of a subject", output));
-  }
+  CheckOsimOptions(arguments);
   const OsimScalingRequest request = {
       MakeInputs(task::kCalibrate, arguments, kCalibratePerRecording).front(), setup_file};
-  const std::string output = CalibrateOutputFile(arguments, "_scaled.osim");
+  const std::string output = CalibrateOutputFile(arguments, kOsimEnding);
   OutputPlan plan;
   NameInputs(request, &plan);
   plan.Write(output);
   plan.Check();
   const OsimScalingReport report = RunOsimScaling(request);
+  LogWarnings(report.warnings);
+  WriteFileAtomically(output, report.scaled.content);
+  std::cout << FormatOsimScalingSummary(report, output);
+  return 0;
+}
+
+int CalibrateOsimModel(const Arguments& arguments, const CalibrationRequest& request) {
+  CheckOsimOptions(arguments);
+  const std::string output = CalibrateOutputFile(arguments, kOsimEnding);
+  Warnings of_choice;
+  ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
+  OutputPlan plan;
+  for (const InputRequest& input : request.inputs) NameInputs(input, &plan);
+  NameInputs(choice, &plan);
+  plan.Write(output);
+  plan.Check();
+  ProgressBar bar("recordings read");
+  const OsimScalingReport report =
+      RunOsimCalibration(request, {std::move(choice.config), std::move(of_choice)},
+                         [&](int done, int all) { bar.Show(done, all); });
+  bar.Clear();
   LogWarnings(report.warnings);
   WriteFileAtomically(output, report.scaled.content);
   std::cout << FormatOsimScalingSummary(report, output);
@@ -150,6 +183,7 @@ int RunCalibrate(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   if (const auto setup = arguments.Get("scale-setup")) return ScaleOsimModel(arguments, *setup);
   const CalibrationRequest request = MakeCalibrationRequest(arguments);
+  if (IsOsimModel(request.inputs.front())) return CalibrateOsimModel(arguments, request);
   const std::string output = CalibrateOutputFile(arguments, kSubjectEnding);
   Warnings of_choice;
   ConverterChoice choice = ChooseConverter(request.converter, &of_choice);

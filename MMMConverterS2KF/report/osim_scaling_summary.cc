@@ -5,8 +5,30 @@
 
 namespace mmm_converter {
 
+namespace {
+
+std::string FormatOsimCalibration(const OsimScalingReport& report, const CalibrationResult& result,
+                                  const std::string& file) {
+  std::string text;
+  for (const SegmentScale& scale : result.subject.scales) {
+    text += fmt::format("{:24} {:.3f} +- {:.3f}\n", scale.segment, report.size * scale.scale,
+                        report.size * scale.standard_deviation);
+  }
+  text += fmt::format("{:24} {:.3f} kg\n", "mass", report.scaled.mass);
+  text += fmt::format(
+      "{:24} {} moved; the best postures leave {:.1f} mm to them, {:.1f} at the places of "
+      "the model\n",
+      "markers", report.scaled.placed_markers, 1e3 * result.distance_after,
+      1e3 * result.distance_before);
+  return text + fmt::format("Calibrated on {} frames of {} recordings: wrote {}\n", result.frames,
+                            result.subject.sources.size(), file);
+}
+
+}  // namespace
+
 std::string FormatOsimScalingSummary(const OsimScalingReport& report, const std::string& file) {
   const ScaledOsim& scaled = report.scaled;
+  if (report.result) return FormatOsimCalibration(report, *report.result, file);
   std::string text;
   for (const auto& [body, factor] : scaled.factors) {
     text += factor.isConstant(factor[0]) ? fmt::format("{:24} {:.4f}\n", body, factor[0])

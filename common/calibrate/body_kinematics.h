@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,15 @@ struct BodyJacobian {
   MarkerJacobian posture;             ///< p_WM and its slopes by posture
   std::vector<Eigen::Matrix3d> R_WS;  ///< by marker: slope by its offset
   Eigen::MatrixXd J_scales;           ///< d p_WM / d scales, (3 markers) x scales [m]
+  MarkerJacobian sized;               // scratch
+  Eigen::Matrix3Xd of_model;          // scratch
+};
+
+/// Sizes of a model that are not lengths of single segments.
+struct BodySizes {
+  SegmentLengths lengths;  ///< its segments stand for what has a size, and name it
+  /// The model with these scales. At any posture, markers go straight with each of them.
+  std::function<KinematicModel(const Eigen::VectorXd& scales)> rescale;
 };
 
 /// Marker kinematics of a body that changes. Compute may be called by several threads.
@@ -31,6 +41,9 @@ class BodyKinematics {
   /// joints, markers: indices of the model, which must outlive it.
   BodyKinematics(const KinematicModel& model, std::vector<int> joints,
                  std::vector<MarkerIx> markers);
+  /// sizes: in place of FindSegmentLengths and FitToSubject.
+  BodyKinematics(const KinematicModel& model, std::vector<int> joints,
+                 std::vector<MarkerIx> markers, BodySizes sizes);
 
   const KinematicModel& model() const { return model_; }
   const std::vector<int>& joints() const { return joints_; }
@@ -38,6 +51,7 @@ class BodyKinematics {
   const SegmentLengths& lengths() const { return lengths_; }
   /// Of the body set last; the model's at first.
   const MarkerKinematics& kinematics() const { return *kinematics_; }
+  const KinematicModel& fitted() const { return *fitted_; }
 
   /// The body of the model itself: scales 1, offsets 0.
   Body ModelBody() const;
@@ -48,10 +62,15 @@ class BodyKinematics {
   void Compute(const Posture& posture, BodyJacobian* result) const;
 
  private:
+  void ComputeScaleSlopes(const std::vector<Eigen::Isometry3d>& X_WS, BodyJacobian* result) const;
+  void ComputeSizeSlopes(const Posture& posture, BodyJacobian* result) const;
+
   const KinematicModel& model_;
   std::vector<int> joints_;
   std::vector<MarkerIx> markers_;
   SegmentLengths lengths_;
+  std::function<KinematicModel(const Eigen::VectorXd&)> rescale_;  // empty: FitToSubject
+  std::vector<MarkerKinematics> sized_;  // with rescale_: the model, then each scale larger by 1
   /// lengths_ x markers_: true where the marker is below the segment, or on it.
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> below_;
   std::unique_ptr<const KinematicModel> fitted_;

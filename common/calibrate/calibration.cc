@@ -42,13 +42,15 @@ std::string Advice() {
          "markers seen";
 }
 
+void CheckCount(const std::vector<MarkerIx>& markers) {
+  if (static_cast<int>(markers.size()) >= kLeastMarkers) return;
+  throw Error(fmt::format("{} markers are assigned; a calibration needs at least {}",
+                          markers.size(), kLeastMarkers));
+}
+
 std::vector<CalibrationFrame> FramesOf(const std::vector<CalibrationRecording>& recordings,
                                        const std::vector<MarkerIx>& markers) {
   const auto count = static_cast<int>(markers.size());
-  if (count < kLeastMarkers) {
-    throw Error(fmt::format("{} markers are assigned; a calibration needs at least {}", count,
-                            kLeastMarkers));
-  }
   const int least_seen = std::max(kLeastMarkers, static_cast<int>(kLeastSeenShare * count));
   std::vector<CalibrationFrame> frames = CandidateFrames(recordings, markers, least_seen);
   if (static_cast<int>(frames.size()) < kLeastFrames) {
@@ -101,6 +103,17 @@ VectorXd NoiseScales(const std::vector<CalibrationRecording>& recordings,
     }
   }
   return scales;
+}
+
+bool IsEverSeen(const std::vector<CalibrationFrame>& frames, Eigen::Index marker) {
+  return std::any_of(frames.begin(), frames.end(),
+                     [&](const auto& frame) { return IsSeen(frame.z.col(marker)); });
+}
+
+void LeaveOutUnseen(const std::vector<CalibrationFrame>& frames, Body* body) {
+  for (Eigen::Index m = 0; m < body->offsets.cols(); ++m) {
+    if (!IsEverSeen(frames, m)) body->offsets.col(m).setZero();
+  }
 }
 
 Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const BodyFitResult& fit,
@@ -191,9 +204,20 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options, Warnings* warnings) {
   const std::vector<MarkerIx> markers = UsedMarkers(recordings);
-  std::vector<CalibrationFrame> frames = FramesOf(recordings, markers);
+  CheckCount(markers);
   BodyKinematics kinematics(model, joints, markers);
-  Body body = kinematics.ModelBody();
+  return CalibrateBody(&kinematics, recordings, options, warnings);
+}
+
+CalibrationResult CalibrateBody(BodyKinematics* kinematics,
+                                const std::vector<CalibrationRecording>& recordings,
+                                const CalibrationOptions& options, Warnings* warnings) {
+  const KinematicModel& model = kinematics->model();
+  const std::vector<int>& joints = kinematics->joints();
+  const std::vector<MarkerIx>& markers = kinematics->markers();
+  CheckCount(markers);
+  std::vector<CalibrationFrame> frames = FramesOf(recordings, markers);
+  Body body = kinematics->ModelBody();
   CalibrationResult result;
   const OffsetsInTurns first =
       FitOffsetsInTurns(model, joints, markers, &frames, options.between_steps);
@@ -201,9 +225,9 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
   body.offsets = first.offsets;
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const BodyFitResult fit =
-      FitBody(&kinematics, options, NoiseScales(recordings, markers), &chosen, &body);
+      FitBody(kinematics, options, NoiseScales(recordings, markers), &chosen, &body);
 
-  result.subject = MakeSubject(kinematics, body, fit, chosen, options);
+  result.subject = MakeSubject(*kinematics, body, fit, chosen, options);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const auto taken = std::count_if(chosen.begin(), chosen.end(), [&](const auto& frame) {
       return frame.recording == static_cast<int>(r);
@@ -217,7 +241,9 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
                                "it",
                                fit.iterations));
   }
-  const KinematicModel fitted = FitToSubject(model, result.subject);
+  LeaveOutUnseen(chosen, &body);
+  kinematics->SetBody(body);
+  const KinematicModel& fitted = kinematics->fitted();
   result.distance_before = first.distance_before.mean();
   result.distance_after =
       FitPostures(fitted, joints, markers, &frames, options.between_steps).mean();

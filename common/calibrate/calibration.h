@@ -14,6 +14,8 @@
 
 namespace mmm_converter {
 
+class BodyKinematics;
+
 /// A recording of the person, its labels assigned to markers of the model.
 struct CalibrationRecording {
   std::string name;
@@ -50,5 +52,11 @@ struct CalibrationResult {
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options, Warnings* warnings = nullptr);
+
+/// The same of a body whose sizes are its own; its markers are those of UsedMarkers. Leaves the
+/// result in `kinematics`.
+CalibrationResult CalibrateBody(BodyKinematics* kinematics,
+                                const std::vector<CalibrationRecording>& recordings,
+                                const CalibrationOptions& options, Warnings* warnings = nullptr);
 
 }  // namespace mmm_converter

@@ -116,6 +116,7 @@ void FrameEquations::Linearize(const BodyKinematics& kinematics, const Posture& 
   }
   H_.SetZero();
   AddSquare(1, at_.posture.J_transposed, &H_);
+  if (kinematics.kinematics().is_root_fixed()) H_.view().diagonal().head<6>().setOnes();
   const Eigen::Index joints = natural_.size();
   const double pull = share_ / (kNaturalDeviation * kNaturalDeviation);
   H_.view().diagonal().tail(joints).array() += pull;

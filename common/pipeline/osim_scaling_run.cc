@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "common/io/bytes/file_content.h"
+#include "common/io/osim/osim_model_reader.h"
+#include "common/io/osim/osim_xml.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -44,6 +46,48 @@ OsimScalingReport RunOsimScaling(const OsimScalingRequest& request) {
   report.scaled = ScaleOsimPerson({model, input.model_file}, markers, setup, request.setup_file,
                                   recording, &report.warnings);
   return report;
+}
+
+OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
+                                     WithWarnings<ConverterConfig> configuration,
+                                     const std::function<void(int, int)>& progress) {
+  OsimScalingReport report;
+  report.warnings = std::move(configuration.warnings);
+  ConverterConfig& config = configuration.value;
+  const std::vector<CalibrationInput> inputs =
+      ReadCalibrationInputs(request, &config, progress, &report.warnings);
+  const InputRequest& first = request.inputs.front();
+  const BodySize& size = first.person.size;
+  if (size.height || size.hand_length) {
+    report.warnings.Add("height and hand length are left out: a model of OpenSim has a size");
+  }
+  const std::string file = ModelFile(first);
+  const std::string model = ReadFileContent(file, kMaxOsimBytes);
+  Diagnostics diagnostics(file);
+  const OsimDocument document = ParseOsimDocument(model, first.marker_file, &diagnostics, nullptr);
+  const TrackingSetup& setup = inputs.front().setup;
+  Warnings warnings;
+  CalibratedOsim calibrated = CalibrateOsim(
+      {model, file}, document, *setup.model, setup.joints, RecordingsOf(inputs), size.mass,
+      [&] {
+        CalibrationOptions options = OsimCalibrationOptions();
+        const auto all = static_cast<int>(inputs.size());
+        if (progress) options.between_steps = [&progress, all] { progress(all, all); };
+        return options;
+      }(),
+      &warnings);
+  report.warnings.AppendNew(warnings);
+  CheckProportions(calibrated.result.subject);
+  report.scaled = std::move(calibrated.scaled);
+  report.frames = calibrated.result.frames;
+  report.result = std::move(calibrated.result);
+  report.size = calibrated.size;
+  return report;
+}
+
+bool IsOsimModel(const InputRequest& request) {
+  constexpr std::size_t kHeadBytes = 1 << 16;
+  return IsOsimDocument(ReadFileStart(ModelFile(request), kHeadBytes));
 }
 
 }  // namespace mmm_converter

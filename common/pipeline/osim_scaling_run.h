@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "common/calibrate/osim_calibration.h"
 #include "common/calibrate/osim_person.h"
 #include "common/pipeline/input/input.h"
+#include "common/pipeline/person_calibration.h"
 #include "common/support/output_plan.h"
 #include "common/support/warnings.h"
 
@@ -19,7 +23,9 @@ struct OsimScalingRequest {
 
 struct OsimScalingReport {
   ScaledOsim scaled;
-  int frames = 0;  ///< of the recording
+  int frames = 0;                           ///< of the recording
+  std::optional<CalibrationResult> result;  ///< of RunOsimCalibration
+  double size = 1;  ///< of the whole person, which the result's scales are of
   Warnings warnings;
 };
 
@@ -28,5 +34,14 @@ void NameInputs(const OsimScalingRequest& request, OutputPlan* plan);
 
 /// ScaleOsimPerson with the files of the request. @throws Error
 OsimScalingReport RunOsimScaling(const OsimScalingRequest& request);
+
+/// CalibrateOsim with the recordings of the request, whose model is one of OpenSim; configuration
+/// and progress as RunCalibration. @throws Error
+OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
+                                     WithWarnings<ConverterConfig> configuration,
+                                     const std::function<void(int, int)>& progress);
+
+/// Whether the file of the request's model is one of OpenSim. @throws Error
+bool IsOsimModel(const InputRequest& request);
 
 }  // namespace mmm_converter

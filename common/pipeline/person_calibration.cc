@@ -29,14 +29,9 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
   CalibrationInput one;
   one.input = ReadInput(request, {}, warnings);
   const WarningContext context(warnings, request.file, one.input.recording.motion());
-  if (one.input.model->model.coordinates()) {
-    throw Error(
-        fmt::format("{}: a model of OpenSim is scaled by a ScaleTool set-up; give it with {}",
-                    one.input.model_file, OptionText("scale-setup")));
-  }
   MatchModel(request, &one.input, matched);
   const ConverterConfig& config = *matched;
-  if (config.model_processor == "None") {
+  if (config.model_processor == "None" && !one.input.model->model.coordinates()) {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }
   const Recording& recording = one.input.recording;
@@ -89,7 +84,8 @@ void CheckOnePerson(const CalibrationRequest& request,
   }
 }
 
-// Markers that are not the person's draw the body out of all proportion.
+}  // namespace
+
 void CheckProportions(const Subject& subject) {
   std::vector<std::string> segments;
   for (const SegmentScale& scale : subject.scales) {
@@ -115,7 +111,34 @@ void CheckProportions(const Subject& subject) {
                         FirstNames(markers)));
 }
 
-}  // namespace
+std::vector<CalibrationInput> ReadCalibrationInputs(const CalibrationRequest& request,
+                                                    ConverterConfig* config,
+                                                    const std::function<void(int, int)>& progress,
+                                                    Warnings* warnings) {
+  config->subject_file.clear();  // it is what is estimated
+  const int num_inputs = static_cast<int>(request.inputs.size());
+  std::vector<CalibrationInput> inputs;
+  inputs.reserve(request.inputs.size());
+  for (int i = 0; i < num_inputs; ++i) {
+    if (progress) progress(i, num_inputs);
+    Warnings of_one;  // what is said of several recordings is said once
+    inputs.push_back(ReadOne(request.inputs[i], config, &of_one));
+    warnings->AppendNew(of_one);
+  }
+  CheckOnePerson(request, inputs);
+  TakeNamesOfOne(*config, &inputs);
+  return inputs;
+}
+
+std::vector<CalibrationRecording> RecordingsOf(const std::vector<CalibrationInput>& inputs) {
+  std::vector<CalibrationRecording> recordings;
+  recordings.reserve(inputs.size());
+  for (const CalibrationInput& one : inputs) {
+    recordings.push_back({FileName(one.input.recording.file), &one.input.recording.markers,
+                          one.setup.assignments()});
+  }
+  return recordings;
+}
 
 std::string SubjectProgram() { return "MMMConverterS2KF " MMM_CONVERTER_VERSION; }
 
@@ -150,28 +173,14 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   CalibrationReport report;
   report.warnings = std::move(configuration.warnings);
   ConverterConfig& config = configuration.value;
-  config.subject_file.clear();  // it is what is estimated
   const int num_inputs = static_cast<int>(request.inputs.size());
-  report.recordings.reserve(request.inputs.size());
-  for (int i = 0; i < num_inputs; ++i) {
-    if (progress) progress(i, num_inputs);
-    Warnings warnings;  // what is said of several recordings is said once
-    report.recordings.push_back(ReadOne(request.inputs[i], &config, &warnings));
-    report.warnings.AppendNew(warnings);
-  }
-  CheckOnePerson(request, report.recordings);
-  TakeNamesOfOne(config, &report.recordings);
+  report.recordings = ReadCalibrationInputs(request, &config, progress, &report.warnings);
   const Input& first = report.recordings.front().input;
   TrackingSetup setup = report.recordings.front().setup;
   report.person = FindPerson(request.inputs.front().person, setup, first.recording, config,
                              &report.warnings, first.names.get());
   ScaleToPerson(ScalingOf(report.person, config), &setup);
-  std::vector<CalibrationRecording> recordings;
-  recordings.reserve(report.recordings.size());
-  for (const CalibrationInput& one : report.recordings) {
-    recordings.push_back({FileName(one.input.recording.file), &one.input.recording.markers,
-                          one.setup.assignments()});
-  }
+  const std::vector<CalibrationRecording> recordings = RecordingsOf(report.recordings);
   Warnings warnings;
   report.result =
       CalibratePerson(*setup.model, setup.joints, recordings, report.person,

@@ -39,6 +39,18 @@ struct CalibrationReport {
   Warnings warnings;
 };
 
+/// The recordings of the request with their markers matched: what names of one of them mean, they
+/// mean in all. config: gets what belongs to the model. @throws Error
+std::vector<CalibrationInput> ReadCalibrationInputs(const CalibrationRequest& request,
+                                                    ConverterConfig* config,
+                                                    const std::function<void(int, int)>& progress,
+                                                    Warnings* warnings);
+
+std::vector<CalibrationRecording> RecordingsOf(const std::vector<CalibrationInput>& inputs);
+
+/// @throws Error where no person has such proportions: markers are not the person's.
+void CheckProportions(const Subject& subject);
+
 /// Reads the recordings, matches their markers, scales the model and estimates what is left.
 /// configuration: names markers and joints. progress(done, all): recordings read; also, all of
 /// them, often during the estimate, which ends by what it throws.

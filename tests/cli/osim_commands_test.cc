@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -88,6 +89,55 @@ TEST(OsimCommands, AScaledModelIsReadAgain) {
   EXPECT_NEAR(model.total_mass(), 68, 1e-9);
   EXPECT_THAT(text, HasSubstr("<!-- A made model of trunk and legs, with round numbers. -->"));
   EXPECT_THAT(text, HasSubstr("<max_isometric_force>1169</max_isometric_force>"));
+}
+
+TEST(OsimCommands, ThePersonIsCalibratedByRecordings) {
+  const std::string generic = ExampleFile("generic.osim");
+  std::vector<std::string> words = {"calibrate",
+                                    ExampleFile("static.trc"),
+                                    ExampleFile("walk.trc"),
+                                    "--model",
+                                    generic,
+                                    "--mass",
+                                    "70.5",
+                                    "-o",
+                                    OutFile("person.osim")};
+  const auto run = RunProgram(words);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("femur_r "), HasSubstr(" +- "), HasSubstr("70.500 kg"),
+                             HasSubstr("25 moved"), HasSubstr("of 2 recordings: wrote ")));
+  const std::string text = ReadText(OutFile("person.osim"));
+  EXPECT_NEAR(ParseOsimModel(text, "person.osim").total_mass(), 70.5, 1e-9);
+  EXPECT_THAT(text, HasSubstr("<!-- A made model of trunk and legs, with round numbers. -->"));
+  EXPECT_THAT(text, HasSubstr("<max_isometric_force>1169</max_isometric_force>"));
+  words.back() = OutFile("again.osim");
+  ExpectSuccess(words);
+  EXPECT_EQ(ReadText(OutFile("again.osim")), text);
+
+  const StrictTable truth = ReadStrictMot(ReadText(ExampleFile("walk_true.mot")));
+  const auto error = [&](const std::string& model) {
+    ExpectSuccess({"convert", ExampleFile("walk.trc"), "--model", model, "-c", "s2kf_offline", "-o",
+                   OutFile("walk.mot")});
+    return AngleError(ReadStrictMot(ReadText(OutFile("walk.mot"))), truth);
+  };
+  const double calibrated = error(OutFile("person.osim"));
+  std::printf("[ measured ] %.2f deg rms\n", calibrated);
+  EXPECT_LT(calibrated, 0.85 * error(generic));
+}
+
+TEST(OsimCommands, CalibrationsAreMisused) {
+  const auto refusal = [](std::vector<std::string> words, int code) {
+    words.insert(words.begin(), "calibrate");
+    words.insert(words.end(), {"--model", ExampleFile("generic.osim"), "-o", OutFile("none.osim")});
+    const auto run = RunProgram(words);
+    EXPECT_EQ(run.exit_code, code) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(OutFile("none.osim")));
+    return run.err;
+  };
+  EXPECT_THAT(refusal({ExampleFile("static.trc")}, 1), HasSubstr("too short"));
+  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--summary", OutFile("s.json")}, 2),
+              HasSubstr("--summary"));
+  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--mass", "0"}, 2), HasSubstr("mass"));
 }
 
 TEST(OsimCommands, ScaleSetupsAreMisused) {

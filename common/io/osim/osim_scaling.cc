@@ -287,6 +287,25 @@ std::string ScaleOsim(std::string_view content, const std::string& file, const O
   return ScaleLengths(before, edit.Finish(), file, warnings);
 }
 
+OsimDocument ScaleOsimDocument(OsimDocument document, const std::vector<double>& factors) {
+  for (std::size_t i = 0; i < document.bodies.size(); ++i) document.bodies[i].p_BC *= factors[i];
+  for (OsimJoint& joint : document.joints) {
+    const double f = factors[joint.parent];
+    joint.X_PF.translation() *= f;
+    joint.X_CM.translation() *= factors[joint.child];
+    for (OsimAxis& axis : joint.translations) {
+      OsimExpression& value = axis.value;
+      const bool is_coordinate = value.constant == 0 && value.terms.size() == 1 &&
+                                 value.terms[0].function.AsLine() == ScalarFunction::Line{1, 0};
+      if (is_coordinate) continue;
+      value.constant *= f;
+      for (auto& term : value.terms) term.function = term.function.Scaled(f);
+    }
+  }
+  for (OsimMarker& marker : document.markers) marker.p_BM *= factors[marker.body];
+  return document;
+}
+
 std::string WriteOsimMarkers(std::string_view content, const std::string& file,
                              const OsimDocument& document, const std::vector<OsimMarker>& markers) {
   OsimEdit edit(content, file);
