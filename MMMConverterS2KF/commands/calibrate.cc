@@ -42,8 +42,8 @@ between these recordings and those that are converted with the result. What the 
 determine keeps the values of the scaled model. Use the result with convert --subject-file.
 
 With a model of OpenSim (--model generic.osim) the result is the person's model: sizes of bodies and
-places of all markers from these recordings, masses by --mass, everything else as it was. Use it with
-convert --model. With --scale-setup, OpenSim's own rules are followed instead.
+places of all markers from these recordings, masses by --mass, everything else as it was. Use it
+with convert --model. With --scale-setup, OpenSim's own rules are followed instead.
 
 {}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
 for each recording in the same order.

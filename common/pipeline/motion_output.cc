@@ -154,14 +154,14 @@ std::string MotionFormat(const ConversionPlan& plan) {
 }
 
 std::string DeviationsOutput(const ConversionPlan& plan) {
-  if (!WritesCoordinates(*plan.setup.model, plan.output)) return "";
+  if (!IsOsimMotion(plan)) return "";
   const fs::path output = plan.output;
   return (output.parent_path() / (output.stem().string() + "_deviations.sto")).string();
 }
 
 void WriteMotions(const ConversionRequest& request, const std::vector<ConversionReport*>& reports) {
   const ConversionPlan& plan = reports.front()->plan;
-  if (WritesCoordinates(*plan.setup.model, plan.output)) {
+  if (IsOsimMotion(plan)) {
     const PoseTrajectory& trajectory = reports.front()->result.trajectory;
     WriteFileAtomically(plan.output, FormatOsimMotion(*plan.setup.model, trajectory));
     if (trajectory.standard_deviations.array().isNaN().all()) return;

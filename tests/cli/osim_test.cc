@@ -243,7 +243,7 @@ TEST(Osim, WhatCannotBeDoneWithItIsSaidBeforeTheWork) {
       HasSubstr("can't be done with a model of OpenSim"));
   EXPECT_THAT(refusal({"calibrate", floating.recording, "--model", floating.model_file, "-o",
                        out + ".xml"}),
-              HasSubstr("--scale-setup"));
+              HasSubstr("too short to calibrate on"));
   EXPECT_THAT(refusal({"convert", floating.recording, "--marker-file", floating.model_file, "-o",
                        out + ".xml"}),
               HasSubstr("is a set of markers for a model of OpenSim"));
