@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
 #include "tests/benchmark/osim_cases.h"
+#include "tests/benchmark/simbody_assembler.h"
 
 namespace mmm_converter {
 namespace {
@@ -54,19 +56,23 @@ void AddShares(const Case& made, const ModelPtr& model, const ConversionResult& 
   }
 }
 
+/// Calibrated persons move otherwise than when they were calibrated.
 void Deviations(const std::string& text, int first, int last) {
   for (const char* preset : {"s2kf_default", "s2kf_offline"}) {
-    std::map<std::string, Share> uncalibrated, calibrated;
+    std::map<std::string, std::map<std::string, Share>> shares;
     for (int seed = first; seed <= last; ++seed) {
       const Case made = MakeCase(text, seed);
-      const MarkerSequence seen = OccludeShare(made.markers, 0.1, 30, seed);
-      AddShares(made, made.generic, Track(made.generic, preset, seen), &uncalibrated);
-      const ModelPtr person = Calibrate(text, made).model;
-      AddShares(made, person, Track(person, preset, seen), &calibrated);
+      const CalibratedPerson person = Calibrate(text, made);
+      const Case other = MoveOtherwise(made, seed, seed + 5000);
+      const MarkerSequence seen = OccludeShare(other.markers, 0.1, 30, seed);
+      for (const auto& [what, model] : {std::pair("uncalibrated", made.generic),
+                                        {"calibrated", person.model},
+                                        {"its file", person.written}}) {
+        AddShares(other, model, Track(model, preset, seen), &shares[what]);
+      }
     }
-    for (const auto& [what, shares] :
-         {std::pair("uncalibrated", &uncalibrated), {"calibrated", &calibrated}}) {
-      for (const auto& [group, share] : *shares) {
+    for (const auto& [what, of_groups] : shares) {
+      for (const auto& [group, share] : of_groups) {
         const double all = static_cast<double>(share.all);
         fmt::print("{} {:12} {:28} {:.2f} {:.2f}\n", preset, what, group, share.one / all,
                    share.two / all);
@@ -97,6 +103,28 @@ void PrintErrors(const std::string& what, const Case& made, const ConversionResu
     fmt::print("{:44} {:.2f} deg rms, {:.2f} at most\n", what, std::sqrt(squares / count), most);
 }
 
+/// What is lost where nothing is seen, whoever looks: the cubic by exact angles and speeds of both
+/// ends.
+void PrintBridge(const std::string& what, const Case& made, const std::string& joint, int begin,
+                 int end) {
+  const int j = made.known->FindJoint(joint);
+  const auto angle = [&](int k) {
+    return kDegrees * ModelPosture(*made.known, made.truth, k).joint_angles[j];
+  };
+  const double span = end - begin;
+  const double first = span * (angle(begin + 1) - angle(begin - 1)) / 2;
+  const double last = span * (angle(end + 1) - angle(end - 1)) / 2;
+  double squares = 0;
+  for (int k = begin; k < end; ++k) {
+    const double u = (k - begin) / span;
+    const double v = 1 - u;
+    const double bridge = (1 + 2 * u) * v * v * angle(begin) + u * v * v * first +
+                          (1 + 2 * v) * u * u * angle(end) - u * u * v * last;
+    squares += (bridge - angle(k)) * (bridge - angle(k));
+  }
+  fmt::print("{:44} {:.2f} deg rms\n", what, std::sqrt(squares / span));
+}
+
 void Hidden(const std::string& text, int first, int last) {
   for (int seed = first; seed <= last; ++seed) {
     const Case made = MakeCase(text, seed);
@@ -109,7 +137,12 @@ void Hidden(const std::string& text, int first, int last) {
         break;
       }
     }
-    const MarkerSequence without_limb = HideMarkers(made.markers, limb, 100, 200);
+    for (const int frames : {25, 100}) {
+      for (const char* joint : {"knee_angle_r", "ankle_angle_r"}) {
+        PrintBridge(fmt::format("{} bridge of {} over {} s", seed, joint, frames / kRate), made,
+                    joint, 100, 100 + frames);
+      }
+    }
     for (const char* preset : {"jacobian_opensim", "s2kf_default", "s2kf_offline"}) {
       const auto line = [&](const char* what) {
         return fmt::format("{} {} {}", seed, preset, what);
@@ -118,9 +151,15 @@ void Hidden(const std::string& text, int first, int last) {
                   kFrames);
       PrintErrors(line("a quarter hidden"), made, Track(made.known, preset, quarter), "", kSettled,
                   kFrames);
-      const ConversionResult result = Track(made.known, preset, without_limb);
-      PrintErrors(line("leg hidden 1 s: knee"), made, result, "knee_angle_r", 100, 200);
-      PrintErrors(line("leg hidden 1 s: ankle"), made, result, "ankle_angle_r", 100, 200);
+      for (const int frames : {25, 100}) {
+        const MarkerSequence seen = HideMarkers(made.markers, limb, 100, 100 + frames);
+        const ConversionResult result = Track(made.known, preset, seen);
+        for (const char* joint : {"knee_angle_r", "ankle_angle_r"}) {
+          const std::string what =
+              fmt::format("{} with the leg hidden {} s", joint, frames / kRate);
+          PrintErrors(line(what.c_str()), made, result, joint, 100, 100 + frames);
+        }
+      }
     }
   }
 }
@@ -162,22 +201,40 @@ void Calibration(const std::string& text, int first, int last) {
   for (const auto& [body, errors] : places) print("joint above " + body, errors, "mm");
 }
 
+double Milliseconds(std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
+  return 1e3 * seconds[seconds.size() / 2];
+}
+
+/// A frame by every preset and by Simbody's Assembler. All hold what moves by functions, as the
+/// Assembler here does, but for those in the second half.
 void Time(const std::string& text, int seed) {
+  constexpr int kMostMarkers = 60;
   const Case made = MakeCase(text, seed);
-  std::vector<std::string> hidden;
-  for (std::size_t i = 60; i < made.markers.labels().size(); ++i)
-    hidden.push_back(made.markers.labels()[i]);
-  const MarkerSequence seen = HideMarkers(made.markers, hidden, 0, kFrames);
-  fmt::print("{} joints and the root, {} of {} markers\n", made.known->num_joints(),
-             made.markers.num_labels() - static_cast<int>(hidden.size()),
-             made.markers.num_labels());
-  for (const char* preset : {"s2kf_default", "ekf", "jacobian_opensim"}) {
-    std::vector<double> times;
-    for (const FrameDiagnostic& frame : Track(made.known, preset, seen).frames)
-      times.push_back(frame.seconds);
-    std::sort(times.begin(), times.end());
-    fmt::print("{:18} {:.3f} ms median, {:.3f} tenth\n", preset, 1e3 * times[times.size() / 2],
-               1e3 * times[times.size() / 10]);
+  ModelDescription description = DescriptionOf(*made.known);
+  if (description.markers.size() > kMostMarkers) description.markers.resize(kMostMarkers);
+  const KinematicModel fewer(std::move(description));
+  const auto held = std::make_shared<const KinematicModel>(HoldFollowers(fewer));
+  const auto whole = std::make_shared<const KinematicModel>(fewer);
+  for (const auto& [name, model] : {std::pair("held", held), {"whole", whole}}) {
+    fmt::print("{}: {} joints and the root, {} markers\n", name, model->num_joints(),
+               model->markers().size());
+    PoseTrajectory truth = MoveOtherwise(made, seed, seed).truth;
+    const MarkerSequence seen = RecordMotion(*model, truth, seed);
+    for (const char* preset : {"s2kf_default", "ekf", "jacobian_opensim"}) {
+      std::vector<double> times;
+      for (const FrameDiagnostic& frame : Track(model, preset, seen).frames)
+        times.push_back(frame.seconds);
+      fmt::print("{:24} {:.3f} ms median\n", preset, Milliseconds(times));
+    }
+#ifdef MMM_CONVERTER_WITH_SIMBODY
+    if (name != std::string("held")) continue;
+    std::vector<Eigen::Matrix3Xd> frames;
+    for (int k = 0; k < seen.num_frames(); ++k) frames.emplace_back(seen.frame(k));
+    const AssembledFrames assembled = FollowWithAssembler(*model, frames);
+    fmt::print("{:24} {:.3f} ms median, {:.2f} mm rms\n", "Simbody's Assembler",
+               Milliseconds(assembled.seconds), 1e3 * assembled.distance);
+#endif
   }
 }
 

@@ -148,6 +148,36 @@ Case MoveOtherwise(const Case& made, int seed, int motion_seed) {
   return other;
 }
 
+MarkerSequence RecordMotion(const KinematicModel& model, const PoseTrajectory& motion, int seed) {
+  PoseTrajectory known;
+  known.rate = motion.rate;
+  std::vector<int> kept;
+  for (std::size_t j = 0; j < motion.joint_names.size(); ++j) {
+    if (model.FindJoint(motion.joint_names[j]) < 0) continue;
+    kept.push_back(static_cast<int>(j));
+    known.joint_names.push_back(motion.joint_names[j]);
+  }
+  for (const Posture& posture : motion.postures) {
+    Posture& q = known.postures.emplace_back(posture);
+    q.joint_angles = posture.joint_angles(kept).eval();
+  }
+  return SynthesizeMarkers(model, known, kErrors, seed);
+}
+
+KinematicModel HoldFollowers(const KinematicModel& model) {
+  ModelDescription description = DescriptionOf(model);
+  for (Segment& segment : description.segments) {
+    if (segment.leader < 0 && segment.function == nullptr) continue;
+    segment.X_PF = segment.X_PF * JointTransform(segment, segment.rest);
+    segment.type = JointType::kFixed;
+    segment.lower = segment.upper = segment.rest = segment.reach = 0;
+    segment.leader = -1;
+    segment.function = nullptr;
+  }
+  description.coordinates = nullptr;
+  return KinematicModel(std::move(description));
+}
+
 ConversionResult Track(const ModelPtr& model, const std::string& preset,
                        const MarkerSequence& seen) {
   ConverterConfig config =
@@ -181,7 +211,8 @@ CalibratedPerson Calibrate(const std::string& text, const Case& made) {
   CalibratedPerson person;
   person.factors = found.scaled.factors;
   person.iterations = found.result.iterations;
-  ModelDescription description = DescriptionOf(*Parse(found.scaled.content));
+  person.written = Parse(found.scaled.content);
+  ModelDescription description = DescriptionOf(*person.written);
   for (ModelMarker& marker : description.markers) {
     for (const MarkerOffset& offset : found.result.subject.offsets) {
       if (offset.marker != marker.name) continue;

@@ -40,11 +40,19 @@ Case MakeCase(const std::string& text, int seed);
 /// The same person, who moves otherwise.
 Case MoveOtherwise(const Case& made, int seed, int motion_seed);
 
+/// The model with what follows others, or moves by a function, held at rest.
+KinematicModel HoldFollowers(const KinematicModel& model);
+
+/// Labels in the order of the model's markers; joints that the motion names and the model has not
+/// are left out.
+MarkerSequence RecordMotion(const KinematicModel& model, const PoseTrajectory& motion, int seed);
+
 ConversionResult Track(const ModelPtr& model, const std::string& preset,
                        const MarkerSequence& seen);
 
 struct CalibratedPerson {
-  ModelPtr model;  ///< with the markers' deviations
+  ModelPtr model;    ///< with the markers' deviations
+  ModelPtr written;  ///< as its file has it, without them
   std::map<std::string, Eigen::Vector3d> factors;
   int iterations = 0;
 };
