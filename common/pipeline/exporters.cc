@@ -15,6 +15,7 @@
 #include "common/io/tables/pose_table.h"
 #include "common/io/tables/trajectory_csv.h"
 #include "common/io/tables/trc_writer.h"
+#include "common/motion/marker_synthesis.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/force_exports.h"
 #include "common/pipeline/pose_output.h"
@@ -68,7 +69,24 @@ void WriteMarkerErrors(const std::string& file, const ConversionReport& report) 
       file, FormatOsimMarkerErrors(names, report.result.residuals, report.result.trajectory));
 }
 
+/// All of its markers, which are a recording for other models.
+void WriteModelMarkersAsRecording(const std::string& file, const ConversionReport& report) {
+  const ConversionPlan& plan = report.plan;
+  constexpr MarkerErrors kNone{0, 0, 1, 0};
+  const MarkerSequence markers =
+      SynthesizeMarkers(*plan.setup.model, report.result.trajectory, kNone, 0);
+  TrcOutput output;
+  output.file_name = std::filesystem::path(file).filename().string();
+  output.first_frame = plan.input.recording.first_frame + plan.input.first_frame;
+  output.measured = &markers;
+  WriteFileAtomically(file, FormatTrc(output));
+}
+
 void WriteModelMarkers(const std::string& file, const ConversionReport& report) {
+  if (std::filesystem::path(file).extension() == ".trc") {
+    WriteModelMarkersAsRecording(file, report);
+    return;
+  }
   const ConversionPlan& plan = report.plan;
   WriteFileAtomically(file, FormatOsimMarkers(*plan.setup.model, report.result.trajectory,
                                               MarkerIndices(plan.setup.assignments())));
@@ -127,7 +145,10 @@ const std::vector<Exporter>& Exporters() {
        "OpenSim reports them",
        WriteMarkerErrors},
       {"model-markers", "export-model-markers", "sto", "the model's markers, for OpenSim",
-       "where the model has its markers [m], as OpenSim reports it", WriteModelMarkers},
+       "where the model has its markers [m], as OpenSim reports it; .trc: as a recording that "
+       "moves "
+       "another model",
+       WriteModelMarkers},
       {"poses", "export-poses", "npz", "poses of all segments, as NumPy's .npz",
        "poses of all segments and of the file's objects, 21 points of the body and the centre of "
        "mass: .npz for NumPy, else CSV; see export-poses",

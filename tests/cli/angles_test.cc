@@ -28,7 +28,7 @@ TEST(Angles, AreRefusedOfWhatHasNoAnatomy) {
                                   "-o", TestFolder() + "/angles_urdf.xml", "--export-angles",
                                   TestFolder() + "/angles_urdf.csv"});
   EXPECT_NE(result.exit_code, 0);
-  EXPECT_THAT(result.error, ::testing::HasSubstr("hips and knees"));
+  EXPECT_THAT(result.err, ::testing::HasSubstr("hips and knees"));
 }
 
 /// Root mean square of what two series differ by beside a constant [degrees].
@@ -47,7 +47,7 @@ class AnglesReal : public ::testing::TestWithParam<const char*> {
     const std::string base = TestFolder() + "/angles_" + GetParam();
     const auto result = RunProgram({"convert", file_, "-c", "s2kf_offline", "-o", base + ".xml",
                                     "--export-angles", base + ".csv"});
-    ASSERT_EQ(result.exit_code, 0) << result.error;
+    ASSERT_EQ(result.exit_code, 0) << result.err;
     table_ = ReadText(base + ".csv");
   }
 

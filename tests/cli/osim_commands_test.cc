@@ -160,6 +160,40 @@ TEST(OsimCommands, ScaleSetupsAreMisused) {
               HasSubstr("MarkerSet"));
 }
 
+// What a motion makes of a model's markers moves the same model as before, and another by what both
+// have.
+TEST(OsimCommands, AMotionMovesAnotherBody) {
+  const std::string generic = ExampleFile("generic.osim");
+  const std::vector<std::string> first = {"convert", ExampleFile("walk.trc"), "--model", generic,
+                                          "-c",      "jacobian_opensim"};
+  const auto convert = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    ExpectSuccess(words);
+  };
+  convert(first, {"-o", OutFile("a.mot"), "--export-model-markers", OutFile("body.trc")});
+  convert({"convert", OutFile("body.trc"), "--model", generic, "-c", "jacobian_opensim"},
+          {"-o", OutFile("b.mot")});
+  const StrictTable one = ReadStrictMot(ReadText(OutFile("a.mot")));
+  // Places have 5 digits behind the millimetre's point.
+  EXPECT_LT(AngleError(ReadStrictMot(ReadText(OutFile("b.mot"))), one), 0.02);
+
+  convert({"convert", OutFile("body.trc"), "-c", "s2kf_offline"},
+          {"-o", OutFile("mmm.xml"), "--export-model-markers", OutFile("mmm.trc"), "--summary",
+           OutFile("mmm.json")});
+  convert({"convert", OutFile("mmm.trc"), "--model", generic, "-c", "s2kf_offline"},
+          {"-o", OutFile("c.mot"), "--summary", OutFile("back.json")});
+  for (const char* summary : {"mmm.json", "back.json"}) {
+    const Json json = Json::parse(ReadText(OutFile(summary)));
+    const double distance = json.at("distance_mm").at("mean");
+    // Bodies of other proportions, their landmarks some 20 mm apart.
+    EXPECT_GT(distance, 5);
+    EXPECT_LT(distance, 30);
+  }
+  const double error = AngleError(ReadStrictMot(ReadText(OutFile("c.mot"))), one);
+  std::printf("[ measured ] there and back %.2f deg rms\n", error);
+  EXPECT_LT(error, 8);
+}
+
 TEST(OsimCommands, CompareComparesPresets) {
   ExpectSuccess({"compare", ExampleFile("walk.trc"), "--model", ExampleFile("generic.osim"), "-c",
                  "s2kf_default", "-c", "jacobian_opensim", "--json", OutFile("c.json"), "--report",
