@@ -80,6 +80,11 @@ bool HasFeet(const KinematicModel& model) {
   });
 }
 
+int FootSegment(const KinematicModel& model, Side side) {
+  const FootSegments foot = SegmentsOf(model, side);
+  return foot.is_mmm() ? foot.sole : foot.osim_heel;
+}
+
 FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion) {
   if (!HasFeet(model)) {
     throw Error(

@@ -34,6 +34,8 @@ struct FootMotion {
 
 /// Whether a model has the feet of MMM's reference model, or calcn and toes as OpenSim's have.
 bool HasFeet(const KinematicModel& model);
+/// The segment that the ground pushes, of the sole or the heel. The model HasFeet.
+int FootSegment(const KinematicModel& model, Side side);
 
 /// From the postures alone: where markers were on the feet does not matter.
 /// @throws Error where the model has no feet that are known.

@@ -250,7 +250,7 @@ void WriteConversion(const ConversionRequest& request, ConversionReport* report)
   WriteObjectModel(report->plan);
   WriteMotions(request, {report});
   WritePerson(report->plan);
-  CompareMass(request.exports, report);
+  CompareForces(request.exports, report);
   WriteExports(request.exports, *report);
 }
 

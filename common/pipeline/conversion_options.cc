@@ -91,6 +91,10 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
       Row({"ignore-residuals", "ignoreResiduals", "ignore_residuals"}, kSwitch,
           "C3D files: also use points that the file marks as invalid", "", kReadings,
           &reading->ignore_residuals, {.remedy = Remedy::kIgnoreResiduals}),
+      Row({"forces", "forces", "forces"}, kFile,
+          "the ground's forces, in the recording's axes and time, for exports that need them: "
+          "OpenSim's .mot or ExternalLoads",
+          "those of the recording's force plates", task::kConvert, &request->input.forces_file),
       Row({"up", "up", "up"}, {OptionKind::kAxis, "AXIS"},
           "the file's axis that points up: x, y, z, -x, -y or -z", "", kReadings | task::kInfo,
           set_up, {.remedy = Remedy::kUpAxis})};

@@ -169,7 +169,12 @@ const std::vector<Exporter>& Exporters() {
       {"grf", "export-grf", "mot", "ground reaction forces for OpenSim",
        "what force plates measured as OpenSim's .mot, with axes and time of the TRC, and the "
        "ExternalLoads as .xml beside it",
-       WriteGrf}};
+       WriteGrf},
+      {"id", "export-id", "csv", "forces and moments of the joints, as CSV",
+       "generalised forces of the joints by inverse dynamics (6 Hz) with what force plates "
+       "measured: "
+       ".sto as OpenSim's, .json with residuals and the legs' extremes, else CSV",
+       WriteJointForces, true}};
   return exporters;
 }
 

@@ -10,6 +10,8 @@
 #include "common/contacts/external_loads_writer.h"
 #include "common/contacts/person_mass.h"
 #include "common/forces/recording_forces.h"
+#include "common/kinetics/joint_forces_table.h"
+#include "common/kinetics/moment_deviations.h"
 #include "common/pipeline/conversion.h"
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
@@ -22,11 +24,63 @@ namespace fs = std::filesystem;
 
 constexpr const char* kContacts = "contacts";
 constexpr const char* kGrf = "grf";
+constexpr const char* kJointForces = "id";
 constexpr double kMostApart = 0.03;  // of the mass
 constexpr double kDeviations = 2;
 
+/// Of the recording's file, or of the one that is beside it.
+RecordedForces GroundForces(const Input& input, Warnings* warnings) {
+  if (input.forces_file.empty()) return ForcesOf(input.recording, warnings);
+  return ForcesOf(input.forces_file, input.recording, warnings);
+}
+
 Contacts ContactsOf(const ConversionReport& report, const RecordedForces& forces) {
   return FindContacts(MoveFeet(*report.plan.setup.model, report.result.trajectory), forces);
+}
+
+void CheckHasPlates(const RecordedForces& forces, const Recording& recording) {
+  if (!forces.plates.empty()) return;
+  throw Error(recording.file +
+              ": has no force plate that can be read, whose forces to export; forces "
+              "of another file are named by " +
+              OptionText("forces"));
+}
+
+/// Without the frames before the person was seen.
+PoseTrajectory TrackedMotion(const ConversionResult& result) {
+  PoseTrajectory motion = result.trajectory;
+  int begin = 0;
+  while (begin < motion.num_frames() && !(result.residuals.col(begin).array() >= 0).any()) ++begin;
+  if (begin == motion.num_frames()) return motion;
+  motion.first_time = motion.time(begin);
+  motion.postures.erase(motion.postures.begin(), motion.postures.begin() + begin);
+  return motion;
+}
+
+/// Those of a trajectory whose first `begin` frames are left out.
+std::vector<PoseCovariance> CovariancesFrom(int begin, const ConversionResult& result) {
+  std::vector<PoseCovariance> covariances = result.covariances;
+  for (PoseCovariance& one : covariances) one.frame -= begin;
+  return covariances;
+}
+
+JointForces JointForcesOf(const ConversionReport& report, bool with_deviations) {
+  const RecordedForces forces = GroundForces(report.plan.input, nullptr);
+  CheckHasPlates(forces, report.plan.input.recording);
+  const KinematicModel& model = *report.plan.setup.model;
+  const PoseTrajectory motion = TrackedMotion(report.result);
+  const Contacts contacts = ContactsOf(report, forces);
+  JointForces found = ComputeJointForces(model, motion, contacts, forces);
+  const int begin = report.result.trajectory.num_frames() - motion.num_frames();
+  if (with_deviations && !report.result.covariances.empty()) {
+    EstimateDeviations(model, motion, contacts, forces, CovariancesFrom(begin, report.result), {},
+                       &found);
+  }
+  return found;
+}
+
+bool NeedForces(const ExportFiles& files) {
+  return files.count(kGrf) > 0 || files.count(kContacts) > 0 || files.count(kJointForces) > 0;
 }
 
 /// Empty: nothing stands beside what is no file.
@@ -36,15 +90,10 @@ std::string LoadsFile(const std::string& table) {
   return fs::path(table).replace_extension(".xml").string();
 }
 
-void CheckHasPlates(const RecordedForces& forces, const Recording& recording) {
-  if (!forces.plates.empty()) return;
-  throw Error(recording.file + ": has no force plate that can be read, whose forces to export");
-}
-
 }  // namespace
 
 void WriteContacts(const std::string& file, const ConversionReport& report) {
-  const RecordedForces forces = ForcesOf(report.plan.input.recording, nullptr);
+  const RecordedForces forces = GroundForces(report.plan.input, nullptr);
   const Contacts contacts = ContactsOf(report, forces);
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file,
@@ -52,7 +101,7 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteGrf(const std::string& file, const ConversionReport& report) {
-  const RecordedForces forces = ForcesOf(report.plan.input.recording, nullptr);
+  const RecordedForces forces = GroundForces(report.plan.input, nullptr);
   CheckHasPlates(forces, report.plan.input.recording);
   const Contacts contacts = ContactsOf(report, forces);
   const PoseTrajectory& motion = report.result.trajectory;
@@ -64,9 +113,25 @@ void WriteGrf(const std::string& file, const ConversionReport& report) {
   if (!beside.empty()) WriteFileAtomically(beside, FormatExternalLoadsXml(loads, name));
 }
 
-void CompareMass(const ExportFiles& files, ConversionReport* report) {
-  if (files.count(kGrf) == 0 && files.count(kContacts) == 0) return;
-  const RecordedForces forces = ForcesOf(report->plan.input.recording, nullptr);
+void WriteJointForces(const std::string& file, const ConversionReport& report) {
+  const JointForces found = JointForcesOf(report, fs::path(file).extension() != ".sto");
+  const std::string ending = fs::path(file).extension().string();
+  if (ending == ".json") {
+    WriteFileAtomically(file, FormatJointForcesJson(found));
+  } else {
+    WriteFileAtomically(
+        file, ending == ".sto" ? FormatJointForcesSto(found) : FormatJointForcesCsv(found));
+  }
+}
+
+void CompareForces(const ExportFiles& files, ConversionReport* report) {
+  if (files.count(kJointForces) > 0) {
+    const JointForces found = JointForcesOf(*report, false);
+    const Residuals residuals = MeasureResiduals(found);
+    if (!residuals.is_within) report->warnings.Add(SentenceOf(residuals, found));
+  }
+  if (!NeedForces(files)) return;
+  const RecordedForces forces = GroundForces(report->plan.input, nullptr);
   const auto found = EstimateMass(ContactsOf(*report, forces), forces);
   const PersonValue& mass = report->plan.person.mass;
   if (!found || !(mass.value > 0)) return;
@@ -79,15 +144,15 @@ void CompareMass(const ExportFiles& files, ConversionReport* report) {
 }
 
 void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
-  const bool needs_plates = files.count(kGrf) > 0;
-  if (!needs_plates && files.count(kContacts) == 0) return;
+  if (!NeedForces(files)) return;
+  const bool needs_plates = files.count(kGrf) > 0 || files.count(kJointForces) > 0;
   const Recording& recording = plan->input.recording;
   if (!HasFeet(*plan->setup.model)) {
     throw Error(fmt::format(
         "{}: feet on the ground are told of MMM's and OpenSim's models of persons, not of {}",
         recording.file, plan->input.model_file));
   }
-  const RecordedForces forces = ForcesOf(recording, &plan->warnings);
+  const RecordedForces forces = GroundForces(plan->input, &plan->warnings);
   if (needs_plates) CheckHasPlates(forces, recording);
 }
 

@@ -19,13 +19,17 @@ void WriteContacts(const std::string& file, const ConversionReport& report);
 /// with ".xml".
 void WriteGrf(const std::string& file, const ConversionReport& report);
 
+/// Generalised forces of the joints, of inverse dynamics with the plates' forces: a table, as .sto
+/// OpenSim's, or as .json what the residuals say.
+void WriteJointForces(const std::string& file, const ConversionReport& report);
+
 /// Before anything is tracked: says what there is to say of the plates.
 /// @throws Error where an export can't be made.
 void CheckForces(const ExportFiles& files, ConversionPlan* plan);
 
 /// After it is tracked, where an export is of forces: warns where the plates tell another mass than
-/// was given, or where none was.
-void CompareMass(const ExportFiles& files, ConversionReport* report);
+/// was given, or where motion and forces do not fit together.
+void CompareForces(const ExportFiles& files, ConversionReport* report);
 
 /// All files that exports write.
 std::vector<std::string> FilesOf(const ExportFiles& files);

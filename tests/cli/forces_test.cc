@@ -77,6 +77,39 @@ TEST_F(RealForceExports, OpenSimsForcesOfAWalk) {
   EXPECT_THAT(xml, HasSubstr("<datafile>grf.mot</datafile>"));
 }
 
+/// Of a walk whose steps on plates 2 and 1 begin at 2.25 s and end at 3.25 s; before and after them
+/// the feet stand on the floor.
+TEST_F(RealForceExports, MomentsWhereThePlatesBearTheFeet) {
+  const std::string walk = testing::SharedData("forces/walking2.c3d");
+  const auto run =
+      RunProgram({"convert", walk, "--mass", "66", "-o", Out("o.xml"), "--export-id",
+                  Out("id.json"), "--export-grf", Out("grf.mot"), "--export-trc", Out("o.trc")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err + run.out, HasSubstr("motion, masses and plates differ by"));
+  const auto json = nlohmann::json::parse(ReadText(Out("id.json")));
+  EXPECT_LT(json["residuals"]["force"]["rms_of_body_weight"].get<double>(), 0.15);
+  EXPECT_NEAR(json["residuals"]["external_peak_N"].get<double>(), 925, 10);
+  for (const auto& joint : json["legs"]) {
+    // The ankles push off by some 1.5 N m/kg when that plate is left.
+    if (joint["name"] == "LAx_joint" || joint["name"] == "RAx_joint") {
+      EXPECT_NEAR(joint["smallest"].get<double>(), -1.5, 0.3);
+      const double end = joint["name"] == "LAx_joint" ? 2.76 : 3.25;
+      EXPECT_NEAR(joint["smallest_at_s"].get<double>(), end - 0.12, 0.05);
+    }
+  }
+  // The same with forces beside a recording that has none.
+  const auto beside = RunProgram({"convert", Out("o.trc"), "--mass", "66", "-o", Out("p.xml"),
+                                  "--forces", Out("grf.mot"), "--export-id", Out("id2.json")});
+  ASSERT_EQ(beside.exit_code, 0) << beside.err;
+  const auto other = nlohmann::json::parse(ReadText(Out("id2.json")));
+  EXPECT_NEAR(other["residuals"]["external_peak_N"].get<double>(),
+              json["residuals"]["external_peak_N"].get<double>(), 15);
+  const auto without =
+      RunProgram({"convert", Out("o.trc"), "-o", Out("p.xml"), "--export-id", Out("id2.json")});
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.err, HasSubstr("--forces"));
+}
+
 TEST_F(RealForceExports, StairsAreFourStepsOfTwoFeet) {
   ExpectFeet(ContactsOf("recordings/whole_body/pycgm_movement_trial.c3d"),
              {"left", "right", "left", "right"});

@@ -43,6 +43,7 @@ void NameInputs(const InputRequest& request, OutputPlan* plan) {
   plan->Read(ModelFile(request));
   plan->Read(request.marker_set);
   plan->Read(request.marker_file);
+  plan->Read(request.forces_file);
   plan->Read(request.person.processor_file);
   plan->Read(request.person.subject_file);
 }
@@ -87,6 +88,7 @@ Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warn
   }
   Input input = ReadModel(request, read_before, warnings);
   input.recording = std::move(recording);
+  input.forces_file = request.forces_file;
   KeepFrames(request, &input);
   return input;
 }

@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kCutoff = 6;  // [Hz]
-constexpr double kRate = 60;   // of the motion [Hz]
+constexpr double kCutoff = 6;       // [Hz]
+constexpr double kMotionRate = 60;  // of the motion [Hz]
 const double kPi = std::acos(-1);
 constexpr double kMassRatio = 0.96588;  // of the person to the generic model
 
@@ -62,7 +62,7 @@ VectorXd Padded(const VectorXd& values) {
 /// OpenSim's filter of coordinates: Butterworth's of third order, forth and back.
 VectorXd Butterworth(const VectorXd& values) {
   VectorXd y = Padded(values);
-  const double w = std::tan(kPi * kCutoff / kRate);
+  const double w = std::tan(kPi * kCutoff / kMotionRate);
   const Eigen::Vector2d one(1 + w, w - 1);
   const Eigen::Vector3d two(1 + w + w * w, 2 * w * w - 2, 1 - w + w * w);
   const Eigen::Vector4d a(one[0] * two[0], one[0] * two[1] + one[1] * two[0],
@@ -85,7 +85,7 @@ VectorXd Windowed(const VectorXd& values) {
   VectorXd weights(2 * kHalf + 1);
   for (Eigen::Index k = -kHalf; k <= kHalf; ++k) {
     const auto at = static_cast<double>(k);
-    const double x = 2 * kPi * kCutoff / kRate * at;
+    const double x = 2 * kPi * kCutoff / kMotionRate * at;
     weights[k + kHalf] =
         (k == 0 ? 1 : std::sin(x) / x) * (0.54 + 0.46 * std::cos(kPi * at / kHalf));
   }
@@ -143,7 +143,7 @@ TEST(RealInverseDynamicsTest, IsThatOfOpenSim) {
   }
 
   PoseTrajectory motion;
-  motion.rate = kRate;
+  motion.rate = kMotionRate;
   motion.first_time = table.rows(0, 0);
   Eigen::MatrixXd values = CoordinatesOf(model, table);
   Eigen::MatrixXd carrying = values;
