@@ -10,6 +10,7 @@
 #include "common/forces/plate_forces.h"
 #include "common/io/c3d/c3d_file.h"
 #include "common/io/recording/recording_axes.h"
+#include "common/support/parallel.h"
 
 namespace mmm_converter {
 namespace {
@@ -72,8 +73,14 @@ RecordedForces ReadForces(const std::string& path, Warnings* warnings, std::opti
   if (plates.empty()) return forces;
   const Eigen::MatrixXd samples = ReadC3dAnalogSamples(&file, analog);
   const auto zero = ReadC3dZeroFrames(file.parameters());
-  for (ForcePlate& plate : plates) {
-    forces.plates.push_back(ReadPlate(std::move(plate), samples, forces, zero, warnings));
+  forces.plates.resize(plates.size());
+  std::vector<Warnings> of_plates(plates.size());
+  ParallelFor(static_cast<int>(plates.size()), 0, [&](int i) {
+    const WarningContext of_file(&of_plates[i], path);
+    forces.plates[i] = ReadPlate(std::move(plates[i]), samples, forces, zero, &of_plates[i]);
+  });
+  for (const Warnings& one : of_plates) {
+    if (warnings != nullptr) warnings->Append(one);
   }
   return forces;
 }

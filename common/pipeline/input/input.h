@@ -26,8 +26,8 @@ struct InputRequest {
   std::optional<int> end_frame;    ///< the frame behind the last
   std::string model_file;          ///< reference model, a URDF, or a model of OpenSim
   std::string marker_file;         ///< markers for a model of OpenSim
-  std::string forces_file;         ///< of the ground, beside a recording without (ReadExternalLoads)
-  std::string marker_set;          ///< file or name; comes before the configuration's
+  std::string forces_file;  ///< of the ground, beside a recording without (ReadExternalLoads)
+  std::string marker_set;   ///< file or name; comes before the configuration's
   PersonRequest person;
 };
 
@@ -47,7 +47,7 @@ struct Input {
   Recording recording;  ///< the frames asked for
   int first_frame = 0;  ///< of them, counted from 0
   std::string model_file;
-  std::string forces_file;  ///< empty: the recording's own
+  std::string forces_file;                          ///< empty: the recording's own
   std::shared_ptr<const LoadedModel> model;         ///< of that file
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
   /// What is calibrated is where clusters sit from their usual places: these stay in all
