@@ -29,7 +29,8 @@ const OptionGroup kCheckDynamicsFiles = {
 constexpr const char* kCheckDynamicsUsage = R"(MMMConverterS2KF check-dynamics MOTION [options]
 Checks whether a human body can move like an MMM motion (1.0 or 2.0). Computes centre of mass,
 momentum, forces, torques and power by inverse dynamics (Simbody) and compares them with the laws of
-mechanics. Assumes level ground as the only contact of the body; z points up.
+mechanics. Assumes level ground as the only contact of the body; z points up. With --forces (as
+convert --export-grf writes them) motion and mass are compared with what was measured, too.
 
 {}Checks, and what is plausible
   kinematics   Simbody and this program place the body within {:.0e} m of each other

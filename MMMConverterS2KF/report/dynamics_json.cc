@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/dynamics_summary.h"
+#include "common/kinetics/joint_forces_table.h"
 
 namespace mmm_converter {
 namespace {
@@ -150,24 +151,27 @@ Json ToJson(const DynamicsReport& report) {
   const MotionDynamics& dynamics = report.dynamics;
   const Plausibility& judged = report.plausibility;
   const KinematicsAgreement& kinematics = dynamics.kinematics;
-  return {{"program", "MMMConverterS2KF " MMM_CONVERTER_VERSION},
-          {"input", DescribeMotion(report)},
-          {"kinematics",
-           {{"marker_distance_m", Digits(kinematics.marker_distance)},
-            {"segment_distance_m", Digits(kinematics.segment_distance)},
-            {"segment_angle_rad", Digits(kinematics.segment_angle)}}},
-          {"derivatives", DifferentiationJson(dynamics.differentiation)},
-          {"mass_kg", Digits(dynamics.mass)},
-          {"center_of_mass", DescribeCenterOfMass(dynamics)},
-          {"forces", DescribeForces(dynamics)},
-          {"ground_m", Digits(dynamics.ground_height)},
-          {"contacts", ContactsJson(dynamics)},
-          {"flights", DescribeFlights(dynamics)},
-          {"joints", DescribePeaks(judged.peaks)},
-          {"checks", DescribeChecks(judged.checks)},
-          {"verdict", Name(judged.judgement)},
-          {"sentence", DynamicsSentence(report)},
-          {"warnings", report.motion.warnings.texts()}};
+  return {
+      {"program", "MMMConverterS2KF " MMM_CONVERTER_VERSION},
+      {"input", DescribeMotion(report)},
+      {"kinematics",
+       {{"marker_distance_m", Digits(kinematics.marker_distance)},
+        {"segment_distance_m", Digits(kinematics.segment_distance)},
+        {"segment_angle_rad", Digits(kinematics.segment_angle)}}},
+      {"derivatives", DifferentiationJson(dynamics.differentiation)},
+      {"mass_kg", Digits(dynamics.mass)},
+      {"center_of_mass", DescribeCenterOfMass(dynamics)},
+      {"forces", DescribeForces(dynamics)},
+      {"ground_m", Digits(dynamics.ground_height)},
+      {"contacts", ContactsJson(dynamics)},
+      {"flights", DescribeFlights(dynamics)},
+      {"with_forces", report.with_forces ? Json::parse(FormatJointForcesJson(*report.with_forces))
+                                         : Json(nullptr)},
+      {"joints", DescribePeaks(judged.peaks)},
+      {"checks", DescribeChecks(judged.checks)},
+      {"verdict", Name(judged.judgement)},
+      {"sentence", DynamicsSentence(report)},
+      {"warnings", report.motion.warnings.texts()}};
 }
 
 }  // namespace mmm_converter

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/kinetics/joint_forces_table.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -61,8 +62,10 @@ std::string DescribeContacts(const MotionDynamics& dynamics) {
     if (frames == 0) continue;
     text += fmt::format("{} {:.0f} %, ", dynamics.contact_bodies[b].name, share(frames));
   }
-  return text + fmt::format("nothing {:.0f} % of the time; ground at {:.3f} m", share(off_ground),
-                            dynamics.ground_height);
+  return text + fmt::format(
+                    "nothing {:.0f} % of the time; the ground is assumed to be level, at {:.3f} m "
+                    "(--forces names what was measured)",
+                    share(off_ground), dynamics.ground_height);
 }
 
 std::string DescribeFlight(const MotionDynamics& dynamics, const BallisticPhase& flight) {
@@ -182,7 +185,12 @@ std::string FormatDynamicsSummary(const DynamicsReport& report) {
   text += DynamicsLine("person", DescribePersonOf(motion.person));
   text += DynamicsLine("model", motion.model_file);
   text += DynamicsLine("derivatives", DescribeDifferentiation(dynamics.differentiation));
-  text += FormatFigures(dynamics) + FormatPeaks(report.plausibility);
+  text += FormatFigures(dynamics);
+  if (report.with_forces) {
+    text += DynamicsLine("forces",
+                         SentenceOf(MeasureResiduals(*report.with_forces), *report.with_forces));
+  }
+  text += FormatPeaks(report.plausibility);
   return text + FormatChecks(report.plausibility) + DynamicsSentence(report) + "\n";
 }
 

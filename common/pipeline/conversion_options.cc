@@ -94,7 +94,8 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
       Row({"forces", "forces", "forces"}, kFile,
           "the ground's forces, in the recording's axes and time, for exports that need them: "
           "OpenSim's .mot or ExternalLoads",
-          "those of the recording's force plates", task::kConvert, &request->input.forces_file),
+          "those of the recording's force plates", task::kConvert | task::kCheckDynamics,
+          &request->input.forces_file, {.of_motions = "none: the ground is assumed"}),
       Row({"up", "up", "up"}, {OptionKind::kAxis, "AXIS"},
           "the file's axis that points up: x, y, z, -x, -y or -z", "", kReadings | task::kInfo,
           set_up, {.remedy = Remedy::kUpAxis})};

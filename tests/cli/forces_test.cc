@@ -104,6 +104,12 @@ TEST_F(RealForceExports, MomentsWhereThePlatesBearTheFeet) {
   const auto other = nlohmann::json::parse(ReadText(Out("id2.json")));
   EXPECT_NEAR(other["residuals"]["external_peak_N"].get<double>(),
               json["residuals"]["external_peak_N"].get<double>(), 15);
+  // And beside a finished motion.
+  const auto checked = RunProgram({"check-dynamics", Out("o.xml"), "--forces", Out("grf.mot"),
+                                   "--summary", Out("c.json"), "--mass", "66"});
+  const auto with_forces = nlohmann::json::parse(ReadText(Out("c.json")))["with_forces"];
+  EXPECT_THAT(checked.out, HasSubstr("motion, masses and plates differ by"));
+  EXPECT_LT(with_forces["residuals"]["force"]["rms_of_body_weight"].get<double>(), 0.15);
   const auto without =
       RunProgram({"convert", Out("o.trc"), "-o", Out("p.xml"), "--export-id", Out("id2.json")});
   EXPECT_EQ(without.exit_code, 1);

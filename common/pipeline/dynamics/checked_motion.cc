@@ -157,6 +157,7 @@ CheckedMotion ReadCheckedMotion(const InputRequest& request) {
                            ScaleModel(*setup.model, ScalingOf(person, config)),
                            std::move(motion.trajectory),
                            std::move(warnings)};
+  checked.forces_file = request.forces_file;
   KeepFrames(request, &checked);
   return checked;
 }

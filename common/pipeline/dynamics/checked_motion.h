@@ -26,6 +26,7 @@ struct CheckedMotion {
   Warnings warnings;
   int begin = 0;  ///< of trajectory: frames [begin, end) are checked
   int end = 0;
+  std::string forces_file = {};  ///< of the ground, beside it; empty: none
 };
 
 /// Reads the motion request.file, the only one or request.reading.motion. Its model is the

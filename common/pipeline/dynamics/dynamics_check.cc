@@ -3,9 +3,27 @@
 
 #include <utility>
 
+#include "common/contacts/foot_motion.h"
+#include "common/forces/external_loads.h"
+#include "common/forces/recording_forces.h"
+#include "common/math/up_axis.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
+namespace {
+
+/// With what was measured of the ground, in the axes in which it is exported beside a motion.
+std::optional<JointForces> MeasuredForces(CheckedMotion* motion, const DynamicsOptions& options) {
+  if (motion->forces_file.empty()) return std::nullopt;
+  const Eigen::Matrix3d R = RotationToZUp(UpAxis::kY);
+  RecordedForces forces =
+      ReadExternalLoads(motion->forces_file, R.row(2).transpose(), &motion->warnings);
+  Turn(R, &forces);
+  const Contacts contacts = FindContacts(MoveFeet(motion->model, motion->trajectory), forces);
+  return ComputeJointForces(motion->model, motion->trajectory, contacts, forces, {options.cutoff});
+}
+
+}  // namespace
 
 DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& options,
                              const std::function<void(int, int)>& progress) {
@@ -20,7 +38,8 @@ DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& option
   MotionDynamics dynamics =
       ComputeMotionDynamics(motion.model, motion.trajectory, of_frames, progress);
   Plausibility judged = JudgeDynamics(motion.model, dynamics);
-  return {std::move(motion), std::move(dynamics), std::move(judged)};
+  std::optional<JointForces> with_forces = MeasuredForces(&motion, options);
+  return {std::move(motion), std::move(dynamics), std::move(judged), std::move(with_forces)};
 }
 
 }  // namespace mmm_converter

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/dynamics/motion_dynamics.h"
 #include "common/judge/plausibility.h"
+#include "common/kinetics/joint_forces.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/pipeline/option.h"
 
@@ -16,6 +18,8 @@ struct DynamicsReport {
   CheckedMotion motion;
   MotionDynamics dynamics;
   Plausibility plausibility;
+  /// With the forces of motion.forces_file instead of what is assumed of the ground.
+  std::optional<JointForces> with_forces = {};
 };
 
 /// The table of what is asked of a check.
