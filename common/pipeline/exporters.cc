@@ -170,7 +170,7 @@ const std::vector<Exporter>& Exporters() {
        "what force plates measured as OpenSim's .mot, with axes and time of the TRC, and the "
        "ExternalLoads as .xml beside it",
        WriteGrf},
-      {"id", "export-id", "csv", "forces and moments of the joints, as CSV",
+      {"inverse-dynamics", "export-id", "csv", "forces and moments of the joints, as CSV",
        "generalised forces of the joints by inverse dynamics (6 Hz) with what force plates "
        "measured: "
        ".sto as OpenSim's, .json with residuals and the legs' extremes, else CSV",

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kContacts = "contacts";
 constexpr const char* kGrf = "grf";
-constexpr const char* kJointForces = "id";
+constexpr const char* kJointForces = "inverse-dynamics";
 constexpr double kMostApart = 0.03;  // of the mass
 constexpr double kDeviations = 2;
 
