@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "common/fit/height_estimate.h"
@@ -34,10 +36,20 @@ constexpr double kWrong = 0.2;        ///< it is not there at all [m]
 constexpr double kWrongDeviations = 4.5;
 constexpr double kNearby = 0.08;  ///< another meaning is right
 constexpr double kBetter = 0.5;
-constexpr double kExchangedShare = 0.75;  ///< of the distance, with sides exchanged
-constexpr double kMostClusterStray =
-    0.06;                              ///< of a cluster's label about its place on the segment [m]
+constexpr double kExchangedShare = 0.75;    ///< of the distance, with sides exchanged
+constexpr double kMostClusterStray = 0.06;  ///< of its label about its place on the segment [m]
 constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such are usually [m]
+
+/// "arms", "legs" or neither.
+std::string_view LimbsOf(const Landmark& landmark) {
+  for (const char* part : {"upper arm", "forearm", "hand"}) {
+    if (landmark.part == part) return "arms";
+  }
+  for (const char* part : {"thigh", "shank", "ankle", "foot"}) {
+    if (landmark.part == part) return "legs";
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -54,7 +66,7 @@ NameJudge::NameJudge(const KinematicModel& reference, const std::vector<int>& jo
 void NameJudge::Run(bool places_clusters) {
   const double height = FindHeight();
   Pose(height);
-  if (places_clusters && !clusters_.empty()) ExchangeSides(height);
+  if (places_clusters && (!clusters_.empty() || IsAnyFar())) ExchangeSides(height);
   for (int round = 0; round < 4 && Reconsider(); ++round) Pose(height);
   if (places_clusters) PlaceClusters(height);
 }
@@ -206,28 +218,40 @@ std::size_t NameJudge::MirroredReading(const Hypothesis& one) const {
   return one.chosen;
 }
 
+bool NameJudge::IsAnyFar() const {
+  return std::any_of(places_.begin(), places_.end(), [&](const Hypothesis& one) {
+    return Distance(one.label, one.markers[one.chosen]) > kFar;
+  });
+}
+
 void NameJudge::ExchangeSides(double height) {
-  const std::vector<Hypothesis> places = places_;
-  const std::vector<Posture> postures = postures_;
-  const std::vector<Matrix3Xd> p_WM = p_WM_;
+  const auto before = std::tuple(places_, postures_, p_WM_);
+  auto best = before;
   const double distance = MeanDistance();
-  for (Hypothesis& one : places_) one.chosen = MirroredReading(one);
-  Pose(height);
-  const double exchanged = MeanDistance();
-  if (exchanged > kExchangedShare * distance) {
-    places_ = places;
-    postures_ = postures;
-    p_WM_ = p_WM;
-    return;
+  double least = kExchangedShare * distance;
+  for (const std::string_view limbs : {"all", "arms", "legs"}) {
+    std::tie(places_, postures_, p_WM_) = before;
+    for (Hypothesis& one : places_) {
+      if (limbs == "all" || LimbsOf(LandmarkOf(Chosen(one))) == limbs) {
+        one.chosen = MirroredReading(one);
+      }
+    }
+    Pose(height);
+    const double exchanged = MeanDistance();
+    if (exchanged >= least) continue;
+    least = exchanged;
+    best = {places_, postures_, p_WM_};
   }
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].chosen == places_[i].chosen) continue;
-    NamedLabel& label = named_.labels[Ix(places[i].label)];
+  std::tie(places_, postures_, p_WM_) = std::move(best);
+  const std::vector<Hypothesis>& named = std::get<0>(before);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (named[i].chosen == places_[i].chosen) continue;
+    NamedLabel& label = named_.labels[Ix(named[i].label)];
     label.is_contradicted = true;
     label.note = fmt::format(
         "left and right are exchanged, or coordinates mirrored: {:.0f} mm from the model, "
         "exchanged {:.0f}",
-        kMillimetres * distance, kMillimetres * exchanged);
+        kMillimetres * distance, kMillimetres * least);
   }
 }
 

@@ -63,8 +63,10 @@ class NameJudge {
   /// The median distance of a label from a marker of the model; NaN where it is not seen.
   double Distance(int label, int marker) const;
 
-  /// Gives all labels the other side, and keeps that if it is clearly nearer. Clusters, which are
-  /// placed by the postures, would hide that later.
+  /// Whether a label is so far from its place that it may mean something else.
+  bool IsAnyFar() const;
+  /// Gives all labels, those of the arms or those of the legs the other side, and keeps that if it
+  /// is clearly nearer. Clusters, which are placed by the postures, would hide that later.
   void ExchangeSides(double height);
   /// The reading that mirrors the one that is chosen; the same where there is none.
   std::size_t MirroredReading(const Hypothesis& one) const;

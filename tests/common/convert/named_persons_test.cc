@@ -345,5 +345,34 @@ TEST_F(NamedPersons, WhoseLegsHaveExchangedSidesAreContradicted) {
   }
 }
 
+// A tracker crosses the legs, and its markers are not far from the model.
+TEST_F(NamedPersons, WhoseLegsAloneHaveExchangedSidesGetThemBack) {
+  const Vocabulary& vocabulary = Vocabularies()[2];
+  for (const BodyPart part : {BodyPart::kFull, BodyPart::kThoraxAndLegs}) {
+    std::vector<std::string> kit, labels;
+    const MarkerSequence right = Rename(Record(13), vocabulary, part, &kit);
+    std::vector<bool> is_leg;
+    for (std::size_t i = 0; i < kit.size(); ++i) {
+      const bool is_pelvis = kit[i].ends_with("ASI") || kit[i].ends_with("PSI");
+      is_leg.push_back(!is_pelvis && IsWorn("%" + kit[i].substr(1), BodyPart::kLegs));
+      labels.push_back(right.labels()[i]);
+      if (is_leg[i]) labels[i][0] = labels[i][0] == 'L' ? 'R' : 'L';
+    }
+    MarkerSequence wrong(labels, right.num_frames(), right.rate(), 0);
+    for (int k = 0; k < right.num_frames(); ++k) wrong.frame(k) = right.frame(k);
+    const NamedMarkers named =
+        UnderstandLabels(LabelsOf(wrong), wrong, reference_, table_, {joints_, true});
+    for (std::size_t i = 0; i < kit.size(); ++i) {
+      const NamedLabel& one = named.labels[i];
+      const bool is_left = one.readings.front().side == BodySide::kLeft;
+      EXPECT_EQ(one.is_contradicted, is_leg[i]) << one.label << ": " << one.note;
+      const bool is_named_left = labels[i][0] == 'L';
+      if (kit[i][0] != 'C' && kit[i] != "STRN") {
+        EXPECT_EQ(is_left, is_named_left != is_leg[i]) << one.label;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mmm_converter
