@@ -66,7 +66,7 @@ class RecordingLabeller {
       std::vector<LabelledPerson> others = MakePersons();
       others.swap(persons_);
       for (std::size_t p = 0; p < others.size(); ++p) {
-        persons_[p].set_vain_searches(others[p].vain_searches());
+        persons_[p].set_searches(others[p].searches());
       }
       TrackNames other = NamesFrom(starts[i]);
       if (VotesOf(other) > VotesOf(names)) {

@@ -52,15 +52,23 @@ const std::vector<int>& LabelledPerson::Follow() {
                dt_);
   if (!watch_.IsLost()) return found;
   watch_.Restart();
-  if (vain_searches_ >= RecordingTuning::kMostVainSearches) return found;
+  if (!MaySearch()) return found;
+  ++searches_.made;
   BodySearch search(*body_);
   const BodyMatch anew = search.SettleFinely(points, search.Find(points).posture);
   const bool fits =
       watch_.Fits(anew.matched, static_cast<int>(points.cols()), body_->num_markers());
-  if (!fits) ++vain_searches_;
   const double now = search.SettleFinely(points, tracker_->belief().posture).cost;
-  if (watch_.IsReplaced(now, anew.cost)) tracker_->Start(anew);
+  const bool is_replaced = watch_.IsReplaced(now, anew.cost);
+  if (is_replaced) tracker_->Start(anew);
+  if (!fits || !is_replaced) ++searches_.vain;
   return found;
+}
+
+bool LabelledPerson::MaySearch() const {
+  constexpr int kMostVain = RecordingTuning::kMostVainSearches;
+  const double recorded = dt_ * static_cast<double>(tracks_.frames.size());  // [s]
+  return searches_.vain < kMostVain && searches_.made < kMostVain + recorded;
 }
 
 void LabelledPerson::KeepFrame(int frame, const std::vector<int>& point_of_marker) {

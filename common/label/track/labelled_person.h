@@ -35,11 +35,14 @@ class LabelledPerson {
   bool IsMarker(int marker) const {
     return marker >= first_marker_ && marker < first_marker_ + body_->num_markers();
   }
-  /// Searches for the body, where it was lost, that found nothing that fits. After a few no more
-  /// are made: who is there would have been found, and a wrong recording would be searched all
-  /// along.
-  int vain_searches() const { return vain_searches_; }
-  void set_vain_searches(int before) { vain_searches_ = before; }
+  /// Searches for the body where it was lost. After a few vain ones, which found nothing that fits
+  /// or nothing better, no more are made: who is there would have been found, and a wrong recording
+  /// would be searched all along. Nor are there more than one for each second of the recording.
+  struct Searches {
+    int made = 0, vain = 0;
+  };
+  const Searches& searches() const { return searches_; }
+  void set_searches(const Searches& before) { searches_ = before; }
 
   /// Takes the person up with a tracker of their own.
   void Start(const BodyMatch& match);
@@ -68,6 +71,7 @@ class LabelledPerson {
   Eigen::VectorXd variances;
 
  private:
+  bool MaySearch() const;
   /// Markers without a point against points without a marker.
   void CountUnmatched(int frame, const std::vector<int>& point_of_marker);
   void NameWornElsewhere(TrackNames* names) const;
@@ -83,7 +87,7 @@ class LabelledPerson {
   int kept_every_;  ///< frames
   std::unique_ptr<LabelBody> body_;
   std::unique_ptr<LabelTracker> tracker_;
-  int vain_searches_ = 0;
+  Searches searches_;
   BodyWatch watch_ = BodyWatch(WatchTuning::kRecorded);
   std::vector<std::pair<int, Posture>> kept_;  ///< frames of this pass
   WornElsewhere elsewhere_;

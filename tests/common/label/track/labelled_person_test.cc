@@ -84,13 +84,37 @@ TEST_F(LabelledPersonTest, ABodyThatIsLostIsFoundAnew) {
 TEST_F(LabelledPersonTest, AmongNoiseTheBodyIsNotSearchedForAllAlong) {
   person_.Start(MatchAt(0));
   SeededRandom random(72);
-  person_.set_vain_searches(3);
+  person_.set_searches({3, 3});
   for (int k = 0; k < 120; ++k) {  // 1.2 s: one more search, and no second one
     Offer(0);
     for (double& x : person_.points.reshaped()) x = 4 * random.Uniform();
     person_.Follow();
   }
-  EXPECT_EQ(person_.vain_searches(), 4);
+  EXPECT_EQ(person_.searches().vain, 4);
+  EXPECT_EQ(person_.searches().made, 4);
+}
+
+// As where a unit is wrong. Nothing fits better than what is followed, and nothing fits.
+TEST_F(LabelledPersonTest, AmongPointsOfALargerBodyTheSearchesAreFew) {
+  person_.Start(MatchAt(0));
+  for (int k = 0; k < 600; ++k) {
+    Offer(0);
+    person_.points *= 1.3;
+    person_.Follow();
+  }
+  EXPECT_LE(person_.searches().made, 9);
+}
+
+// What is found is lost again and again: a search for each of the four seconds, and four.
+TEST_F(LabelledPersonTest, ABodyThatJumpsAboutIsNotSearchedForAllAlong) {
+  person_.Start(MatchAt(0));
+  for (int k = 0; k < 1000; ++k) {
+    Offer(0);
+    person_.points.colwise() += Eigen::Vector3d(k / 55 % 2 * 3.0, 0, 0);
+    person_.Follow();
+  }
+  EXPECT_LE(person_.searches().made, 9);
+  EXPECT_EQ(person_.searches().vain, 0);
 }
 
 TEST_F(LabelledPersonTest, AHeightIsCalibratedOnceOnSureNames) {
