@@ -36,9 +36,7 @@ constexpr double kWrong = 0.2;        ///< it is not there at all [m]
 constexpr double kWrongDeviations = 4.5;
 constexpr double kNearby = 0.08;  ///< another meaning is right
 constexpr double kBetter = 0.5;
-constexpr double kExchangedShare = 0.75;    ///< of the distance, with sides exchanged
-constexpr double kMostClusterStray = 0.06;  ///< of its label about its place on the segment [m]
-constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such are usually [m]
+constexpr double kExchangedShare = 0.75;  ///< of the distance, with sides exchanged
 
 /// "arms", "legs" or neither.
 std::string_view LimbsOf(const Landmark& landmark) {
@@ -110,14 +108,15 @@ void NameJudge::MakeModel() {
     const bool is_place = IsPlace(label.readings.front());
     for (const LabelReading& reading : label.readings) {
       const auto place = PlaceOf(reading, table_, reference_);
-      one.markers.push_back(place && (is_place == IsPlace(reading)) ? add(*place) : -1);
-      if (is_place) continue;
-      if (!place) break;
-      for (const Vector3d& p :
-           {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
-        one.markers.push_back(add({"", place->segment, p}));
+      if (is_place) {
+        one.markers.push_back(place && IsPlace(reading) ? add(*place) : -1);
+      } else if (place && reading.landmark == label.readings.front().landmark) {
+        one.markers.push_back(add(*place));
+        for (const Vector3d& p :
+             {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
+          one.markers.push_back(add({"", place->segment, p}));
+        }
       }
-      break;
     }
     (is_place ? places_ : clusters_).push_back(std::move(one));
   }
@@ -210,12 +209,16 @@ double NameJudge::Distance(int label, int marker) const {
 std::size_t NameJudge::MirroredReading(const Hypothesis& one) const {
   const std::vector<LabelReading>& readings = named_.labels[Ix(one.label)].readings;
   const LabelReading& chosen = readings[one.chosen];
-  for (std::size_t r = 0; r < one.markers.size(); ++r) {
+  for (std::size_t r = 0; r < readings.size(); ++r) {
     const bool is_mirrored = readings[r].landmark == chosen.landmark &&
                              readings[r].side != chosen.side && chosen.side != BodySide::kNone;
-    if (is_mirrored && one.markers[r] >= 0) return r;
+    if (is_mirrored && (!IsPlace(chosen) || one.markers[r] >= 0)) return r;
   }
   return one.chosen;
+}
+
+bool NameJudge::IsOf(const Hypothesis& one, std::string_view limbs) const {
+  return limbs == "all" || LimbsOf(LandmarkOf(Chosen(one))) == limbs;
 }
 
 bool NameJudge::IsAnyFar() const {
@@ -229,29 +232,37 @@ void NameJudge::ExchangeSides(double height) {
   auto best = before;
   const double distance = MeanDistance();
   double least = kExchangedShare * distance;
+  std::string_view exchanged_limbs = "none";
   for (const std::string_view limbs : {"all", "arms", "legs"}) {
     std::tie(places_, postures_, p_WM_) = before;
     for (Hypothesis& one : places_) {
-      if (limbs == "all" || LimbsOf(LandmarkOf(Chosen(one))) == limbs) {
-        one.chosen = MirroredReading(one);
-      }
+      if (IsOf(one, limbs)) one.chosen = MirroredReading(one);
     }
     Pose(height);
     const double exchanged = MeanDistance();
     if (exchanged >= least) continue;
     least = exchanged;
     best = {places_, postures_, p_WM_};
+    exchanged_limbs = limbs;
   }
   std::tie(places_, postures_, p_WM_) = std::move(best);
+  const std::string note = fmt::format(
+      "left and right are exchanged, or coordinates mirrored: {:.0f} mm from the model, "
+      "exchanged {:.0f}",
+      kMillimetres * distance, kMillimetres * least);
+  const auto contradict = [&](const Hypothesis& one) {
+    named_.labels[Ix(one.label)].is_contradicted = true;
+    named_.labels[Ix(one.label)].note = note;
+  };
   const std::vector<Hypothesis>& named = std::get<0>(before);
   for (std::size_t i = 0; i < named.size(); ++i) {
-    if (named[i].chosen == places_[i].chosen) continue;
-    NamedLabel& label = named_.labels[Ix(named[i].label)];
-    label.is_contradicted = true;
-    label.note = fmt::format(
-        "left and right are exchanged, or coordinates mirrored: {:.0f} mm from the model, "
-        "exchanged {:.0f}",
-        kMillimetres * distance, kMillimetres * least);
+    if (named[i].chosen != places_[i].chosen) contradict(places_[i]);
+  }
+  for (Hypothesis& one : clusters_) {
+    const std::size_t mirrored = IsOf(one, exchanged_limbs) ? MirroredReading(one) : one.chosen;
+    if (mirrored == one.chosen) continue;
+    one.chosen = mirrored;
+    contradict(one);
   }
 }
 
@@ -307,55 +318,6 @@ bool NameJudge::Reconsider(Hypothesis* one) {
   return true;
 }
 
-void NameJudge::PlaceClusters(double height) {
-  for (const Hypothesis& one : clusters_) {
-    if (one.markers.size() < 5) continue;
-    std::vector<Vector3d> places;
-    for (std::size_t f = 0; f < frames_.size(); ++f) {
-      const Vector3d p = recording_.frame(frames_[f]).col(one.label);
-      if (!p.allFinite()) continue;
-      const Matrix3Xd& at = p_WM_[f];
-      const Vector3d origin = at.col(one.markers[1]);
-      Eigen::Matrix3d axes;
-      for (int a = 0; a < 3; ++a) axes.col(a) = (at.col(one.markers[Ix(2 + a)]) - origin) / height;
-      places.emplace_back(axes.transpose() * (p - origin) / height);
-    }
-    if (!places.empty()) PlaceCluster(one, places, height);
-  }
-}
-
-void NameJudge::PlaceCluster(const Hypothesis& one, const std::vector<Vector3d>& places,
-                             double height) {
-  Vector3d place;
-  for (int a = 0; a < 3; ++a) {
-    std::vector<double> values;
-    for (const Vector3d& p : places) values.push_back(p[a]);
-    place[a] = Median(values);
-  }
-  std::vector<double> strays;
-  for (const Vector3d& p : places) strays.push_back(height * (p - place).norm());
-  const double stray = Median(strays);
-  NamedLabel& label = named_.labels[Ix(one.label)];
-  const Vector3d usual = model_->markers()[Ix(one.markers[0])].p_SM;
-  const double away = height * (place - usual).norm();
-  const auto own = std::find_if(named_.set.places.begin(), named_.set.places.end(),
-                                [&](const auto& p) { return p.marker == label.marker; });
-  if (own == named_.set.places.end()) return;
-  if (stray > kMostClusterStray || away > kFarthestWorn) {
-    label.note = stray > kMostClusterStray
-                     ? fmt::format("moves by {:.0f} mm on the {}", kMillimetres * stray, label.part)
-                     : fmt::format("{:.0f} mm from the {}", kMillimetres * away, label.part);
-    label.marker.clear();
-    label.is_contradicted = true;
-    return;
-  }
-  own->p_SM = place;
-  is_placed_[Ix(one.label)] = true;
-  for (MarkerPair& pair : named_.set.pairs) {
-    if (pair.target == label.marker) pair.noise_scale = 1 + stray / kMostClusterStray;
-  }
-}
-
 void NameJudge::Compose() {
   std::vector<std::string> labels;
   std::vector<ReadLabel> read;
@@ -363,12 +325,14 @@ void NameJudge::Compose() {
     labels.push_back(one.label);
     read.push_back({one.readings, one.marker.empty() ? one.note : ""});
   }
-  for (const Hypothesis& one : places_) {
-    ReadLabel& label = read[Ix(one.label)];
-    std::rotate(label.readings.begin(),
-                label.readings.begin() + static_cast<std::ptrdiff_t>(one.chosen),
-                label.readings.begin() + static_cast<std::ptrdiff_t>(one.chosen) + 1);
-    if (one.is_out) label.why_left_out = named_.labels[Ix(one.label)].note;
+  for (const auto* hypotheses : {&places_, &clusters_}) {
+    for (const Hypothesis& one : *hypotheses) {
+      ReadLabel& label = read[Ix(one.label)];
+      const auto first = label.readings.begin();
+      const auto chosen = first + static_cast<std::ptrdiff_t>(one.chosen);
+      std::rotate(first, chosen, chosen + 1);
+      if (one.is_out) label.why_left_out = named_.labels[Ix(one.label)].note;
+    }
   }
   NamedMarkers composed = ComposeNamedMarkers(labels, read, reference_, table_);
   for (std::size_t i = 0; i < labels.size(); ++i) {

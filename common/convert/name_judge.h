@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/convert/named_markers.h"
@@ -13,9 +14,11 @@ namespace mmm_converter {
 
 /// A label on the way to its meaning.
 struct Hypothesis {
-  int label = 0;             ///< of the named markers and of the recording
-  std::vector<int> markers;  ///< of its readings, of the judge's model; -1: the model has none
-  std::size_t chosen = 0;    ///< of the readings
+  int label = 0;  ///< of the named markers and of the recording
+  /// Of its readings, of the judge's model; -1: the model has none. Of a cluster, five (its place,
+  /// origin and axes of its segment) of the first reading, and of the one that mirrors it.
+  std::vector<int> markers;
+  std::size_t chosen = 0;  ///< of the readings
   bool is_out = false;
 };
 
@@ -63,6 +66,8 @@ class NameJudge {
   /// The median distance of a label from a marker of the model; NaN where it is not seen.
   double Distance(int label, int marker) const;
 
+  /// limbs: "all", "arms" or "legs".
+  bool IsOf(const Hypothesis& one, std::string_view limbs) const;
   /// Whether a label is so far from its place that it may mean something else.
   bool IsAnyFar() const;
   /// Gives all labels, those of the arms or those of the legs the other side, and keeps that if it

@@ -347,7 +347,9 @@ TEST_F(NamedPersons, WhoseLegsHaveExchangedSidesAreContradicted) {
 
 // A tracker crosses the legs, and its markers are not far from the model.
 TEST_F(NamedPersons, WhoseLegsAloneHaveExchangedSidesGetThemBack) {
-  const Vocabulary& vocabulary = Vocabularies()[2];
+  Vocabulary vocabulary = Vocabularies()[2];
+  vocabulary.labels["%THI"] = "%Thigh.Front";
+  vocabulary.labels["%TIP"] = "%Shank.Front";
   for (const BodyPart part : {BodyPart::kFull, BodyPart::kThoraxAndLegs}) {
     std::vector<std::string> kit, labels;
     const MarkerSequence right = Rename(Record(13), vocabulary, part, &kit);
