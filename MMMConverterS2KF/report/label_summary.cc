@@ -112,9 +112,9 @@ std::string FormatLabelSummary(const LabelReport& report) {
       "names      {}{}\n", DescribeLabels(report.found),
       report.found.setup.marker_set.empty() ? "" : "; marker set " + report.found.setup.marker_set);
   if (report.found.is_repair) text += DescribeChanges(report);
-  if (std::isfinite(report.mean_distance)) {
+  if (std::isfinite(report.fit.mean_distance)) {
     text += fmt::format("distance   mean {:.1f} mm, named points from the person's markers\n",
-                        1000 * report.mean_distance);
+                        1000 * report.fit.mean_distance);
   }
   text += report.output.empty() ? "written    nothing; -o FILE writes the recording so\n"
                                 : fmt::format("written    {}\n", report.output);
@@ -174,8 +174,9 @@ Json ToJson(const LabelReport& report) {
                               {"kind", other.is_object ? "object" : "person"}});
   }
   json.update(LabelsJson(report.found, recording.markers, report.input.first_frame));
-  json["mean_distance_mm"] =
-      std::isfinite(report.mean_distance) ? Number(1000 * report.mean_distance) : Json(nullptr);
+  json["mean_distance_mm"] = std::isfinite(report.fit.mean_distance)
+                                 ? Number(1000 * report.fit.mean_distance)
+                                 : Json(nullptr);
   json["verdict"] = ToJson(report.verdict);
   json["warnings"] = report.warnings.texts();
   return json;

@@ -21,20 +21,11 @@ namespace {
 
 using Level = Verdict::Level;
 
-// The 95th percentile of the distances: right 0.05 to 0.11; legs exchanged 0.19, others' markers
-// 0.5 to 1.8.
-constexpr Limit kPercentile = {0.15, 0.4};
-// The same of a calibrated person: right 0.006 to 0.024.
-constexpr Limit kCalibratedPercentile = {0.06, 0.2};
-// The average of one marker: right at most 0.18; another person's 1.1 to 1.7.
-constexpr Limit kMarkerMean = {0.22, 0.6};
 // One position. A marker on skin or a wand is at most 0.18 from the model (above), and 0.25 for 0.1
 // s of a somersault; the frame, or the label in it, is wrong beyond.
 constexpr Limit kFarthest = {0.3, kNever};
 // Of a posture that is not tracked [s]: what a prediction bridges.
 constexpr Limit kLateStart = {0.5, kNever};
-// A height beside the estimated one, relative, which is within 0.035 of the true one.
-constexpr Limit kHeight = {0.08, 0.2};
 // Share of the frames: right at most 0.06; left and right exchanged 0.1 to 0.8.
 constexpr Limit kReassembled = {0.1, 0.5};
 // Share of the seen positions: right at most 0.001; legs exchanged 0.02.

@@ -37,6 +37,15 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 inline constexpr Limit kMeanDistance = {0.055, 0.15};
 /// The same of a calibrated person: right 0.002 to 0.009.
 inline constexpr Limit kCalibratedMeanDistance = {0.02, 0.06};
+/// The 95th percentile of the distances: right 0.05 to 0.11; legs exchanged 0.19, others' markers
+/// 0.5 to 1.8.
+inline constexpr Limit kPercentile = {0.15, 0.4};
+/// The same of a calibrated person: right 0.006 to 0.024.
+inline constexpr Limit kCalibratedPercentile = {0.06, 0.2};
+/// The average of one marker: right at most 0.18; another person's 1.1 to 1.7.
+inline constexpr Limit kMarkerMean = {0.22, 0.6};
+/// A height beside the estimated one, relative, which is within 0.035 of the true one.
+inline constexpr Limit kHeight = {0.08, 0.2};
 
 /// Reasons as they are found.
 class VerdictReasons {

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/judge/evidence.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -18,6 +20,33 @@ constexpr Limit kNamesNotFound = {0.4, 0.6};
 // Mean of one minus the probability of a name: right at most 0.005; by another person's subject
 // file 0.02 to 0.15.
 constexpr Limit kUnsure = {0.08, 0.4};
+
+void JudgeFit(const LabelEvidence& evidence, VerdictReasons* reasons) {
+  const LabelFit& fit = evidence.fit;
+  const char* whose = evidence.is_calibrated ? "the subject: another person's, or put on anew since"
+                                             : "the model of that height";
+  reasons->AddBeyond(evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance,
+                     fit.mean_distance,
+                     fmt::format("the named points are {:.0f} mm from the markers of {}",
+                                 kMillimetres * fit.mean_distance, whose));
+  reasons->AddBeyond(evidence.is_calibrated ? kCalibratedPercentile : kPercentile, fit.p95_distance,
+                     fmt::format("5 % of the named points are more than {:.0f} mm from the markers "
+                                 "of {}",
+                                 kMillimetres * fit.p95_distance, whose));
+  reasons->AddBeyond(
+      kMarkerMean, fit.farthest,
+      fmt::format("{} of the names {} on average more than {:.0f} mm from where the "
+                  "body can have {}: {}; are the points this person's?",
+                  fit.far_names.size(), fit.far_names.size() == 1 ? "is" : "are",
+                  kMillimetres * kMarkerMean.check, fit.far_names.size() == 1 ? "it" : "them",
+                  FirstNames(fit.far_names, 6)));
+  if (evidence.height <= 0 || fit.told_height <= 0) return;
+  const double ratio = fit.told_height / evidence.height;
+  reasons->AddBeyond(kHeight, std::abs(ratio - 1),
+                     fmt::format("the points are those of a person of {:.2f} m, {:.2f} times the "
+                                 "height of {:.2f} m; are the height and the file's unit right?",
+                                 fit.told_height, ratio, evidence.height));
+}
 
 }  // namespace
 
@@ -65,12 +94,7 @@ Verdict JudgeLabels(const LabelEvidence& evidence) {
                     "elsewhere",
                     not_found, spare == 1 ? "one point is" : fmt::format("{} points are", spare)));
   }
-  reasons.AddBeyond(
-      evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance, evidence.mean_distance,
-      fmt::format("the named points are {:.0f} mm from the markers of {}",
-                  1000 * evidence.mean_distance,
-                  evidence.is_calibrated ? "the subject: another person's, or put on anew since"
-                                         : "the model of that height"));
+  JudgeFit(evidence, &reasons);
   if (named > 0) {
     reasons.AddBeyond(kUnsure, unsure / named,
                       fmt::format("names are sure to {:.0f} % only", 100 * (1 - unsure / named)));

@@ -7,15 +7,25 @@
 #include "common/io/recording/recording.h"
 #include "common/judge/verdict.h"
 #include "common/label/track/labelling.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
+
+/// How named points fit the person's markers in the best postures of some frames [m].
+struct LabelFit {
+  double mean_distance = kNaN, p95_distance = kNaN;  ///< NaN: too few are named
+  double farthest = 0;                               ///< of a name, on average
+  std::vector<std::string> far_names;                ///< beyond kMarkerMean on average
+  double told_height = 0;                            ///< that the points tell; 0: not known
+};
 
 /// What the verdict of names that were found looks at.
 struct LabelEvidence {
   const Recording& recording;
   const Labelling& labelling;
-  double mean_distance = 0;    ///< of named points from the person's markers [m]
+  LabelFit fit;
   bool is_calibrated = false;  ///< the person
+  double height = 0;           ///< of the person [m]
 };
 
 /// label_verdict.cc has the limits.

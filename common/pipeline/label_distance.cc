@@ -1,40 +1,118 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "common/fit/height_estimate.h"
 #include "common/fit/posture_search.h"
+#include "common/judge/evidence.h"
+#include "common/math/statistics.h"
 #include "common/pipeline/recording_labels.h"
-#include "common/support/units.h"
 
 namespace mmm_converter {
+namespace {
 
-double LabelDistance(const FoundLabels& found, const MarkerSequence& markers) {
-  constexpr int kFrames = 24, kFewestPoints = 10, kAttempts = 4;
-  const std::vector<MarkerAssignment>& assignments = found.setup.assignments();
-  const MarkerSequence named = Relabelled(PointsOfPerson(found), markers);
-  std::vector<int> columns;
-  columns.reserve(assignments.size());
-  for (const MarkerAssignment& one : assignments) {
-    const std::string& name = found.labelling.names[one.label];
-    columns.push_back(named.FindLabel(name.substr(found.prefix.size())));
+using Eigen::Matrix3Xd;
+
+constexpr int kFrames = 24, kFewestPoints = 10, kAttempts = 4;
+
+/// The markers that points have the names of, and columns of these points.
+struct NamedMarkersOf {
+  std::vector<MarkerIx> markers;
+  std::vector<LabelIx> columns;
+  std::vector<std::string> names;
+  Eigen::VectorXd noise_scale;
+};
+
+NamedMarkersOf FindMarkers(const FoundLabels& found, const MarkerSequence& named) {
+  NamedMarkersOf of;
+  std::vector<double> scales;
+  for (const MarkerAssignment& one : found.setup.assignments()) {
+    const std::string name = found.labelling.names[one.label].substr(found.prefix.size());
+    const int column = named.FindLabel(name);
+    if (column < 0) continue;
+    of.markers.push_back(one.marker);
+    of.columns.emplace_back(column);
+    of.names.push_back(name);
+    scales.push_back(one.noise_scale);
   }
-  const MarkerKinematics kinematics(*found.setup.model, found.setup.joints,
-                                    MarkerIndices(assignments));
+  of.noise_scale = Eigen::Map<Eigen::VectorXd>(scales.data(), std::ssize(scales));
+  return of;
+}
+
+/// Markers x frames [m]; NaN: not seen, or the frame shows too few.
+Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
+                          const MarkerSequence& named) {
+  const MarkerKinematics kinematics(*found.setup.model, found.setup.joints, of.markers);
+  MarkerJacobian at = kinematics.MakeJacobian();
   PostureSearch search(kinematics);
   PostureFitOptions options;
   options.robust_distance = 0.1;
-  double sum = 0;
-  int count = 0;
+  Eigen::MatrixXd distances = Eigen::MatrixXd::Constant(kinematics.num_markers(), kFrames, kNaN);
   for (int i = 0; i < kFrames; ++i) {
     const int k = (2 * i + 1) * named.num_frames() / (2 * kFrames);
-    Eigen::Matrix3Xd z =
-        Eigen::Matrix3Xd::Constant(3, static_cast<Eigen::Index>(columns.size()), kNaN);
-    for (std::size_t m = 0; m < columns.size(); ++m) {
-      if (columns[m] >= 0) z.col(static_cast<Eigen::Index>(m)) = named.frame(k).col(columns[m]);
-    }
+    const Matrix3Xd z = named.frame(k)(Eigen::all, of.columns);
     if (z.row(0).array().isFinite().count() < kFewestPoints) continue;
     Posture posture;
-    sum += search.Assemble(z, NoiseScales(assignments), options, kAttempts, &posture).mean_distance;
-    ++count;
+    search.Assemble(z, of.noise_scale, options, kAttempts, &posture);
+    kinematics.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
+                              posture.joint_angles, &at);
+    distances.col(i) = (z - at.p_WM).colwise().norm().transpose();
   }
-  return count > 0 ? sum / count : kNaN;
+  return distances;
+}
+
+}  // namespace
+
+std::set<std::string> NamesThatFit(const FoundLabels& found, const MarkerSequence& markers,
+                                   double most) {
+  const NamedMarkersOf of = FindMarkers(found, markers);
+  std::set<std::string> names;
+  if (of.markers.size() < kFewestPoints) return names;
+  const Eigen::MatrixXd distances = Distances(found, of, markers);
+  for (Eigen::Index m = 0; m < distances.rows(); ++m) {
+    std::vector<double> own;
+    std::copy_if(distances.row(m).begin(), distances.row(m).end(), std::back_inserter(own),
+                 [](double d) { return std::isfinite(d); });
+    if (!own.empty() && Mean(own) <= most) names.insert(of.names[static_cast<std::size_t>(m)]);
+  }
+  return names;
+}
+
+LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
+                   const KinematicModel* reference) {
+  LabelFit fit;
+  const MarkerSequence named = Relabelled(PointsOfPerson(found), markers);
+  const NamedMarkersOf of = FindMarkers(found, named);
+  if (of.markers.size() < kFewestPoints) return fit;
+  const Eigen::MatrixXd distances = Distances(found, of, named);
+  std::vector<double> all;
+  for (Eigen::Index m = 0; m < distances.rows(); ++m) {
+    std::vector<double> own;
+    for (const double d : distances.row(m)) {
+      if (std::isfinite(d)) own.push_back(d);
+    }
+    if (own.empty()) continue;
+    const double mean = Mean(own);
+    fit.farthest = std::max(fit.farthest, mean);
+    if (kMarkerMean.IsBeyond(mean)) fit.far_names.push_back(of.names[static_cast<std::size_t>(m)]);
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  if (all.empty()) return fit;
+  fit.mean_distance = Mean(all);
+  fit.p95_distance = Percentile(all, 95);
+  if (reference == nullptr) return fit;
+  // Of a repair by the names that were there: those that were found are sought at the height.
+  const MarkerSequence& telling = found.is_repair ? markers : named;
+  const NamedMarkersOf told = FindMarkers(found, telling);
+  if (told.markers.size() < kFewestPoints) return fit;
+  HeightOptions options;
+  options.noise_scale = told.noise_scale;
+  fit.told_height =
+      EstimateHeight(*reference, found.setup.joints, told.markers, told.columns, telling, options)
+          .height;
+  return fit;
 }
 
 }  // namespace mmm_converter

@@ -329,8 +329,13 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   found.labelling =
       LabelRecording(scene, found.labelling.names, recording.markers, options, progress);
   const std::vector<std::string>& labels = recording.markers.labels();
-  if (known.repair && !hints.repair && found.person.subject == nullptr) {
-    KeepLabelsOfAllFrames(labels, &found.labelling);
+  if (known.repair && found.person.subject == nullptr) {
+    // Who asks for a repair has labels that may be wrong all along, as far as the body can tell.
+    constexpr double kWornElsewhere = 0.1;  // [m]
+    KeepLabelsOfAllFrames(labels,
+                          hints.repair ? NamesThatFit(found, recording.markers, kWornElsewhere)
+                                       : std::set<std::string>(labels.begin(), labels.end()),
+                          &found.labelling);
   }
   found.points = RelabelledPoints(found.labelling, labels, recording.markers.num_frames());
   found.changes = ChangesOf(found.labelling, labels);
@@ -372,9 +377,12 @@ LabelReport RunLabelling(const LabelRequest& request,
   outputs.Check();
   LabelReport report = LabelPoints(request, read_before, progress);
   const Recording& recording = report.input.recording;
-  report.mean_distance = LabelDistance(report.found, recording.markers);
-  report.verdict = JudgeLabels({recording, report.found.labelling, report.mean_distance,
-                                report.found.person.subject != nullptr});
+  const FoundLabels& found = report.found;
+  const bool is_calibrated = found.person.subject != nullptr;
+  report.fit =
+      FitLabels(found, recording.markers, is_calibrated ? nullptr : report.input.reference.get());
+  report.verdict = JudgeLabels(
+      {recording, found.labelling, report.fit, is_calibrated, found.person.height.value});
   return report;
 }
 

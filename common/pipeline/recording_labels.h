@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
+#include "common/judge/label_verdict.h"
 #include "common/judge/verdict.h"
 #include "common/label/track/labelling.h"
 #include "common/label/track/relabelled.h"
@@ -70,9 +71,15 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
 /// are left out.
 std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found);
 
-/// The mean distance of named points from the person's markers in the best postures of some frames
-/// [m]; NaN: too few are named.
-double LabelDistance(const FoundLabels& found, const MarkerSequence& markers);
+/// How far named points are from the person's markers in the best postures of some frames.
+/// reference: the model of 1 m; null: the height that they tell is not asked for.
+LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
+                   const KinematicModel* reference);
+
+/// Of the recording's own labels those whose points are at most so far from their markers on
+/// average [m].
+std::set<std::string> NamesThatFit(const FoundLabels& found, const MarkerSequence& markers,
+                                   double most);
 
 /// As FindLabels without hints, of points that are still to come: person, setup and the names
 /// (Labelling::names) alone.
@@ -101,7 +108,7 @@ struct LabelReport {
   Input input;
   FoundLabels found;
   std::string output;
-  double mean_distance = 0;  ///< LabelDistance [m]
+  LabelFit fit;
   Verdict verdict;
   Warnings warnings;
 };

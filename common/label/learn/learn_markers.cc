@@ -136,8 +136,12 @@ class Starts {
 /// From the body as it is found in several frames, and the best of these mirrored.
 void StartFromSearches(const LearnedPlaces& blank, const BodySites& sites,
                        const std::function<void(int, int)>& progress, Starts* starts) {
+  // Beyond that distance after so many starts there is nobody [m]; persons' are 0.005 to 0.03.
+  constexpr int kTriedForNobody = 2;
+  constexpr double kNobody = 0.15;
   AnyBodySearch search(sites);
   const std::vector<LearnFrame>& frames = blank.frames();
+  int tried = 0;
   for (int i = 0; i < LearnTuning::kSearched; ++i) {
     const auto k = static_cast<int>((2 * i + 1) * frames.size() / (2 * LearnTuning::kSearched));
     const Matrix3Xd points = SeenPoints(frames[k]);
@@ -145,6 +149,12 @@ void StartFromSearches(const LearnedPlaces& blank, const BodySites& sites,
     auto learned = std::make_unique<LearnedPlaces>(blank);
     learned->Start(k, search.Find(points));
     starts->Add(std::move(learned));
+    if (++tried == kTriedForNobody && starts->best()->mean_distance() > kNobody) {
+      throw Error(fmt::format(
+          "the labels move as no body does: in the best postures they are {:.0f} mm from where one "
+          "wears them, a person's at most {:.0f}; are height and unit right, and is it one person?",
+          kMillimetres * starts->best()->mean_distance(), kMillimetres * kNobody));
+    }
     if (progress) progress(i + 1, LearnTuning::kSearched + 1);
   }
   if (starts->best() == nullptr) {

@@ -86,13 +86,15 @@ std::vector<Matrix3Xd> Parts(const Matrix3Xd& points, int count) {
 }  // namespace
 
 std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
-                                  const std::vector<Matrix3Xd>& frames) {
+                                  const std::vector<Matrix3Xd>& frames,
+                                  const std::function<void()>& between_frames) {
   const auto count = static_cast<int>(bodies.size());
   std::vector<std::unique_ptr<BodySearch>> searches;
   searches.reserve(bodies.size());
   for (const LabelBody* body : bodies) searches.push_back(std::make_unique<BodySearch>(*body));
   std::vector<std::pair<double, SceneStart>> starts;  // with their costs
   for (const int k : FullestFrames(frames)) {
+    if (between_frames) between_frames();
     if (frames[k].cols() < BodyLimits::kFewestMarkers * count) continue;
     const std::vector<Matrix3Xd> parts = Parts(frames[k], count);
     // Who is in which part.

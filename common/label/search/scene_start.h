@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "common/label/search/body_match.h"
@@ -16,11 +17,12 @@ struct SceneStart {
 };
 
 /// Looks for bodies among points without names: in frames that show many points, spread over the
-/// recording. Several bodies are looked for
-/// in the parts that a frame's points fall into. frames: 3 x points [m]. The frame in which all
-/// together match best is the first of the result.
+/// recording. Several bodies are looked for in the parts that a frame's points fall into. frames:
+/// 3 x points [m]. The frame in which all together match best is the first of the result.
+/// between_frames is called before each of them; what it throws ends the search. May be empty.
 /// @throws Error where no frame shows half of each body's markers.
 std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
-                                  const std::vector<Eigen::Matrix3Xd>& frames);
+                                  const std::vector<Eigen::Matrix3Xd>& frames,
+                                  const std::function<void()>& between_frames = {});
 
 }  // namespace mmm_converter

@@ -95,7 +95,7 @@ class RecordingLabeller {
     return persons;
   }
 
-  std::vector<SceneStart> FindStarts() const {
+  std::vector<SceneStart> FindStarts() {
     std::vector<Matrix3Xd> frames;
     frames.reserve(tracks_.frames.size());
     for (const FramePoints& points : tracks_.frames) {
@@ -108,7 +108,7 @@ class RecordingLabeller {
     std::vector<const LabelBody*> bodies;
     bodies.reserve(persons_.size());
     for (const LabelledPerson& person : persons_) bodies.push_back(&person.body());
-    return FindScene(bodies, frames);
+    return FindScene(bodies, frames, [this] { Show(0); });
   }
 
   /// Where somebody is not calibrated, what is wrong at the start is learnt by the calibration:
@@ -279,7 +279,9 @@ class RecordingLabeller {
   bool Calibrate(const TrackNames& names) {
     bool is_anyone = false;
     for (LabelledPerson& person : persons_) {
-      if (person.Calibrate(names)) is_anyone = true;
+      if (person.Calibrate(names, [this] { Show(static_cast<int>(tracks_.frames.size())); })) {
+        is_anyone = true;
+      }
     }
     return is_anyone;
   }

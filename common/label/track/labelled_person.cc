@@ -152,16 +152,19 @@ MarkerSequence LabelledPerson::Named(const TrackNames& names) const {
   return named;
 }
 
-bool LabelledPerson::Calibrate(const TrackNames& names) {
+bool LabelledPerson::Calibrate(const TrackNames& names,
+                               const std::function<void()>& between_steps) {
   if (is_calibrated_) return false;
   const MarkerSequence named = Named(names);
   std::vector<MarkerAssignment> assignments = setup_.assignments();
   for (std::size_t m = 0; m < assignments.size(); ++m) {
     assignments[m].label = LabelIx(static_cast<int>(m));
   }
+  CalibrationOptions options;
+  options.between_steps = between_steps;
   try {
     const CalibrationResult result =
-        CalibrateSubject(*setup_.model, setup_.joints, {{"", &named, assignments}}, {});
+        CalibrateSubject(*setup_.model, setup_.joints, {{"", &named, assignments}}, options);
     setup_.model =
         std::make_shared<const KinematicModel>(FitToSubject(*setup_.model, result.subject));
   } catch (const Error&) {

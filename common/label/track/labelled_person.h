@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -61,7 +62,7 @@ class LabelledPerson {
 
   /// Whoever was only scaled by height is calibrated on what has surely got its name, and taken up
   /// again where they are. True: this person was.
-  bool Calibrate(const TrackNames& names);
+  bool Calibrate(const TrackNames& names, const std::function<void()>& between_steps = {});
 
   // Of this frame:
   std::vector<int> offered;  ///< points

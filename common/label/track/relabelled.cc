@@ -208,11 +208,14 @@ std::vector<LabelChange> ChangesOf(const Labelling& labelling,
   return changes;
 }
 
-void KeepLabelsOfAllFrames(const std::vector<std::string>& labels, Labelling* labelling) {
+void KeepLabelsOfAllFrames(const std::vector<std::string>& labels,
+                           const std::set<std::string>& kept, Labelling* labelling) {
   const NameTable table(*labelling, labels);
   std::set<int> wrong;  // points that never have their own name
   for (const NamedPiece& piece : labelling->pieces) {
-    if (table.OwnName(piece.point) >= 0) wrong.insert(piece.point);
+    if (table.OwnName(piece.point) >= 0 && kept.contains(labels[piece.point])) {
+      wrong.insert(piece.point);
+    }
   }
   for (const NamedPiece& piece : labelling->pieces) {
     if (piece.name == table.OwnName(piece.point)) wrong.erase(piece.point);

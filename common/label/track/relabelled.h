@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,8 @@ std::vector<LabelChange> ChangesOf(const Labelling& labelling,
 
 /// Gives points back their labels that have other names, or none, in all of their frames, as far as
 /// these names are then free. A body whose markers' places are not known can't tell a label that is
-/// wrong all along from a marker that is worn elsewhere.
-void KeepLabelsOfAllFrames(const std::vector<std::string>& labels, Labelling* labelling);
+/// wrong all along from a marker that is worn elsewhere. kept: labels that may be kept so.
+void KeepLabelsOfAllFrames(const std::vector<std::string>& labels,
+                           const std::set<std::string>& kept, Labelling* labelling);
 
 }  // namespace mmm_converter

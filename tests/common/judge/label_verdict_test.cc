@@ -34,7 +34,9 @@ Case MakeCase(int points, int found, int names, double probability = 1) {
 }
 
 Verdict Judge(const Case& judged, double distance = kNear, bool is_calibrated = true) {
-  return JudgeLabels({judged.recording, judged.labelling, distance, is_calibrated});
+  LabelFit fit;
+  fit.mean_distance = distance;
+  return JudgeLabels({judged.recording, judged.labelling, fit, is_calibrated});
 }
 
 TEST(LabelVerdict, IsGoodWhereEveryNameIsSurelyFound) {
@@ -59,6 +61,30 @@ TEST(LabelVerdict, KnowsADistanceByWhoIsCalibrated) {
   EXPECT_EQ(Judge(right, 0.04, false).level, Verdict::Level::kGood);
   EXPECT_EQ(Judge(right, 0.04, true).level, Verdict::Level::kCheck);
   EXPECT_EQ(Judge(right, 0.2, false).level, Verdict::Level::kFailed);
+}
+
+TEST(LabelVerdict, SeesWhatAMeanDistanceHides) {
+  const Case right = MakeCase(4, 4, 4);
+  const auto judge = [&](const LabelFit& fit) {
+    return JudgeLabels({right.recording, right.labelling, fit, false, 1.75});
+  };
+  LabelFit fit{0.04, 0.1, 0.15, {}, 1.78};
+  EXPECT_EQ(judge(fit).level, Verdict::Level::kGood);
+  fit.p95_distance = 0.5;
+  EXPECT_EQ(judge(fit).level, Verdict::Level::kFailed);
+  fit = {0.04, 0.1, 0.5, {"N1", "N3"}, 1.78};
+  EXPECT_EQ(judge(fit).level, Verdict::Level::kCheck);
+  EXPECT_THAT(judge(fit).reasons, ElementsAre(HasSubstr("N1, N3; are the points")));
+  fit.farthest = 1.2;
+  EXPECT_EQ(judge(fit).level, Verdict::Level::kFailed);
+}
+
+TEST(LabelVerdict, SaysByWhichScaleThePointsFit) {
+  const Case right = MakeCase(4, 4, 4);
+  const LabelFit fit{0.04, 0.1, 0.15, {}, 1.3 * 1.75};
+  const Verdict verdict = JudgeLabels({right.recording, right.labelling, fit, false, 1.75});
+  EXPECT_EQ(verdict.level, Verdict::Level::kFailed);
+  EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr("2.27 m, 1.30 times the height of 1.75 m")));
 }
 
 TEST(LabelVerdict, AddsUpHowSureNamesAre) {

@@ -210,6 +210,17 @@ TEST(LearnMarkersTest, NothingIsSeen) {
   EXPECT_THROW(Learn(kWearerHeight, recording), Error);
 }
 
+TEST(LearnMarkersTest, NoiseIsNobody) {
+  SeededRandom random(5);
+  std::vector<std::string> labels;
+  for (int i = 0; i < 40; ++i) labels.push_back("m" + std::to_string(i));
+  MarkerSequence recording(labels, 60, 10, 0);
+  for (int k = 0; k < recording.num_frames(); ++k) {
+    for (double& x : recording.frame(k).reshaped()) x = 2 * random.Uniform();
+  }
+  EXPECT_THROW(Learn(kWearerHeight, recording), Error);
+}
+
 TEST(LearnMarkersTest, TooManyLabelsAreAnErrorAtOnce) {
   std::vector<std::string> labels;
   for (int i = 0; i < 65535; ++i) labels.push_back("m" + std::to_string(i));

@@ -58,6 +58,13 @@ TEST(SceneStartTest, NoiseAndTooFewPointsAreErrors) {
   EXPECT_THROW(FindScene({&made.body}, {noise}), Error);
   EXPECT_THROW(FindScene({&made.body}, {made.PointsAt(0).leftCols(9)}), Error);
   EXPECT_THROW(FindScene({&made.body}, {}), Error);
+  int frames = 0;
+  const auto stop = [&] {
+    if (++frames == 2) throw Error("enough");
+  };
+  EXPECT_THROW(
+      FindScene({&made.body}, {made.PointsAt(0), made.PointsAt(1), made.PointsAt(2)}, stop), Error);
+  EXPECT_EQ(frames, 2);
 }
 
 }  // namespace

@@ -120,10 +120,17 @@ TEST(KeepLabelsOfAllFrames, AsFarAsTheNamesAreFree) {
       {Piece(0, 0, 9, 1), Piece(1, 0, 9, 0), Piece(2, 0, 4, 2), Piece(2, 4, 9, 3),
        Piece(3, 0, 4, 3), Piece(3, 4, 9, 2), Piece(4, 0, 9, -1), Piece(5, 0, 9, -1),
        Piece(6, 0, 4, 6), Piece(6, 4, 9, 5)}};
-  KeepLabelsOfAllFrames(labels, &labelling);
-  std::vector<int> names;
-  for (const NamedPiece& piece : labelling.pieces) names.push_back(piece.name);
-  EXPECT_EQ(names, (std::vector<int>{0, 1, 2, 3, 3, 2, 4, -1, 6, 5}));
+  const auto names_keeping = [&](const std::set<std::string>& kept) {
+    Labelling own = labelling;
+    KeepLabelsOfAllFrames(labels, kept, &own);
+    std::vector<int> names;
+    for (const NamedPiece& piece : own.pieces) names.push_back(piece.name);
+    return names;
+  };
+  EXPECT_EQ(names_keeping({labels.begin(), labels.end()}),
+            (std::vector<int>{0, 1, 2, 3, 3, 2, 4, -1, 6, 5}));
+  EXPECT_EQ(names_keeping({"a", "e"}), (std::vector<int>{1, 0, 2, 3, 3, 2, 4, -1, 6, 5}))
+      << "the name of a is another point's";
 }
 
 }  // namespace
