@@ -10,6 +10,7 @@
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
+#include "common/calibrate/joint_doubts.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -83,6 +84,24 @@ std::string UndeterminedNames(const Subject& subject) {
   return JoinLargest(std::move(names), "nothing");
 }
 
+std::string CalibrationLine(const std::string& name, const std::string& text) {
+  return fmt::format("{:<{}}{}\n", name, kCalibrationLineStart, text);
+}
+
+// Nothing, or a line.
+std::string DoubtsLine(const Subject& subject) {
+  std::vector<std::string> texts = DescribeDoubts(subject.joints);
+  if (texts.empty()) return "";
+  if (texts.size() > kNamesShown) {
+    const std::size_t more = texts.size() - kNamesShown;
+    texts.resize(kNamesShown);
+    texts.push_back(fmt::format("{} more", more));
+  }
+  return CalibrationLine("not apart", JoinNames(texts, "; ") +
+                                          ": angles may be off by that in all "
+                                          "frames; more movement tells them apart");
+}
+
 double MeanOffset(const Subject& subject) {
   double sum = 0;
   for (const MarkerOffset& offset : subject.offsets) sum += offset.offset.norm();
@@ -97,10 +116,6 @@ int FramesTaken(const Subject& subject, const std::string& file) {
   return 0;
 }
 
-std::string CalibrationLine(const std::string& name, const std::string& text) {
-  return fmt::format("{:<{}}{}\n", name, kCalibrationLineStart, text);
-}
-
 }  // namespace
 
 std::string FormatSubjectSummary(const Subject& subject) {
@@ -109,7 +124,8 @@ std::string FormatSubjectSummary(const Subject& subject) {
                          fmt::format("mean {:.1f} mm; largest: {}",
                                      kMillimetres * MeanOffset(subject), MovedMarkers(subject))) +
          CalibrationLine("unknown", UndeterminedNames(subject) +
-                                        " (half or more of it is what was assumed beforehand)");
+                                        " (half or more of it is what was assumed beforehand)") +
+         DoubtsLine(subject);
 }
 
 std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file) {

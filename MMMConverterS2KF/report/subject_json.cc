@@ -48,6 +48,12 @@ Json ToJson(const Subject& subject) {
          {"frames", offset.frames},
          {"observability", ObservabilityJson(Deviation(offset), offset.prior_deviation)}});
   }
+  Json joints = Json::array();
+  for (const JointDoubt& doubt : subject.joints) {
+    joints.push_back({{"name", doubt.joint},
+                      {"deviation_deg", Decimals(kDegrees * doubt.deviation)},
+                      {"with", doubt.partners}});
+  }
   Json sources = Json::array();
   for (const SubjectSource& source : subject.sources) {
     sources.push_back({{"recording", source.recording}, {"frames", source.frames}});
@@ -59,6 +65,7 @@ Json ToJson(const Subject& subject) {
   if (subject.hand_length) json["hand_length_m"] = Decimals(*subject.hand_length);
   json["segments"] = std::move(segments);
   json["markers"] = std::move(markers);
+  json["joints"] = std::move(joints);
   json["sources"] = std::move(sources);
   return json;
 }

@@ -226,6 +226,12 @@ Body BodyFit::Deviations(BodyFitResult* result) {
     result->common_deviation =
         std::sqrt(common.variance + common.weights.dot(P.bottomRightCorner(n, n) * common.weights));
   }
+  result->joint_slopes.setZero(static_cast<Eigen::Index>(kinematics_.joints().size()), P.cols());
+  for (const FrameEquations& frame : equations_) {
+    result->joint_slopes += frame.Slopes().bottomRows(result->joint_slopes.rows()) /
+                            static_cast<double>(equations_.size());
+  }
+  result->covariance = P;
   const VectorXd deviations = P.diagonal().cwiseMax(0).cwiseSqrt();
   return {deviations.tail(body_.scales.size()),
           deviations.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize)};

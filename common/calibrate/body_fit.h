@@ -15,6 +15,9 @@ struct BodyFitResult {
   int iterations = 0;
   bool converged = false;
   Body deviations;  ///< standard deviations of the body, postures being unknown too
+  /// The body's covariance, as BodyEquations order it, and how the joints' angles follow the body
+  /// on average over the frames, joints x body.
+  Eigen::MatrixXd covariance, joint_slopes;
   Eigen::VectorXd prior_scale_deviations;  ///< of the scales before any recording
   /// What all scales have in common beyond 1, and its standard deviation, where the height is a
   /// guess; else 0.

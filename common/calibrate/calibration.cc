@@ -10,8 +10,10 @@
 #include "common/calibrate/body_fit.h"
 #include "common/calibrate/body_kinematics.h"
 #include "common/calibrate/calibration_frames.h"
+#include "common/calibrate/joint_doubts.h"
 #include "common/math/statistics.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 
@@ -34,8 +36,6 @@ constexpr double kFarOffset = 0.2;
 // So many markers of a recording that are this far from their place in all were attached again [m].
 constexpr double kMovedMarker = 0.005;
 constexpr double kMovedShare = 0.25;
-
-constexpr double kDegrees = 57.29577951308232;
 
 std::string Advice() {
   return "record some ten seconds in which shoulders, elbows, spine, hips and knees bend, most "
@@ -139,6 +139,7 @@ Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const Bo
     offset.frames = static_cast<int>(seen);
     subject.offsets.push_back(offset);
   }
+  subject.joints = FindJointDoubts(kinematics, fit);
   return subject;
 }
 

@@ -153,6 +153,12 @@ void FrameEquations::Eliminate(double damping, BodyEquations* body) {
   body->g -= eliminated_.view().lazyProduct(solved);
 }
 
+Eigen::MatrixXd FrameEquations::Slopes() const {
+  Eigen::MatrixXd slopes = -eliminated_.view().transpose();
+  factor_.view().transpose().triangularView<Eigen::Upper>().solveInPlace(slopes);
+  return slopes;
+}
+
 const VectorXd& FrameEquations::Step(const VectorXd& body_step, const Posture& posture,
                                      double damping, NormalEquations* solver) {
   // Each solve can push another joint over its limit.

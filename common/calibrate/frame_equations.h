@@ -43,6 +43,9 @@ class FrameEquations {
   /// equations times 1 + damping. Joints that press on a limit stay.
   void Eliminate(double damping, BodyEquations* body);
 
+  /// After Eliminate without damping: how the posture follows a change of the body, posture x body.
+  Eigen::MatrixXd Slopes() const;
+
   /// The posture's step after Eliminate, for a step of the body. Where that would take joints over
   /// their limits, the best step that ends on these. solver: scratch for that.
   const Eigen::VectorXd& Step(const Eigen::VectorXd& body_step, const Posture& posture,

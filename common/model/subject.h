@@ -34,6 +34,15 @@ struct MarkerOffset {
   int frames = 0;             ///< that showed the marker
 };
 
+/// A joint whose angle errs with the body that was estimated: by the same in all frames, whatever
+/// is tracked with it.
+struct JointDoubt {
+  std::string joint;
+  double deviation = 0;  ///< of that error [rad]
+  /// Markers and segments that err with it, as the recordings did not tell them apart; most first.
+  std::vector<std::string> partners;
+};
+
 /// A recording that a subject was calibrated on.
 struct SubjectSource {
   std::string recording;
@@ -50,6 +59,7 @@ struct Subject {
   std::optional<double> hand_length;  ///< [m]
   std::vector<SegmentScale> scales;   ///< segments that are not named keep 1
   std::vector<MarkerOffset> offsets;  ///< markers that are not named keep 0
+  std::vector<JointDoubt> joints;     ///< those whose error is worth telling
   std::vector<SubjectSource> sources;
 };
 

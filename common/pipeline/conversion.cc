@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/calibrate/joint_doubts.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/judge/conversion_verdict.h"
@@ -211,6 +212,7 @@ ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int
   const WarningContext context(&report.warnings, recording.file, recording.motion());
   if (report.plan.self_calibrates) SelfCalibrate(progress, &report);
   report.result = Track(report.plan, progress);
+  if (report.plan.person.subject) WidenDeviations(*report.plan.person.subject, &report.result);
   if (report.plan.object) {
     WarnOfUnknownTurns(report.plan.input, report.plan.setup.mapping, report.result.residuals,
                        &report.warnings);

@@ -47,6 +47,7 @@ TEST(SubjectSchema, AgreesWithTheReader) {
   for (const std::string& xml :
        {subject(""), subject("<Markers/><Segments/>"), subject(marker + "500'/></Markers>"),
         subject(segment + "0.5' observability='?'/></Segments>"),
+        subject("<Joints><Joint name='knee' deviation_deg='4' with='MARKER_A hip'/></Joints>"),
         subject("<Provenance><Recording frames='0'/></Provenance>")}) {
     EXPECT_TRUE(testing::IsValidText(kSubjectSchema, xml)) << xml;
     EXPECT_TRUE(IsReadableSubject(xml)) << xml;
@@ -56,7 +57,8 @@ TEST(SubjectSchema, AgreesWithTheReader) {
         std::string("<Subject model='stick' height_m='2.6' mass_kg='70'/>"),
         std::string("<Subject model='stick' height_m='1.7' mass_kg='0'/>"),
         std::string("<Subject model='stick' height_m='1.7' mass_kg='70' hand_length_mm='18'/>"),
-        subject("<Bones/>"), subject("<Markers/><Markers/>"), subject(marker + "501'/></Markers>"),
+        subject("<Bones/>"), subject("<Joints><Joint name='knee' deviation_deg='181'/></Joints>"),
+        subject("<Markers/><Markers/>"), subject(marker + "501'/></Markers>"),
         subject(marker + "nan'/></Markers>"), subject(marker + "1' frames='1.5'/></Markers>"),
         subject(marker + "1' xDeviation_mm='-1'/></Markers>"),
         subject(segment + "2.1'/></Segments>"), subject(segment + "1' mass='1'/></Segments>"),

@@ -2,12 +2,14 @@
 #include "common/io/mmm/subject_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/xml/xml_document.h"
@@ -26,6 +28,7 @@ constexpr std::size_t kMaxSubjectBytes = std::size_t{8} << 20;
 constexpr double kMillimetre = 1e-3;
 constexpr int kDecimals = 6;
 constexpr double kLargestDeviation = 1;
+constexpr double kMostTurn = 180 / kDegrees;  // [rad]
 
 /// What an attribute may be, in SI units, and the factor from its own unit.
 struct NumberRange {
@@ -41,6 +44,7 @@ class SubjectReader {
       : root_(root), model_(model), leaves_others_(leaves_others), diagnostics_(file) {
     for (const Segment& segment : model.segments()) segments_.push_back(segment.name);
     for (const ModelMarker& marker : model.markers()) markers_.push_back(marker.name);
+    for (int j = 0; j < model.num_joints(); ++j) joints_.push_back(model.joint(j).name);
   }
 
   Subject Read() {
@@ -58,11 +62,13 @@ class SubjectReader {
         ForEach(child, "Segment", [this](const XmlElement& one) { ReadScale(one); });
       } else if (child.name == "Markers") {
         ForEach(child, "Marker", [this](const XmlElement& one) { ReadOffset(one); });
+      } else if (child.name == "Joints") {
+        ForEach(child, "Joint", [this](const XmlElement& one) { ReadDoubt(one); });
       } else if (child.name == "Provenance") {
         AllowAttributes(child, {"program"});
         ForEach(child, "Recording", [this](const XmlElement& one) { ReadSource(one); });
       } else {
-        Fail(child, "use Segments, Markers or Provenance; there is no such element");
+        Fail(child, "use Segments, Markers, Joints or Provenance; there is no such element");
       }
     }
     diagnostics_.ThrowIfErrors();
@@ -123,6 +129,18 @@ class SubjectReader {
     offset.skin_deviation = Number(element, "skinDeviation_mm", deviation).value_or(0);
     offset.frames = Frames(element);
     subject_.offsets.push_back(std::move(offset));
+  }
+
+  void ReadDoubt(const XmlElement& element) {
+    AllowAttributes(element, {"name", "deviation_deg", "with"});
+    JointDoubt doubt;
+    doubt.joint = KnownName(element, joints_, &joint_lines_);
+    doubt.deviation = Needed(element, "deviation_deg", {0, kMostTurn, 1 / kDegrees});
+    if (const std::string* with = element.FindAttribute("with")) {
+      std::istringstream words(*with);
+      for (std::string word; words >> word;) doubt.partners.push_back(word);
+    }
+    subject_.joints.push_back(std::move(doubt));
   }
 
   void ReadSource(const XmlElement& element) {
@@ -210,8 +228,8 @@ class SubjectReader {
   const KinematicModel& model_;
   const bool leaves_others_;
   Diagnostics diagnostics_;
-  std::vector<std::string> segments_, markers_;
-  std::map<std::string, int> segment_lines_, marker_lines_;
+  std::vector<std::string> segments_, markers_, joints_;
+  std::map<std::string, int> segment_lines_, marker_lines_, joint_lines_;
   Subject subject_;
 };
 
@@ -253,6 +271,16 @@ std::string FormatOffset(const MarkerOffset& offset) {
          ObservabilityAttribute(Deviation(offset), offset.prior_deviation) + "/>\n";
 }
 
+std::string FormatDoubt(const JointDoubt& doubt) {
+  return "    <Joint" + Name(doubt.joint) +
+         Attribute("deviation_deg", kDegrees * doubt.deviation, 2) +
+         (doubt.partners.empty()
+              ? ""
+              : fmt::format(" with=\"{}\"",
+                            EscapeXml(fmt::format("{}", fmt::join(doubt.partners, " "))))) +
+         "/>\n";
+}
+
 }  // namespace
 
 std::string FormatSubject(const Subject& subject, const std::string& program) {
@@ -262,7 +290,9 @@ std::string FormatSubject(const Subject& subject, const std::string& program) {
       "scaled "
       "by height.\n     x_mm, y_mm, z_mm: where a marker sits, from the scaled model's place, in "
       "axes of its segment.\n     observability: the share of what was assumed beforehand that the "
-      "recordings replaced. -->\n"
+      "recordings replaced.\n     Joints: the deviation of an error that is the same in all "
+      "frames, "
+      "and what errs with it. -->\n"
       "<Subject{} model=\"{}\"",
       Name(subject.name), EscapeXml(subject.model));
   text += Attribute("height_m", subject.height) + Attribute("mass_kg", subject.mass);
@@ -271,7 +301,13 @@ std::string FormatSubject(const Subject& subject, const std::string& program) {
   for (const SegmentScale& scale : subject.scales) text += FormatScale(scale);
   text += "  </Segments>\n  <Markers>\n";
   for (const MarkerOffset& offset : subject.offsets) text += FormatOffset(offset);
-  text += fmt::format("  </Markers>\n  <Provenance program=\"{}\">\n", EscapeXml(program));
+  text += "  </Markers>\n";
+  if (!subject.joints.empty()) {
+    text += "  <Joints>\n";
+    for (const JointDoubt& doubt : subject.joints) text += FormatDoubt(doubt);
+    text += "  </Joints>\n";
+  }
+  text += fmt::format("  <Provenance program=\"{}\">\n", EscapeXml(program));
   for (const SubjectSource& source : subject.sources) {
     text +=
         fmt::format("    <Recording{} frames=\"{}\"/>\n", Name(source.recording), source.frames);

@@ -62,6 +62,32 @@ TEST(FrameEquations, GradientIsThatOfTheCost) {
   EXPECT_EQ(body.g.segment<3>(9).norm(), 0) << "a marker that is not seen says nothing";
 }
 
+TEST(FrameEquations, SlopesAreHowAPostureFollowsTheBody) {
+  const KinematicModel model = testing::ScaledReferenceModel(1.7);
+  BodyKinematics kinematics(model, testing::TrackedJoints(model), AllMarkers(model));
+  std::mt19937 random(4);
+  const Posture posture = testing::RandomPosture(kinematics.kinematics(), 0.5, &random);
+  BodyJacobian at = kinematics.MakeJacobian();
+  kinematics.Compute(posture, &at);
+  FrameEquations equations(kinematics, at.posture.p_WM,
+                           Eigen::VectorXd::Constant(at.posture.p_WM.cols(), 0.005), 1);
+  BodyEquations body(kinematics);
+  equations.Cost(kinematics, posture);
+  NormalEquations solver(kinematics.kinematics());
+  const auto step_at = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
+    equations.Linearize(kinematics, posture, &body);
+    equations.Eliminate(0, &body);
+    return equations.Step(change, posture, 0, &solver);
+  };
+  const Eigen::VectorXd none = step_at(Eigen::VectorXd::Zero(body.size()));
+  const Eigen::MatrixXd slopes = equations.Slopes();
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(body.size());
+  for (double& x : change) x = 1e-5 * ((random() % 100) / 50.0 - 1);
+  // Linear, but for rounding.
+  EXPECT_LT((step_at(change) - none - slopes * change).norm(), 1e-10);
+  EXPECT_GT((slopes * change).norm(), 1e-6);
+}
+
 /// Frames of a range-of-motion trial, with the postures that the model finds in them.
 std::vector<CalibrationFrame> Frames(const KinematicModel& model, const KinematicModel& person,
                                      int count) {

@@ -36,6 +36,7 @@ Subject FullSubject() {
   offset.skin_deviation = 0.0015;
   offset.frames = 117;
   subject.offsets = {offset};
+  subject.joints = {{"knee", 0.1, {"MARKER_C", "hip"}}, {"hip", 0.03, {}}};
   subject.sources = {{"Cut_1723.c3d", 60}, {"Peel_1723.c3d", 57}};
   return subject;
 }
@@ -68,6 +69,11 @@ TEST(SubjectFile, IsReadAsWritten) {
   EXPECT_DOUBLE_EQ(offset.prior_deviation, 0.04);
   EXPECT_DOUBLE_EQ(offset.skin_deviation, 0.0015);
   EXPECT_EQ(offset.frames, 117);
+  ASSERT_THAT(read.joints, SizeIs(2));
+  EXPECT_EQ(read.joints[0].joint, "knee");
+  EXPECT_NEAR(read.joints[0].deviation, 0.1, 1e-4) << "hundredths of a degree are written";
+  EXPECT_EQ(read.joints[0].partners, written.joints[0].partners);
+  EXPECT_TRUE(read.joints[1].partners.empty());
   ASSERT_THAT(read.sources, SizeIs(2));
   EXPECT_EQ(read.sources[1].recording, "Peel_1723.c3d");
   EXPECT_EQ(read.sources[1].frames, 57);
@@ -136,7 +142,7 @@ TEST(SubjectFile, AllErrorsAreSaidWithTheirLines) {
           HasSubstr("s.xml:14: <Marker>: xDeviation_mm=\"-1\" is not allowed"),
           HasSubstr("s.xml:14: <Marker>: frames=\"2.5\" is not allowed; use a whole number from 0"),
           HasSubstr("s.xml:16: <Segments>: Segments is already in line 2"),
-          HasSubstr("s.xml:17: <Shoes>: use Segments, Markers or Provenance"))));
+          HasSubstr("s.xml:17: <Shoes>: use Segments, Markers, Joints or Provenance"))));
 }
 
 TEST(SubjectFile, RefusesImpossiblePersonsAndOtherModels) {
