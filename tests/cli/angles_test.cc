@@ -18,6 +18,7 @@
 namespace mmm_converter {
 namespace {
 
+using testing::ReadText;
 using testing::RunProgram;
 using testing::SharedData;
 using testing::TestFolder;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "common/kinetics/joint_forces.h"
@@ -57,7 +58,7 @@ struct MadeWalker {
     for (int k = 0; k < kFrames; ++k) {
       const double t = k / kRate;
       const auto wave = [t](double size, double phase) {
-        return size * std::sin(2 * EIGEN_PI * t + phase);
+        return size * std::sin(2 * std::numbers::pi * t + phase);
       };
       Posture posture = ZeroPosture(model);
       posture.position = {0.2 * t, wave(0.02, 1), 0.85 + wave(0.02, 2)};
