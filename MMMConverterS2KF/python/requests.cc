@@ -99,7 +99,13 @@ void ReadKeywords(const py::dict& options, const std::vector<Option>& table) {
     const char* const name = option.names.keyword;
     if (*name == 0 || !options.contains(name) || options[name].is_none()) continue;
     const py::object value = options[name];
-    const std::vector<std::string> texts = TextsOfValue(value, option);
+    std::vector<std::string> texts;
+    try {
+      texts = TextsOfValue(value, option);
+    } catch (const py::cast_error&) {
+      throw py::type_error(fmt::format("{}: {} is not allowed; it is {}", name,
+                                       py::repr(value).cast<std::string>(), TypeOf(option).words));
+    }
     const std::string expected = SetOption(option, texts);
     if (expected.empty()) continue;
     throw Error(fmt::format("{}: {} is not allowed; {}", name, py::repr(value).cast<std::string>(),

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Conversions beside those of the program, to the last bit."""
+import concurrent.futures
+import copy
 import json
+import multiprocessing
 import os
 import signal
 import threading
@@ -19,6 +22,10 @@ def without_times(summary):
     for name in ("ms_per_frame", "output", "seconds"):
         summary.pop(name, None)
     return summary
+
+
+def convert_part(frames):
+    return mmmconverter.convert(SAMPLE, height=1.8, frames=frames, progress=False)
 
 
 class Conversions(Case):
@@ -71,6 +78,44 @@ class Conversions(Case):
                                       angles.values[:, angles.names.index("left knee flexion")])
         with self.assertRaisesRegex(KeyError, "left knee flexion"):
             angles["knee"]
+        self.assertEqual(list(angles.to_dataframe().columns), angles.names)
+        import matplotlib
+        matplotlib.use("Agg")
+        axes = angles.plot("knee flexion")
+        self.assertEqual([line.get_label() for line in axes.get_lines()], ["left", "right"])
+        np.testing.assert_array_equal(axes.get_lines()[0].get_ydata(), angles["left knee flexion"])
+
+    def test_comes_back_from_a_process_pool(self):
+        with concurrent.futures.ProcessPoolExecutor(4, multiprocessing.get_context("spawn")) as pool:
+            results = list(pool.map(convert_part, [(0, 20), (20, 40), (40, 60), (60, 80)]))
+        whole = mmmconverter.convert(SAMPLE, height=1.8, frames=range(0, 20), progress=False)
+        for name in ("joints", "sd", "root_positions", "residuals", "times"):
+            np.testing.assert_array_equal(getattr(results[0], name), getattr(whole, name))
+        self.assertEqual(results[0].angles.names, whole.angles.names)
+        self.assertEqual([len(one) for one in results], [20] * 4)
+        again = copy.deepcopy(whole)
+        np.testing.assert_array_equal(again.joints, whole.joints)
+        with self.assertRaisesRegex(mmmconverter.Error, "before it is copied"):
+            again.save(self.folder / "copy.xml")
+
+    def test_errors_are_pythons(self):
+        recording = mmmconverter.read(SAMPLE)
+        for wrong, error, words in (
+                (lambda: mmmconverter.convert(self.folder / "absent.c3d"), FileNotFoundError, "no such file"),
+                (lambda: mmmconverter.read(self.folder / "absent.c3d"), FileNotFoundError, "no such file"),
+                (lambda: mmmconverter.convert(recording, unit="mm"), ValueError, "give it to read"),
+                (lambda: mmmconverter.convert(SAMPLE, height=[1]), TypeError, r"height: \[1\].*float"),
+                (lambda: mmmconverter.convert(SAMPLE, frames=range(0, 20, 2)), ValueError, "without a step"),
+                (lambda: mmmconverter.Recording.from_arrays(["a", "b"], 1000 * np.arange(6).reshape(1, 2, 3), 100),
+                 ValueError, "millimetres")):
+            with self.assertRaisesRegex(error, words):
+                wrong()
+        result = mmmconverter.convert(recording, height=1.8, frames=slice(0, 5), progress=False)
+        with self.assertRaisesRegex(ValueError, r"\.xlsx: no motion.*\.xml"):
+            result.save(self.folder / "motion.xlsx")
+        self.assertFalse((self.folder / "motion.xlsx").exists())
+        self.assertLessEqual({"verdict", "joints", "angles"}, set(dir(result)))
+        self.assertLessEqual({"labels", "markers"}, set(dir(recording)))
 
     def test_smoothed_and_of_a_part(self):
         result = self.expect_the_programs(

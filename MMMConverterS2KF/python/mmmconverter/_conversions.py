@@ -13,7 +13,7 @@ from . import _mmmconverter
 from ._angles import Angles
 from ._models import Model
 from ._options import with_options
-from ._present import Presented, path_text
+from ._present import Kept, Presented, WrongValue, input_text, of_raw, path_text
 from ._progress import shown
 from ._recordings import Recording, keywords
 from ._stills import draw_stills, still_frames
@@ -71,10 +71,15 @@ class Conversion(Presented):
         self._raw = raw
         self._source = source
 
-    def __getattr__(self, name):
-        if name in ("rate", "verdict", "reasons", "warnings", "text"):
-            return getattr(self._raw, name)
-        raise AttributeError(name)
+    rate, verdict, reasons, warnings, text = map(
+        of_raw, ("rate", "verdict", "reasons", "warnings", "text"))
+
+    def __getstate__(self):
+        """For pickle and copies: all numbers. A copy has no model, and writes nothing."""
+        names = ("rate", "verdict", "reasons", "warnings", "text", "times", "joint_names", "postures", "sd",
+                 "velocities", "accelerations", "residuals", "covariances", "marker_labels", "incidents",
+                 "frames", "angles", "summary")
+        return {"_source": self._source, "_raw": Kept({name: getattr(self._raw, name) for name in names})}
 
     # What is computed or copied once.
     times = functools.cached_property(lambda self: self._raw.times)
@@ -110,8 +115,9 @@ class Conversion(Presented):
     def save(self, file) -> None:
         """Writes the motion, or what the ending of the file's name says.
 
-        .xml and others: an MMM motion, the bytes that ``convert -o`` writes; .csv, .trc, .mot, .npz
-        and .bvh: what ``--export-csv``, ..., ``--export-poses`` and ``--export-bvh`` write.
+        .xml, or no ending: an MMM motion, the bytes that ``convert -o`` writes; .csv, .trc, .mot, .npz
+        and .bvh: what ``--export-csv``, ..., ``--export-poses`` and ``--export-bvh`` write. Another
+        ending is an error.
         """
         file = path_text(file)
         ending = os.path.splitext(file)[1].lower()[1:]
@@ -119,6 +125,9 @@ class Conversion(Presented):
             if ending == of_files:
                 self._raw.export(name, file)
                 return
+        if ending not in ("", "xml", "mmm"):
+            known = sorted({"xml"} | {of_files for _, of_files in _mmmconverter.exporters()})
+            raise WrongValue(f"{file}: no motion is called so; its name may end with .{', .'.join(known)}")
         self._raw.save(file)
 
     def report(self, file) -> None:
@@ -186,9 +195,14 @@ def convert(recording, *, progress: Union[Callable[[int, int], None], bool, None
     >>> result.root_positions.shape, result.velocities.shape
     ((60, 3), (60, 50))
     """
-    source = recording.file if isinstance(recording, Recording) else path_text(recording)
+    source = recording.file if isinstance(recording, Recording) else input_text(recording)
     options = keywords(options, file=source)
     raw = recording._raw if isinstance(recording, Recording) else None
+    if raw is not None:
+        was_read = recording._options or {}
+        for name, *_ in _mmmconverter.options("read"):
+            if name in options and options[name] != was_read.get(name):
+                raise WrongValue(f"{name}: the recording was read without it; give it to read()")
     if raw is not None and recording._options is not None:
         options = {**recording._options, **options}
     with shown(progress, "frames") as callback:

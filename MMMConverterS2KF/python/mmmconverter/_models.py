@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _mmmconverter
 from ._options import with_options
-from ._present import Presented, given, path_text
+from ._present import Presented, given, in_metres, of_raw, path_text
 from ._recordings import keywords
 
 if TYPE_CHECKING:
@@ -55,11 +55,8 @@ class Model(Presented):
     def __init__(self, raw):
         self._raw = raw
 
-    def __getattr__(self, name):
-        if name in ("file", "name", "segments", "parents", "markers", "joint_names", "limits", "mass",
-                    "height"):
-            return getattr(self._raw, name)
-        raise AttributeError(name)
+    file, name, segments, parents, markers, joint_names, limits, mass, height = map(of_raw, (
+        "file", "name", "segments", "parents", "markers", "joint_names", "limits", "mass", "height"))
 
     def forward(self, root_positions: Any, root_quaternions: Any = None, joints: Any = None,
                 joint_names: Optional[Sequence[str]] = None) -> Poses:
@@ -239,7 +236,7 @@ class Tracker(Presented):
 
     def assemble(self, frame: Any) -> Estimate:
         """The posture of a first frame, from nothing. frame: shape (labels, 3), metres, NaN: not seen."""
-        return Estimate(joint_names=self.joint_names, **self._raw.assemble(frame))
+        return Estimate(joint_names=self.joint_names, **self._raw.assemble(in_metres(frame)))
 
     def track(self, frame: Any, dt: float) -> Estimate:
         """The posture `dt` seconds after the last frame; any number of markers may be unseen."""

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _mmmconverter
 from ._options import with_options
-from ._present import Presented, given, path_text
+from ._present import Presented, WrongValue, given, in_metres, input_text, of_raw, path_text
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -67,11 +67,13 @@ class Recording(Presented):
         self._raw = raw
         self._options = options
 
-    def __getattr__(self, name):
-        if name in ("labels", "rate", "first_time", "markers", "file", "format", "unit", "up_axis",
-                    "motion", "subjects", "height", "mass", "warnings"):
-            return getattr(self._raw, name)
-        raise AttributeError(name)
+    labels, rate, first_time, markers, file, format, unit, up_axis, motion, subjects, height, mass, warnings = map(
+        of_raw, ("labels", "rate", "first_time", "markers", "file", "format", "unit", "up_axis", "motion",
+                 "subjects", "height", "mass", "warnings"))
+
+    def __reduce__(self):
+        """For pickle and copies: labels and markers."""
+        return _again, (self.labels, np.array(self.markers), self.rate, self.first_time, self.file)
 
     # What is read once.
     events = functools.cached_property(lambda self: self._raw.events)
@@ -103,7 +105,7 @@ class Recording(Presented):
         >>> Recording.from_arrays(["C7", "T10"], np.zeros((5, 2, 3)), 100).markers.shape
         (5, 2, 3)
         """
-        return cls(_mmmconverter.from_arrays(list(labels), markers, rate, first_time, name), None)
+        return cls(_mmmconverter.from_arrays(list(labels), in_metres(markers), rate, first_time, name), None)
 
     @property
     def times(self) -> np.ndarray:
@@ -121,6 +123,10 @@ class Recording(Presented):
         return [("recording", os.path.basename(self.file)), ("frames", len(self)),
                 ("markers", len(self.labels)), ("rate", f"{self.rate:g} Hz"),
                 ("format", self.format)]
+
+
+def _again(labels, markers, rate, first_time, name):
+    return Recording.from_arrays(labels, markers, rate, first_time, name)
 
 
 @with_options("read")
@@ -152,7 +158,7 @@ def read(file, *, with_unlabelled: bool = False, **options: Unpack[ReadOptions])
     >>> recording.labels[:3]
     ['L3', 'STRN', 'T10']
     """
-    options = keywords(options, file=path_text(file))
+    options = keywords(options, file=input_text(file))
     raw = _mmmconverter.read(dict(options, with_unlabelled=with_unlabelled))
     return Recording(raw, options)
 
@@ -212,7 +218,7 @@ def read_motions(file) -> "list[Motion]":
     >>> [motion.name for motion in read_motions("examples/handstand_true.xml")]
     ['synthetic_subject']
     """
-    return [Motion(**one) for one in _mmmconverter.read_motions(path_text(file))]
+    return [Motion(**one) for one in _mmmconverter.read_motions(input_text(file))]
 
 
 def read_motion(file, motion: Optional[str] = None) -> Motion:
@@ -253,11 +259,9 @@ class Subject(Presented):
         self._write = write
         self._folder = None
 
-    def __getattr__(self, name):
-        names = {"name": "name", "height": "height_m", "mass": "mass_kg"}
-        if name not in names or names[name] not in self.data:
-            raise AttributeError(name)
-        return self.data[names[name]]
+    name = property(lambda self: self.data["name"])
+    height = property(lambda self: self.data["height_m"])
+    mass = property(lambda self: self.data["mass_kg"])
 
     def _as_file(self):
         if self.file is not None:
@@ -277,7 +281,7 @@ def read_subject(file, model=None) -> Subject:
     """A subject that `calibrate` wrote. model: its `Model`, where that is not the shipped one."""
     from ._models import read_model
     reference = model if model is not None else read_model()
-    data = _mmmconverter.read_subject(path_text(file), reference._raw)
+    data = _mmmconverter.read_subject(input_text(file), reference._raw)
     return Subject(data, path_text(file))
 
 
@@ -292,6 +296,11 @@ def subject_file(subject):
 def keywords(options, **more):
     """What was given, as the compiled part takes it."""
     found = given(**options, **more)
+    if isinstance(found.get("frames"), (slice, range)):
+        frames = found["frames"]
+        if frames.step not in (None, 1):
+            raise WrongValue("frames: all frames between two are taken, without a step")
+        found["frames"] = (frames.start, frames.stop)
     if "subject" in found:
         found["subject"] = subject_file(found["subject"])
     if "and_subjects" in found:
@@ -304,7 +313,7 @@ def keywords(options, **more):
 def input_options(recording, what):
     """The options that read a recording again. what: for the message."""
     if not isinstance(recording, Recording):
-        return {"file": path_text(recording)}
+        return {"file": input_text(recording)}
     if recording._options is None:
         raise _mmmconverter.Error(
             f"{what}: reads its recordings from files; save() this one and name its file")

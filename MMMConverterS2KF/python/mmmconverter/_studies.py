@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Callable, Optional, Sequence, Union
 
 from . import _mmmconverter
 from ._options import with_options
-from ._present import Presented, given, path_text
+from ._present import Presented, given, input_text, path_text
 from ._progress import shown
 from ._recordings import Recording, Subject, input_options, keywords
 
@@ -233,6 +233,6 @@ def check_dynamics(file, *, progress: Progress = None,
     >>> check_dynamics("examples/handstand_true.xml").judgement
     'plausible'
     """
-    options = keywords(options, file=path_text(file))
+    options = keywords(options, file=input_text(file))
     with shown(progress, "frames") as callback:
         return Dynamics(_mmmconverter.check_dynamics(options, callback))
