@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kDegreeDecimals = 6;
 
 void AppendDegrees(double angle, std::string* out) {

@@ -166,6 +166,10 @@ const std::vector<Exporter>& Exporters() {
       {"contacts", "export-contacts", "csv", "when which foot is on the ground, as CSV",
        "when which foot is on the ground and on which force plate: .json with events, else CSV",
        WriteContacts},
+      {"gait", "export-gait", "csv", "joint angles over the gait cycle, as CSV",
+       "joint angles in degrees over the gait cycle, their mean and deviation of each foot's "
+       "strides, as CSV; .json has cadence, speed, lengths and times of all strides, too",
+       WriteGait},
       {"grf", "export-grf", "mot", "ground reaction forces for OpenSim",
        "what force plates measured as OpenSim's .mot, with axes and time of the TRC, and the "
        "ExternalLoads as .xml beside it",

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "common/angles/anatomical_angles.h"
+#include "common/angles/gait_table.h"
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
 #include "common/contacts/person_mass.h"
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kContacts = "contacts";
 constexpr const char* kGrf = "grf";
+constexpr const char* kGait = "gait";
 constexpr const char* kJointForces = "inverse-dynamics";
 constexpr double kMostApart = 0.03;  // of the mass
 constexpr double kDeviations = 2;
@@ -80,7 +83,15 @@ JointForces JointForcesOf(const ConversionReport& report, bool with_deviations) 
 }
 
 bool NeedForces(const ExportFiles& files) {
-  return files.count(kGrf) > 0 || files.count(kContacts) > 0 || files.count(kJointForces) > 0;
+  return files.count(kGrf) > 0 || files.count(kContacts) > 0 || files.count(kJointForces) > 0 ||
+         files.count(kGait) > 0;
+}
+
+Gait GaitOf(const ConversionReport& report, const RecordedForces& forces) {
+  const KinematicModel& model = *report.plan.setup.model;
+  const PoseTrajectory& motion = report.result.trajectory;
+  const FootMotion feet = MoveFeet(model, motion);
+  return AnalyzeGait(feet, FindContacts(feet, forces), ComputeAnatomicalAngles(model, motion));
 }
 
 /// Empty: nothing stands beside what is no file.
@@ -98,6 +109,12 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file,
                       is_json ? FormatContactsJson(contacts, forces) : FormatContactsCsv(contacts));
+}
+
+void WriteGait(const std::string& file, const ConversionReport& report) {
+  const Gait gait = GaitOf(report, GroundForces(report.plan.input, nullptr));
+  const bool is_json = fs::path(file).extension() == ".json";
+  WriteFileAtomically(file, is_json ? FormatGaitJson(gait) : FormatGaitCsv(gait));
 }
 
 void WriteGrf(const std::string& file, const ConversionReport& report) {
@@ -132,6 +149,9 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
   }
   if (!NeedForces(files)) return;
   const RecordedForces forces = GroundForces(report->plan.input, nullptr);
+  if (files.count(kGait) > 0 && GaitOf(*report, forces).strides.empty()) {
+    report->warnings.Add("no foot came to the ground twice within 2.5 s: there is no stride");
+  }
   const auto found = EstimateMass(ContactsOf(*report, forces), forces);
   const PersonValue& mass = report->plan.person.mass;
   if (!found || !(mass.value > 0)) return;

@@ -15,6 +15,9 @@ struct ConversionPlan;
 /// When which foot is on the ground: JSON where the file is called so, else CSV.
 void WriteContacts(const std::string& file, const ConversionReport& report);
 
+/// Strides, and angles over them: JSON where the file is called so, else the angles as CSV.
+void WriteGait(const std::string& file, const ConversionReport& report);
+
 /// The ground's forces for OpenSim: a table, and beside it the ExternalLoads, called as the table
 /// with ".xml".
 void WriteGrf(const std::string& file, const ConversionReport& report);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,31 @@ TEST_P(AnglesReal, GoWithThoseOfPlugInGait) {
 INSTANTIATE_TEST_SUITE_P(Recordings, AnglesReal,
                          ::testing::Values("c3dio_gait-pig.c3d", "btk_FunctionalWalk.c3d",
                                            "c3dio_2198928.c3d", "c3dio_sub_labels.c3d"));
+
+// Vicon's own figures of the recording, of one stride of each foot; ours are of all.
+TEST(GaitReal, FiguresAreThoseThatTheFileHolds) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string base = TestFolder() + "/gait";
+  const auto result =
+      RunProgram({"convert", SharedData("field/c3dio_Vicon_analysis.c3d"), "-c", "s2kf_offline",
+                  "-o", base + ".xml", "--export-gait", base + ".json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto summary = nlohmann::json::parse(ReadText(base + ".json"))["summary"];
+  const auto near = [&](const char* side, const char* figure, double stored, double share) {
+    EXPECT_NEAR(summary[side][figure]["mean"].get<double>(), stored, share * stored)
+        << side << " " << figure;
+  };
+  near("left", "cadence_steps_per_min", 117.455, 0.03);
+  near("left", "speed_m_per_s", 1.189, 0.05);
+  near("left", "stride_time_s", 1.022, 0.03);
+  near("left", "stride_length_m", 1.214, 0.05);
+  near("left", "step_length_m", 0.628, 0.08);
+  near("left", "foot_off_percent", 58.728, 0.05);
+  near("right", "cadence_steps_per_min", 116.883, 0.03);
+  near("right", "speed_m_per_s", 1.124, 0.08);
+  near("right", "stride_length_m", 1.154, 0.08);
+  near("right", "foot_off_percent", 61.282, 0.05);
+}
 
 }  // namespace
 }  // namespace mmm_converter

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/angles/anatomical_angles.h"
+#include "common/contacts/contacts.h"
+#include "common/contacts/foot_motion.h"
+
+namespace mmm_converter {
+
+/// From a foot's contact with the ground to its next one. Lengths are horizontal, along and across
+/// the way from one contact to the next; NaN: the other foot's contacts do not tell.
+struct Stride {
+  Side side = Side::kLeft;
+  double begin = 0, end = 0;  ///< [s]
+  double time_deviation = 0;  ///< standard deviation of end - begin [s]
+  double foot_off = 0;        ///< of the stride [0, 1]: the share that it stood
+  double length = 0;          ///< [m]
+  double step_length = 0;     ///< [m] by which it was ahead of the other foot at its contact
+  double step_width = 0;      ///< [m] between both feet then
+  double step_time = 0;       ///< [s] since the other foot's contact
+
+  double time() const { return end - begin; }
+  double speed() const { return length / time(); }  ///< [m/s]
+  double cadence() const { return 120 / time(); }   ///< [steps/min]
+};
+
+/// An angle over the strides of one foot, from contact (0 %) to contact (100 %).
+struct GaitCycle {
+  static constexpr int kSamples = 101;
+
+  AnatomicalAngle angle;
+  Side side = Side::kLeft;  ///< whose strides they are
+  int strides = 0;
+  std::array<double, kSamples> mean;       ///< [rad]
+  std::array<double, kSamples> deviation;  ///< among the strides [rad]; NaN: it is one
+};
+
+struct Gait {
+  std::vector<Stride> strides;    ///< the left foot's, then the right foot's, over time
+  std::vector<GaitCycle> cycles;  ///< of angles of a side over its strides, of others over both
+};
+
+/// Strides last at most 2.5 s: what is longer is standing. angles: of the same motion.
+Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles);
+
+}  // namespace mmm_converter

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "common/angles/gait.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "common/angles/gait_table.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+constexpr double kExact = 1e-9;
+constexpr double kRate = 100;
+constexpr int kFrames = 301;
+constexpr double kStride = 1.2;  // [m] in a second
+constexpr double kWidth = 0.2;   // [m]
+constexpr double kStance = 0.6;  // of a second
+constexpr double kMore = 0.1;    // [rad] by which the second stride differs from the first
+
+/// A walk along x: the left foot comes to the ground at 0.5, 1.5 and 2.5 s, the right one half a
+/// second later each.
+class GaitTest : public ::testing::Test {
+ protected:
+  GaitTest() {
+    feet_.rate = angles_.rate = kRate;
+    for (const Side side : kSides) {
+      const bool is_left = side == Side::kLeft;
+      const double first = is_left ? 0.5 : 1;
+      FootPath& foot = feet_.feet[static_cast<std::size_t>(side)];
+      foot.heel.setZero(3, kFrames);
+      for (int k = 0; k < kFrames; ++k) {
+        const double steps = std::floor(k / kRate - first + 1e-6);
+        foot.heel.col(k) << kStride * (first + steps), is_left ? kWidth : 0, 0;
+      }
+      for (double begin = first; begin < 2.6; begin += 1) {
+        FootContact contact;
+        contact.side = side;
+        contact.begin = begin;
+        if (begin + kStance < 3) contact.end = begin + kStance;
+        contact.begin_deviation = contact.end_deviation = 0.01;
+        contacts_.contacts.push_back(contact);
+      }
+    }
+    angles_.angles = {{"knee", "left", "flexion"}, {"pelvis", "", "tilt"}};
+    angles_.values.setZero(2, kFrames);
+    for (int k = 0; k < kFrames; ++k) {
+      const double t = k / kRate - 0.5;
+      angles_.values(0, k) =
+          std::cos(2 * std::numbers::pi * t) + (t > 1 + 1e-6 && t < 2 - 1e-6 ? kMore : 0);
+    }
+  }
+
+  FootMotion feet_;
+  Contacts contacts_;
+  AnatomicalAngles angles_;
+};
+
+TEST_F(GaitTest, FiguresOfStrides) {
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_);
+  ASSERT_THAT(gait.strides, SizeIs(3));
+  for (const Stride& one : gait.strides) {
+    EXPECT_NEAR(one.time(), 1, kExact);
+    EXPECT_NEAR(one.cadence(), 120, 1e-6);
+    EXPECT_NEAR(one.length, kStride, kExact);
+    EXPECT_NEAR(one.speed(), kStride, kExact);
+    EXPECT_NEAR(one.foot_off, kStance, kExact);
+    EXPECT_NEAR(one.step_time, 0.5, kExact);
+    EXPECT_NEAR(one.step_length, kStride / 2, kExact);
+    EXPECT_NEAR(one.step_width, kWidth, kExact);
+    EXPECT_NEAR(one.time_deviation, 0.01 * std::sqrt(2), kExact);
+  }
+  EXPECT_EQ(gait.strides[2].side, Side::kRight);
+}
+
+TEST_F(GaitTest, AnglesOverTheCycle) {
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_);
+  ASSERT_THAT(gait.cycles, SizeIs(3));  // the knee, and the pelvis over either foot's strides
+  const GaitCycle& knee = gait.cycles[0];
+  EXPECT_EQ(knee.strides, 2);
+  for (int i = 2; i < GaitCycle::kSamples - 1; ++i) {
+    EXPECT_NEAR(knee.mean[i], std::cos(2 * std::numbers::pi * i / 100) + kMore / 2, kExact) << i;
+    EXPECT_NEAR(knee.deviation[i], kMore / std::sqrt(2), kExact) << i;
+  }
+  EXPECT_EQ(gait.cycles[2].strides, 1);
+  EXPECT_TRUE(std::isnan(gait.cycles[2].deviation[50]));
+}
+
+TEST_F(GaitTest, StandingIsNoStride) {
+  for (FootContact& one : contacts_.contacts) *one.begin *= 4;
+  EXPECT_THAT(AnalyzeGait(feet_, contacts_, angles_).strides, SizeIs(0));
+}
+
+TEST_F(GaitTest, Tables) {
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_);
+  const std::string csv = FormatGaitCsv(gait);
+  EXPECT_THAT(csv, StartsWith("joint,side,angle,percent,mean_degrees,sd_degrees,strides\n"));
+  EXPECT_THAT(csv, HasSubstr("\nknee,left,flexion,50,-54.430996,4.051423,2\n"));
+  EXPECT_THAT(csv, HasSubstr("\npelvis,right,tilt,100,0,,1\n"));
+  const auto json = nlohmann::json::parse(FormatGaitJson(gait));
+  EXPECT_NEAR(json["summary"]["left"]["cadence_steps_per_min"]["mean"], 120, 1e-6);
+  EXPECT_EQ(json["summary"]["left"]["step_width_m"]["strides"], 2);
+  EXPECT_TRUE(json["summary"]["right"]["step_width_m"]["sd"].is_null());
+  EXPECT_THAT(json["strides"], SizeIs(3));
+  EXPECT_THAT(json["cycles"][0]["mean_degrees"], SizeIs(101));
+}
+
+TEST_F(GaitTest, WithoutContactsNothing) {
+  const Gait gait = AnalyzeGait(feet_, {}, angles_);
+  EXPECT_THAT(gait.cycles, SizeIs(0));
+  const auto json = nlohmann::json::parse(FormatGaitJson(gait));
+  EXPECT_TRUE(json["summary"]["left"]["cadence_steps_per_min"]["mean"].is_null());
+}
+
+}  // namespace
+}  // namespace mmm_converter
