@@ -61,6 +61,8 @@ class Conversions(Case):
         self.assertEqual(len(result.marker_labels), 53)
         self.assertEqual(result.frames["markers_seen"].tolist(), [53] * 675)
         self.assertIn("verdict good", repr(result))
+        self.assertEqual((result.reasons, result.rate), ([], 100))
+        self.assertEqual(result.warnings, result.summary["warnings"])
         self.assertIn("verdict", result._repr_html_())
         self.assertIn("handstand.c3d", result.text)
 
@@ -78,7 +80,10 @@ class Conversions(Case):
                                       angles.values[:, angles.names.index("left knee flexion")])
         with self.assertRaisesRegex(KeyError, "left knee flexion"):
             angles["knee"]
-        self.assertEqual(list(angles.to_dataframe().columns), angles.names)
+        pandas = unittest.mock.MagicMock()
+        with unittest.mock.patch.dict("sys.modules", pandas=pandas):
+            angles.to_dataframe()
+        self.assertEqual(pandas.DataFrame.call_args.kwargs["columns"], angles.names)
         import matplotlib
         matplotlib.use("Agg")
         axes = angles.plot("knee flexion")

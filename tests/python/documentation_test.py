@@ -19,7 +19,7 @@ import numpy as np
 import mmmconverter
 from support import ROOT
 
-MODULES = ("mmmconverter", "mmmconverter._recordings", "mmmconverter._models",
+MODULES = ("mmmconverter", "mmmconverter._angles", "mmmconverter._recordings", "mmmconverter._models",
            "mmmconverter._conversions", "mmmconverter._studies")
 
 # Runs the cells of its standard input, one after the other.

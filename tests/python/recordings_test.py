@@ -11,6 +11,11 @@ from support import Case, ROOT, SAMPLE, run_program
 
 class Recordings(Case):
 
+    def test_says_where_it_is_from(self):
+        recording = mmmconverter.read(SAMPLE)
+        self.assertEqual((recording.format, recording.unit, recording.up_axis), ("C3D", "mm", "+z"))
+        self.assertEqual((recording.motion, recording.subjects), ("", []))
+
     def test_markers_are_the_recordings_own_memory(self):
         recording = mmmconverter.read(SAMPLE)
         markers = recording.markers
