@@ -34,8 +34,8 @@ struct GaitCycle {
   AnatomicalAngle angle;
   Side side = Side::kLeft;  ///< whose strides they are
   int strides = 0;
-  std::array<double, kSamples> mean;       ///< [rad]
-  std::array<double, kSamples> deviation;  ///< among the strides [rad]; NaN: it is one
+  std::array<double, kSamples> mean = {};       ///< [rad]
+  std::array<double, kSamples> deviation = {};  ///< among the strides [rad]; NaN: it is one
 };
 
 struct Gait {

@@ -25,7 +25,7 @@ struct PlateLoad {
   Bearer bearer = Bearer::kUnknown;
   /// Median horizontal distances of the centre of pressure from the heel-toe lines of the left and
   /// the right foot [m]; NaN: no frame tells them.
-  std::array<double, 2> distances;
+  std::array<double, 2> distances = {};
 };
 
 /// A foot on the ground.
