@@ -37,10 +37,11 @@ std::string MotionPath(const BatchEntry& entry) {
 }
 
 std::string ExportPath(const std::string& format, const std::string& id) {
+  std::string ending = format;
   for (const Exporter& exporter : Exporters()) {
-    if (format == exporter.name) return format + "/" + id + "." + exporter.ending;
+    if (format == exporter.name) ending = exporter.ending;
   }
-  return format + "/" + id + "." + format;
+  return format + "/" + id + "." + ending;
 }
 std::string SubjectPath(const std::string& id) { return "subjects/" + id + ".xml"; }
 std::string PagePath(const std::string& id) { return "reports/" + id + ".html"; }

@@ -117,7 +117,9 @@ double OsimCalibration::FindSize(const std::vector<CalibrationRecording>& record
   fit_options.robust_distance = kSizeRobustDistance;
   const VectorXd noise = VectorXd::Ones(static_cast<Eigen::Index>(markers_.size()));
   double best = 1, least = std::numeric_limits<double>::infinity();
-  for (double size = kLeastSize; size < kMostSize + kSizeStep / 2; size += kSizeStep) {
+  const auto steps = std::lround((kMostSize - kLeastSize) / kSizeStep);
+  for (long step = 0; step <= steps; ++step) {
+    const double size = kLeastSize + static_cast<double>(step) * kSizeStep;
     const KinematicModel model = Scaled(size, Ones());
     const MarkerKinematics kinematics(model, joints_, markers_);
     PostureSearch search(kinematics);

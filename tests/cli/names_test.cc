@@ -62,7 +62,7 @@ std::string Renamed(int first, int end, int hidden = 0) {
       renamed.frame(k) = sample.frame(k)(Eigen::all, columns);
     }
   }
-  const std::string file = TestFolder() + "/cast.c3d";
+  std::string file = TestFolder() + "/cast.c3d";
   WriteC3d(file, renamed);
   return file;
 }
@@ -82,8 +82,8 @@ double LargestDeviation(const std::string& motion, const std::string& other) {
   EXPECT_GE(late, 0);
   double largest = 0;
   for (int k = 0; k < a.num_frames(); ++k) {
-    const auto& ours = a.postures[static_cast<std::size_t>(k)];
-    const auto& others = b.postures[static_cast<std::size_t>(k + late)];
+    const auto& ours = a.postures[k];
+    const auto& others = b.postures[k + late];
     largest = std::max(largest, Local(ours, others).lpNorm<Eigen::Infinity>());
   }
   return largest;

@@ -39,7 +39,7 @@ class MarkerColumns {
 };
 
 struct MarkerRowsFormat {
-  const char* name;       ///< of the file, for messages: "TRC file"
+  const char* name = "";  ///< of the file, for messages: "TRC file"
   char separator = '\t';  ///< ' ': rows of another length than a whole one have no marker
   bool ends_with_other_row = false;  ///< a row without a frame number ends the table; else it is
                                      ///< passed over

@@ -9,7 +9,6 @@
 namespace mmm_converter {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::OsimAxisText;
 using testing::OsimBodyText;
@@ -144,7 +143,7 @@ TEST(OsimRefuses, FunctionsThatAreNone) {
               HasSubstr("has no function"));
   std::string nested = "<Constant/>";
   for (int i = 0; i < 30; ++i) {
-    nested = "<MultiplierFunction><function>" + nested + "</function></MultiplierFunction>";
+    nested.insert(0, "<MultiplierFunction><function>").append("</function></MultiplierFunction>");
   }
   EXPECT_THAT(OsimMessage(WithFunction("<function>" + nested + "</function>")),
               HasSubstr("nested too deeply"));
