@@ -123,8 +123,7 @@ bool AddTurnings(const KinematicModel& model, JointFrames* frames) {
   for (; at >= 0 && at != frames->proximal; at = model.segments()[at].parent) {
     const Segment& segment = model.segments()[at];
     if (segment.type != JointType::kRevolute) continue;
-    const int joint = segment.leader >= 0 ? model.segments()[segment.leader].joint : segment.joint;
-    if (joint >= 0) frames->turnings.push_back({at, joint});
+    if (segment.joint >= 0) frames->turnings.push_back({at, segment.joint});
   }
   return at == frames->proximal;
 }

@@ -12,15 +12,19 @@ namespace {
 constexpr double kLongestStride = 2.5;  // [s]
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The heel at a time [m]: between frames on a straight line.
+/// A column at a time between two frames: on a straight line; beyond the ends the last.
+template <typename Columns>
+auto ColumnAt(const Columns& columns, double frame) {
+  const Eigen::Index last = columns.cols() - 1;
+  const double at = std::clamp(frame, 0.0, static_cast<double>(last));
+  const auto before = static_cast<Eigen::Index>(at);
+  const double share = at - static_cast<double>(before);
+  return ((1 - share) * columns.col(before) + share * columns.col(std::min(before + 1, last)))
+      .eval();
+}
+
 Eigen::Vector3d HeelAt(const FootMotion& feet, Side side, double time) {
-  const Eigen::Matrix3Xd& heel = feet.foot(side).heel;
-  const double frame = std::clamp((time - feet.first_time) * feet.rate, 0.0,
-                                  static_cast<double>(feet.num_frames() - 1));
-  const auto before = static_cast<Eigen::Index>(frame);
-  const Eigen::Index after = std::min<Eigen::Index>(before + 1, feet.num_frames() - 1);
-  const double share = frame - static_cast<double>(before);
-  return (1 - share) * heel.col(before) + share * heel.col(after);
+  return ColumnAt(feet.foot(side).heel, (time - feet.first_time) * feet.rate);
 }
 
 /// When the foot last touched the ground before a time, within a stride [s]; NaN: not known.
@@ -73,12 +77,7 @@ std::vector<Stride> StridesOf(Side side, const FootMotion& feet, const Contacts&
 }
 
 double AngleAt(const AnatomicalAngles& angles, Eigen::Index row, double time) {
-  const double frame = std::clamp((time - angles.first_time) * angles.rate, 0.0,
-                                  static_cast<double>(angles.num_frames() - 1));
-  const auto before = static_cast<Eigen::Index>(frame);
-  const Eigen::Index after = std::min<Eigen::Index>(before + 1, angles.num_frames() - 1);
-  const double share = frame - static_cast<double>(before);
-  return (1 - share) * angles.values(row, before) + share * angles.values(row, after);
+  return ColumnAt(angles.values.row(row), (time - angles.first_time) * angles.rate)(0);
 }
 
 GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,

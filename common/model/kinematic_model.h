@@ -37,10 +37,10 @@ struct Segment {
   double upper = 0;  ///< of q [rad], sliding [m]
   int joint =
       -1;  ///< index into joint angles; -1: q is always 0 (fixed, prismatic, lower == upper)
-  double mass = 0;                                    ///< [kg]
-  Eigen::Vector3d p_SB = Eigen::Vector3d::Zero();     ///< centre of mass in S [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the CoM, in S axes [kg m^2]
   int leader = -1;  ///< index of the segment whose q moves this one too; -1: its own
+  double mass = 0;  ///< [kg]
+  Eigen::Vector3d p_SB = Eigen::Vector3d::Zero();       ///< centre of mass in S [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    ///< about the CoM, in S axes [kg m^2]
   std::shared_ptr<const ScalarFunction> function = {};  ///< f [rad, m]; null: q itself
   double rest = 0;   ///< q where nothing moves the joint [rad, m]
   double reach = 0;  ///< of a joint without limits, how far it usually moves either way from its

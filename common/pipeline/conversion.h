@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
+
+struct GroundStudy;
+struct RecordedForces;
 
 /// What the user asked for. Empty: a default.
 struct ConversionRequest {
@@ -55,6 +59,7 @@ struct ConversionPlan {
   std::string subject_output, model_output;  ///< empty: not written
   bool self_calibrates = false;              ///< before it is tracked
   bool keeps_covariances = false;
+  std::shared_ptr<const RecordedForces> forces;  ///< where an export is made of them
   Warnings warnings;
 };
 
@@ -64,7 +69,8 @@ struct ConversionReport {
   ConversionResult result;
   ConversionFigures figures;
   Verdict verdict;
-  Warnings warnings;  ///< those of the plan, and what was noticed since
+  std::shared_ptr<const GroundStudy> ground;  ///< where an export is made of it
+  Warnings warnings;                          ///< those of the plan, and what was noticed since
 };
 
 /// The recording's label of an assignment.

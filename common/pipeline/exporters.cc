@@ -118,6 +118,22 @@ void WriteCovariances(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatCovarianceNpz(result.trajectory, result.covariances));
 }
 
+void CheckAnatomy(const std::string& file, const KinematicModel& model) {
+  if (HasAnatomy(model)) return;
+  throw Error(
+      fmt::format("{}: pelvis, hips and knees are known of MMM's and OpenSim's models of persons, "
+                  "not of {}",
+                  file, model.name()));
+}
+
+void CheckTurns(const std::string& file, const KinematicModel& model) {
+  if (!model.coordinates()) return;
+  throw Error(
+      fmt::format("{}: the format has joints that turn only, and those of model {} of OpenSim are "
+                  "functions of coordinates",
+                  file, model.name()));
+}
+
 }  // namespace
 
 const std::vector<Exporter>& Exporters() {
@@ -127,10 +143,9 @@ const std::vector<Exporter>& Exporters() {
        "postures are smoothed (-c s2kf_offline)",
        WriteCsv},
       {"angles", "export-angles", "csv", "joint angles by their anatomical names as CSV",
-       "flexion, adduction and rotation of pelvis, trunk, hips, knees, ankles, shoulders, elbows "
-       "and "
-       "wrists in degrees with their standard deviations: a row for each frame and angle",
-       WriteAngles},
+       "flexion, adduction and rotation of trunk, hips, knees, ankles, shoulders and others in "
+       "degrees with their standard deviations: a row for each frame and angle",
+       WriteAngles, false, CheckAnatomy},
       {"trc", "export-trc", "trc", "markers, measured and the model's, as TRC",
        "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
        "them (LABEL_model)",
@@ -145,9 +160,8 @@ const std::vector<Exporter>& Exporters() {
        "OpenSim reports them",
        WriteMarkerErrors},
       {"model-markers", "export-model-markers", "sto", "the model's markers, for OpenSim",
-       "where the model has its markers [m], as OpenSim reports it; .trc: as a recording that "
-       "moves "
-       "another model",
+       "where the model has its markers [m], as OpenSim reports it; .trc: as a recording "
+       "that moves another model",
        WriteModelMarkers},
       {"poses", "export-poses", "npz", "poses of all segments, as NumPy's .npz",
        "poses of all segments and of the file's objects, 21 points of the body and the centre of "
@@ -155,9 +169,9 @@ const std::vector<Exporter>& Exporters() {
        WritePoses},
       {"bvh", "export-bvh", "bvh", "the skeleton and its motion as BVH",
        "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh,
-       false, true},
+       false, CheckTurns},
       {"bvh-m", "export-bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres,
-       false, true},
+       false, CheckTurns},
       {"covariance", "export-covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "
@@ -175,9 +189,8 @@ const std::vector<Exporter>& Exporters() {
        "ExternalLoads as .xml beside it",
        WriteGrf},
       {"inverse-dynamics", "export-id", "csv", "forces and moments of the joints, as CSV",
-       "generalised forces of the joints by inverse dynamics (6 Hz) with what force plates "
-       "measured: "
-       ".sto as OpenSim's, .json with residuals and the legs' extremes, else CSV",
+       "generalised forces of the joints by inverse dynamics (6 Hz) with what force "
+       "plates measured: .sto as OpenSim's, .json with residuals and the legs' extremes, else CSV",
        WriteJointForces, true}};
   return exporters;
 }
@@ -190,20 +203,9 @@ bool NeedCovariances(const ExportFiles& files) {
 }
 
 void CheckExports(const ExportFiles& files, const KinematicModel& model) {
-  const auto angles = files.find("angles");
-  if (angles != files.end() && !HasAnatomy(model)) {
-    throw Error(
-        fmt::format("{}: pelvis, hips and knees are known of MMM's and OpenSim's models of "
-                    "persons, not of {}",
-                    angles->second, model.name()));
-  }
-  if (!model.coordinates()) return;
   for (const Exporter& exporter : Exporters()) {
-    if (!exporter.of_turns || files.count(exporter.name) == 0) continue;
-    throw Error(
-        fmt::format("{}: the format has joints that turn only, and those of model {} of "
-                    "OpenSim are functions of coordinates",
-                    files.at(exporter.name), model.name()));
+    const auto file = files.find(exporter.name);
+    if (file != files.end() && exporter.check != nullptr) exporter.check(file->second, model);
   }
 }
 

@@ -23,7 +23,8 @@ struct Exporter {
   void (*write)(const std::string& file, const ConversionReport& report) = nullptr;
   /// Of covariances, which are kept where they are asked for before a whole recording is tracked.
   bool of_covariances = false;
-  bool of_turns = false;  ///< of joints that turn, each by an angle of its own
+  /// @throws Error naming the file where it can't be made of that model. Null: of each it can.
+  void (*check)(const std::string& file, const KinematicModel& model) = nullptr;
 };
 
 const std::vector<Exporter>& Exporters();

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <optional>
 
 #include "common/angles/anatomical_angles.h"
 #include "common/angles/gait_table.h"
@@ -20,6 +22,16 @@
 #include "common/support/error.h"
 
 namespace mmm_converter {
+
+/// What exports are made of: found once for a conversion.
+struct GroundStudy {
+  std::shared_ptr<const RecordedForces> forces;
+  FootMotion feet;
+  Contacts contacts;
+  std::optional<JointForces> joint_forces;  ///< where they are exported
+  std::optional<Gait> gait;                 ///< where it is exported
+};
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,10 +47,6 @@ constexpr double kDeviations = 2;
 RecordedForces GroundForces(const Input& input, Warnings* warnings) {
   if (input.forces_file.empty()) return ForcesOf(input.recording, warnings);
   return ForcesOf(input.forces_file, input.recording, warnings);
-}
-
-Contacts ContactsOf(const ConversionReport& report, const RecordedForces& forces) {
-  return FindContacts(MoveFeet(*report.plan.setup.model, report.result.trajectory), forces);
 }
 
 void CheckHasPlates(const RecordedForces& forces, const Recording& recording) {
@@ -67,31 +75,48 @@ std::vector<PoseCovariance> CovariancesFrom(int begin, const ConversionResult& r
   return covariances;
 }
 
-JointForces JointForcesOf(const ConversionReport& report, bool with_deviations) {
-  const RecordedForces forces = GroundForces(report.plan.input, nullptr);
-  CheckHasPlates(forces, report.plan.input.recording);
+JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
+                          bool with_deviations) {
+  CheckHasPlates(*ground.forces, report.plan.input.recording);
   const KinematicModel& model = *report.plan.setup.model;
   const PoseTrajectory motion = TrackedMotion(report.result);
-  const Contacts contacts = ContactsOf(report, forces);
-  JointForces found = ComputeJointForces(model, motion, contacts, forces);
+  JointForces found = ComputeJointForces(model, motion, ground.contacts, *ground.forces);
   const int begin = report.result.trajectory.num_frames() - motion.num_frames();
   if (with_deviations && !report.result.covariances.empty()) {
-    EstimateDeviations(model, motion, contacts, forces, CovariancesFrom(begin, report.result), {},
-                       &found);
+    EstimateDeviations(model, motion, ground.contacts, *ground.forces,
+                       CovariancesFrom(begin, report.result), {}, &found);
   }
   return found;
+}
+
+bool HasDeviations(const std::string& file) { return fs::path(file).extension() != ".sto"; }
+
+Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
+  const AnatomicalAngles angles =
+      ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
+  return AnalyzeGait(ground.feet, ground.contacts, angles);
+}
+
+GroundStudy StudyGround(const ConversionReport& report) {
+  GroundStudy ground;
+  ground.forces = report.plan.forces;
+  if (!ground.forces) {
+    ground.forces =
+        std::make_shared<const RecordedForces>(GroundForces(report.plan.input, nullptr));
+  }
+  ground.feet = MoveFeet(*report.plan.setup.model, report.result.trajectory);
+  ground.contacts = FindContacts(ground.feet, *ground.forces);
+  return ground;
+}
+
+std::shared_ptr<const GroundStudy> GroundOf(const ConversionReport& report) {
+  if (report.ground) return report.ground;
+  return std::make_shared<const GroundStudy>(StudyGround(report));
 }
 
 bool NeedForces(const ExportFiles& files) {
   return files.count(kGrf) > 0 || files.count(kContacts) > 0 || files.count(kJointForces) > 0 ||
          files.count(kGait) > 0;
-}
-
-Gait GaitOf(const ConversionReport& report, const RecordedForces& forces) {
-  const KinematicModel& model = *report.plan.setup.model;
-  const PoseTrajectory& motion = report.result.trajectory;
-  const FootMotion feet = MoveFeet(model, motion);
-  return AnalyzeGait(feet, FindContacts(feet, forces), ComputeAnatomicalAngles(model, motion));
 }
 
 /// Empty: nothing stands beside what is no file.
@@ -101,28 +126,40 @@ std::string LoadsFile(const std::string& table) {
   return fs::path(table).replace_extension(".xml").string();
 }
 
+/// Warns where the plates tell another mass than the person's.
+void CompareMass(const GroundStudy& ground, ConversionReport* report) {
+  const auto found = EstimateMass(ground.contacts, *ground.forces);
+  const PersonValue& mass = report->plan.person.mass;
+  if (!found || !(mass.value > 0)) return;
+  const double apart = std::abs(found->mass - mass.value);
+  if (apart <= kMostApart * mass.value || apart <= kDeviations * found->deviation) return;
+  report->warnings.Add(
+      fmt::format("the force plates bore {:.1f} +- {:.1f} kg; the person's mass is "
+                  "{:.1f} kg ({}; another by {})",
+                  found->mass, found->deviation, mass.value, mass.source, OptionText("mass")));
+}
+
 }  // namespace
 
 void WriteContacts(const std::string& file, const ConversionReport& report) {
-  const RecordedForces forces = GroundForces(report.plan.input, nullptr);
-  const Contacts contacts = ContactsOf(report, forces);
+  const auto ground = GroundOf(report);
   const bool is_json = fs::path(file).extension() == ".json";
-  WriteFileAtomically(file,
-                      is_json ? FormatContactsJson(contacts, forces) : FormatContactsCsv(contacts));
+  WriteFileAtomically(file, is_json ? FormatContactsJson(ground->contacts, *ground->forces)
+                                    : FormatContactsCsv(ground->contacts));
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {
-  const Gait gait = GaitOf(report, GroundForces(report.plan.input, nullptr));
+  const auto ground = GroundOf(report);
+  const Gait gait = ground->gait ? *ground->gait : GaitOf(report, *ground);
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatGaitJson(gait) : FormatGaitCsv(gait));
 }
 
 void WriteGrf(const std::string& file, const ConversionReport& report) {
-  const RecordedForces forces = GroundForces(report.plan.input, nullptr);
-  CheckHasPlates(forces, report.plan.input.recording);
-  const Contacts contacts = ContactsOf(report, forces);
+  const auto ground = GroundOf(report);
+  CheckHasPlates(*ground->forces, report.plan.input.recording);
   const PoseTrajectory& motion = report.result.trajectory;
-  const ExternalLoads loads = {&forces, &contacts, motion.first_time,
+  const ExternalLoads loads = {ground->forces.get(), &ground->contacts, motion.first_time,
                                motion.time(motion.num_frames() - 1)};
   const std::string name = fs::path(file).filename().string();
   WriteFileAtomically(file, FormatExternalLoadsTable(loads, name));
@@ -131,7 +168,10 @@ void WriteGrf(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteJointForces(const std::string& file, const ConversionReport& report) {
-  const JointForces found = JointForcesOf(report, fs::path(file).extension() != ".sto");
+  const auto ground = GroundOf(report);
+  const JointForces found = ground->joint_forces
+                                ? *ground->joint_forces
+                                : JointForcesOf(report, *ground, HasDeviations(file));
   const std::string ending = fs::path(file).extension().string();
   if (ending == ".json") {
     WriteFileAtomically(file, FormatJointForcesJson(found));
@@ -142,25 +182,24 @@ void WriteJointForces(const std::string& file, const ConversionReport& report) {
 }
 
 void CompareForces(const ExportFiles& files, ConversionReport* report) {
-  if (files.count(kJointForces) > 0) {
-    const JointForces found = JointForcesOf(*report, false);
-    const Residuals residuals = MeasureResiduals(found);
-    if (!residuals.is_within) report->warnings.Add(SentenceOf(residuals, found));
-  }
   if (!NeedForces(files)) return;
-  const RecordedForces forces = GroundForces(report->plan.input, nullptr);
-  if (files.count(kGait) > 0 && GaitOf(*report, forces).strides.empty()) {
-    report->warnings.Add("no foot came to the ground twice within 2.5 s: there is no stride");
+  auto ground = std::make_shared<GroundStudy>(StudyGround(*report));
+  report->ground = ground;
+  const auto joint_forces = files.find(kJointForces);
+  if (joint_forces != files.end()) {
+    ground->joint_forces = JointForcesOf(*report, *ground, HasDeviations(joint_forces->second));
+    const Residuals residuals = MeasureResiduals(*ground->joint_forces);
+    if (!residuals.is_within) {
+      report->warnings.Add(SentenceOf(residuals, *ground->joint_forces));
+    }
   }
-  const auto found = EstimateMass(ContactsOf(*report, forces), forces);
-  const PersonValue& mass = report->plan.person.mass;
-  if (!found || !(mass.value > 0)) return;
-  const double apart = std::abs(found->mass - mass.value);
-  if (apart <= kMostApart * mass.value || apart <= kDeviations * found->deviation) return;
-  report->warnings.Add(
-      fmt::format("the force plates bore {:.1f} +- {:.1f} kg; the person's mass is "
-                  "{:.1f} kg ({}; another by {})",
-                  found->mass, found->deviation, mass.value, mass.source, OptionText("mass")));
+  if (files.count(kGait) > 0) {
+    ground->gait = GaitOf(*report, *ground);
+    if (ground->gait->strides.empty()) {
+      report->warnings.Add("no foot came to the ground twice within 2.5 s: there is no stride");
+    }
+  }
+  CompareMass(*ground, report);
 }
 
 void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
@@ -172,8 +211,8 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
         "{}: feet on the ground are told of MMM's and OpenSim's models of persons, not of {}",
         recording.file, plan->input.model_file));
   }
-  const RecordedForces forces = GroundForces(plan->input, &plan->warnings);
-  if (needs_plates) CheckHasPlates(forces, recording);
+  plan->forces = std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
+  if (needs_plates) CheckHasPlates(*plan->forces, recording);
 }
 
 std::vector<std::string> FilesOf(const ExportFiles& files) {
