@@ -56,7 +56,7 @@ LiveSession::LiveSession(const LiveRequest& request, Recording head, bool select
       selects_labels_(selects_labels),
       waits_(waits),
       calibration_time_(request.calibration_time) {
-  std::swap(played_, head_.markers);
+  if (!request_.label) std::swap(played_, head_.markers);
 }
 
 double LiveSession::gathered() const {
@@ -112,7 +112,7 @@ void LiveSession::NamePoints() {
 }
 
 bool LiveSession::TryToPlan(bool is_last_try) {
-  const bool is_played = played_.num_frames() > 0 && !request_.label;
+  const bool is_played = played_.num_frames() > 0;
   head_.markers = is_played ? played_ : gathered_.Slice(0, std::max(1, num_gathered_));
   try {
     ConversionPlan plan = PlanLive(request_, head_);

@@ -69,8 +69,8 @@ class LiveSession {
 
   LiveRequest request_;
   Recording head_;
-  MarkerSequence
-      played_;  // of a replay, whose file tells the person as in a conversion; else empty
+  // Of a replay, whose file tells the person as in a conversion; else empty.
+  MarkerSequence played_;
   bool selects_labels_, waits_;
   std::shared_ptr<const StreamLayout> layout_;
   std::vector<int> columns_;  // of the layout's labels those that count

@@ -114,7 +114,7 @@ std::string FormatLabelSummary(const LabelReport& report) {
   if (report.found.is_repair) text += DescribeChanges(report);
   if (std::isfinite(report.fit.mean_distance)) {
     text += fmt::format("distance   mean {:.1f} mm, named points from the person's markers\n",
-                        1000 * report.fit.mean_distance);
+                        kMillimetres * report.fit.mean_distance);
   }
   text += report.output.empty() ? "written    nothing; -o FILE writes the recording so\n"
                                 : fmt::format("written    {}\n", report.output);
@@ -175,7 +175,7 @@ Json ToJson(const LabelReport& report) {
   }
   json.update(LabelsJson(report.found, recording.markers, report.input.first_frame));
   json["mean_distance_mm"] = std::isfinite(report.fit.mean_distance)
-                                 ? Number(1000 * report.fit.mean_distance)
+                                 ? Number(kMillimetres * report.fit.mean_distance)
                                  : Json(nullptr);
   json["verdict"] = ToJson(report.verdict);
   json["warnings"] = report.warnings.texts();

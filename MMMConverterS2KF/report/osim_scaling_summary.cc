@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/support/units.h"
+
 namespace mmm_converter {
 
 namespace {
@@ -18,8 +20,8 @@ std::string FormatOsimCalibration(const OsimScalingReport& report, const Calibra
   text += fmt::format(
       "{:24} {} moved; the best postures leave {:.1f} mm to them, {:.1f} at the places of "
       "the model\n",
-      "markers", report.scaled.placed_markers, 1e3 * result.distance_after,
-      1e3 * result.distance_before);
+      "markers", report.scaled.placed_markers, kMillimetres * result.distance_after,
+      kMillimetres * result.distance_before);
   return text + fmt::format("Calibrated on {} frames of {} recordings: wrote {}\n", result.frames,
                             result.subject.sources.size(), file);
 }
@@ -40,7 +42,7 @@ std::string FormatOsimScalingSummary(const OsimScalingReport& report, const std:
     text += fmt::format(
         "{:24} {} moved onto the recording's; before, those with tasks were "
         "{:.1f} mm from them (rms)\n",
-        "markers", scaled.placed_markers, 1e3 * scaled.distance);
+        "markers", scaled.placed_markers, kMillimetres * scaled.distance);
   }
   return text + fmt::format("Scaled {} bodies by {} frames: wrote {}\n", scaled.factors.size(),
                             report.frames, file);

@@ -14,7 +14,7 @@ bool Moves(const OsimDocument& document, const OsimJoint& joint) {
       const auto found = std::find_if(
           document.coordinates.begin(), document.coordinates.end(),
           [&](const OsimCoordinate& coordinate) { return coordinate.name == term.coordinate; });
-      return found != document.coordinates.end() && !found->is_locked;
+      return found != document.coordinates.end() && !found->IsHeld();
     });
   };
   return std::any_of(joint.rotations.begin(), joint.rotations.end(), is_moved) ||

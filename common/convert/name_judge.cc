@@ -240,7 +240,7 @@ void NameJudge::ExchangeSides(double height) {
     }
     Pose(height);
     const double exchanged = MeanDistance();
-    if (exchanged >= least) continue;
+    if (!(exchanged < least)) continue;
     least = exchanged;
     best = {places_, postures_, p_WM_};
     exchanged_limbs = limbs;

@@ -3,9 +3,23 @@
 
 #include "common/forces/external_loads.h"
 #include "common/io/recording/recording_axes.h"
-#include "common/math/up_axis.h"
 
 namespace mmm_converter {
+namespace {
+
+/// W becomes the frame that R turns it into.
+void Turn(const Eigen::Matrix3d& R, RecordedForces* forces) {
+  for (PlateForces& one : forces->plates) {
+    one.plate.R_WP = R * one.plate.R_WP;
+    one.plate.p_WP = R * one.plate.p_WP;
+    one.plate.corners = R * one.plate.corners;
+    for (Eigen::Matrix3Xd* columns : {&one.force, &one.moment, &one.cop, &one.free_moment}) {
+      *columns = R * *columns;
+    }
+  }
+}
+
+}  // namespace
 
 RecordedForces ForcesOf(const Recording& recording, Warnings* warnings) {
   if (recording.format != "C3D") return {};
@@ -19,22 +33,11 @@ RecordedForces ForcesOf(const Recording& recording, Warnings* warnings) {
   return forces;
 }
 
-RecordedForces ForcesOf(const std::string& file, const Recording& recording, Warnings* warnings) {
-  const Eigen::Matrix3d R = RotationToZUp(recording.up_axis);
+RecordedForces ForcesOf(const std::string& file, UpAxis up, Warnings* warnings) {
+  const Eigen::Matrix3d R = RotationToZUp(up);
   RecordedForces forces = ReadExternalLoads(file, R.row(2).transpose(), warnings);
   Turn(R, &forces);
   return forces;
-}
-
-void Turn(const Eigen::Matrix3d& R, RecordedForces* forces) {
-  for (PlateForces& one : forces->plates) {
-    one.plate.R_WP = R * one.plate.R_WP;
-    one.plate.p_WP = R * one.plate.p_WP;
-    one.plate.corners = R * one.plate.corners;
-    for (Eigen::Matrix3Xd* columns : {&one.force, &one.moment, &one.cop, &one.free_moment}) {
-      *columns = R * *columns;
-    }
-  }
 }
 
 }  // namespace mmm_converter

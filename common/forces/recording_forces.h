@@ -5,6 +5,7 @@
 
 #include "common/forces/plate_forces.h"
 #include "common/io/recording/recording.h"
+#include "common/math/up_axis.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -14,11 +15,8 @@ namespace mmm_converter {
 /// @throws Error as ReadForces.
 RecordedForces ForcesOf(const Recording& recording, Warnings* warnings);
 
-/// Forces of another file (ReadExternalLoads), which has the axes and the time of the recording's.
-/// @throws Error as ReadExternalLoads.
-RecordedForces ForcesOf(const std::string& file, const Recording& recording, Warnings* warnings);
-
-/// W becomes the frame that R turns it into.
-void Turn(const Eigen::Matrix3d& R, RecordedForces* forces);
+/// Forces of another file (ReadExternalLoads), whose up axis is that of the recording's file and
+/// which has its time. @throws Error as ReadExternalLoads.
+RecordedForces ForcesOf(const std::string& file, UpAxis up, Warnings* warnings);
 
 }  // namespace mmm_converter

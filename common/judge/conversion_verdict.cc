@@ -11,6 +11,7 @@
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
 #include "common/model/coordinate_map.h"
+#include "common/motion/marker_residuals.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -34,14 +35,6 @@ constexpr Limit kWrongLabels = {0.01, 0.2};
 constexpr Limit kLyingFrames = {0.9, kNever};
 // Mean distance over an object's radius.
 constexpr Limit kObject = {kMostStray, 0.5};
-
-int FramesBeforeTrack(const ConversionResult& result) {
-  int first = 0;
-  while (first < result.residuals.cols() && result.residuals.col(first).array().isNaN().all()) {
-    ++first;
-  }
-  return first < result.residuals.cols() ? first : 0;
-}
 
 class Judge {
  public:
@@ -154,7 +147,7 @@ class Judge {
   }
 
   void JudgeGaps() {
-    const int late = FramesBeforeTrack(evidence_.result);
+    const int late = FramesBeforeFirstSeen(evidence_.result.residuals);
     for (const Gap& gap : LongGaps(evidence_.setup, limbs_, markers_)) {
       if (gap.last_frame < late) continue;
       reasons_.Add(Level::kCheck,

@@ -49,7 +49,7 @@ bool AddLoad(const PlateLoad& load, const RecordedForces& forces, const FrameTim
   bool is_known = true;
   for (int k = 0; k < times.count; ++k) {
     Eigen::Index begin = sample_of(k - 0.5), end = sample_of(k + 0.5);
-    if (samples_a_frame < 1) end = (begin = sample_of(k)) + 1;
+    if (samples_a_frame < 1) end = (begin = sample_of(k - 0.5 / samples_a_frame)) + 1;
     begin = std::clamp<Eigen::Index>(begin, 0, plate.force.cols());
     end = std::clamp<Eigen::Index>(end, begin, plate.force.cols());
     const auto from = std::max<Eigen::Index>(begin, load.samples.begin);
@@ -74,7 +74,7 @@ void MarkBeyond(const RecordedForces& forces, UnknownTimes* unknown) {
   for (const PlateForces& one : forces.plates) samples = std::min(samples, one.force.cols());
   const double half = 0.5 / forces.rate;
   unknown->MarkBoth(-HUGE_VAL, forces.first_time - half);
-  unknown->MarkBoth(forces.time(static_cast<int>(samples)) + half, HUGE_VAL);
+  unknown->MarkBoth(forces.time(static_cast<int>(samples)) - half, HUGE_VAL);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/kinetics/inverse_dynamics.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include "common/math/scalar_function.h"
@@ -14,35 +13,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// f(q) and its derivatives by q.
-struct Derivatives {
-  double value = 0, first = 1, second = 0;
-};
-
-Derivatives DerivativesOf(const ScalarFunction::Stage& stage, double x) {
-  const auto piece = static_cast<std::size_t>(
-      std::upper_bound(stage.breaks.begin(), stage.breaks.end(), x) - stage.breaks.begin());
-  const double d = x - stage.origins[piece];
-  Derivatives at = {0, 0, 0};
-  for (std::size_t i = stage.order; i-- > 0;) {
-    at.second = at.second * d + 2 * at.first;
-    at.first = at.first * d + at.value;
-    at.value = at.value * d + stage.coefficients[piece * stage.order + i];
-  }
-  return at;
-}
-
-Derivatives DerivativesOf(const Segment& segment, double q) {
-  Derivatives all = {q, 1, 0};
-  if (!segment.function) return all;
-  for (const ScalarFunction::Stage& stage : segment.function->stages()) {
-    const Derivatives outer = DerivativesOf(stage, all.value);
-    all = {outer.value, outer.first * all.first,
-           outer.second * all.first * all.first + outer.first * all.second};
-  }
-  return all;
-}
 
 /// A segment on its way, in W, where weight is an acceleration upwards.
 struct MovingSegment {
@@ -63,16 +33,17 @@ void Carry(const Segment& segment, const MovingSegment& parent, double q, double
   moving->rotation_rate = parent.rotation_rate;
   Vector3d slide = Vector3d::Zero();
   if (segment.joint >= 0) {
-    const Derivatives f = DerivativesOf(segment, q);
+    double value = q, slope = 1, curvature = 0;
+    if (segment.function) value = segment.function->Value(q, &slope, &curvature);
     const Vector3d axis = moving->R * segment.axis;
-    const double rate = f.first * velocity;
-    const double rate_change = f.first * acceleration + f.second * velocity * velocity;
-    moving->axis = f.first * axis;
+    const double rate = slope * velocity;
+    const double rate_change = slope * acceleration + curvature * velocity * velocity;
+    moving->axis = slope * axis;
     if (segment.type == JointType::kSliding) {
-      r += f.value * axis;
+      r += value * axis;
       slide = 2 * rate * parent.rotation.cross(axis) + rate_change * axis;
     } else {
-      moving->R = moving->R * Eigen::AngleAxisd(f.value, segment.axis);
+      moving->R = moving->R * Eigen::AngleAxisd(value, segment.axis);
       moving->rotation += rate * axis;
       moving->rotation_rate += rate_change * axis + rate * parent.rotation.cross(axis);
     }

@@ -158,6 +158,8 @@ JointForces ComputeJointForces(const KinematicModel& model, const PoseTrajectory
       found.cutoff > 0 ? static_cast<int>(std::ceil(motion.rate / found.cutoff)) : 0;
   std::optional<CoordinateSeries> coordinates;
   if (model.coordinates()) coordinates.emplace(model);
+  const std::array<int, 2> feet_of_model = {FootSegment(model, Side::kLeft),
+                                            FootSegment(model, Side::kRight)};
   double lowest = HUGE_VAL;
   std::vector<VectorXd> all(frames);
   std::vector<VectorXd> of_columns(frames);
@@ -165,10 +167,8 @@ JointForces ComputeJointForces(const KinematicModel& model, const PoseTrajectory
     const Posture& posture = smooth.postures[k];
     const VectorXd values = coordinates ? coordinates->Next(posture) : VectorXd();
     found.height += CenterOfMass(model, posture).z() / frames;
-    for (const Side side : kSides) {
-      const int foot = FootSegment(model, side);
-      lowest = std::min(lowest, SegmentPoses(model, posture)[foot].translation().z());
-    }
+    const auto X_WS = SegmentPoses(model, posture);
+    for (const int foot : feet_of_model) lowest = std::min(lowest, X_WS[foot].translation().z());
     all[k] = InverseDynamics(model, posture, smooth.velocities.col(k), smooth.accelerations.col(k),
                              WrenchesAt(k, model, feet));
     of_columns[k] = coordinates ? ForcesOfCoordinates(model, posture, values, all[k])

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/io/tables/column_names.h"
@@ -54,21 +55,29 @@ std::string Rounded(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
 }
 
-std::string JsonOf(const ResidualSize& size, const char* unit, double weight) {
-  return fmt::format(
-      R"({{"rms_{0}": {1}, "peak_{0}": {2}, "rms_of_body_weight": {3}, "peak_of_body_weight": {4}}})",
-      unit, Rounded(size.rms), Rounded(size.peak), Rounded(size.rms / weight),
-      Rounded(size.peak / weight));
+std::string JsonOf(const ResidualSize& size, bool is_moment, double mass) {
+  const double share = is_moment ? mass : mass * kStandardGravity;
+  return fmt::format(R"({{"rms_{0}": {2}, "peak_{0}": {3}, "rms_{1}": {4}, "peak_{1}": {5}}})",
+                     is_moment ? "Nm" : "N", is_moment ? "Nm_per_kg" : "of_body_weight",
+                     Rounded(size.rms), Rounded(size.peak), Rounded(size.rms / share),
+                     Rounded(size.peak / share));
+}
+
+/// A name between quotes.
+std::string Quotable(const std::string& name) {
+  std::string word = OneWord(name);
+  std::replace_if(
+      word.begin(), word.end(), [](char c) { return c == '"' || c == '\\'; }, '_');
+  return word;
 }
 
 std::string JsonOfResiduals(const JointForces& found) {
   const Residuals all = MeasureResiduals(found);
   if (all.frames == 0) return "null";
-  const double weight = found.mass * kStandardGravity;
   std::vector<std::string> components;
   for (std::size_t i = 0; i < all.components.size(); ++i) {
-    components.push_back(fmt::format("\"{}\": {}", kComponents[i],
-                                     JsonOf(all.components[i], i < 3 ? "N" : "Nm", weight)));
+    components.push_back(
+        fmt::format("\"{}\": {}", kComponents[i], JsonOf(all.components[i], i >= 3, found.mass)));
   }
   return fmt::format(
       R"({{
@@ -81,10 +90,10 @@ std::string JsonOfResiduals(const JointForces& found) {
     "reference": {{"source": "OpenSim's subject01_walk1", "rms_force_N": {}, "peak_force_N": {}, "external_peak_N": {}}},
     "verdict": "{}"
   }})",
-      all.frames, Rounded(all.external), JsonOf(all.force, "N", weight),
-      JsonOf(all.moment, "Nm", weight), fmt::join(components, ",\n    "), Rounded(all.most_force),
-      Rounded(all.most_moment), kReducedForcePeak, kReducedForceRms, kReducedMomentPeak,
-      kReducedMomentRms, kReferenceRms, kReferencePeak, kReferenceExternal,
+      all.frames, Rounded(all.external), JsonOf(all.force, false, found.mass),
+      JsonOf(all.moment, true, found.mass), fmt::join(components, ",\n    "),
+      Rounded(all.most_force), Rounded(all.most_moment), kReducedForcePeak, kReducedForceRms,
+      kReducedMomentPeak, kReducedMomentRms, kReferenceRms, kReferencePeak, kReferenceExternal,
       all.is_within ? "within limits" : "beyond limits");
 }
 
@@ -111,7 +120,7 @@ std::string JsonOfLeg(const JointForces& found, std::size_t i) {
   return fmt::format(
       R"({{"name": "{}", "unit": "{}", "known_frames": {}, "largest": {}, "largest_at_s": {}, )"
       R"("largest_deviation": {}, "smallest": {}, "smallest_at_s": {}, "smallest_deviation": {}}})",
-      OneWord(found.names[i]), found.is_moment[i] ? "N m/kg" : "N/kg", frames, value(largest),
+      Quotable(found.names[i]), found.is_moment[i] ? "N m/kg" : "N/kg", frames, value(largest),
       time(largest), deviation(largest), value(smallest), time(smallest), deviation(smallest));
 }
 

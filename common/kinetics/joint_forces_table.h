@@ -14,8 +14,8 @@ namespace mmm_converter {
 /// known.
 TextPieces FormatJointForcesSto(const JointForces& found);
 
-/// time_s, then NAME_Nm or NAME_N, then
-/// the residual residual_fx_N to residual_mz_Nm. Empty: not known.
+/// time_s, NAME_Nm or NAME_N, their standard deviations sd_... where they are estimated, then
+/// residual_fx_N to residual_mz_Nm. Empty: not known.
 TextPieces FormatJointForcesCsv(const JointForces& found);
 
 /// The residuals with the published limits, and the largest and smallest moments of the legs'

@@ -147,22 +147,27 @@ std::size_t ScalarFunction::PieceOf(const Stage& stage, double x) {
                                   stage.breaks.begin());
 }
 
-double ScalarFunction::Value(double x, double* slope) const {
+double ScalarFunction::Value(double x, double* slope, double* curvature) const {
   double total = 1;
+  double bend = 0;
   for (const Stage& stage : stages_) {
     const std::size_t piece = PieceOf(stage, x);
     const double* c = &stage.coefficients[piece * stage.order];
     const double t = x - stage.origins[piece];
     double value = 0;
     double derivative = 0;
+    double second = 0;
     for (std::size_t i = stage.order; i-- > 0;) {
+      second = second * t + 2 * derivative;
       derivative = derivative * t + value;
       value = value * t + c[i];
     }
+    bend = second * total * total + derivative * bend;
     total *= derivative;
     x = value;
   }
   if (slope != nullptr) *slope = total;
+  if (curvature != nullptr) *curvature = bend;
   return x;
 }
 

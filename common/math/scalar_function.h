@@ -46,8 +46,8 @@ class ScalarFunction {
   /// x -> this(inner(x))
   ScalarFunction After(const ScalarFunction& inner) const;
 
-  /// slope: the derivative there; may be null.
-  double Value(double x, double* slope = nullptr) const;
+  /// slope, curvature: the first and the second derivative there; may be null.
+  double Value(double x, double* slope = nullptr, double* curvature = nullptr) const;
   /// y[i] = Value(x[i]), faster where neighbours are of one piece. y may be x.
   void Values(const double* x, std::ptrdiff_t count, double* y) const;
 

@@ -88,7 +88,7 @@ MatrixXd LowPassed(const MatrixXd& values, double rate, double cutoff) {
   return values - removed;
 }
 
-PoseTrajectory LowPassed(const PoseTrajectory& motion, double cutoff) {
+MatrixXd ChannelsOf(const PoseTrajectory& motion) {
   const auto joints = static_cast<Index>(motion.joint_names.size());
   MatrixXd values(motion.num_frames(), 7 + joints);
   Eigen::Vector4d previous = Eigen::Vector4d::Zero();
@@ -99,7 +99,12 @@ PoseTrajectory LowPassed(const PoseTrajectory& motion, double cutoff) {
     values.row(k) << q.position.transpose(), orientation.transpose(), q.joint_angles.transpose();
     previous = orientation;
   }
-  values = LowPassed(values, motion.rate, cutoff);
+  return values;
+}
+
+PoseTrajectory LowPassed(const PoseTrajectory& motion, double cutoff) {
+  const auto joints = static_cast<Index>(motion.joint_names.size());
+  const MatrixXd values = LowPassed(ChannelsOf(motion), motion.rate, cutoff);
 
   PoseTrajectory smooth;
   smooth.rate = motion.rate;

@@ -19,6 +19,10 @@ inline double LargestCutoff(double rate) { return 0.4 * rate; }
 /// LargestCutoff(rate) [Hz]; fewer than four frames are returned as they are.
 Eigen::MatrixXd LowPassed(const Eigen::MatrixXd& values, double rate, double cutoff);
 
+/// frames x [root position 3 [m]; its quaternion x, y, z, w without jumps of the sign; joint
+/// angles].
+Eigen::MatrixXd ChannelsOf(const PoseTrajectory& motion);
+
 /// The same for root position and joint angles; the root's rotation as a quaternion of continuous
 /// sign, which treats all axes alike and lets a constant spin pass. Derivatives and standard
 /// deviations are dropped.

@@ -50,4 +50,10 @@ int FramesWithMissingMarkers(const Eigen::MatrixXd& residuals) {
   return frames;
 }
 
+int FramesBeforeFirstSeen(const Eigen::MatrixXd& residuals) {
+  Eigen::Index first = 0;
+  while (first < residuals.cols() && residuals.col(first).array().isNaN().all()) ++first;
+  return first < residuals.cols() ? static_cast<int>(first) : 0;
+}
+
 }  // namespace mmm_converter

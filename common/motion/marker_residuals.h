@@ -26,4 +26,7 @@ Eigen::VectorXd MeanOfEachFrame(const Eigen::MatrixXd& residuals);
 /// The frames in which at least one marker was not seen.
 int FramesWithMissingMarkers(const Eigen::MatrixXd& residuals);
 
+/// The frames before the first one in which a marker was seen; 0 where none ever was.
+int FramesBeforeFirstSeen(const Eigen::MatrixXd& residuals);
+
 }  // namespace mmm_converter

@@ -5,6 +5,8 @@
 #include <Eigen/SparseLU>
 #include <array>
 
+#include "common/motion/low_pass.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -65,15 +67,7 @@ SplineDerivatives DifferentiateSplines(const MatrixXd& values, double rate) {
 void DifferentiateSplines(PoseTrajectory* trajectory) {
   const int frames = trajectory->num_frames();
   const auto joints = static_cast<Index>(trajectory->joint_names.size());
-  MatrixXd values(frames, 7 + joints);
-  Eigen::Vector4d previous = Eigen::Vector4d::Zero();
-  for (int k = 0; k < frames; ++k) {
-    const Posture& q = trajectory->postures[k];
-    Eigen::Vector4d orientation = q.orientation.coeffs();
-    if (orientation.dot(previous) < 0) orientation = -orientation;
-    values.row(k) << q.position.transpose(), orientation.transpose(), q.joint_angles.transpose();
-    previous = orientation;
-  }
+  const MatrixXd values = ChannelsOf(*trajectory);
   const SplineDerivatives derivatives = DifferentiateSplines(values, trajectory->rate);
   const auto differentiated = [&](const MatrixXd& of) {
     MatrixXd result(6 + joints, frames);

@@ -92,7 +92,9 @@ ConversionResult Track(const ConversionPlan& plan, const std::function<bool(int,
   const Recording& recording = plan.input.recording;
   const int frames = recording.markers.num_frames();
   const auto converter = plan.converter.plugin->factory().Create(plan.setup, plan.converter.config);
-  if (plan.keeps_covariances && !converter->KeepCovariances()) {
+  const bool wants_covariances = plan.keeps_covariances || plan.takes_covariances;
+  const bool has_covariances = wants_covariances && converter->KeepCovariances();
+  if (plan.keeps_covariances && !has_covariances) {
     throw Error(fmt::format("{} estimates no covariances; use S2KFConverter, or do without them",
                             plan.converter.config.type));
   }
@@ -174,6 +176,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   plan.self_calibrates = request.self_calibrate && !plan.object;
   CheckForces(request.exports, &plan);
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
+  plan.takes_covariances = TakeCovariances(request.exports);
   return plan;
 }
 

@@ -59,6 +59,7 @@ struct ConversionPlan {
   std::string subject_output, model_output;  ///< empty: not written
   bool self_calibrates = false;              ///< before it is tracked
   bool keeps_covariances = false;
+  bool takes_covariances = false;                ///< where the converter has them
   std::shared_ptr<const RecordedForces> forces;  ///< where an export is made of them
   Warnings warnings;
 };

@@ -118,6 +118,12 @@ void WriteCovariances(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatCovarianceNpz(result.trajectory, result.covariances));
 }
 
+bool IsAny(const ExportFiles& files, bool Exporter::*is_so) {
+  const std::vector<Exporter>& all = Exporters();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Exporter& one) { return one.*is_so && files.count(one.name) > 0; });
+}
+
 void CheckAnatomy(const std::string& file, const KinematicModel& model) {
   if (HasAnatomy(model)) return;
   throw Error(
@@ -145,7 +151,7 @@ const std::vector<Exporter>& Exporters() {
       {"angles", "export-angles", "csv", "joint angles by their anatomical names as CSV",
        "flexion, adduction and rotation of trunk, hips, knees, ankles, shoulders and others in "
        "degrees with their standard deviations: a row for each frame and angle",
-       WriteAngles, false, CheckAnatomy},
+       WriteAngles, false, false, CheckAnatomy},
       {"trc", "export-trc", "trc", "markers, measured and the model's, as TRC",
        "markers as TRC for OpenSim or Mokka, in mm with y up: as measured, and where the model has "
        "them (LABEL_model)",
@@ -169,9 +175,9 @@ const std::vector<Exporter>& Exporters() {
        WritePoses},
       {"bvh", "export-bvh", "bvh", "the skeleton and its motion as BVH",
        "skeleton and motion as BVH for Blender, in centimetres and degrees with y up", WriteBvh,
-       false, CheckTurns},
+       false, false, CheckTurns},
       {"bvh-m", "export-bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres,
-       false, CheckTurns},
+       false, false, CheckTurns},
       {"covariance", "export-covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "
@@ -191,15 +197,13 @@ const std::vector<Exporter>& Exporters() {
       {"inverse-dynamics", "export-id", "csv", "forces and moments of the joints, as CSV",
        "generalised forces of the joints by inverse dynamics (6 Hz) with what force "
        "plates measured: .sto as OpenSim's, .json with residuals and the legs' extremes, else CSV",
-       WriteJointForces, true}};
+       WriteJointForces, false, true}};
   return exporters;
 }
 
-bool NeedCovariances(const ExportFiles& files) {
-  const std::vector<Exporter>& all = Exporters();
-  return std::any_of(all.begin(), all.end(), [&](const Exporter& one) {
-    return one.of_covariances && files.count(one.name) > 0;
-  });
+bool NeedCovariances(const ExportFiles& files) { return IsAny(files, &Exporter::of_covariances); }
+bool TakeCovariances(const ExportFiles& files) {
+  return IsAny(files, &Exporter::takes_covariances);
 }
 
 void CheckExports(const ExportFiles& files, const KinematicModel& model) {

@@ -23,6 +23,7 @@ struct Exporter {
   void (*write)(const std::string& file, const ConversionReport& report) = nullptr;
   /// Of covariances, which are kept where they are asked for before a whole recording is tracked.
   bool of_covariances = false;
+  bool takes_covariances = false;  ///< says more where the converter has them
   /// @throws Error naming the file where it can't be made of that model. Null: of each it can.
   void (*check)(const std::string& file, const KinematicModel& model) = nullptr;
 };
@@ -34,6 +35,8 @@ using ExportFiles = std::map<std::string, std::string>;
 
 /// Whether one of these is made of covariances.
 bool NeedCovariances(const ExportFiles& files);
+/// Whether one of these says more with them.
+bool TakeCovariances(const ExportFiles& files);
 
 /// @throws Error where one of these can't be written of that model.
 void CheckExports(const ExportFiles& files, const KinematicModel& model);

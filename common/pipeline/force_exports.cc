@@ -16,6 +16,7 @@
 #include "common/forces/recording_forces.h"
 #include "common/kinetics/joint_forces_table.h"
 #include "common/kinetics/moment_deviations.h"
+#include "common/motion/marker_residuals.h"
 #include "common/pipeline/conversion.h"
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
@@ -46,7 +47,7 @@ constexpr double kDeviations = 2;
 /// Of the recording's file, or of the one that is beside it.
 RecordedForces GroundForces(const Input& input, Warnings* warnings) {
   if (input.forces_file.empty()) return ForcesOf(input.recording, warnings);
-  return ForcesOf(input.forces_file, input.recording, warnings);
+  return ForcesOf(input.forces_file, input.recording.up_axis, warnings);
 }
 
 void CheckHasPlates(const RecordedForces& forces, const Recording& recording) {
@@ -60,10 +61,11 @@ void CheckHasPlates(const RecordedForces& forces, const Recording& recording) {
 /// Without the frames before the person was seen.
 PoseTrajectory TrackedMotion(const ConversionResult& result) {
   PoseTrajectory motion = result.trajectory;
-  int begin = 0;
-  while (begin < motion.num_frames() && !(result.residuals.col(begin).array() >= 0).any()) ++begin;
-  if (begin == motion.num_frames()) return motion;
+  const int begin = FramesBeforeFirstSeen(result.residuals);
   motion.first_time = motion.time(begin);
+  motion.standard_deviations.resize(0, 0);
+  motion.velocities.resize(0, 0);
+  motion.accelerations.resize(0, 0);
   motion.postures.erase(motion.postures.begin(), motion.postures.begin() + begin);
   return motion;
 }
@@ -210,6 +212,9 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
     throw Error(fmt::format(
         "{}: feet on the ground are told of MMM's and OpenSim's models of persons, not of {}",
         recording.file, plan->input.model_file));
+  }
+  if (files.count(kJointForces) > 0 && !(plan->setup.model->total_mass() > 0)) {
+    throw Error(plan->input.model_file + ": has no masses, hence no dynamics");
   }
   plan->forces = std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
   if (needs_plates) CheckHasPlates(*plan->forces, recording);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
+#include <span>
 
 #include "common/fit/height_estimate.h"
 #include "common/fit/posture_search.h"
 #include "common/judge/evidence.h"
 #include "common/math/statistics.h"
 #include "common/pipeline/recording_labels.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -41,7 +42,7 @@ NamedMarkersOf FindMarkers(const FoundLabels& found, const MarkerSequence& named
   return of;
 }
 
-/// Markers x frames [m]; NaN: not seen, or the frame shows too few.
+/// Frames x markers [m]; NaN: not seen, or the frame shows too few.
 Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
                           const MarkerSequence& named) {
   const MarkerKinematics kinematics(*found.setup.model, found.setup.joints, of.markers);
@@ -49,7 +50,7 @@ Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
   PostureSearch search(kinematics);
   PostureFitOptions options;
   options.robust_distance = 0.1;
-  Eigen::MatrixXd distances = Eigen::MatrixXd::Constant(kinematics.num_markers(), kFrames, kNaN);
+  Eigen::MatrixXd distances = Eigen::MatrixXd::Constant(kFrames, kinematics.num_markers(), kNaN);
   for (int i = 0; i < kFrames; ++i) {
     const int k = (2 * i + 1) * named.num_frames() / (2 * kFrames);
     const Matrix3Xd z = named.frame(k)(Eigen::all, of.columns);
@@ -58,9 +59,14 @@ Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
     search.Assemble(z, of.noise_scale, options, kAttempts, &posture);
     kinematics.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                               posture.joint_angles, &at);
-    distances.col(i) = (z - at.p_WM).colwise().norm().transpose();
+    distances.row(i) = (z - at.p_WM).colwise().norm();
   }
   return distances;
+}
+
+/// Of a marker; NaN: never seen.
+double MeanDistance(const Eigen::MatrixXd& distances, Eigen::Index marker) {
+  return Mean({distances.col(marker).data(), static_cast<std::size_t>(distances.rows())});
 }
 
 }  // namespace
@@ -71,11 +77,8 @@ std::set<std::string> NamesThatFit(const FoundLabels& found, const MarkerSequenc
   std::set<std::string> names;
   if (of.markers.size() < kFewestPoints) return names;
   const Eigen::MatrixXd distances = Distances(found, of, markers);
-  for (Eigen::Index m = 0; m < distances.rows(); ++m) {
-    std::vector<double> own;
-    std::copy_if(distances.row(m).begin(), distances.row(m).end(), std::back_inserter(own),
-                 [](double d) { return std::isfinite(d); });
-    if (!own.empty() && Mean(own) <= most) names.insert(of.names[static_cast<std::size_t>(m)]);
+  for (Eigen::Index m = 0; m < distances.cols(); ++m) {
+    if (MeanDistance(distances, m) <= most) names.insert(of.names[static_cast<std::size_t>(m)]);
   }
   return names;
 }
@@ -87,19 +90,14 @@ LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
   const NamedMarkersOf of = FindMarkers(found, named);
   if (of.markers.size() < kFewestPoints) return fit;
   const Eigen::MatrixXd distances = Distances(found, of, named);
-  std::vector<double> all;
-  for (Eigen::Index m = 0; m < distances.rows(); ++m) {
-    std::vector<double> own;
-    for (const double d : distances.row(m)) {
-      if (std::isfinite(d)) own.push_back(d);
-    }
-    if (own.empty()) continue;
-    const double mean = Mean(own);
+  if (!distances.array().isFinite().any()) return fit;
+  for (Eigen::Index m = 0; m < distances.cols(); ++m) {
+    const double mean = MeanDistance(distances, m);
+    if (!std::isfinite(mean)) continue;
     fit.farthest = std::max(fit.farthest, mean);
     if (kMarkerMean.IsBeyond(mean)) fit.far_names.push_back(of.names[static_cast<std::size_t>(m)]);
-    all.insert(all.end(), own.begin(), own.end());
   }
-  if (all.empty()) return fit;
+  const std::span<const double> all(distances.data(), static_cast<std::size_t>(distances.size()));
   fit.mean_distance = Mean(all);
   fit.p95_distance = Percentile(all, 95);
   if (reference == nullptr) return fit;

@@ -20,10 +20,9 @@ OsimCouplings::OsimCouplings(const OsimDocument& document, Diagnostics* diagnost
   for (std::size_t i = 0; i < count; ++i) {
     const OsimCoordinate& one = document.coordinates[i];
     index_.emplace(one.name, static_cast<int>(i));
-    const bool is_held = one.is_locked || (one.is_clamped && one.lower == one.upper);
-    is_free_[i] = !is_held;
+    is_free_[i] = !one.IsHeld();
     values_[i].constant = one.is_locked ? one.default_value : one.lower;
-    if (is_held) continue;
+    if (one.IsHeld()) continue;
     values_[i] = OsimExpression();
     values_[i].terms.push_back({one.name, ScalarFunction()});
   }

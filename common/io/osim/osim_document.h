@@ -38,6 +38,8 @@ struct OsimCoordinate {
   double upper = 10;
   bool is_clamped = false;
   bool is_locked = false;
+
+  bool IsHeld() const { return is_locked || (is_clamped && lower == upper); }  ///< where it is
 };
 
 /// constant + the sum of functions of one coordinate each.

@@ -4,23 +4,27 @@
 #include <utility>
 
 #include "common/contacts/foot_motion.h"
-#include "common/forces/external_loads.h"
 #include "common/forces/recording_forces.h"
 #include "common/math/up_axis.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-/// With what was measured of the ground, in the axes in which it is exported beside a motion.
+/// With what was measured of the ground, in the axes in which it is exported beside a motion; of
+/// the frames that are checked.
 std::optional<JointForces> MeasuredForces(CheckedMotion* motion, const DynamicsOptions& options) {
   if (motion->forces_file.empty()) return std::nullopt;
-  const Eigen::Matrix3d R = RotationToZUp(UpAxis::kY);
-  RecordedForces forces =
-      ReadExternalLoads(motion->forces_file, R.row(2).transpose(), &motion->warnings);
-  Turn(R, &forces);
+  const RecordedForces forces = ForcesOf(motion->forces_file, UpAxis::kY, &motion->warnings);
   const Contacts contacts = FindContacts(MoveFeet(motion->model, motion->trajectory), forces);
-  return ComputeJointForces(motion->model, motion->trajectory, contacts, forces, {options.cutoff});
+  JointForces found =
+      ComputeJointForces(motion->model, motion->trajectory, contacts, forces, {options.cutoff});
+  for (Eigen::MatrixXd* one : {&found.forces, &found.residuals}) {
+    one->leftCols(motion->begin).setConstant(kNaN);
+    one->rightCols(found.num_frames() - motion->end).setConstant(kNaN);
+  }
+  return found;
 }
 
 }  // namespace
@@ -35,10 +39,10 @@ DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& option
   DynamicsOptions of_frames = options;
   of_frames.first_frame = motion.begin;
   of_frames.end_frame = motion.end;
+  std::optional<JointForces> with_forces = MeasuredForces(&motion, options);
   MotionDynamics dynamics =
       ComputeMotionDynamics(motion.model, motion.trajectory, of_frames, progress);
   Plausibility judged = JudgeDynamics(motion.model, dynamics);
-  std::optional<JointForces> with_forces = MeasuredForces(&motion, options);
   return {std::move(motion), std::move(dynamics), std::move(judged), std::move(with_forces)};
 }
 

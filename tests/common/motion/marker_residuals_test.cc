@@ -47,6 +47,15 @@ TEST(MarkerResiduals, PerMarkerAndPerFrame) {
   EXPECT_EQ(FramesWithMissingMarkers(residuals.topLeftCorner(2, 3)), 1);
 }
 
+TEST(MarkerResiduals, FramesBeforeThePersonIsSeen) {
+  Eigen::MatrixXd residuals = Eigen::MatrixXd::Constant(2, 4, std::nan(""));
+  EXPECT_EQ(FramesBeforeFirstSeen(residuals), 0);
+  residuals(1, 2) = 0;
+  EXPECT_EQ(FramesBeforeFirstSeen(residuals), 2);
+  residuals(0, 0) = 1;
+  EXPECT_EQ(FramesBeforeFirstSeen(residuals), 0);
+}
+
 TEST(MarkerResiduals, NothingAtAll) {
   EXPECT_EQ(SummarizeResiduals(Eigen::MatrixXd(3, 0)).seen, 0);
   EXPECT_TRUE(SummarizeEachMarker(Eigen::MatrixXd(0, 3)).empty());
