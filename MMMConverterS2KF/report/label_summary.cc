@@ -12,6 +12,7 @@
 #include "common/judge/label_verdict.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

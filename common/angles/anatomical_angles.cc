@@ -277,6 +277,7 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
   AnatomicalAngles angles;
   angles.rate = motion.rate;
   angles.first_time = motion.first_time;
+  angles.forward = StandingAxes(model).col(0).head<2>();
   for (const Row& row : rows) {
     const JointFrames& joint = joints[row.joint];
     const char* side = joint.is_left ? "left" : "right";

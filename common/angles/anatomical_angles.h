@@ -35,7 +35,8 @@ struct AnatomicalAngles {
   double rate = 0;        ///< [Hz]
   double first_time = 0;  ///< [s]
   std::vector<AnatomicalAngle> angles;
-  Eigen::MatrixXd values;      ///< angles x frames [rad], without jumps
+  Eigen::Vector2d forward = Eigen::Vector2d::UnitY();  ///< where a pelvis without rotation faces, W
+  Eigen::MatrixXd values;                              ///< angles x frames [rad], without jumps
   Eigen::MatrixXd deviations;  ///< standard deviations [rad]; empty: the motion has none
 
   int num_frames() const { return static_cast<int>(values.cols()); }

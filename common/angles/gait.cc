@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 namespace mmm_converter {
@@ -50,6 +51,7 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   const Eigen::Vector3d to = HeelAt(feet, stride.side, stride.end);
   const Eigen::Vector2d way = (to - from).head<2>();
   stride.length = way.norm();
+  stride.heading = std::atan2(way.y(), way.x());
   const Side other = stride.side == Side::kLeft ? Side::kRight : Side::kLeft;
   const double before = ContactBefore(contacts, other, stride.end);
   stride.step_time = before > stride.begin ? stride.end - before : kNaN;
@@ -63,56 +65,102 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   return stride;
 }
 
-std::vector<Stride> StridesOf(Side side, const FootMotion& feet, const Contacts& contacts) {
-  std::vector<Stride> strides;
+bool IsKnown(const FootContact& contact, const FootContact& next, const FootMotion& feet,
+             const KnownLegs& known) {
+  const auto frame = [&](double time) {
+    return std::clamp<long>(std::lround((time - feet.first_time) * feet.rate), 0,
+                            feet.num_frames() - 1);
+  };
+  const long begin = frame(*contact.begin), end = frame(*next.begin);
+  return std::all_of(known.begin(), known.end(), [&](const std::vector<bool>& leg) {
+    return std::find(leg.begin() + begin, leg.begin() + end + 1, false) == leg.begin() + end + 1;
+  });
+}
+
+void AddStrides(Side side, const FootMotion& feet, const Contacts& contacts, const KnownLegs& known,
+                Gait* gait) {
   const FootContact* last = nullptr;
   for (const FootContact& one : contacts.contacts) {
     if (one.side != side || !one.begin) continue;
     if (last != nullptr && *one.begin - *last->begin <= kLongestStride) {
-      strides.push_back(StrideOf(*last, one, feet, contacts));
+      if (IsKnown(*last, one, feet, known)) {
+        gait->strides.push_back(StrideOf(*last, one, feet, contacts));
+      } else {
+        ++gait->left_out;
+      }
     }
     last = &one;
   }
-  return strides;
 }
 
-double AngleAt(const AnatomicalAngles& angles, Eigen::Index row, double time) {
-  return ColumnAt(angles.values.row(row), (time - angles.first_time) * angles.rate)(0);
-}
+/// An angle over a stride.
+class AngleOfStride {
+ public:
+  AngleOfStride(const AnatomicalAngles& angles, Eigen::Index row, const Stride& stride)
+      : angles_(angles), row_(row), stride_(stride) {
+    const AnatomicalAngle& angle = angles.angles[static_cast<std::size_t>(row)];
+    const bool is_heading =
+        std::string_view(angle.joint) == "pelvis" && std::string_view(angle.motion) == "rotation";
+    if (!is_heading) return;
+    const double along = stride.heading - std::atan2(angles.forward.y(), angles.forward.x());
+    const double apart = ColumnAt(angles.values.row(row), FrameAt(0))(0) - along;
+    zero_ = along + apart - std::remainder(apart, 2 * std::numbers::pi);
+  }
+
+  double Value(double share) const {
+    return ColumnAt(angles_.values.row(row_), FrameAt(share))(0) - zero_;
+  }
+  double Deviation(double share) const {
+    if (angles_.deviations.size() == 0) return kNaN;
+    return ColumnAt(angles_.deviations.row(row_), FrameAt(share))(0);
+  }
+
+ private:
+  double FrameAt(double share) const {
+    return (stride_.begin + share * stride_.time() - angles_.first_time) * angles_.rate;
+  }
+
+  const AnatomicalAngles& angles_;
+  Eigen::Index row_;
+  const Stride& stride_;
+  double zero_ = 0;
+};
 
 GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,
                   const std::vector<Stride>& strides) {
   GaitCycle cycle;
   cycle.angle = angles.angles[static_cast<std::size_t>(row)];
   cycle.side = side;
-  std::vector<const Stride*> own;
+  std::vector<AngleOfStride> own;
   for (const Stride& one : strides) {
-    if (one.side == side) own.push_back(&one);
+    if (one.side == side) own.emplace_back(angles, row, one);
   }
   cycle.strides = static_cast<int>(own.size());
   const auto count = static_cast<double>(own.size());
   for (int i = 0; i < GaitCycle::kSamples; ++i) {
     const double share = static_cast<double>(i) / (GaitCycle::kSamples - 1);
-    double sum = 0, squares = 0;
-    for (const Stride* one : own) sum += AngleAt(angles, row, one->begin + share * one->time());
-    cycle.mean[i] = sum / count;
-    for (const Stride* one : own) {
-      const double apart = AngleAt(angles, row, one->begin + share * one->time()) - cycle.mean[i];
-      squares += apart * apart;
+    double sum = 0, squares = 0, uncertain = 0;
+    for (const AngleOfStride& one : own) {
+      sum += one.Value(share);
+      uncertain += one.Deviation(share) * one.Deviation(share);
     }
+    const double mean = sum / count;
+    for (const AngleOfStride& one : own) {
+      squares += (one.Value(share) - mean) * (one.Value(share) - mean);
+    }
+    cycle.mean[i] = mean;
     cycle.deviation[i] = own.size() > 1 ? std::sqrt(squares / (count - 1)) : kNaN;
+    cycle.uncertainty[i] = std::sqrt(uncertain / count);
   }
   return cycle;
 }
 
 }  // namespace
 
-Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles) {
+Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles,
+                 const KnownLegs& known) {
   Gait gait;
-  for (const Side side : kSides) {
-    const std::vector<Stride> strides = StridesOf(side, feet, contacts);
-    gait.strides.insert(gait.strides.end(), strides.begin(), strides.end());
-  }
+  for (const Side side : kSides) AddStrides(side, feet, contacts, known, &gait);
   for (const Side side : kSides) {
     const bool has_stride = std::any_of(gait.strides.begin(), gait.strides.end(),
                                         [&](const Stride& one) { return one.side == side; });

@@ -18,6 +18,7 @@ struct Stride {
   double time_deviation = 0;  ///< standard deviation of end - begin [s]
   double foot_off = 0;        ///< of the stride [0, 1]: the share that it stood
   double length = 0;          ///< [m]
+  double heading = 0;         ///< of the way, from W's x to its y [rad]
   double step_length = 0;     ///< [m] by which it was ahead of the other foot at its contact
   double step_width = 0;      ///< [m] between both feet then
   double step_time = 0;       ///< [s] since the other foot's contact
@@ -36,14 +37,22 @@ struct GaitCycle {
   int strides = 0;
   std::array<double, kSamples> mean = {};       ///< [rad]
   std::array<double, kSamples> deviation = {};  ///< among the strides [rad]; NaN: it is one
+  /// Standard deviation of the angle itself, root mean square of the strides [rad]; NaN: not known.
+  std::array<double, kSamples> uncertainty = {};
 };
+
+/// By side: the frames in which enough of the leg is seen.
+using KnownLegs = std::array<std::vector<bool>, 2>;
 
 struct Gait {
   std::vector<Stride> strides;    ///< the left foot's, then the right foot's, over time
   std::vector<GaitCycle> cycles;  ///< of angles of a side over its strides, of others over both
+  int left_out = 0;               ///< strides in which a leg was hidden
 };
 
-/// Strides last at most 2.5 s: what is longer is standing. angles: of the same motion.
-Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles);
+/// Strides last at most 2.5 s: what is longer is standing; both legs are known all along. The
+/// pelvis turns against the way from contact to contact. angles: of the same motion.
+Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles,
+                 const KnownLegs& known);
 
 }  // namespace mmm_converter

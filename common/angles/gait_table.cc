@@ -79,12 +79,14 @@ std::string ListJson(const std::array<double, GaitCycle::kSamples>& angles) {
 }  // namespace
 
 std::string FormatGaitCsv(const Gait& gait) {
-  std::string text = "joint,side,angle,percent,mean_degrees,sd_degrees,strides\n";
+  std::string text =
+      "joint,side,angle,percent,mean_degrees,sd_degrees,uncertainty_degrees,strides\n";
   for (const GaitCycle& cycle : gait.cycles) {
     for (int i = 0; i < GaitCycle::kSamples; ++i) {
-      text += fmt::format("{},{},{},{},{},{},{}\n", cycle.angle.joint, Name(cycle.side),
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", cycle.angle.joint, Name(cycle.side),
                           cycle.angle.motion, i, Number(kDegrees * cycle.mean[i], ""),
-                          Number(kDegrees * cycle.deviation[i], ""), cycle.strides);
+                          Number(kDegrees * cycle.deviation[i], ""),
+                          Number(kDegrees * cycle.uncertainty[i], ""), cycle.strides);
     }
   }
   return text;
@@ -95,15 +97,17 @@ std::string FormatGaitJson(const Gait& gait) {
   for (const Stride& one : gait.strides) strides.push_back(StrideJson(one));
   for (const GaitCycle& one : gait.cycles) {
     cycles.push_back(fmt::format(
-        R"({{"joint": "{}", "side": "{}", "angle": "{}", "strides": {}, "mean_degrees": {}, "sd_degrees": {}}})",
+        R"({{"joint": "{}", "side": "{}", "angle": "{}", "strides": {}, "mean_degrees": {}, "sd_degrees": {}, "uncertainty_degrees": {}}})",
         one.angle.joint, Name(one.side), one.angle.motion, one.strides, ListJson(one.mean),
-        ListJson(one.deviation)));
+        ListJson(one.deviation), ListJson(one.uncertainty)));
   }
   return fmt::format(
-      "{{\n  \"summary\": {{{}, {}}},\n  \"strides\": [\n    {}\n  ],\n  \"cycles\": [\n    {}\n  "
+      "{{\n  \"strides_left_out\": {},\n  \"summary\": {{{}, {}}},\n  \"strides\": [\n    {}\n  "
+      "],\n  \"cycles\": [\n    {}\n  "
       "]\n}}\n",
-      SummaryJson(Side::kLeft, gait.strides), SummaryJson(Side::kRight, gait.strides),
-      fmt::join(strides, ",\n    "), fmt::join(cycles, ",\n    "));
+      gait.left_out, SummaryJson(Side::kLeft, gait.strides),
+      SummaryJson(Side::kRight, gait.strides), fmt::join(strides, ",\n    "),
+      fmt::join(cycles, ",\n    "));
 }
 
 }  // namespace mmm_converter

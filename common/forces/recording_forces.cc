@@ -19,6 +19,28 @@ void Turn(const Eigen::Matrix3d& R, RecordedForces* forces) {
   }
 }
 
+RecordedForces ReadTurned(const std::string& file, UpAxis up, Warnings* warnings) {
+  const Eigen::Matrix3d R = RotationToZUp(up);
+  RecordedForces forces = ReadExternalLoads(file, R.row(2).transpose(), warnings);
+  Turn(R, &forces);
+  return forces;
+}
+
+constexpr double kLeastUpright = 0.7;
+
+/// The upward part of the forces over their sizes: some 0.95 for persons on level plates, -1 to 1.
+double Uprightness(const RecordedForces& forces) {
+  double upward = 0, size = 0;
+  for (const PlateForces& one : forces.plates) {
+    for (Eigen::Index i = 0; i < one.force.cols(); ++i) {
+      if (!one.force.col(i).allFinite()) continue;
+      upward += one.force(2, i);
+      size += one.force.col(i).norm();
+    }
+  }
+  return size > 0 ? upward / size : 1;
+}
+
 }  // namespace
 
 RecordedForces ForcesOf(const Recording& recording, Warnings* warnings) {
@@ -34,10 +56,14 @@ RecordedForces ForcesOf(const Recording& recording, Warnings* warnings) {
 }
 
 RecordedForces ForcesOf(const std::string& file, UpAxis up, Warnings* warnings) {
-  const Eigen::Matrix3d R = RotationToZUp(up);
-  RecordedForces forces = ReadExternalLoads(file, R.row(2).transpose(), warnings);
-  Turn(R, &forces);
-  return forces;
+  RecordedForces forces = ReadTurned(file, up, warnings);
+  if (up == UpAxis::kY || Uprightness(forces) >= kLeastUpright) return forces;
+  RecordedForces other = ReadTurned(file, UpAxis::kY, nullptr);
+  if (Uprightness(other) < kLeastUpright) return forces;
+  if (warnings != nullptr) {
+    warnings->Add(file + ": its forces point along y, which is taken as up, as in OpenSim's files");
+  }
+  return other;
 }
 
 }  // namespace mmm_converter

@@ -15,8 +15,8 @@ namespace mmm_converter {
 /// @throws Error as ReadForces.
 RecordedForces ForcesOf(const Recording& recording, Warnings* warnings);
 
-/// Forces of another file (ReadExternalLoads), whose up axis is that of the recording's file and
-/// which has its time. @throws Error as ReadExternalLoads.
+/// Forces of another file (ReadExternalLoads), whose up axis is that of the recording's file, or
+/// y where its forces say so, and which has its time. @throws Error as ReadExternalLoads.
 RecordedForces ForcesOf(const std::string& file, UpAxis up, Warnings* warnings);
 
 }  // namespace mmm_converter

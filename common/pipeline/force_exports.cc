@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "common/angles/anatomical_angles.h"
 #include "common/angles/gait_table.h"
@@ -14,6 +16,7 @@
 #include "common/contacts/external_loads_writer.h"
 #include "common/contacts/person_mass.h"
 #include "common/forces/recording_forces.h"
+#include "common/judge/coverage.h"
 #include "common/kinetics/joint_forces_table.h"
 #include "common/kinetics/moment_deviations.h"
 #include "common/motion/marker_residuals.h"
@@ -77,10 +80,24 @@ std::vector<PoseCovariance> CovariancesFrom(int begin, const ConversionResult& r
   return covariances;
 }
 
+/// Of the mass that plates bore, where none was given.
+KinematicModel WithKnownMass(const ConversionReport& report, const GroundStudy& ground) {
+  const KinematicModel& model = *report.plan.setup.model;
+  const auto measured = EstimateMass(ground.contacts, *ground.forces);
+  if (!measured || !IsAssumed(report.plan.person.mass)) return model;
+  ModelDescription description = DescriptionOf(model);
+  const double scale = measured->mass / model.total_mass();
+  for (Segment& segment : description.segments) {
+    segment.mass *= scale;
+    segment.inertia *= scale;
+  }
+  return KinematicModel(std::move(description));
+}
+
 JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
                           bool with_deviations) {
   CheckHasPlates(*ground.forces, report.plan.input.recording);
-  const KinematicModel& model = *report.plan.setup.model;
+  const KinematicModel model = WithKnownMass(report, ground);
   const PoseTrajectory motion = TrackedMotion(report.result);
   JointForces found = ComputeJointForces(model, motion, ground.contacts, *ground.forces);
   const int begin = report.result.trajectory.num_frames() - motion.num_frames();
@@ -93,10 +110,35 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
 
 bool HasDeviations(const std::string& file) { return fs::path(file).extension() != ".sto"; }
 
+/// Where a leg shows what the verdict asks of it; without limbs, where the body is seen.
+KnownLegs FindKnownLegs(const ConversionReport& report) {
+  const MarkerSequence& markers = report.plan.input.recording.markers;
+  const Eigen::MatrixXd& residuals = report.result.residuals;
+  const std::vector<Limb> limbs = LimbsOf(report.plan.setup);
+  KnownLegs known;
+  for (const Side side : kSides) {
+    const std::string name = fmt::format("{} leg", Name(side));
+    const auto limb =
+        std::find_if(limbs.begin(), limbs.end(), [&](const Limb& one) { return one.name == name; });
+    std::vector<bool>& leg = known[static_cast<std::size_t>(side)];
+    for (int k = 0; k < markers.num_frames(); ++k) {
+      bool is_known = residuals.col(k).array().isFinite().any();
+      if (is_known && limb != limbs.end()) {
+        const auto seen = std::count_if(limb->labels.begin(), limb->labels.end(), [&](int label) {
+          return IsSeen(markers.frame(k).col(label));
+        });
+        is_known = limb->IsKnownBy(static_cast<int>(seen));
+      }
+      leg.push_back(is_known);
+    }
+  }
+  return known;
+}
+
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
   const AnatomicalAngles angles =
       ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
-  return AnalyzeGait(ground.feet, ground.contacts, angles);
+  return AnalyzeGait(ground.feet, ground.contacts, angles, FindKnownLegs(report));
 }
 
 GroundStudy StudyGround(const ConversionReport& report) {
@@ -135,6 +177,12 @@ void CompareMass(const GroundStudy& ground, ConversionReport* report) {
   if (!found || !(mass.value > 0)) return;
   const double apart = std::abs(found->mass - mass.value);
   if (apart <= kMostApart * mass.value || apart <= kDeviations * found->deviation) return;
+  if (report->ground->joint_forces && IsAssumed(mass)) {
+    report->warnings.Add(
+        fmt::format("moments are of the {:.1f} +- {:.1f} kg that the force plates bore ({})",
+                    found->mass, found->deviation, OptionText("mass")));
+    return;
+  }
   report->warnings.Add(
       fmt::format("the force plates bore {:.1f} +- {:.1f} kg; the person's mass is "
                   "{:.1f} kg ({}; another by {})",
@@ -197,7 +245,11 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
   }
   if (files.count(kGait) > 0) {
     ground->gait = GaitOf(*report, *ground);
-    if (ground->gait->strides.empty()) {
+    if (ground->gait->left_out > 0) {
+      report->warnings.Add(fmt::format("{} of {} strides are left out: a leg is hidden in them",
+                                       ground->gait->left_out,
+                                       ground->gait->left_out + ground->gait->strides.size()));
+    } else if (ground->gait->strides.empty()) {
       report->warnings.Add("no foot came to the ground twice within 2.5 s: there is no stride");
     }
   }
@@ -210,7 +262,8 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
   const Recording& recording = plan->input.recording;
   if (!HasFeet(*plan->setup.model)) {
     throw Error(fmt::format(
-        "{}: feet on the ground are told of MMM's and OpenSim's models of persons, not of {}",
+        "{}: contacts, strides and joint forces need the feet of MMM's model, or segments calcn_l, "
+        "calcn_r, toes_l and toes_r as OpenSim's persons have; {} lacks them",
         recording.file, plan->input.model_file));
   }
   if (files.count(kJointForces) > 0 && !(plan->setup.model->total_mass() > 0)) {

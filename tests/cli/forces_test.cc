@@ -116,6 +116,33 @@ TEST_F(RealForceExports, MomentsWhereThePlatesBearTheFeet) {
   EXPECT_THAT(without.err, HasSubstr("--forces"));
 }
 
+TEST_F(RealForceExports, ForcesWithYUpBesideARecordingWithZUp) {
+  const std::string walk = testing::SharedData("forces/walking2.c3d");
+  const std::string few = "425:925";
+  ASSERT_EQ(RunProgram({"convert", walk, "--frames", few, "--mass", "66", "-o", Out("y.xml"),
+                        "--export-id", Out("y.json"), "--export-grf", Out("y.mot")})
+                .exit_code,
+            0);
+  const auto own = RunProgram({"convert", walk, "--frames", few, "--mass", "66", "-o", Out("z.xml"),
+                               "--forces", Out("y.mot"), "--export-id", Out("z.json")});
+  ASSERT_EQ(own.exit_code, 0) << own.err;
+  EXPECT_THAT(own.err + own.out, HasSubstr("point along y"));
+  const auto by_plates = nlohmann::json::parse(ReadText(Out("y.json")));
+  const auto by_file = nlohmann::json::parse(ReadText(Out("z.json")));
+  EXPECT_NEAR(by_file["residuals"]["external_peak_N"].get<double>(),
+              by_plates["residuals"]["external_peak_N"].get<double>(), 15);
+}
+
+TEST_F(RealForceExports, MomentsOfAConverterWithoutCovariancesAndOfTheMassThatPlatesBore) {
+  const auto run = RunProgram({"convert", testing::SharedData("field/c3dio_newwalk.c3d"), "-c",
+                               "jacobian_pull", "-o", Out("j.xml"), "--export-id", Out("j.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err + run.out, HasSubstr("kg that the force plates bore"));
+  const auto json = nlohmann::json::parse(ReadText(Out("j.json")));
+  EXPECT_NEAR(json["mass_kg"].get<double>(), 45.8, 2);
+  EXPECT_TRUE(json["legs"][0]["largest_deviation"].is_null());
+}
+
 TEST_F(RealForceExports, StairsAreFourStepsOfTwoFeet) {
   ExpectFeet(ContactsOf("recordings/whole_body/pycgm_movement_trial.c3d"),
              {"left", "right", "left", "right"});

@@ -13,6 +13,7 @@
 #include "common/motion/marker_residuals.h"
 #include "common/support/error.h"
 #include "common/support/parallel.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -344,6 +345,7 @@ Comparison CompareFinished(Trial trial, std::vector<Contender> contenders,
   CountHidden(field, only, comparison.options, &ground);
   for (ComparisonRow* row : field.rows) {
     row->distances = MeasureDistances(only, ground, row->result.trajectory);
+    row->distances.leftCols(FramesBeforeFirstSeen(row->result.residuals)).setConstant(kNaN);
   }
   SampleOptimum(only, field, &ground);
   for (ComparisonRow* row : field.rows) {

@@ -142,6 +142,8 @@ Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config
 
 }  // namespace
 
+bool IsAssumed(const PersonValue& value) { return value.source == kAssumed; }
+
 bool IsGiven(const PersonRequest& request) {
   return !request.processor_file.empty() || !request.subject_file.empty() || !request.size.empty();
 }
@@ -194,7 +196,7 @@ Person FindKnownPerson(const PersonRequest& request, const KinematicModel& refer
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));
   const auto fail = [&](Person* /*person*/) { throw Error(unknown); };
   Person person = Find(request, reference, Recording(), config, fail, false, warnings);
-  if (person.mass.source == kAssumed) throw Error(unknown);
+  if (IsAssumed(person.mass)) throw Error(unknown);
   return person;
 }
 

@@ -33,6 +33,9 @@ struct PersonValue {
   std::string source;  ///< "given", a file, "assumed", "estimated from the recording"
 };
 
+/// Nobody said it, nor does anything tell it.
+bool IsAssumed(const PersonValue& value);
+
 struct Person {
   PersonValue height, mass;
   double height_deviation = 0;  ///< of a height that the markers tell [m]; else 0

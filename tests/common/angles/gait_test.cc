@@ -50,8 +50,13 @@ class GaitTest : public ::testing::Test {
         contacts_.contacts.push_back(contact);
       }
     }
-    angles_.angles = {{"knee", "left", "flexion"}, {"pelvis", "", "tilt"}};
-    angles_.values.setZero(2, kFrames);
+    angles_.angles = {
+        {"knee", "left", "flexion"}, {"pelvis", "", "tilt"}, {"pelvis", "", "rotation"}};
+    angles_.values.setZero(3, kFrames);
+    angles_.values.row(2).setConstant(0.1 - std::numbers::pi / 2);  // faces x, to the left by 0.1
+    angles_.deviations.setConstant(3, kFrames, 0.02);
+    known_[0].assign(kFrames, true);
+    known_[1] = known_[0];
     for (int k = 0; k < kFrames; ++k) {
       const double t = k / kRate - 0.5;
       angles_.values(0, k) =
@@ -62,10 +67,11 @@ class GaitTest : public ::testing::Test {
   FootMotion feet_;
   Contacts contacts_;
   AnatomicalAngles angles_;
+  KnownLegs known_;
 };
 
 TEST_F(GaitTest, FiguresOfStrides) {
-  const Gait gait = AnalyzeGait(feet_, contacts_, angles_);
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
   ASSERT_THAT(gait.strides, SizeIs(3));
   for (const Stride& one : gait.strides) {
     EXPECT_NEAR(one.time(), 1, kSame);
@@ -82,39 +88,51 @@ TEST_F(GaitTest, FiguresOfStrides) {
 }
 
 TEST_F(GaitTest, AnglesOverTheCycle) {
-  const Gait gait = AnalyzeGait(feet_, contacts_, angles_);
-  ASSERT_THAT(gait.cycles, SizeIs(3));  // the knee, and the pelvis over either foot's strides
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  ASSERT_THAT(gait.cycles, SizeIs(5));  // the knee, and the pelvis over either foot's strides
   const GaitCycle& knee = gait.cycles[0];
   EXPECT_EQ(knee.strides, 2);
   for (int i = 2; i < GaitCycle::kSamples - 1; ++i) {
     EXPECT_NEAR(knee.mean[i], std::cos(2 * std::numbers::pi * i / 100) + kMore / 2, kSame) << i;
     EXPECT_NEAR(knee.deviation[i], kMore / std::sqrt(2), kSame) << i;
   }
-  EXPECT_EQ(gait.cycles[2].strides, 1);
-  EXPECT_TRUE(std::isnan(gait.cycles[2].deviation[50]));
+  EXPECT_EQ(gait.cycles[3].strides, 1);
+  EXPECT_TRUE(std::isnan(gait.cycles[3].deviation[50]));
+  EXPECT_NEAR(knee.uncertainty[50], 0.02, kSame);
+  EXPECT_NEAR(gait.cycles[2].mean[50], 0.1, kSame);  // against the way
+}
+
+TEST_F(GaitTest, StridesOfAHiddenLegAreLeftOut) {
+  known_[1][70] = false;  // in the left foot's first stride
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  EXPECT_THAT(gait.strides, SizeIs(2));
+  EXPECT_EQ(gait.left_out, 1);
 }
 
 TEST_F(GaitTest, StandingIsNoStride) {
   for (FootContact& one : contacts_.contacts) *one.begin *= 4;
-  EXPECT_THAT(AnalyzeGait(feet_, contacts_, angles_).strides, SizeIs(0));
+  EXPECT_THAT(AnalyzeGait(feet_, contacts_, angles_, known_).strides, SizeIs(0));
 }
 
 TEST_F(GaitTest, Tables) {
-  const Gait gait = AnalyzeGait(feet_, contacts_, angles_);
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
   const std::string csv = FormatGaitCsv(gait);
-  EXPECT_THAT(csv, StartsWith("joint,side,angle,percent,mean_degrees,sd_degrees,strides\n"));
-  EXPECT_THAT(csv, HasSubstr("\nknee,left,flexion,50,-54.430991,4.051423,2\n"));
-  EXPECT_THAT(csv, HasSubstr("\npelvis,right,tilt,100,0,,1\n"));
+  EXPECT_THAT(
+      csv,
+      StartsWith("joint,side,angle,percent,mean_degrees,sd_degrees,uncertainty_degrees,strides\n"));
+  EXPECT_THAT(csv, HasSubstr("\nknee,left,flexion,50,-54.430991,4.051423,1.145916,2\n"));
+  EXPECT_THAT(csv, HasSubstr("\npelvis,right,tilt,100,0,,1.145916,1\n"));
   const auto json = nlohmann::json::parse(FormatGaitJson(gait));
   EXPECT_NEAR(json["summary"]["left"]["cadence_steps_per_min"]["mean"], 120, 1e-6);
   EXPECT_EQ(json["summary"]["left"]["step_width_m"]["strides"], 2);
   EXPECT_TRUE(json["summary"]["right"]["step_width_m"]["sd"].is_null());
   EXPECT_THAT(json["strides"], SizeIs(3));
+  EXPECT_EQ(json["strides_left_out"], 0);
   EXPECT_THAT(json["cycles"][0]["mean_degrees"], SizeIs(101));
 }
 
 TEST_F(GaitTest, WithoutContactsNothing) {
-  const Gait gait = AnalyzeGait(feet_, {}, angles_);
+  const Gait gait = AnalyzeGait(feet_, {}, angles_, known_);
   EXPECT_THAT(gait.cycles, SizeIs(0));
   const auto json = nlohmann::json::parse(FormatGaitJson(gait));
   EXPECT_TRUE(json["summary"]["left"]["cadence_steps_per_min"]["mean"].is_null());
