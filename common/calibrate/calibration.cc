@@ -49,15 +49,15 @@ void CheckCount(const std::vector<MarkerIx>& markers) {
 }
 
 std::vector<CalibrationFrame> FramesOf(const std::vector<CalibrationRecording>& recordings,
-                                       const std::vector<MarkerIx>& markers) {
+                                       const std::vector<MarkerIx>& markers, int least_frames) {
   const auto count = static_cast<int>(markers.size());
   const int least_seen = std::max(kLeastMarkers, static_cast<int>(kLeastSeenShare * count));
   std::vector<CalibrationFrame> frames = CandidateFrames(recordings, markers, least_seen);
-  if (static_cast<int>(frames.size()) < kLeastFrames) {
+  if (static_cast<int>(frames.size()) < least_frames) {
     throw Error(fmt::format(
         "too short to calibrate on: {} frames at least 0.1 s apart show {} of the {} assigned "
         "markers, {} are needed; {}",
-        frames.size(), least_seen, count, kLeastFrames, Advice()));
+        frames.size(), least_seen, count, least_frames, Advice()));
   }
   return frames;
 }
@@ -74,10 +74,18 @@ VectorXd JointRanges(const std::vector<CalibrationFrame>& frames) {
 }
 
 void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
-                   const std::vector<CalibrationFrame>& frames, Warnings* warnings) {
+                   const std::vector<CalibrationFrame>& frames, bool may_stand,
+                   Warnings* warnings) {
   const VectorXd ranges = JointRanges(frames);
   Eigen::Index widest = 0;
   if (ranges.maxCoeff(&widest) < kStillRange) {
+    if (may_stand) {
+      Warn(warnings,
+           "the person only stands: joint angles of this posture are the model's by its markers, "
+           "and "
+           "where joints turn is the model's, too; a recording with movement tells more");
+      return;
+    }
     throw Error(fmt::format(
         "too still to calibrate on: the joint that moves most, {}, does so by {:.0f} degrees, at "
         "least {:.0f} are needed to tell where markers sit from how the person stands; {}",
@@ -205,7 +213,6 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options, Warnings* warnings) {
   const std::vector<MarkerIx> markers = UsedMarkers(recordings);
-  CheckCount(markers);
   BodyKinematics kinematics(model, joints, markers);
   return CalibrateBody(&kinematics, recordings, options, warnings);
 }
@@ -217,12 +224,13 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   const std::vector<int>& joints = kinematics->joints();
   const std::vector<MarkerIx>& markers = kinematics->markers();
   CheckCount(markers);
-  std::vector<CalibrationFrame> frames = FramesOf(recordings, markers);
+  std::vector<CalibrationFrame> frames =
+      FramesOf(recordings, markers, options.may_stand ? 1 : kLeastFrames);
   Body body = kinematics->ModelBody();
   CalibrationResult result;
   const OffsetsInTurns first =
       FitOffsetsInTurns(model, joints, markers, &frames, options.between_steps);
-  CheckMovement(model, joints, frames, warnings);
+  CheckMovement(model, joints, frames, options.may_stand, warnings);
   body.offsets = first.offsets;
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const BodyFitResult fit =

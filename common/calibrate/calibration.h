@@ -32,6 +32,7 @@ struct CalibrationOptions {
   double height_deviation = 0;     ///< of all scales together, where the height is a guess
   double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
   double skin_time = 0.3;          ///< in which the skin moves on: nearer frames repeat it [s]
+  bool may_stand = false;          ///< one posture is enough: the model's markers tell it
   /// Is called often while it is computed; what it throws ends the estimate. May be empty.
   std::function<void()> between_steps = {};
 };

@@ -143,6 +143,7 @@ CalibrationOptions OsimCalibrationOptions() {
   CalibrationOptions options;
   options.marker_deviation = 0.02;
   options.height_deviation = 0.1;
+  options.may_stand = true;
   return options;
 }
 

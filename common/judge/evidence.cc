@@ -110,7 +110,7 @@ void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
                                  kMillimetres * noise));
 }
 
-bool JudgeProportions(const Subject& subject, VerdictReasons* reasons) {
+void JudgeProportions(const Subject& subject, VerdictReasons* reasons) {
   std::vector<std::string> segments;
   double most = 0;
   for (const SegmentScale& scale : subject.scales) {
@@ -122,7 +122,7 @@ bool JudgeProportions(const Subject& subject, VerdictReasons* reasons) {
       segments.push_back(fmt::format("{} {:+.0f} %", scale.segment, kPercent * change));
     }
   }
-  return reasons->AddBeyond(
+  reasons->AddBeyond(
       kProportion, most,
       fmt::format("segments are not as long as a person's of that height: {}; wrong labels or too "
                   "little movement do that",

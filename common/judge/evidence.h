@@ -78,7 +78,7 @@ void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons);
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, VerdictReasons* reasons);
 
 /// True where a calibrated person's segments are longer or shorter than a person's are.
-bool JudgeProportions(const Subject& subject, VerdictReasons* reasons);
+void JudgeProportions(const Subject& subject, VerdictReasons* reasons);
 
 /// True where a calibrated person's markers sit too far from where the model has them.
 bool JudgeOffsets(const Subject& subject, VerdictReasons* reasons);

@@ -241,9 +241,6 @@ TEST(Osim, WhatCannotBeDoneWithItIsSaidBeforeTheWork) {
   EXPECT_THAT(
       refusal({"label", floating.recording, "--model", floating.model_file, "-o", out + ".c3d"}),
       HasSubstr("can't be done with a model of OpenSim"));
-  EXPECT_THAT(refusal({"calibrate", floating.recording, "--model", floating.model_file, "-o",
-                       out + ".xml"}),
-              HasSubstr("too short to calibrate on"));
   EXPECT_THAT(refusal({"convert", floating.recording, "--marker-file", floating.model_file, "-o",
                        out + ".xml"}),
               HasSubstr("is a set of markers for a model of OpenSim"));
