@@ -118,12 +118,23 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
 constexpr const char* kOsimEnding = "_scaled.osim";
 
 void CheckOsimOptions(const Arguments& arguments) {
-  for (const char* output : {"model-out", "report", "summary", "name"}) {
+  for (const char* output : {"model-out", "report", "name"}) {
     if (!arguments.Get(output)) continue;
     throw UsageError(fmt::format(
         "calibrate writes a model of OpenSim (-o) where one is given; --{} is of a subject",
         output));
   }
+}
+
+int WriteOsim(const Arguments& arguments, const OsimScalingReport& report,
+              const std::string& output) {
+  LogWarnings(report.warnings);
+  WriteFileAtomically(output, report.scaled.content);
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatJson(ToJson(report, output)));
+  }
+  std::cout << FormatOsimScalingSummary(report, output);
+  return 0;
 }
 
 // A model of OpenSim instead of a subject.
@@ -138,12 +149,10 @@ int ScaleOsimModel(const Arguments& arguments, const std::string& setup_file) {
   OutputPlan plan;
   NameInputs(request, &plan);
   plan.Write(output);
+  plan.Write(arguments.Get("summary").value_or(""));
   plan.Check();
   const OsimScalingReport report = RunOsimScaling(request);
-  LogWarnings(report.warnings);
-  WriteFileAtomically(output, report.scaled.content);
-  std::cout << FormatOsimScalingSummary(report, output);
-  return 0;
+  return WriteOsim(arguments, report, output);
 }
 
 int CalibrateOsimModel(const Arguments& arguments, const CalibrationRequest& request) {
@@ -155,16 +164,14 @@ int CalibrateOsimModel(const Arguments& arguments, const CalibrationRequest& req
   for (const InputRequest& input : request.inputs) NameInputs(input, &plan);
   NameInputs(choice, &plan);
   plan.Write(output);
+  plan.Write(arguments.Get("summary").value_or(""));
   plan.Check();
   ProgressBar bar("recordings read");
   const OsimScalingReport report =
       RunOsimCalibration(request, {std::move(choice.config), std::move(of_choice)},
                          [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
-  LogWarnings(report.warnings);
-  WriteFileAtomically(output, report.scaled.content);
-  std::cout << FormatOsimScalingSummary(report, output);
-  return 0;
+  return WriteOsim(arguments, report, output);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ std::string DescribePersonOf(const Person& person) {
                      person.mass.value, person.mass.source);
 }
 
-std::string DescribeContacts(const MotionDynamics& dynamics) {
+std::string DescribeContacts(const MotionDynamics& dynamics, bool with_forces) {
   std::string text;
   int off_ground = 0;
   for (int k = 0; k < dynamics.num_frames(); ++k) off_ground += IsOnGround(dynamics, k) ? 0 : 1;
@@ -62,10 +62,11 @@ std::string DescribeContacts(const MotionDynamics& dynamics) {
     if (frames == 0) continue;
     text += fmt::format("{} {:.0f} %, ", dynamics.contact_bodies[b].name, share(frames));
   }
-  return text + fmt::format(
-                    "nothing {:.0f} % of the time; the ground is assumed to be level, at {:.3f} m "
-                    "(--forces names what was measured)",
-                    share(off_ground), dynamics.ground_height);
+  return text +
+         fmt::format(
+             "nothing {:.0f} % of the time; the ground is assumed to be level, at {:.3f} m{}",
+             share(off_ground), dynamics.ground_height,
+             with_forces ? "" : " (--forces names what was measured)");
 }
 
 std::string DescribeFlight(const MotionDynamics& dynamics, const BallisticPhase& flight) {
@@ -77,7 +78,7 @@ std::string DescribeFlight(const MotionDynamics& dynamics, const BallisticPhase&
       flight.angular_momentum.norm(), 100 * flight.AngularMomentumVariation());
 }
 
-std::string FormatFigures(const MotionDynamics& dynamics) {
+std::string FormatFigures(const MotionDynamics& dynamics, bool with_forces) {
   const Eigen::VectorXd height = dynamics.com.row(2);
   std::string text = DynamicsLine(
       "body", fmt::format("{:.4g} kg, weight {:.1f} N", dynamics.mass, dynamics.body_weight()));
@@ -85,7 +86,7 @@ std::string FormatFigures(const MotionDynamics& dynamics) {
                        fmt::format("height mean {:.3f} m, {:.3f} to {:.3f}; speed up to {:.2f} m/s",
                                    height.mean(), height.minCoeff(), height.maxCoeff(),
                                    dynamics.com_velocity.colwise().norm().maxCoeff()));
-  text += DynamicsLine("contacts", DescribeContacts(dynamics));
+  text += DynamicsLine("contacts", DescribeContacts(dynamics, with_forces));
   for (const BallisticPhase& flight : dynamics.ballistic_phases)
     text += DynamicsLine("flight", DescribeFlight(dynamics, flight));
   return text;
@@ -185,7 +186,7 @@ std::string FormatDynamicsSummary(const DynamicsReport& report) {
   text += DynamicsLine("person", DescribePersonOf(motion.person));
   text += DynamicsLine("model", motion.model_file);
   text += DynamicsLine("derivatives", DescribeDifferentiation(dynamics.differentiation));
-  text += FormatFigures(dynamics);
+  text += FormatFigures(dynamics, report.with_forces.has_value());
   if (report.with_forces) {
     text += DynamicsLine("forces",
                          SentenceOf(MeasureResiduals(*report.with_forces), *report.with_forces));

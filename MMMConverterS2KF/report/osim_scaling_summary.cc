@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/calibration_summary.h"
+#include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/report/subject_json.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -22,8 +27,10 @@ std::string FormatOsimCalibration(const OsimScalingReport& report, const Calibra
       "the model\n",
       "markers", report.scaled.placed_markers, kMillimetres * result.distance_after,
       kMillimetres * result.distance_before);
-  return text + fmt::format("Calibrated on {} frames of {} recordings: wrote {}\n", result.frames,
-                            result.subject.sources.size(), file);
+  return text +
+         fmt::format("Calibrated on {} frames of {} recordings: wrote {}\n", result.frames,
+                     result.subject.sources.size(), file) +
+         FormatVerdict(*report.verdict);
 }
 
 }  // namespace
@@ -46,6 +53,28 @@ std::string FormatOsimScalingSummary(const OsimScalingReport& report, const std:
   }
   return text + fmt::format("Scaled {} bodies by {} frames: wrote {}\n", scaled.factors.size(),
                             report.frames, file);
+}
+
+Json ToJson(const OsimScalingReport& report, const std::string& file) {
+  const ScaledOsim& scaled = report.scaled;
+  Json bodies = Json::object();
+  for (const auto& [body, factor] : scaled.factors) {
+    bodies[body] = {factor.x(), factor.y(), factor.z()};
+  }
+  Json summary = {{"program", SubjectProgram()},
+                  {"output", file},
+                  {"frames", report.frames},
+                  {"mass_kg", scaled.mass},
+                  {"placed_markers", scaled.placed_markers},
+                  {"factors", bodies},
+                  {"warnings", report.warnings.texts()}};
+  if (report.result) {
+    summary["calibration"] = ToJson(*report.result);
+    summary["size"] = report.size;
+    summary["subject"] = ToJson(report.result->subject);
+    summary["verdict"] = ToJson(*report.verdict);
+  }
+  return summary;
 }
 
 }  // namespace mmm_converter

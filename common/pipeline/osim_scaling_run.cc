@@ -8,6 +8,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_xml.h"
+#include "common/judge/calibration_verdict.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -66,18 +67,20 @@ OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
   Diagnostics diagnostics(file);
   const OsimDocument document = ParseOsimDocument(model, first.marker_file, &diagnostics, nullptr);
   const TrackingSetup& setup = inputs.front().setup;
+  CalibrationOptions options = OsimCalibrationOptions();
+  const auto all = static_cast<int>(inputs.size());
+  if (progress) options.between_steps = [&progress, all] { progress(all, all); };
   Warnings warnings;
-  CalibratedOsim calibrated = CalibrateOsim(
-      {model, file}, document, *setup.model, setup.joints, RecordingsOf(inputs), size.mass,
-      [&] {
-        CalibrationOptions options = OsimCalibrationOptions();
-        const auto all = static_cast<int>(inputs.size());
-        if (progress) options.between_steps = [&progress, all] { progress(all, all); };
-        return options;
-      }(),
-      &warnings);
+  CalibratedOsim calibrated = CalibrateOsim({model, file}, document, *setup.model, setup.joints,
+                                            RecordingsOf(inputs), size.mass, options, &warnings);
   report.warnings.AppendNew(warnings);
   CheckProportions(calibrated.result.subject);
+  CalibrationEvidence evidence{calibrated.result, {}, {}};
+  for (const CalibrationInput& one : inputs) {
+    evidence.recordings.push_back(
+        {one.input.recording, one.setup, one.input.reference, one.input.names.get()});
+  }
+  report.verdict = JudgeCalibration(evidence);
   report.scaled = std::move(calibrated.scaled);
   report.frames = calibrated.result.frames;
   report.result = std::move(calibrated.result);

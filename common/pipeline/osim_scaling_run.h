@@ -7,6 +7,7 @@
 
 #include "common/calibrate/osim_calibration.h"
 #include "common/calibrate/osim_person.h"
+#include "common/judge/verdict.h"
 #include "common/pipeline/input/input.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/support/output_plan.h"
@@ -25,6 +26,7 @@ struct OsimScalingReport {
   ScaledOsim scaled;
   int frames = 0;                           ///< of the recording
   std::optional<CalibrationResult> result;  ///< of RunOsimCalibration
+  std::optional<Verdict> verdict;           ///< of that
   double size = 1;  ///< of the whole person, which the result's scales are of
   Warnings warnings;
 };

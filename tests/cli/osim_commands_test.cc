@@ -114,9 +114,14 @@ TEST(OsimCommands, ThePersonIsCalibratedByRecordings) {
   ExpectSuccess(words);
   EXPECT_EQ(ReadText(OutFile("again.osim")), text);
 
-  const auto standing = RunProgram(
-      {"calibrate", ExampleFile("static.trc"), "--model", generic, "-o", OutFile("standing.osim")});
+  const auto standing =
+      RunProgram({"calibrate", ExampleFile("static.trc"), "--model", generic, "-o",
+                  OutFile("standing.osim"), "--summary", OutFile("standing.json")});
   ASSERT_EQ(standing.exit_code, 0) << standing.err;
+  EXPECT_THAT(standing.out, HasSubstr("verdict    good"));
+  const Json summary = Json::parse(ReadText(OutFile("standing.json")));
+  EXPECT_EQ(summary["verdict"]["level"], "good");
+  EXPECT_EQ(summary["factors"]["femur_r"][1], summary["factors"]["femur_r"][0]);
   EXPECT_THAT(standing.err, HasSubstr("the person only stands"));
 
   const StrictTable truth = ReadStrictMot(ReadText(ExampleFile("walk_true.mot")));
@@ -143,8 +148,8 @@ TEST(OsimCommands, CalibrationsAreMisused) {
     EXPECT_FALSE(std::filesystem::exists(OutFile("none.osim")));
     return run.err;
   };
-  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--summary", OutFile("s.json")}, 2),
-              HasSubstr("--summary"));
+  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--report", OutFile("s.html")}, 2),
+              HasSubstr("--report"));
   EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--mass", "0"}, 2), HasSubstr("mass"));
 }
 
@@ -161,8 +166,8 @@ TEST(OsimCommands, ScaleSetupsAreMisused) {
   };
   EXPECT_THAT(refusal({}, 1), HasSubstr("is no model of OpenSim"));
   const std::string model = ExampleFile("generic.osim");
-  EXPECT_THAT(refusal({"--model", model, "--summary", OutFile("s.json")}, 2),
-              HasSubstr("--summary"));
+  EXPECT_THAT(refusal({"--model", model, "--report", OutFile("s.html")}, 2),
+              HasSubstr("--report"));
   EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--model", model}, 2), HasSubstr("one recording"));
   EXPECT_THAT(refusal({"--model", model, "--marker-file", ExampleFile("scale_setup.xml")}, 1),
               HasSubstr("MarkerSet"));
