@@ -63,9 +63,12 @@ NameJudge::NameJudge(const KinematicModel& reference, const std::vector<int>& jo
 
 void NameJudge::Run(bool places_clusters) {
   const double height = FindHeight();
-  Pose(height);
+  Pose(height, {});
   if (places_clusters && (!clusters_.empty() || IsAnyFar())) ExchangeSides(height);
-  for (int round = 0; round < 4 && Reconsider(); ++round) Pose(height);
+  const std::vector<Hypothesis> none;
+  const std::vector<Hypothesis>& clusters = places_clusters ? clusters_ : none;
+  if (!clusters.empty()) Pose(height, clusters);
+  for (int round = 0; round < 4 && Reconsider(); ++round) Pose(height, clusters);
   if (places_clusters) PlaceClusters(height);
 }
 
@@ -176,9 +179,20 @@ Matrix3Xd NameJudge::Measured(int frame) const {
   return z;
 }
 
-void NameJudge::Pose(double height) {
+void NameJudge::Pose(double height, const std::vector<Hypothesis>& clusters) {
+  std::vector<MarkerIx> markers = ChosenMarkers();
+  VectorXd scales = NoiseScales();
+  const auto named = scales.size();
+  std::vector<int> worn;
+  for (const Hypothesis& one : clusters) {
+    if (one.markers.size() < kClusterMarkers) continue;
+    worn.push_back(one.label);
+    markers.emplace_back(one.markers[FirstMarkerOf(one)]);
+    scales.conservativeResize(scales.size() + 1);
+    scales[scales.size() - 1] = NoiseScaleOf(LandmarkOf(Chosen(one)));
+  }
   const KinematicModel scaled = ScaleWinter(*model_, {height, kNobodysMass, {}});
-  const MarkerKinematics kinematics(scaled, joints_, ChosenMarkers());
+  const MarkerKinematics kinematics(scaled, joints_, markers);
   std::vector<MarkerIx> all;
   for (int i = 0; i < static_cast<int>(model_->markers().size()); ++i) all.emplace_back(i);
   const MarkerKinematics everything(scaled, joints_, all);
@@ -186,11 +200,13 @@ void NameJudge::Pose(double height) {
   PostureSearch search(kinematics);
   PostureFitOptions options;
   options.robust_distance = 0.1;
-  const VectorXd scales = NoiseScales();
+  Matrix3Xd z(3, scales.size());
   p_WM_.clear();
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     Posture& posture = postures_[f];
-    search.Assemble(Measured(frames_[f]), scales, options, kPoseAttempts, &posture);
+    z.leftCols(named) = Measured(frames_[f]);
+    z.rightCols(z.cols() - named) = recording_.frame(frames_[f])(Eigen::all, worn);
+    search.Assemble(z, scales, options, kPoseAttempts, &posture);
     everything.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                               posture.joint_angles, &at);
     p_WM_.push_back(at.p_WM);
@@ -238,7 +254,7 @@ void NameJudge::ExchangeSides(double height) {
     for (Hypothesis& one : places_) {
       if (IsOf(one, limbs)) one.chosen = MirroredReading(one);
     }
-    Pose(height);
+    Pose(height, {});
     const double exchanged = MeanDistance();
     if (!(exchanged < least)) continue;
     least = exchanged;

@@ -22,6 +22,13 @@ struct Hypothesis {
   bool is_out = false;
 };
 
+constexpr std::size_t kClusterMarkers = 5;
+
+/// Of a cluster, the first marker of the reading that was chosen.
+inline std::size_t FirstMarkerOf(const Hypothesis& one) {
+  return one.chosen > 0 && one.markers.size() > kClusterMarkers ? kClusterMarkers : 0;
+}
+
 /// Postures of some frames of a recording, fitted to what the labels' names mean, and what they say
 /// of the names; see UnderstandLabels.
 class NameJudge {
@@ -62,7 +69,9 @@ class NameJudge {
   /// The frame as the fit sees it: what is left out is not seen.
   Eigen::Matrix3Xd Measured(int frame) const;
   /// The postures of the frames at a height, and where they have all markers of the model.
-  void Pose(double height);
+  /// clusters: weigh as little as their places are known; they tell how a thigh lies whose knee has
+  /// no marker.
+  void Pose(double height, const std::vector<Hypothesis>& clusters);
   /// The median distance of a label from a marker of the model; NaN where it is not seen.
   double Distance(int label, int marker) const;
 

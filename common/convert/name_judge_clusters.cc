@@ -14,14 +14,8 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-constexpr std::size_t kClusterMarkers = 5;  ///< its place, the segment's origin and axes
 constexpr double kMostClusterStray = 0.06;  ///< of its label about its place on the segment [m]
 constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such are usually [m]
-
-/// Of the reading that was chosen.
-std::size_t FirstMarkerOf(const Hypothesis& one) {
-  return one.chosen > 0 && one.markers.size() > kClusterMarkers ? kClusterMarkers : 0;
-}
 
 }  // namespace
 

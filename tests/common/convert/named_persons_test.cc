@@ -323,6 +323,24 @@ TEST_F(NamedPersons, HaveTheJointsThatKitsNamesGive) {
   }
 }
 
+// Hip and ankle leave the knee anywhere about the line between them.
+TEST_F(NamedPersons, WhoseThighsWearClustersAloneAreBelieved) {
+  Vocabulary vocabulary = Vocabularies()[3];
+  vocabulary.labels.erase("%KNE");
+  vocabulary.labels["%THI"] = "%thigh1_study";
+  vocabulary.labels["%TIP"] = "%sh1_study";
+  for (const std::uint64_t seed : {21, 22, 23, 24}) {
+    std::vector<std::string> kit;
+    const MarkerSequence legs = Rename(Record(seed), vocabulary, BodyPart::kLegs, &kit);
+    const NamedMarkers named =
+        UnderstandLabels(LabelsOf(legs), legs, reference_, table_, {joints_, true});
+    for (const NamedLabel& one : named.labels) {
+      EXPECT_FALSE(one.is_contradicted) << seed << " " << one.label << ": " << one.note;
+      EXPECT_FALSE(one.marker.empty()) << seed << " " << one.label << ": " << one.note;
+    }
+  }
+}
+
 // Clusters would take up what exchanged sides do to the other labels.
 TEST_F(NamedPersons, WhoseLegsHaveExchangedSidesAreContradicted) {
   Vocabulary vocabulary = Vocabularies()[3];

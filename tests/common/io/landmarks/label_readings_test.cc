@@ -55,6 +55,13 @@ TEST(LabelReadings, LettersAtTheEndNeedTheOtherSide) {
   EXPECT_THAT(Meanings({"RKNEL"}), ElementsAre("right lateral epicondyle of the femur"));
 }
 
+TEST(LabelReadings, MarkersAroundALandmarkAreOfItsSegment) {
+  EXPECT_THAT(Meanings({"RSACR", "LSACR", "USACR", "LMUPA", "RDUPA", "LUL", "LRAD"}),
+              ElementsAre("right wand on the pelvis", "left wand on the pelvis",
+                          "cluster on the pelvis", "left upper arm", "right upper arm",
+                          "left ulnar styloid", "left radial styloid"));
+}
+
 TEST(LabelReadings, LettersOfNamesAreNoSides) {
   EXPECT_THAT(Meanings({"RAD", "LRAD"})[1], "left radial styloid");
   EXPECT_THAT(
