@@ -166,8 +166,7 @@ TEST(OsimCommands, ScaleSetupsAreMisused) {
   };
   EXPECT_THAT(refusal({}, 1), HasSubstr("is no model of OpenSim"));
   const std::string model = ExampleFile("generic.osim");
-  EXPECT_THAT(refusal({"--model", model, "--report", OutFile("s.html")}, 2),
-              HasSubstr("--report"));
+  EXPECT_THAT(refusal({"--model", model, "--report", OutFile("s.html")}, 2), HasSubstr("--report"));
   EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--model", model}, 2), HasSubstr("one recording"));
   EXPECT_THAT(refusal({"--model", model, "--marker-file", ExampleFile("scale_setup.xml")}, 1),
               HasSubstr("MarkerSet"));
