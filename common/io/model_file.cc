@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::size_t kHeadBytes = 1 << 16;  // a root stands behind comments of fewer
 
-/// Simox models are <Robot> in any case, with nodes instead of links.
-bool IsUrdf(const std::string& content) {
-  return RootName(content) == "robot" && content.find("<RobotNode") == std::string::npos;
-}
-
 }  // namespace
 
 LoadedModel ReadModelFile(const std::string& path, Warnings* warnings,

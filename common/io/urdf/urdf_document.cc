@@ -12,6 +12,8 @@
 #include <mutex>
 #include <vector>
 
+#include "common/io/urdf/urdf_floating.h"
+#include "common/io/urdf/urdf_shapes.h"
 #include "common/io/xml/xml_document.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
@@ -46,20 +48,22 @@ class CapturedLog : public console_bridge::OutputHandler {
   std::vector<std::string> errors_;
 };
 
-/// Appends an element with all below it. Blanks around and line breaks in values, which urdfdom
-/// takes for parts of numbers, become spaces.
+/// Appends an element with all below it but shapes. Blanks around and line breaks in values, which
+/// urdfdom takes for parts of numbers, become spaces.
 void AppendElement(const XmlElement& element, std::string* xml) {
   *xml += "<" + element.name;
   for (const auto& [key, value] : element.attributes) {
     *xml += fmt::format(" {}=\"{}\"", key, EscapeXml(Trim(value)));
   }
   *xml += ">" + EscapeXml(element.text);
-  for (const XmlElement& child : element.children) AppendElement(child, xml);
+  for (const XmlElement& child : element.children) {
+    if (child.name != "collision") AppendElement(child, xml);
+  }
   *xml += "</" + element.name + ">";
 }
 
-/// Of the URDF what a tree of joints and masses is made of: damaged shapes do no harm, and
-/// urdfdom sees only XML of a depth that is known to be small.
+/// Of the URDF what a tree of joints, masses and shapes is made of. Of these urdfdom sees no
+/// shapes, so that damaged ones do no harm, and only XML of a depth that is known to be small.
 XmlElement Essence(const XmlElement& robot) {
   XmlElement essence;
   essence.name = robot.name;
@@ -71,7 +75,9 @@ XmlElement Essence(const XmlElement& robot) {
     if (element.name != "link" && element.name != "joint") continue;
     XmlElement& kept = essence.children.emplace_back(element);
     if (element.name != "link") continue;
-    std::erase_if(kept.children, [](const XmlElement& part) { return part.name != "inertial"; });
+    std::erase_if(kept.children, [](const XmlElement& part) {
+      return part.name != "inertial" && part.name != "collision";
+    });
   }
   return essence;
 }
@@ -156,6 +162,7 @@ void DocumentBuilder::AddLink(const XmlElement& element) {
   link.name = source->name;
   link.line = element.line;
   if (source->inertial) ReadInertial(*source->inertial, &link);
+  AddUrdfShapes(element, link_indices_[source->name], &document_, &diagnostics_);
 }
 
 void DocumentBuilder::ReadInertial(const urdf::Inertial& inertial, UrdfLink* link) {
@@ -219,6 +226,7 @@ void DocumentBuilder::ReadAxis(const urdf::Joint& source, UrdfJoint* joint) {
 
 void DocumentBuilder::ReadLimits(const urdf::Joint& source, UrdfJoint* joint) {
   if (!source.limits) return;
+  joint->velocity = std::max(source.limits->velocity, 0.0);
   joint->lower = source.limits->lower;
   joint->upper = source.limits->upper;
   if (joint->lower <= joint->upper) return;
@@ -273,6 +281,7 @@ void DocumentBuilder::AddJoint(const XmlElement& element) {
   if (source.mimic) {
     joint.mimicked = source.mimic->joint_name;
     joint.mimic_offset = source.mimic->offset;
+    joint.mimic_multiplier = source.mimic->multiplier;
     CheckMimic(joint);
   }
   document_.joints.push_back(std::move(joint));
@@ -296,6 +305,7 @@ UrdfDocument DocumentBuilder::Build() {
   for (int joint = 0; joint < num_joints; ++joint) LinkChild(joint);
   diagnostics_.ThrowIfErrors();
   document_.root = link_indices_.at(model_.getRoot()->name);
+  RemoveFloatingWorld(&document_);
   return std::move(document_);
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/model/robot.h"
 #include "common/support/diagnostics.h"
 
 namespace mmm_converter {
@@ -38,14 +39,19 @@ struct UrdfJoint {
   double upper = 0;                                        ///< [rad], prismatic [m]
   std::string mimicked;                                    ///< `<mimic joint="">`; empty: none
   double mimic_offset = 0;                                 ///< [rad], prismatic [m]
+  double mimic_multiplier = 1;
+  double velocity = 0;  ///< the fastest [rad/s], prismatic [m/s]; 0: not known
 };
 
-/// The tree of a URDF: links and joints in the order of the file, without shapes and sensors.
+/// The tree of a URDF: links and joints in the order of the file, without looks and sensors.
 struct UrdfDocument {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
-  int root = -1;  ///< index of the link
+  int root = -1;  ///< index of the link; not the world's that only carries it by a floating joint
+  /// Shapes of `<collision>`, `segment` being the index of the link.
+  std::vector<ContactShape> shapes;
+  std::vector<int> mesh_links;  ///< that have meshes there, which are not read; one for each mesh
 };
 
 /// Parses a URDF with urdfdom. What is suspicious, but can be used, is a warning of diagnostics.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/urdf/urdf_document.h"
+#include "common/io/xml/xml_text.h"
 #include "common/support/diagnostics.h"
 
 namespace mmm_converter {
@@ -32,10 +34,11 @@ class UrdfModelBuilder {
   bool IsMarker(const UrdfLink& link) const;
   void AddSegment(int link);
   void AddMarkers();
-  const UrdfJoint* FindMimic(int link) const;
   void SetJoint(const UrdfJoint& joint, Segment* segment);
   void SetRange(const UrdfJoint& joint, Segment* segment);
   void HoldAt(const UrdfJoint& joint, double value, Segment* segment);
+  void FindLeaders();
+  void Follow(const UrdfJoint& joint, Segment* segment);
   std::string RootName() const;
   void WarnOf(const std::vector<std::string>& joints, const char* what);
 
@@ -45,8 +48,8 @@ class UrdfModelBuilder {
   std::vector<int> segment_;     ///< of links; -1: none
   ModelDescription description_;
   std::map<std::string, std::string> segment_of_link_;
-  std::map<std::string, std::vector<std::string>> lost_;  ///< markers below each mimic joint
-  std::vector<std::string> mimics_, slides_, stiff_;      ///< joints
+  std::map<std::string, int> joint_by_name_;
+  std::vector<std::string> slides_, stiff_;  ///< joints
 };
 
 bool UrdfModelBuilder::IsMarker(const UrdfLink& link) const {
@@ -113,13 +116,10 @@ void UrdfModelBuilder::SetJoint(const UrdfJoint& joint, Segment* segment) {
         joint.line,
         fmt::format("joint '{}': {} joints are not supported; only the root link floats, by itself",
                     joint.name, joint.type == UrdfJointType::kPlanar ? "planar" : "floating"));
-  } else if (!joint.mimicked.empty()) {
-    mimics_.push_back(joint.name);
-    HoldAt(joint, joint.mimic_offset, segment);
   } else if (joint.type == UrdfJointType::kPrismatic) {
     slides_.push_back(joint.name);
-    HoldAt(joint, std::clamp(0.0, joint.lower, joint.upper), segment);
-  } else {
+    if (joint.mimicked.empty()) HoldAt(joint, std::clamp(0.0, joint.lower, joint.upper), segment);
+  } else if (joint.mimicked.empty()) {
     SetRange(joint, segment);
   }
 }
@@ -140,26 +140,62 @@ void UrdfModelBuilder::AddSegment(int link) {
   segment_of_link_[source.name] = segment.name;
 }
 
-/// The mimic joint nearest above a link; nullptr: there is none.
-const UrdfJoint* UrdfModelBuilder::FindMimic(int link) const {
-  for (int joint = document_.links[link].parent_joint; joint >= 0;
-       joint = document_.links[document_.joints[joint].parent].parent_joint) {
-    if (!document_.joints[joint].mimicked.empty()) return &document_.joints[joint];
+/// Joints that mimic others, after all the others.
+void UrdfModelBuilder::FindLeaders() {
+  for (std::size_t i = 0; i < document_.joints.size(); ++i) {
+    joint_by_name_[document_.joints[i].name] = static_cast<int>(i);
   }
-  return nullptr;
+  for (const UrdfJoint& joint : document_.joints) {
+    const int segment = segment_[static_cast<std::size_t>(joint.child)];
+    if (joint.mimicked.empty() || joint.type == UrdfJointType::kFixed || segment < 0) continue;
+    Follow(joint, &description_.segments[static_cast<std::size_t>(segment)]);
+  }
+}
+
+void UrdfModelBuilder::Follow(const UrdfJoint& joint, Segment* segment) {
+  const UrdfJoint* leader = &joint;
+  double slope = 1, offset = 0;
+  for (std::size_t steps = 0; !leader->mimicked.empty(); ++steps) {
+    if (steps > document_.joints.size()) {
+      diagnostics_.AddError(joint.line,
+                            fmt::format("joint '{}': mimics joints in a circle", joint.name));
+      return;
+    }
+    offset += slope * leader->mimic_offset;
+    slope *= leader->mimic_multiplier;
+    leader = &document_.joints[static_cast<std::size_t>(joint_by_name_.at(leader->mimicked))];
+  }
+  if (!std::isfinite(slope) || !std::isfinite(offset)) {
+    diagnostics_.AddError(joint.line, fmt::format("joint '{}': its <mimic> has numbers that no "
+                                                  "joint has",
+                                                  joint.name));
+    return;
+  }
+  const int index = segment_[static_cast<std::size_t>(leader->child)];
+  const Segment* moved =
+      index < 0 ? nullptr : &description_.segments[static_cast<std::size_t>(index)];
+  const bool moves = moved != nullptr && moved->type == JointType::kRevolute;
+  if (!moves || joint.type == UrdfJointType::kPrismatic) {
+    const double held = leader->type == UrdfJointType::kFixed || moves
+                            ? 0
+                            : std::clamp(0.0, leader->lower, leader->upper);
+    HoldAt(joint, slope * held + offset, segment);
+    return;
+  }
+  segment->type = JointType::kRevolute;
+  segment->lower = moved->lower;
+  segment->upper = moved->upper;
+  segment->leader = index;
+  if (slope == 1 && offset == 0) return;
+  segment->function = std::make_shared<const ScalarFunction>(ScalarFunction::Linear(slope, offset));
 }
 
 void UrdfModelBuilder::AddMarkers() {
   for (std::size_t i = 0; i < document_.links.size(); ++i) {
     const UrdfLink& link = document_.links[i];
     if (!IsMarker(link)) continue;
-    std::string label = link.name.substr(0, link.name.size() - kMarkerSuffix.size());
-    if (const UrdfJoint* mimic = FindMimic(static_cast<int>(i))) {
-      lost_[mimic->name].push_back(std::move(label));
-      continue;
-    }
     ModelMarker& marker = description_.markers.emplace_back();
-    marker.name = std::move(label);
+    marker.name = link.name.substr(0, link.name.size() - kMarkerSuffix.size());
     marker.segment = segment_[i];
     if (!is_marker_[i]) continue;
     const UrdfJoint& joint = document_.joints[link.parent_joint];
@@ -182,14 +218,9 @@ UrdfModel UrdfModelBuilder::Build() {
   for (std::size_t i = 0; i < segment_.size(); ++i) {
     if (!is_marker_[i]) AddSegment(static_cast<int>(i));
   }
+  FindLeaders();
   AddMarkers();
   diagnostics_.ThrowIfErrors();
-  WarnOf(mimics_, "(mimic): held at the offset, the coupling is not tracked");
-  for (const auto& [joint, markers] : lost_) {
-    diagnostics_.AddWarning(0, fmt::format("below joint {} (mimic) {} not used: {}", joint,
-                                           markers.size() == 1 ? "a marker is" : "markers are",
-                                           fmt::join(markers, ", ")));
-  }
   WarnOf(slides_, "(prismatic): held, sliding is not tracked");
   WarnOf(stiff_, "(revolute with equal limits): does not turn");
   return {KinematicModel(std::move(description_)), std::move(segment_of_link_)};
@@ -197,10 +228,17 @@ UrdfModel UrdfModelBuilder::Build() {
 
 }  // namespace
 
+bool IsUrdf(std::string_view content) {
+  return RootName(content) == "robot" && content.find("<RobotNode") == std::string_view::npos;
+}
+
+UrdfModel MakeUrdfModel(const UrdfDocument& document, Diagnostics* diagnostics) {
+  return UrdfModelBuilder(document, diagnostics).Build();
+}
+
 UrdfModel ParseUrdfModel(std::string_view content, const std::string& file, Warnings* warnings) {
   Diagnostics diagnostics(file, warnings);
-  const UrdfDocument document = ParseUrdf(content, &diagnostics);
-  return UrdfModelBuilder(document, &diagnostics).Build();
+  return MakeUrdfModel(ParseUrdf(content, &diagnostics), &diagnostics);
 }
 
 UrdfModel ReadUrdfModel(const std::string& path, Warnings* warnings) {

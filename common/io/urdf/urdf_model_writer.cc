@@ -83,6 +83,12 @@ std::string Limits(const Segment& joint) {
              : fmt::format("lower=\"{}\" upper=\"{}\" ", Exact(joint.lower), Exact(joint.upper));
 }
 
+/// Of a joint that follows another. URDF has no others.
+ScalarFunction::Line LineOf(const Segment& joint) {
+  return joint.function ? joint.function->AsLine().value_or(ScalarFunction::Line{})
+                        : ScalarFunction::Line{};
+}
+
 class UrdfWriter {
  public:
   UrdfWriter(const KinematicModel& model, std::string comment, Warnings* warnings)
@@ -188,6 +194,12 @@ void UrdfWriter::AppendJoint(std::size_t index) {
     urdf_.xml +=
         fmt::format("    <axis xyz=\"{}\"/>\n    <limit {}effort=\"{:g}\" velocity=\"{:g}\"/>\n",
                     Exact(segment.axis), Limits(segment), kEffort, kVelocity);
+  }
+  if (segment.leader >= 0) {
+    const ScalarFunction::Line line = LineOf(segment);
+    urdf_.xml += fmt::format("    <mimic joint=\"{}\" multiplier=\"{}\" offset=\"{}\"/>\n",
+                             joints_[static_cast<std::size_t>(segment.leader)], Exact(line.slope),
+                             Exact(line.offset));
   }
   urdf_.xml += "  </joint>\n";
 }

@@ -28,7 +28,7 @@ constexpr double kUrdfRounding = 1e-14;
 
 std::string Humanoid() { return SourcePath("tests/support/humanoid.urdf"); }
 
-std::string Robot(const std::string& content) {
+std::string RobotText(const std::string& content) {
   return "<robot name='r'>\n" + content + "\n</robot>";
 }
 
@@ -40,7 +40,7 @@ std::string Joint(const std::string& name, const std::string& type, const std::s
 
 /// Two links, the second carried by such a joint.
 std::string Hinge(const std::string& type, const std::string& more) {
-  return Robot("<link name='a'/><link name='b'/>\n" + Joint("j", type, "a", "b", more));
+  return RobotText("<link name='a'/><link name='b'/>\n" + Joint("j", type, "a", "b", more));
 }
 
 std::string UrdfMessageOf(const std::string& urdf) {
@@ -60,7 +60,7 @@ constexpr const char* kLimit = "<limit lower='-1' upper='2' effort='1' velocity=
 TEST(UrdfModel, HasTreeLimitsMassesAndMarkers) {
   Warnings warnings;
   const UrdfModel read = ParseUrdfModel(
-      Robot(
+      RobotText(
           "<link name='base'><inertial><origin xyz='0.1 0 0' rpy='0 0 1.5707963267948966'/>"
           "<mass value=' 2 '/><inertia ixx='1' ixy='0.1' ixz='0.2' iyy='2' iyz='0.3' izz='2.5'/>"
           "</inertial><visual><geometry><mesh filename='a.stl' scale='broken'/></geometry>"
@@ -104,8 +104,7 @@ TEST(UrdfModel, HumanoidIsRead) {
   EXPECT_NEAR(read.model.total_mass(), 59.8, 1e-12);  // rounding of a sum
   EXPECT_EQ(read.model.joint(read.model.FindJoint("left_knee")).upper, 2.4);
   EXPECT_THAT(warnings.texts(),
-              ElementsAre(AllOf(HasSubstr("left_finger_follower"), HasSubstr("mimic")),
-                          AllOf(HasSubstr("joint lift"), HasSubstr("prismatic"))));
+              ElementsAre(AllOf(HasSubstr("joint lift"), HasSubstr("prismatic"))));
 }
 
 TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
@@ -123,23 +122,57 @@ TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
   EXPECT_NEAR(Eigen::AngleAxisd(X.linear()).angle(), 0.5, kUrdfRounding);
 }
 
-TEST(UrdfModel, MimicJointsAreHeldAndMarkersBelowThemLeftOut) {
+TEST(UrdfModel, MimicJointsFollow) {
   Warnings warnings;
   const UrdfModel read = ParseUrdfModel(
-      Robot("<link name='a'/><link name='b'/><link name='c'/><link name='L_marker'/><link "
-            "name='M_marker'/>" +
-            Joint("k", "continuous", "a", "b") +
-            Joint("j", "continuous", "b", "c", "<mimic joint='k' multiplier='2' offset='0.3'/>") +
-            Joint("l", "fixed", "b", "L_marker") + Joint("m", "fixed", "c", "M_marker")),
+      RobotText(
+          "<link name='a'/><link name='b'/><link name='c'/><link name='d'/><link "
+          "name='M_marker'/>" +
+          Joint("k", "continuous", "a", "b") +
+          Joint("j", "continuous", "b", "c", "<mimic joint='k' multiplier='2' offset='0.3'/>") +
+          Joint("i", "continuous", "c", "d", "<mimic joint='j' multiplier='-1' offset='0.1'/>") +
+          Joint("m", "fixed", "c", "M_marker")),
       "r.urdf", &warnings);
   ASSERT_EQ(read.model.num_joints(), 1);
+  const auto angle = [&](const char* name) {
+    const Segment& segment = read.model.segments()[read.model.FindSegment(name)];
+    EXPECT_EQ(segment.joint, 0);
+    return JointValue(segment, 0.5);
+  };
+  EXPECT_EQ(angle("k"), 0.5);
+  EXPECT_NEAR(angle("j"), 2 * 0.5 + 0.3, kUrdfRounding);
+  EXPECT_NEAR(angle("i"), -1.3 + 0.1, kUrdfRounding);
+  EXPECT_EQ(read.model.markers().size(), 1u);
+  EXPECT_THAT(warnings.texts(), IsEmpty());
+  const UrdfModel again = ParseUrdfModel(FormatUrdf(read.model, "").xml, "again.urdf");
+  EXPECT_EQ(again.model.num_joints(), 1);
+  EXPECT_NEAR(JointValue(again.model.segments()[3], 0.5), -1.2, kUrdfRounding);
+}
+
+TEST(UrdfModel, MimicsOfWhatDoesNotTurnAreHeld) {
+  const UrdfModel read =
+      ParseUrdfModel(RobotText("<link name='a'/><link name='b'/><link name='c'/>" +
+                               Joint("k", "prismatic", "a", "b",
+                                     "<limit lower='0.2' upper='1' effort='1' velocity='1'/>") +
+                               Joint("j", "continuous", "b", "c",
+                                     "<mimic joint='k' multiplier='2' offset='0.3'/>")),
+                     "r.urdf");
+  EXPECT_EQ(read.model.num_joints(), 0);
   const Segment& held = read.model.segments()[read.model.FindSegment("j")];
-  EXPECT_NEAR(Eigen::AngleAxisd(held.X_PF.linear()).angle(), 0.3, kUrdfRounding);
-  ASSERT_EQ(read.model.markers().size(), 1u);
-  EXPECT_EQ(read.model.markers()[0].name, "L");
-  EXPECT_THAT(warnings.texts(),
-              ElementsAre(HasSubstr("joint j (mimic): held"),
-                          HasSubstr("below joint j (mimic) a marker is not used: M")));
+  EXPECT_NEAR(Eigen::AngleAxisd(held.X_PF.linear()).angle(), 0.7, kUrdfRounding);
+}
+
+TEST(UrdfModel, AFloatingJointUnderAWorldMovesTheRoot) {
+  const UrdfModel read =
+      ParseUrdfModel(RobotText("<link name='world'/><link name='a'/><link name='b'/>" +
+                               Joint("f", "floating", "world", "a", "<origin xyz='0 0 1'/>") +
+                               Joint("k", "continuous", "a", "b")),
+                     "r.urdf");
+  ASSERT_EQ(read.model.segments().size(), 2u);
+  EXPECT_FALSE(read.model.is_root_fixed());
+  EXPECT_EQ(read.model.segments()[0].name, "a");
+  EXPECT_TRUE(read.model.segments()[0].X_PF.isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_EQ(read.segment_of_link.count("world"), 0u);
 }
 
 TEST(UrdfModel, MissingLimitsCountAsZero) {
@@ -168,11 +201,11 @@ TEST(UrdfModel, EndlessJointsHaveNoLimits) {
 
 TEST(UrdfModel, MarkersOfOtherKinds) {
   const UrdfModel read = ParseUrdfModel(
-      Robot("<link name='a'/><link name='M_marker'><inertial><mass value='1'/><inertia ixx='1' "
-            "ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><link name='t_marker'/>"
-            "<link name='_marker'/>" +
-            Joint("m", "fixed", "a", "M_marker") + Joint("t", "continuous", "a", "t_marker") +
-            Joint("u", "fixed", "a", "_marker")),
+      RobotText("<link name='a'/><link name='M_marker'><inertial><mass value='1'/><inertia ixx='1' "
+                "ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><link name='t_marker'/>"
+                "<link name='_marker'/>" +
+                Joint("m", "fixed", "a", "M_marker") + Joint("t", "continuous", "a", "t_marker") +
+                Joint("u", "fixed", "a", "_marker")),
       "r.urdf");
   ASSERT_EQ(read.model.markers().size(), 1u);  // the second turns, the third has no label
   EXPECT_EQ(read.model.markers()[0].name, "M");
@@ -182,7 +215,7 @@ TEST(UrdfModel, MarkersOfOtherKinds) {
 
 TEST(UrdfModel, RootMayBeCalledAsAJoint) {
   const UrdfModel read = ParseUrdfModel(
-      Robot("<link name='j'/><link name='b'/>" + Joint("j", "continuous", "j", "b")), "r.urdf");
+      RobotText("<link name='j'/><link name='b'/>" + Joint("j", "continuous", "j", "b")), "r.urdf");
   EXPECT_EQ(read.model.segments()[0].name, "j_link");
   EXPECT_EQ(read.model.joint(0).name, "j");
 }
@@ -190,8 +223,9 @@ TEST(UrdfModel, RootMayBeCalledAsAJoint) {
 TEST(UrdfModel, ImpossibleInertiaIsNamed) {
   Warnings warnings;
   const UrdfModel read = ParseUrdfModel(
-      Robot("<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
-            "iyz='0' izz='3'/></inertial></link>"),
+      RobotText(
+          "<link name='a'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+          "iyz='0' izz='3'/></inertial></link>"),
       "r.urdf", &warnings);
   EXPECT_THAT(warnings.texts(),
               ElementsAre(AllOf(HasSubstr("r.urdf:2: link 'a': no body has its inertia"))));
@@ -203,24 +237,31 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
       {"<robot name='r'><link name='a'>", "r.urdf:1: not well-formed XML"},
       {"<MMM/>", "expected <robot>, found <MMM>"},
       {"<robot><link name='a'/></robot>", "r.urdf: urdfdom can't read it: No name given"},
-      {Robot(""), "No link"},
-      {Robot("<xacro:macro name='m'/>"), "r.urdf:2: <xacro:macro>: is xacro"},
-      {Robot(two), "Two root links found: [a] and [b]"},
-      {Robot(two + Joint("i", "fixed", "a", "b") + Joint("j", "fixed", "b", "a")),
+      {RobotText(""), "No link"},
+      {RobotText("<xacro:macro name='m'/>"), "r.urdf:2: <xacro:macro>: is xacro"},
+      {RobotText(two), "Two root links found: [a] and [b]"},
+      {RobotText(two + Joint("i", "fixed", "a", "b") + Joint("j", "fixed", "b", "a")),
        "link 'a' hangs in a circle of joints"},
-      {Robot("<link name='c'/>" + two + Joint("i", "fixed", "a", "b") +
-             Joint("j", "fixed", "b", "a")),
+      {RobotText("<link name='c'/>" + two + Joint("i", "fixed", "a", "b") +
+                 Joint("j", "fixed", "b", "a")),
        "link 'a' hangs in a circle of joints"},
-      {Robot("<link name='a'/>" + Joint("i", "fixed", "a", "a")),
+      {RobotText("<link name='a'/>" + Joint("i", "fixed", "a", "a")),
        "link 'a' hangs in a circle of joints"},
-      {Robot("<link name='c'/>" + two + Joint("i", "fixed", "a", "c") +
-             Joint("j", "fixed", "b", "c") + Joint("k", "fixed", "a", "b")),
+      {RobotText("<link name='c'/>" + two + Joint("i", "fixed", "a", "c") +
+                 Joint("j", "fixed", "b", "c") + Joint("k", "fixed", "a", "b")),
        "link 'c' is the child of both the joints 'i' and 'j'"},
-      {Robot(two + Joint("j", "fixed", "a", "z")), "child link [z] of joint [j] not found"},
-      {Robot(two + Joint("j", "fixed", "z", "b")), "parent link [z] of joint [j] not found"},
-      {Robot(two + Joint("j", "fixed", "a", "b") + Joint("j", "fixed", "a", "b")), "not unique"},
-      {Robot("<link name='a'/><link name='a'/>"), "not unique"},
-      {Hinge("floating", ""), "r.urdf:3: joint 'j': floating joints are not supported"},
+      {RobotText(two + Joint("j", "fixed", "a", "z")), "child link [z] of joint [j] not found"},
+      {RobotText(two + Joint("j", "fixed", "z", "b")), "parent link [z] of joint [j] not found"},
+      {RobotText(two + Joint("j", "fixed", "a", "b") + Joint("j", "fixed", "a", "b")),
+       "not unique"},
+      {RobotText("<link name='a'/><link name='a'/>"), "not unique"},
+      {RobotText("<link name='a'/><link name='b'/><link name='c'/>" +
+                 Joint("k", "fixed", "a", "b") + Joint("j", "floating", "a", "c")),
+       "r.urdf:2: joint 'j': floating joints are not supported"},
+      {RobotText("<link name='a'/><link name='b'/><link name='c'/>" +
+                 Joint("k", "continuous", "a", "b", "<mimic joint='j'/>") +
+                 Joint("j", "continuous", "a", "c", "<mimic joint='k'/>")),
+       "joint 'j': mimics joints in a circle"},
       {Hinge("planar", ""), "r.urdf:3: joint 'j': planar joints are not supported"},
       {Hinge("continuous", "<mimic joint='j'/>"), "r.urdf:3: joint 'j': mimics itself"},
       {Hinge("continuous", "<mimic joint='k'/>"),
@@ -236,12 +277,13 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
       {Hinge("fixed", "<origin xyz='1e400 0 0'/>"), "r.urdf: urdfdom can't read it"},
       {Hinge("fixed", "<origin xyz='1e300 0 0'/>"), "joint 'j': its origin is more than 100 m"},
       {Hinge("fixed", "<origin xyz='1 2'/>"), "r.urdf: urdfdom can't read it"},
-      {Robot("<link name='a'><inertial><mass value='-1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
-             "iyz='0' izz='1'/></inertial></link>"),
+      {RobotText(
+           "<link name='a'><inertial><mass value='-1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+           "iyz='0' izz='1'/></inertial></link>"),
        "r.urdf:2: link 'a': its mass of -1 kg is outside"},
-      {Robot("<link name=''/>"), "use a name of letters"},
-      {Robot("<link NAME='a' name='b'/><Link name='c'/><Joint name='j'/>"), "no error"},
-      {Robot("<link name='\xff'/>"), "use a name of letters"}};
+      {RobotText("<link name=''/>"), "use a name of letters"},
+      {RobotText("<link NAME='a' name='b'/><Link name='c'/><Joint name='j'/>"), "no error"},
+      {RobotText("<link name='\xff'/>"), "use a name of letters"}};
   for (const auto& [urdf, message] : cases)
     EXPECT_THAT(UrdfMessageOf(urdf), HasSubstr(message)) << urdf;
 }
@@ -249,7 +291,7 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
 TEST(UrdfModel, DeepAndLongFilesEndWithAnError) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  EXPECT_THAT(UrdfMessageOf(Robot("<link name='a'>" + deep + "</link>")),
+  EXPECT_THAT(UrdfMessageOf(RobotText("<link name='a'>" + deep + "</link>")),
               HasSubstr("nested too deep"));
   std::string chain = "<link name='l0'/>";
   for (std::size_t i = 1; i < kMaxUrdfLinks; ++i) {
@@ -257,9 +299,9 @@ TEST(UrdfModel, DeepAndLongFilesEndWithAnError) {
     chain += "<link name='" + name + "'/>" +
              Joint("j" + name, "continuous", "l" + std::to_string(i - 1), name);
   }
-  EXPECT_EQ(ParseUrdfModel(Robot(chain), "r.urdf").model.num_joints(),
+  EXPECT_EQ(ParseUrdfModel(RobotText(chain), "r.urdf").model.num_joints(),
             static_cast<int>(kMaxUrdfLinks) - 1);
-  EXPECT_THAT(UrdfMessageOf(Robot(chain + "<link name='second root'/>")),
+  EXPECT_THAT(UrdfMessageOf(RobotText(chain + "<link name='second root'/>")),
               HasSubstr("has 4097 links, more than the 4096"));
 }
 
