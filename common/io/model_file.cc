@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/io/bytes/file_content.h"
+#include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_xml.h"
@@ -15,6 +16,16 @@ namespace mmm_converter {
 namespace {
 
 constexpr std::size_t kHeadBytes = 1 << 16;  // a root stands behind comments of fewer
+
+/// Of the links whose frames their segments have.
+std::map<std::string, std::string> SegmentsOfLinks(const Robot& robot) {
+  std::map<std::string, std::string> names;
+  for (const Robot::Link& link : robot.links) {
+    if (!link.X_SL.isApprox(Eigen::Isometry3d::Identity(), 0)) continue;
+    names[link.name] = robot.model.segments()[static_cast<std::size_t>(link.segment)].name;
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -31,6 +42,11 @@ LoadedModel ReadModelFile(const std::string& path, Warnings* warnings,
   if (IsUrdf(content)) {
     UrdfModel urdf = ParseUrdfModel(content, path, warnings);
     return {std::move(urdf.model), false, std::move(urdf.segment_of_link)};
+  }
+  if (IsMjcf(content)) {
+    Robot robot = ReadMjcf(path, warnings);
+    std::map<std::string, std::string> segment_of_link = SegmentsOfLinks(robot);
+    return {std::move(robot.model), false, std::move(segment_of_link)};
   }
   return {ParseMmmModel(content, path, warnings), true, {}};
 }

@@ -12,15 +12,15 @@ namespace mmm_converter {
 /// A model, of whichever format.
 struct LoadedModel {
   KinematicModel model;
-  /// Of a person of 1 m and 1 kg (MMM), to be scaled. Otherwise as large as it is (URDF, OpenSim).
+  /// Of a person of 1 m and 1 kg (MMM), to be scaled. Otherwise as large as it is.
   bool is_reference = true;
-  std::map<std::string, std::string> segment_of_link;  ///< of a URDF: segment names of its links
+  std::map<std::string, std::string> segment_of_link;  ///< of a robot: segment names of its links
 };
 
-/// Reads an MMM or Simox model (`<Robot>` of `<RobotNode>`), a URDF (`<robot>` of `<link>`) or a
-/// model of OpenSim, told by its content. marker_file: a MarkerSet of OpenSim, whose markers come
-/// to such a model; empty: none.
-/// @throws Error as ReadMmmModel, ReadUrdfModel and ReadOsimModel.
+/// Reads an MMM or Simox model (`<Robot>` of `<RobotNode>`), a URDF (`<robot>` of `<link>`), an
+/// MJCF (`<mujoco>`) or a model of OpenSim, told by its content. marker_file: a MarkerSet of
+/// OpenSim, whose markers come to such a model; empty: none.
+/// @throws Error as ReadMmmModel, ReadUrdfModel, ReadMjcf and ReadOsimModel.
 LoadedModel ReadModelFile(const std::string& path, Warnings* warnings,
                           const std::string& marker_file = {});
 
