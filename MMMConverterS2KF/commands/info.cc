@@ -19,8 +19,8 @@ const OptionGroup kInfoOptions = {
     {{"json", "", "machine-readable", ""}, {"version", "", "print this program's version", ""}}};
 
 constexpr const char* kInfoUsage = R"(MMMConverterS2KF info FILE [--json]
-What is in a file that this program reads or writes: recordings (C3D, TRC), MMM motions, models and
-URDF, configurations, marker sets, subjects, persons, plugins, manifests, journals and results of a
+What is in a file that this program reads or writes: recordings (C3D, TRC), MMM motions, models,
+robots (URDF, MJCF), configurations, marker sets, subjects, persons, plugins, manifests, journals and results of a
 batch, summaries, tables (CSV, MOT) and pages. Of a C3D file also analog channels, force plates,
 events and parameters; it need not have markers.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in MMM motions and in models.
+// What is in MMM motions.
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include "MMMConverterS2KF/report/describe.h"
 #include "MMMConverterS2KF/report/info_markers.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/model_file.h"
 
 namespace mmm_converter {
 namespace {
@@ -56,44 +55,6 @@ Description DescribeMotions(const FileStart& file, const ReadRecordingOptions&) 
     text += MotionText(motion);
     json["motions"].push_back(MotionJson(motion));
   }
-  return {text, FormatJson(json), warnings};
-}
-
-Description DescribeModel(const FileStart& file, const ReadRecordingOptions&) {
-  Warnings warnings;
-  const LoadedModel loaded = ReadModelFile(file.path, &warnings);
-  const KinematicModel& model = loaded.model;
-  std::string text = fmt::format(
-      "{}: model {}\nsegments   {}\nmass       {:.6g} kg\nnode sets  {}\njoints     {}\n",
-      file.path, model.name(), model.segments().size(), model.total_mass(),
-      model.node_sets().size(), model.num_joints());
-  Json json = {{"kind", "model"},
-               {"file", file.path},
-               {"name", model.name()},
-               {"segments", model.segments().size()},
-               {"mass_kg", model.total_mass()},
-               {"joints", Json::array()},
-               {"markers", Json::array()},
-               {"node_sets", Json::array()},
-               {"warnings", warnings.texts()}};
-  for (int j = 0; j < model.num_joints(); ++j) {
-    const Segment& joint = model.joint(j);
-    text += HasNoLimits(joint) ? fmt::format("  {:<24} without limits\n", joint.name)
-                               : fmt::format("  {:<24} {:9.6f} to {:9.6f} rad\n", joint.name,
-                                             joint.lower, joint.upper);
-    json["joints"].push_back(
-        {{"name", joint.name}, {"lower_rad", joint.lower}, {"upper_rad", joint.upper}});
-  }
-  text += fmt::format("markers    {}\n", model.markers().size());
-  for (const ModelMarker& marker : model.markers()) {
-    const std::string& segment = model.segments()[marker.segment].name;
-    const Eigen::Vector3d& p = marker.p_SM;
-    text += fmt::format("  {:<14} on {:<24} at {:7.4f} {:7.4f} {:7.4f} m\n", marker.name, segment,
-                        p.x(), p.y(), p.z());
-    json["markers"].push_back(
-        {{"name", marker.name}, {"segment", segment}, {"offset_m", {p.x(), p.y(), p.z()}}});
-  }
-  for (const auto& [name, unused] : model.node_sets()) json["node_sets"].push_back(name);
   return {text, FormatJson(json), warnings};
 }
 

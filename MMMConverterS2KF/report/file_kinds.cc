@@ -8,6 +8,7 @@
 
 #include "MMMConverterS2KF/report/describe.h"
 #include "common/io/bytes/file_content.h"
+#include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
@@ -24,13 +25,16 @@ bool HasRoot(const FileStart& file) {
 }
 
 constexpr const char* kMotion = "MMM";
-constexpr const char* kModel = "Robot";
 constexpr const char* kOsim = "OpenSimDocument";
 constexpr const char* kConfiguration = "ConverterConfig";
 constexpr const char* kMarkerSet = "MarkerSet";
 constexpr const char* kSubject = "Subject";
 constexpr const char* kPerson = "ModelProcessorConfig";
 constexpr const char* kPage = "html";
+
+bool IsModel(const FileStart& file) {
+  return EqualIgnoringCase(file.root, "Robot") || IsMjcf(file.head);
+}
 
 bool IsPlugin(const FileStart& file) {
   return file.head.starts_with(
@@ -78,7 +82,7 @@ const std::vector<FileKind>& FileKinds() {
   static const std::vector<FileKind> kKinds = {
       {"plugins", IsPlugin, DescribePlugin},
       {"MMM motions", HasRoot<kMotion>, DescribeMotions},
-      {"models (MMM, URDF)", HasRoot<kModel>, DescribeModel},
+      {"models and robots (MMM, URDF, MJCF)", IsModel, DescribeModel},
       {"OpenSim models", HasRoot<kOsim>, DescribeOsim},
       {"configurations", HasRoot<kConfiguration>, DescribeConfiguration},
       {"marker sets", HasRoot<kMarkerSet>, DescribeMarkerSet},

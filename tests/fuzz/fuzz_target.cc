@@ -18,6 +18,7 @@ const std::map<std::string, FuzzTarget>& FuzzTargets() {
       {"lcd_samples", ReadLcdSamplesBytes},
       {"manifest", ReadManifestBytes},
       {"marker_set", ReadMarkerSetBytes},
+      {"mjcf", ReadMjcfBytes},
       {"mmm_model", ReadMmmModelBytes},
       {"mmm_motion", ReadMmmMotionBytes},
       {"motive_csv", ReadMotiveCsvBytes},

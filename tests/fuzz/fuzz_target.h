@@ -34,6 +34,7 @@ void ReadQtmTsvBytes(std::string_view bytes);
 void ReadMmmMotionBytes(std::string_view bytes);
 void ReadMmmModelBytes(std::string_view bytes);
 void ReadOsimBytes(std::string_view bytes);
+void ReadMjcfBytes(std::string_view bytes);
 void ReadUrdfBytes(std::string_view bytes);
 void ReadPersonBytes(std::string_view bytes);
 void ReadConverterConfigBytes(std::string_view bytes);

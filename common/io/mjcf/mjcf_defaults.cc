@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -64,16 +66,24 @@ int MjcfDefaults::ClassOf(const XmlElement& element, int childclass, const char*
   return childclass;
 }
 
-const std::string* MjcfDefaults::Value(int of_class, std::string_view element,
-                                       std::string_view attribute) const {
+std::vector<const std::string*> MjcfDefaults::Values(int of_class, std::string_view element,
+                                                     std::string_view attribute) const {
+  std::vector<const std::string*> found;
   for (; of_class >= 0; of_class = classes_[static_cast<std::size_t>(of_class)].parent) {
     const auto& all = classes_[static_cast<std::size_t>(of_class)].values;
     const auto values = all.find(element);
     if (values == all.end()) continue;
     const auto value = values->second.find(attribute);
-    if (value != values->second.end()) return &value->second;
+    if (value != values->second.end()) found.push_back(&value->second);
   }
-  return nullptr;
+  std::reverse(found.begin(), found.end());
+  return found;
+}
+
+const std::string* MjcfDefaults::Value(int of_class, std::string_view element,
+                                       std::string_view attribute) const {
+  const std::vector<const std::string*> all = Values(of_class, element, attribute);
+  return all.empty() ? nullptr : all.back();
 }
 
 std::string_view MjcfDefaults::FirstOf(int of_class, std::string_view element,

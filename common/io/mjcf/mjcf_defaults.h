@@ -26,6 +26,9 @@ class MjcfDefaults {
   /// nullptr: none has it.
   const std::string* Value(int of_class, std::string_view element,
                            std::string_view attribute) const;
+  /// All of them, outermost class first.
+  std::vector<const std::string*> Values(int of_class, std::string_view element,
+                                         std::string_view attribute) const;
   /// Which of the attributes the nearest class that has any has. Empty: none.
   std::string_view FirstOf(int of_class, std::string_view element,
                            const std::vector<std::string_view>& attributes) const;

@@ -223,6 +223,9 @@ void MjcfRobotBuilder::Couple(const MjcfCoupling& coupling) {
                     coupling.follower, coupling.leader));
     return;
   }
+  // What the segment moves by is the joint's own q, which counts from its ref.
+  const double own_ref = ref_of_joint_.at(coupling.follower);
+  segment.X_PF = segment.X_PF * JointTransform(segment, 0);
   segment.leader = leader->second;
   segment.lower = moved->lower;
   segment.upper = moved->upper;
@@ -230,7 +233,7 @@ void MjcfRobotBuilder::Couple(const MjcfCoupling& coupling) {
   segment.reach =
       segment.type == JointType::kSliding && HasNoLimits(*moved) ? kSlideReach : moved->reach;
   segment.function = std::make_shared<const ScalarFunction>(
-      ScalarFunction::Polynomial({p[4], p[3], p[2], p[1], p[0]})
+      ScalarFunction::Polynomial({p[4], p[3], p[2], p[1], p[0] + own_ref})
           .After(ScalarFunction::Linear(1, -ref_of_joint_.at(coupling.leader))));
 }
 

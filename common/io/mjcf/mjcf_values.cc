@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <vector>
@@ -99,25 +100,29 @@ std::string MjcfAttributes::Word(std::string_view name, std::string_view otherwi
   return std::string(text == nullptr ? otherwise : Trim(*text));
 }
 
+/// A shorter list replaces the first numbers of that of the class around it, as in MuJoCo.
 std::optional<Eigen::VectorXd> MjcfAttributes::Numbers(std::string_view name, int fewest,
                                                        int most) const {
-  const std::string* text = Find(name);
-  if (text == nullptr) return {};
+  std::vector<const std::string*> texts = defaults_.Values(class_, ToLower(element_.name), name);
+  if (const std::string* own = element_.FindAttribute(name)) texts.push_back(own);
+  if (texts.empty()) return {};
   std::vector<double> numbers;
-  const bool are_numbers = AppendDoubles(*text, &numbers);
+  for (const std::string* text : texts) {
+    std::vector<double> read;
+    if (!AppendDoubles(*text, &read)) read.clear();
+    const bool is_sane = std::all_of(
+        read.begin(), read.end(), [](double number) { return std::abs(number) <= kLargestNumber; });
+    if (read.empty() || read.size() > static_cast<std::size_t>(most) || !is_sane) {
+      Fail(name, text->substr(0, 80), "are no numbers that a robot has here");
+      return {};
+    }
+    numbers.resize(std::max(numbers.size(), read.size()));
+    std::copy(read.begin(), read.end(), numbers.begin());
+  }
   const auto count = static_cast<int>(numbers.size());
-  if (!are_numbers || count < fewest || count > most) {
-    Fail(name, text->substr(0, 80),
-         fewest == most ? fmt::format("use {} {}", most, most == 1 ? "number" : "numbers")
-                        : fmt::format("use {} to {} numbers", fewest, most));
-    return {};
-  }
-  for (const double number : numbers) {
-    if (std::abs(number) <= kLargestNumber) continue;
-    Fail(name, text->substr(0, 80), fmt::format("{} is no number that a robot has", number));
-    return {};
-  }
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), count);
+  if (count >= fewest) return Eigen::Map<const Eigen::VectorXd>(numbers.data(), count);
+  Fail(name, texts.back()->substr(0, 80), fmt::format("use {} numbers", fewest));
+  return {};
 }
 
 double MjcfAttributes::Number(std::string_view name, double otherwise) const {

@@ -69,6 +69,11 @@ std::u32string CodePoints(std::string_view raw) {
 }
 
 std::string TypeAndBytes(const NpyArray& array, std::string* bytes) {
+  if (!array.integers.empty()) {
+    bytes->assign(reinterpret_cast<const char*>(array.integers.data()),
+                  array.integers.size() * sizeof(std::int64_t));
+    return "<i8";
+  }
   if (array.texts.empty()) {
     bytes->assign(reinterpret_cast<const char*>(array.numbers.data()),
                   array.numbers.size() * sizeof(double));
@@ -132,7 +137,7 @@ void CheckSize(const std::vector<NpyArray>& arrays) {
   constexpr std::size_t kOverhead = 4096;  // of an array, with its headers
   std::size_t bytes = 0;
   for (const NpyArray& array : arrays) {
-    bytes += kOverhead + array.numbers.size() * sizeof(double);
+    bytes += kOverhead + (array.numbers.size() + array.integers.size()) * sizeof(double);
     for (const std::string& text : array.texts) bytes += 4 * text.size();
   }
   if (bytes < std::numeric_limits<std::uint32_t>::max()) return;

@@ -10,12 +10,13 @@
 
 namespace mmm_converter {
 
-/// An array of a .npz file, in C order (the last index runs fastest): numbers, or texts.
+/// An array of a .npz file, in C order (the last index runs fastest): numbers, texts or integers.
 struct NpyArray {
   std::string name;
   std::vector<std::int64_t> shape;  ///< {}: one value
   std::vector<double> numbers;      ///< little-endian float64 in the file
   std::vector<std::string> texts;  ///< in UTF-8, instead of numbers; fixed-width UTF-32 in the file
+  std::vector<std::int64_t> integers = {};  ///< instead of numbers; little-endian int64 in the file
 };
 
 /// A .npy file, version 1.0, as numpy.lib.format describes it.

@@ -36,17 +36,17 @@ std::string Markers(const std::string& measurements) {
   return Motion2("<Sensor type='MoCapMarker'><Data>\n" + measurements + "</Data></Sensor>");
 }
 
-std::string Pose(const std::string& position, const std::string& rotation) {
+std::string PoseXml(const std::string& position, const std::string& rotation) {
   return Motion2("<Sensor type='ModelPose'><Data><Measurement timestep='0'><RootPosition>" +
                  position + "</RootPosition><RootRotation>" + rotation +
                  "</RootRotation></Measurement></Data></Sensor>");
 }
 
 TEST(MmmMotionReader, RefusesWhatNobodyCanMeasure) {
-  EXPECT_EQ(MotionMessageOf(Pose("1 2e9 3", "0 0 0")),
+  EXPECT_EQ(MotionMessageOf(PoseXml("1 2e9 3", "0 0 0")),
             "walk.xml:2: <RootPosition>: found \"1 2e9 3\", expected numbers up to 1e+09");
-  EXPECT_THAT(MotionMessageOf(Pose("1 2 3", "0 -1e300 0")), HasSubstr("<RootRotation>: found"));
-  EXPECT_EQ(MotionMessageOf(Pose("1 nan 3", "0 0 0")), "no error");
+  EXPECT_THAT(MotionMessageOf(PoseXml("1 2 3", "0 -1e300 0")), HasSubstr("<RootRotation>: found"));
+  EXPECT_EQ(MotionMessageOf(PoseXml("1 nan 3", "0 0 0")), "no error");
 }
 
 TEST(MmmMotionReader, CountsWarningsOfAKind) {

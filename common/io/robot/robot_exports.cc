@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/robot/robot_exports.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/io/robot/pickle_writer.h"
+#include "common/io/tables/npz_writer.h"
+#include "common/math/rotation.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kLafanRate = 30;  // [Hz]
+constexpr double kMimicRate = 50;  // [Hz], of BeyondMimic's and mjlab's tasks
+constexpr int kJointFree = 0, kJointSlide = 2, kJointHinge = 3;  // MuJoCo's mjtJoint
+
+NpyArray Array(const std::string& name, const Eigen::MatrixXd& columns,
+               std::vector<std::int64_t> shape_of_frame) {
+  NpyArray array;
+  array.name = name;
+  array.shape = {columns.cols()};
+  array.shape.insert(array.shape.end(), shape_of_frame.begin(), shape_of_frame.end());
+  array.numbers.assign(columns.data(), columns.data() + columns.size());
+  return array;
+}
+
+NpyArray Array(const std::string& name, const Eigen::MatrixXd& columns) {
+  return Array(name, columns, {columns.rows()});
+}
+
+NpyArray Number(const std::string& name, double number) { return {name, {}, {number}, {}}; }
+
+NpyArray Texts(const std::string& name, const std::vector<std::string>& texts) {
+  return {name, {static_cast<std::int64_t>(texts.size())}, {}, texts};
+}
+
+NpyArray Integers(const std::string& name, std::vector<std::int64_t> shape,
+                  std::vector<std::int64_t> integers) {
+  return {name, std::move(shape), {}, {}, std::move(integers)};
+}
+
+Eigen::MatrixXd ScalarLast(const Eigen::MatrixXd& wxyz) {
+  Eigen::MatrixXd xyzw(wxyz.rows(), wxyz.cols());
+  xyzw << wxyz.bottomRows<3>(), wxyz.topRows<1>();
+  return xyzw;
+}
+
+void AppendJsonText(const std::string& text, std::string* json) {
+  *json += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') *json += '\\';
+    *json += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  *json += '"';
+}
+
+void AppendNames(const char* key, const std::vector<std::string>& names, std::string* json) {
+  *json += fmt::format("  \"{}\": [", key);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) *json += ", ";
+    AppendJsonText(names[i], json);
+  }
+  *json += "]";
+}
+
+std::vector<std::string> NamesOf(const Robot& robot, const std::vector<int>& links) {
+  std::vector<std::string> names;
+  for (const int link : links) names.push_back(robot.links[static_cast<std::size_t>(link)].name);
+  return names;
+}
+
+/// Beside a file that has no names: FILE.names.json.
+void WriteNames(const std::string& file, const Robot& robot, const RobotMotion& motion,
+                const char* quaternion) {
+  std::string json = fmt::format(
+      "{{\n  \"rate\": {},\n  \"quaternion\": \"{}\",\n  \"robot\": ", motion.rate, quaternion);
+  AppendJsonText(robot.model.name(), &json);
+  json += ",\n";
+  AppendNames("joints", motion.joints, &json);
+  json += ",\n";
+  AppendNames("bodies", NamesOf(robot, MovingLinks(robot, RobotOrder::kDepthFirst)), &json);
+  WriteFileAtomically(file + ".names.json", json + "\n}\n");
+}
+
+std::optional<double> RateOf(const RobotExportOptions& options, double own) {
+  if (options.rate) return options.rate;
+  return own > 0 ? std::optional<double>(own) : std::nullopt;
+}
+
+RobotMotion DepthFirst(const Robot& robot, const PoseTrajectory& trajectory,
+                       std::optional<double> rate) {
+  return MakeRobotMotion(robot, trajectory, rate, RobotOrder::kDepthFirst);
+}
+
+void WriteLafan(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+                const RobotExportOptions& options) {
+  const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, kLafanRate));
+  const Eigen::MatrixXd quaternions = ScalarLast(motion.root_quaternions);
+  std::string csv;
+  for (Eigen::Index k = 0; k < motion.num_frames(); ++k) {
+    Eigen::VectorXd row(7 + motion.joint_positions.rows());
+    row << motion.root_positions.col(k), quaternions.col(k), motion.joint_positions.col(k);
+    for (Eigen::Index i = 0; i < row.size(); ++i) {
+      csv += fmt::format("{}{:.9f}", i == 0 ? "" : ",", row[i]);
+    }
+    csv += '\n';
+  }
+  WriteFileAtomically(file, csv);
+  WriteNames(file, robot, motion, "xyzw");
+}
+
+void WriteGmr(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+              const RobotExportOptions& options) {
+  const std::optional<double> rate = RateOf(options, 0);
+  const RobotMotion motion = DepthFirst(robot, trajectory, rate);
+  const LinkPoses poses = MakeLinkPoses(robot, trajectory, rate, AllLinks(robot), true);
+  const auto bodies = static_cast<std::int64_t>(poses.names.size());
+  WriteFileAtomically(file, FormatPickle({PickleValue::Dict{
+                                {"fps", {motion.rate}},
+                                {"root_pos", {Array("", motion.root_positions)}},
+                                {"root_rot", {Array("", ScalarLast(motion.root_quaternions))}},
+                                {"dof_pos", {Array("", motion.joint_positions)}},
+                                {"local_body_pos", {Array("", poses.positions, {bodies, 3})}},
+                                {"link_body_list", {poses.names}},
+                                {"joint_names", {motion.joints}}}}));
+}
+
+/// xyz, wxyz where the root floats, joints.
+Eigen::MatrixXd QPos(const RobotMotion& motion) {
+  if (motion.is_root_fixed) return motion.joint_positions;
+  Eigen::MatrixXd qpos(7 + motion.joint_positions.rows(), motion.num_frames());
+  qpos << motion.root_positions, motion.root_quaternions, motion.joint_positions;
+  return qpos;
+}
+
+/// As MuJoCo has it: the root's velocity in W, its angular velocity in its own frame.
+Eigen::MatrixXd QVel(const RobotMotion& motion) {
+  if (motion.is_root_fixed) return motion.joint_velocities;
+  Eigen::MatrixXd own = motion.root_angular_velocities;
+  for (Eigen::Index k = 0; k < own.cols(); ++k) {
+    const Eigen::Vector4d q = motion.root_quaternions.col(k);
+    own.col(k) = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * own.col(k).eval();
+  }
+  Eigen::MatrixXd qvel(6 + motion.joint_velocities.rows(), motion.num_frames());
+  qvel << motion.root_velocities, own, motion.joint_velocities;
+  return qvel;
+}
+
+void WriteMujoco(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+                 const RobotExportOptions& options) {
+  const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, 0));
+  WriteFileAtomically(file,
+                      FormatNpz({Array("qpos", QPos(motion)), Array("qvel", QVel(motion)),
+                                 Number("fps", motion.rate), Texts("joint_names", motion.joints)}));
+}
+
+void WriteLocoMujoco(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+                     const RobotExportOptions& options) {
+  const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, 0));
+  std::vector<std::string> names;
+  std::vector<std::int64_t> types;
+  if (!motion.is_root_fixed) {
+    names.emplace_back("root");
+    types.push_back(kJointFree);
+  }
+  for (const int s : motion.joint_segments) {
+    const Segment& segment = robot.model.segments()[static_cast<std::size_t>(s)];
+    names.push_back(segment.name);
+    types.push_back(segment.type == JointType::kSliding ? kJointSlide : kJointHinge);
+  }
+  const auto count = static_cast<std::int64_t>(types.size());
+  WriteFileAtomically(
+      file, FormatNpz({Array("qpos", QPos(motion)), Array("qvel", QVel(motion)),
+                       Number("frequency", motion.rate), Texts("joint_names", names),
+                       Integers("njnt", {}, {count}), Integers("jnt_type", {count}, types),
+                       Integers("split_points", {2}, {0, motion.num_frames()})}));
+}
+
+void WriteMimic(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+                const std::optional<double>& rate, RobotOrder order) {
+  const RobotMotion motion = MakeRobotMotion(robot, trajectory, rate, order);
+  const LinkPoses poses = MakeLinkPoses(robot, trajectory, rate, MovingLinks(robot, order), false);
+  const auto n = static_cast<std::int64_t>(poses.names.size());
+  WriteFileAtomically(file, FormatNpz({{"fps", {1}, {motion.rate}, {}},
+                                       Array("joint_pos", motion.joint_positions),
+                                       Array("joint_vel", motion.joint_velocities),
+                                       Array("body_pos_w", poses.positions, {n, 3}),
+                                       Array("body_quat_w", poses.quaternions, {n, 4}),
+                                       Array("body_lin_vel_w", poses.velocities, {n, 3}),
+                                       Array("body_ang_vel_w", poses.angular_velocities, {n, 3}),
+                                       Texts("joint_names", motion.joints),
+                                       Texts("body_names", poses.names)}));
+}
+
+void WriteBeyondMimic(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+                      const RobotExportOptions& options) {
+  if (!options.order) {
+    throw Error(
+        fmt::format("{}: needs the order of joints and bodies, isaac or mujoco: a wrong one "
+                    "trains without a word",
+                    file));
+  }
+  WriteMimic(file, robot, trajectory, RateOf(options, kMimicRate), *options.order);
+}
+
+void WriteMjlab(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+                const RobotExportOptions& options) {
+  WriteMimic(file, robot, trajectory, RateOf(options, kMimicRate), RobotOrder::kDepthFirst);
+}
+
+/// Rotation vectors of the root and of each joint about its axis.
+Eigen::MatrixXd PoseVectors(const Robot& robot, const RobotMotion& motion) {
+  const auto num_joints = static_cast<Eigen::Index>(motion.joint_segments.size());
+  Eigen::MatrixXd vectors(3 + 3 * num_joints, motion.num_frames());
+  for (Eigen::Index k = 0; k < motion.num_frames(); ++k) {
+    const Eigen::Vector4d q = motion.root_quaternions.col(k);
+    vectors.col(k).head<3>() = Log(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+    for (Eigen::Index i = 0; i < num_joints; ++i) {
+      const int s = motion.joint_segments[static_cast<std::size_t>(i)];
+      vectors.col(k).segment<3>(3 + 3 * i) =
+          motion.joint_positions(i, k) * robot.model.segments()[static_cast<std::size_t>(s)].axis;
+    }
+  }
+  return vectors;
+}
+
+void WritePhc(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
+              const RobotExportOptions& options) {
+  const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, kLafanRate));
+  const Eigen::MatrixXd vectors = PoseVectors(robot, motion);
+  WriteFileAtomically(
+      file,
+      FormatPickle({PickleValue::Dict{
+          {options.motion_name,
+           {PickleValue::Dict{{"root_trans_offset", {Array("", motion.root_positions)}},
+                              {"pose_aa", {Array("", vectors, {vectors.rows() / 3, 3})}},
+                              {"dof", {Array("", motion.joint_positions)}},
+                              {"root_rot", {Array("", ScalarLast(motion.root_quaternions))}},
+                              {"fps", {static_cast<std::int64_t>(std::lround(motion.rate))}}}}}}}));
+  WriteNames(file, robot, motion, "xyzw");
+}
+
+}  // namespace
+
+const std::vector<RobotExporter>& RobotExporters() {
+  static const std::vector<RobotExporter> exporters = {
+      {"lafan1", "export-lafan1", ".csv", "joint angles as Unitree's CSV",
+       "root and joints as Unitree's LAFAN1 files have them (CSV without a header; x y z, qx qy qz "
+       "qw, joints), 30 Hz; names beside it",
+       kLafanRate, false, WriteLafan},
+      {"gmr", "export-gmr", ".pkl", "motions as GMR's pickle",
+       "root, joints and bodies as GMR and TWIST have them (pickle)", 0, false, WriteGmr},
+      {"mujoco", "export-mujoco", ".npz", "qpos and qvel of MuJoCo",
+       "qpos and qvel of MuJoCo (NumPy; holosoma reads it as a retargeted motion)", 0, false,
+       WriteMujoco},
+      {"locomujoco", "export-locomujoco", ".npz", "trajectories of LocoMuJoCo",
+       "a trajectory of LocoMuJoCo (NumPy)", 0, false, WriteLocoMujoco},
+      {"beyondmimic", "export-beyondmimic", ".npz", "motions of BeyondMimic",
+       "joints and bodies that move, with velocities, as BeyondMimic has them (NumPy), 50 Hz; "
+       "needs "
+       "the order",
+       kMimicRate, true, WriteBeyondMimic},
+      {"mjlab", "export-mjlab", ".npz", "motions of mjlab",
+       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", kMimicRate, false,
+       WriteMjlab},
+      {"phc", "export-phc", ".pkl", "motions of PHC and ASAP",
+       "root, joints and their rotation vectors as PHC and ASAP have them (a pickle that joblib "
+       "reads), 30 Hz; names beside it",
+       kLafanRate, false, WritePhc}};
+  return exporters;
+}
+
+RobotOrder ParseRobotOrder(const std::string& text) {
+  if (text == "isaac") return RobotOrder::kBreadthFirst;
+  if (text == "mujoco") return RobotOrder::kDepthFirst;
+  throw Error(fmt::format("\"{}\" is no order of joints; use isaac or mujoco", text));
+}
+
+}  // namespace mmm_converter
