@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "common/io/c3d/c3d_writer.h"
+#include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/subject_file.h"
@@ -334,6 +335,35 @@ TEST(ExportUrdf, AsksForThePersonAndKeepsItsInputs) {
       RunProgram({"export-urdf", "--model", model, "--height", "1.7", "--mass", "70", "-o", model});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("would be lost"));
+}
+
+/// The same arm with a joint beside its body's origin, one that counts from elsewhere, and a foot.
+constexpr const char* kMjcfArm = R"(<mujoco model="arm"><default><geom size="0.03"/>
+<joint axis="0 1 0" range="-90 90"/></default>
+<worldbody><geom type="plane" size="1 1 1"/><body name="box"><freejoint/><geom/>
+  <site name="A_marker" pos="0.2 0.2 0"/><site name="B_marker" pos="-0.2 0.2 0"/>
+  <site name="C_marker" pos="0 -0.2 0.3"/>
+  <body name="upper" pos="0 0 0.5"><joint name="shoulder" pos="0 0 -0.1"/><geom/>
+    <site name="D_marker" pos="0.1 0 0.05"/><site name="E_marker" pos="0.2 0.05 0"/>
+    <body name="fore" pos="0.3 0 0"><joint name="elbow" ref="30"/><geom/>
+      <site name="F_marker" pos="0.1 0 0.05"/><site name="G_marker" pos="0.2 -0.05 0"/>
+    </body></body></body></worldbody></mujoco>)";
+
+TEST(Mjcf, KnownAnglesOfARobotAreRecovered) {
+  const std::string file = TestFolder() + "/arm.xml";
+  WriteText(file, kMjcfArm);
+  const KinematicModel arm = ReadMjcf(file).model;
+  ASSERT_EQ(arm.num_joints(), 2);
+  const PoseTrajectory truth = Swing(arm);
+  const std::string output = TestFolder() + "/o.xml";
+  const auto run = RunProgram({"convert", WriteRecording(arm, truth), "--model", file, "-c",
+                               WriteExactConfig(), "-o", output});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_LT(LargestError(truth, output), kFittedAngle);
+  const auto info = RunProgram({"info", file});
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, AllOf(HasSubstr("model arm"), HasSubstr("elbow"), HasSubstr("bodies     3"),
+                              HasSubstr("30.0 mm below, 1 sphere of fore")));
 }
 
 }  // namespace

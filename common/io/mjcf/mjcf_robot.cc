@@ -104,7 +104,7 @@ std::vector<int> MjcfRobotBuilder::ChooseTops() {
     throw Error(fmt::format("{}: is no robot: no body has a hinge or a slide", text_.file()));
   }
   description_.is_root_fixed = true;
-  AddSegment("world", -1, Eigen::Isometry3d::Identity());
+  AddSegment(Unique("world"), -1, Eigen::Isometry3d::Identity());
   return fixed;
 }
 
