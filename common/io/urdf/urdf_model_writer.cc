@@ -76,11 +76,13 @@ std::string Cylinder(const Eigen::Vector3d& p) {
                                kThickness * length, length));
 }
 
-/// Nothing for a joint without end.
+/// Nothing for a joint without end; the reach of others without limits.
 std::string Limits(const Segment& joint) {
-  return IsEndless(joint)
-             ? ""
-             : fmt::format("lower=\"{}\" upper=\"{}\" ", Exact(joint.lower), Exact(joint.upper));
+  if (IsEndless(joint)) return "";
+  const bool has_none = HasNoLimits(joint);
+  return fmt::format("lower=\"{}\" upper=\"{}\" ",
+                     Exact(has_none ? joint.rest - joint.reach : joint.lower),
+                     Exact(has_none ? joint.rest + joint.reach : joint.upper));
 }
 
 /// Of a joint that follows another. URDF has no others.
@@ -185,11 +187,18 @@ void UrdfWriter::AppendLink(std::size_t index) {
 void UrdfWriter::AppendJoint(std::size_t index) {
   const Segment& segment = model_.segments()[index];
   const bool turns = segment.joint >= 0;
-  const char* type = IsEndless(segment) ? "continuous" : turns ? "revolute" : "fixed";
+  const char* moving = IsEndless(segment)                    ? "continuous"
+                       : segment.type == JointType::kSliding ? "prismatic"
+                                                             : "revolute";
+  const char* type = turns ? moving : "fixed";
+  // A joint that counts from elsewhere.
+  const bool is_shifted = turns && segment.leader < 0 && LineOf(segment).offset != 0;
+  const Eigen::Isometry3d X_PF =
+      is_shifted ? segment.X_PF * JointTransform(segment, 0) : segment.X_PF;
   urdf_.xml += fmt::format(
       "  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n"
       "    {}\n",
-      joints_[index], type, links_[segment.parent], links_[index], Origin(segment.X_PF));
+      joints_[index], type, links_[segment.parent], links_[index], Origin(X_PF));
   if (turns) {
     urdf_.xml +=
         fmt::format("    <axis xyz=\"{}\"/>\n    <limit {}effort=\"{:g}\" velocity=\"{:g}\"/>\n",

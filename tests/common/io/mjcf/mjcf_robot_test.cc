@@ -167,7 +167,7 @@ TEST(MjcfRobot, WithoutAFreeJointItStandsOnTheWorld) {
       "<mujoco><worldbody><body name='table'><geom size='1'/></body>"
       "<body name='left' pos='0 1 0'><geom size='0.1'/><body pos='0 0 1'><joint name='a'/>"
       "<geom size='0.1'/></body></body>"
-      "<body name='right' pos='0 -1 0'><joint name='b'/><geom size='0.1'/></body>"
+      "<body name='right' pos='0 -1 0'><joint name='world'/><geom size='0.1'/></body>"
       "</worldbody></mujoco>");
   EXPECT_TRUE(robot.model.is_root_fixed());
   EXPECT_EQ(robot.model.num_joints(), 2);
@@ -181,7 +181,8 @@ TEST(MjcfRobot, EqualJointsFollowAndOtherEqualitiesAreNamed) {
   Warnings warnings;
   const Robot robot = ParseWith(
       {},
-      Floating("<body><joint name='a' ref='0.5'/><geom size='1'/></body><body><joint name='b'/>"
+      Floating("<body><joint name='a' ref='0.5'/><geom size='1'/></body><body><joint name='b' "
+               "ref='0.2'/>"
                "<geom size='1'/></body><body><joint name='c'/><geom size='1'/></body>",
                "<compiler angle='radian'/>",
                "<equality><joint joint1='b' joint2='a' polycoef='0.1 2'/>"
@@ -189,7 +190,11 @@ TEST(MjcfRobot, EqualJointsFollowAndOtherEqualitiesAreNamed) {
                "</equality>"),
       &warnings);
   ASSERT_EQ(robot.model.num_joints(), 1);
-  EXPECT_NEAR(JointValue(SegmentOf(robot, "b"), 0.7), 0.1 + 2 * 0.2, kMjcfRounding);
+  // The follower's own q; where its body turns to, counts from its ref.
+  const Segment& follower = SegmentOf(robot, "b");
+  EXPECT_NEAR(JointValue(follower, 0.7), 0.2 + 0.1 + 2 * 0.2, kMjcfRounding);
+  const Eigen::Isometry3d X = follower.X_PF * JointTransform(follower, 0.7);
+  EXPECT_NEAR(Eigen::AngleAxisd(X.linear()).angle(), 0.1 + 2 * 0.2, 1e-7);  // acos at a cosine
   EXPECT_EQ(SegmentOf(robot, "c").type, JointType::kFixed);
   EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("<equality><connect> is not kept")));
 }
@@ -318,7 +323,7 @@ TEST(MjcfRobotReal, AgreesWithTheUrdfOfTheSameRobot) {
         const Eigen::Vector3d difference =
             of_urdf[static_cast<std::size_t>(urdf.model.joint_segment(j))].translation() -
             of_mjcf[static_cast<std::size_t>(mjcf.model.joint_segment(j))].translation();
-        EXPECT_LT(difference.norm(), 1.5e-6) << mjcf.model.joint(j).name;
+        EXPECT_LT(difference.norm(), 1e-6) << mjcf.model.joint(j).name;
       }
     }
   }
