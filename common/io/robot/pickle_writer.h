@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,8 +14,14 @@ namespace mmm_converter {
 /// A value that Python's pickle reads back: a number, a text, a NumPy array, a list of texts, or a
 /// dict of such values by texts.
 struct PickleValue {
-  using Dict = std::vector<std::pair<std::string, PickleValue>>;
+  struct Item;
+  using Dict = std::vector<Item>;
   std::variant<double, std::int64_t, std::string, NpyArray, std::vector<std::string>, Dict> value;
+};
+
+struct PickleValue::Item {
+  std::string key;
+  PickleValue value;
 };
 
 /// A pickle of protocol 3 (Python 3.0 and later) whose arrays are NumPy's own (numpy.ndarray of

@@ -71,6 +71,7 @@ void AppendNames(const char* key, const std::vector<std::string>& names, std::st
 
 std::vector<std::string> NamesOf(const Robot& robot, const std::vector<int>& links) {
   std::vector<std::string> names;
+  names.reserve(links.size());
   for (const int link : links) names.push_back(robot.links[static_cast<std::size_t>(link)].name);
   return names;
 }
