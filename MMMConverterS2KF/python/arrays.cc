@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/angles/anatomical_angles.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -55,6 +56,39 @@ py::tuple PostureArrays(const Posture& posture) {
   return py::make_tuple(
       py::array_t<double>(3, posture.position.data()), py::array_t<double>(4, wxyz.data()),
       py::array_t<double>(posture.joint_angles.size(), posture.joint_angles.data()));
+}
+
+PoseTrajectory TrajectoryOf(const Numbers& positions, const Numbers& quaternions,
+                            const Numbers& angles, const std::vector<std::string>& names) {
+  CheckShape(positions, {-1, 3}, "root_positions");
+  const py::ssize_t frames = positions.shape(0);
+  CheckShape(quaternions, {frames, 4}, "root_quaternions");
+  const auto count = static_cast<py::ssize_t>(names.size());
+  CheckShape(angles, {frames, count}, "joints");
+  PoseTrajectory trajectory;
+  trajectory.rate = 1;
+  trajectory.joint_names = names;
+  for (py::ssize_t k = 0; k < frames; ++k) {
+    const double* q = quaternions.data(k, 0);
+    const double* joints = angles.data() + k * count;
+    trajectory.postures.push_back({Eigen::Map<const Eigen::Vector3d>(positions.data(k, 0)),
+                                   Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
+                                   Eigen::Map<const Eigen::VectorXd>(joints, count)});
+  }
+  return trajectory;
+}
+
+py::tuple AnglesOf(const KinematicModel& model, const PoseTrajectory& motion) {
+  AnatomicalAngles angles;
+  {
+    const py::gil_scoped_release release;
+    angles = ComputeAnatomicalAngles(model, motion);
+  }
+  py::list names;
+  for (const AnatomicalAngle& one : angles.angles) {
+    names.append(py::make_tuple(one.joint, one.side, one.motion));
+  }
+  return py::make_tuple(names, RowsOfColumns(angles.values), RowsOfColumns(angles.deviations));
 }
 
 py::object PythonOf(const Json& json) {

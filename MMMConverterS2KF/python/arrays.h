@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "MMMConverterS2KF/report/json.h"
+#include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter::python {
@@ -24,6 +25,14 @@ pybind11::tuple PostureArrays(const std::vector<Posture>& postures, int num_join
 
 /// What PostureArrays makes of one posture.
 pybind11::tuple PostureArrays(const Posture& posture);
+
+/// The other way: names of the joints are the columns'. @throws Error where a shape is wrong.
+PoseTrajectory TrajectoryOf(const Numbers& positions, const Numbers& quaternions,
+                            const Numbers& angles, const std::vector<std::string>& names);
+
+/// (joint, side, motion) of each anatomical angle, angles and standard deviations, (frames, angles)
+/// [rad]; None where the motion has no deviations. @throws Error where the model has no legs.
+pybind11::tuple AnglesOf(const KinematicModel& model, const PoseTrajectory& motion);
 
 /// The dictionary or list that JSON says.
 pybind11::object PythonOf(const Json& json);

@@ -11,7 +11,6 @@
 #include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/angles/anatomical_angles.h"
 #include "common/convert/marker_incidents.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/motion_output.h"
@@ -24,27 +23,11 @@ namespace py = pybind11;
 
 namespace {
 
-/// A conversion, and how it was asked for.
-struct Conversion {
-  ConversionRequest request;
-  ConversionReport report;
-
-  const PoseTrajectory& trajectory() const { return report.result.trajectory; }
-};
-
-// recording: a Recording, or None: the options' file is read.
-Conversion Convert(const py::object& recording, const py::dict& options,
-                   const py::object& progress) {
-  ConversionRequest request = RequestOf(options);
+Conversion Convert(const py::dict& options, const py::object& progress) {
+  const ConversionRequest request = RequestOf(options);
   if (const std::string wrong = Contradiction(request); !wrong.empty()) throw Error(wrong);
-  ReadBefore read_before;
-  if (!recording.is_none()) {
-    const auto& read = recording.cast<const ReadRecordingResult&>();
-    read_before.recording = {read.recording, read.warnings};
-    request.input.file = read.recording->file;
-  }
   return InBackground(progress, [&](const Progress& on_progress) {
-    ConversionPlan plan = PlanConversion(request, LabelFirst(request, read_before, on_progress));
+    ConversionPlan plan = PlanConversion(request, LabelFirst(request, {}, on_progress));
     return Conversion{request, CarryOut(std::move(plan), on_progress)};
   });
 }
@@ -104,17 +87,6 @@ py::object CovariancesOf(const Conversion& conversion) {
     next = std::copy(one.covariance.data(), one.covariance.data() + one.covariance.size(), next);
   }
   return py::make_tuple(frames, covariances);
-}
-
-// (joint, side, motion) of each angle, angles and standard deviations (frames, angles) [rad].
-py::tuple AnglesOf(const Conversion& conversion) {
-  const AnatomicalAngles angles =
-      ComputeAnatomicalAngles(*conversion.report.plan.setup.model, conversion.trajectory());
-  py::list names;
-  for (const AnatomicalAngle& one : angles.angles) {
-    names.append(py::make_tuple(one.joint, one.side, one.motion));
-  }
-  return py::make_tuple(names, RowsOfColumns(angles.values), RowsOfColumns(angles.deviations));
 }
 
 py::list IncidentsOf(const Conversion& conversion) {
@@ -198,7 +170,9 @@ void BindConversions(py::module_* module) {
       .def_property_readonly(
           "residuals", [](const Conversion& c) { return RowsOfColumns(c.report.result.residuals); })
       .def_property_readonly("covariances", &CovariancesOf)
-      .def_property_readonly("angles", &AnglesOf)
+      .def_property_readonly(
+          "angles",
+          [](const Conversion& c) { return AnglesOf(*c.report.plan.setup.model, c.trajectory()); })
       .def_property_readonly("marker_labels", &MarkerLabelsOf)
       .def_property_readonly("incidents", &IncidentsOf)
       .def_property_readonly("frames", &FramesOf)

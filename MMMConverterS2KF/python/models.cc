@@ -98,6 +98,22 @@ py::array_t<double> MarkerPlaces(const PersonModel& person, const Numbers& posit
   return p_WM;
 }
 
+// As AnglesOf. deviations: (frames, 6 + joints), or None.
+py::tuple Angles(const PersonModel& person, const Numbers& positions, const Numbers& quaternions,
+                 const Numbers& angles, const std::vector<std::string>& names,
+                 const py::object& deviations) {
+  CheckPostures(*person.model, positions, quaternions, angles, names);
+  PoseTrajectory motion = TrajectoryOf(positions, quaternions, angles, names);
+  if (!deviations.is_none()) {
+    const auto sd = deviations.cast<Numbers>();
+    const auto size = static_cast<py::ssize_t>(6 + names.size());
+    CheckShape(sd, {positions.shape(0), size}, "sd");
+    motion.standard_deviations =
+        Eigen::Map<const Eigen::MatrixXd>(sd.data(), size, positions.shape(0));
+  }
+  return AnglesOf(*person.model, motion);
+}
+
 /// A converter that is fed frame by frame.
 class Tracker {
  public:
@@ -253,7 +269,8 @@ void BindModels(py::module_* module) {
                                                      : std::nullopt;
                              })
       .def("forward", &Forward)
-      .def("place_markers", &MarkerPlaces);
+      .def("place_markers", &MarkerPlaces)
+      .def("angles", &Angles);
   py::class_<Tracker>(*module, "Tracker")
       .def(py::init([](const PersonModel& person, const std::vector<std::string>& labels,
                        const py::dict& options) {

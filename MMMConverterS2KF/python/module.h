@@ -9,6 +9,7 @@
 #include "common/convert/tracking_setup.h"
 #include "common/io/model_file.h"
 #include "common/io/recording/recording.h"
+#include "common/pipeline/conversion.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter::python {
@@ -26,6 +27,14 @@ struct PersonModel {
   std::shared_ptr<const LoadedModel> loaded;
   PersonScaling scaling;
   std::shared_ptr<const KinematicModel> model;  ///< scaled
+};
+
+/// A conversion, and how it was asked for.
+struct Conversion {
+  ConversionRequest request;
+  ConversionReport report;
+
+  const PoseTrajectory& trajectory() const { return report.result.trajectory; }
 };
 
 // Each binds the classes and functions of a source.

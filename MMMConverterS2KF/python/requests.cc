@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "MMMConverterS2KF/python/module.h"
 #include "common/pipeline/comparison/comparison_setup.h"
 #include "common/pipeline/dynamics/dynamics_check.h"
 #include "common/support/error.h"
@@ -23,8 +24,8 @@ constexpr Medium kMedium = Medium::kPython;
 const std::map<std::string, Task> kTasks = {
     {"calibrate", task::kCalibrate}, {"check_dynamics", task::kCheckDynamics},
     {"compare", task::kCompare},     {"convert", task::kConvert},
-    {"label", task::kLabel},         {"read", task::kRead},
-    {"read_model", task::kModel}};
+    {"label", task::kLabel},         {"learn_markers", task::kLearnMarkers},
+    {"read", task::kRead},           {"read_model", task::kModel}};
 
 // A value as the command line has it.
 std::string TextOfValue(const py::handle& value, OptionKind kind) {
@@ -117,6 +118,11 @@ ConversionRequest RequestOf(const py::dict& options) {
   ConversionRequest request;
   ReadKeywords(options, Options(&request));
   request.input.file = TextOf(options, "file");
+  if (IsSet(options, "recording")) {
+    const auto& read = options["recording"].cast<const ReadRecordingResult&>();
+    request.input.recording = {read.recording, read.warnings};
+    request.input.file = read.recording->file;
+  }
   return request;
 }
 

@@ -18,7 +18,7 @@ namespace mmm_converter::python {
 /// @throws Error
 void ReadKeywords(const pybind11::dict& options, const std::vector<Option>& table);
 
-/// Options of a request, and its file.
+/// Options of a request, and its file; or its recording, which has been read.
 /// @throws Error as ReadKeywords.
 ConversionRequest RequestOf(const pybind11::dict& options);
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
@@ -17,13 +18,16 @@
 #include "MMMConverterS2KF/report/dynamics_summary.h"
 #include "MMMConverterS2KF/report/label_page.h"
 #include "MMMConverterS2KF/report/label_summary.h"
+#include "MMMConverterS2KF/report/learn_summary.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "common/io/mmm/mmm_model_subject.h"
+#include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/label/track/relabelled.h"
 #include "common/pipeline/comparison/comparison_setup.h"
 #include "common/pipeline/dynamics/dynamics_check.h"
 #include "common/pipeline/labelled_output.h"
+#include "common/pipeline/marker_learning.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
@@ -162,14 +166,64 @@ struct CheckedDynamics {
   DynamicsReport report;
 };
 
-CheckedDynamics CheckMotion(const py::dict& options, const py::object& progress) {
+MmmMotion MotionOf(const py::dict& arrays) {
+  MmmMotion motion;
+  motion.name = arrays["name"].cast<std::string>();
+  motion.model_path = arrays["model"].cast<std::string>();
+  motion.size.height = arrays["height"].cast<std::optional<double>>();
+  motion.size.mass = arrays["mass"].cast<std::optional<double>>();
+  motion.size.hand_length = arrays["hand_length"].cast<std::optional<double>>();
+  motion.trajectory = TrajectoryOf(
+      arrays["root_positions"].cast<Numbers>(), arrays["root_quaternions"].cast<Numbers>(),
+      arrays["joints"].cast<Numbers>(), arrays["joint_names"].cast<std::vector<std::string>>());
+  motion.trajectory.rate = arrays["rate"].cast<double>();
+  motion.trajectory.first_time = arrays["first_time"].cast<double>();
+  if (!IsFrameRate(motion.trajectory.rate)) {
+    throw Error("rate: must be from 1 to 100000 frames a second");
+  }
+  return motion;
+}
+
+// motion: a dictionary of arrays, a conversion, or None: of the options' file.
+CheckedDynamics CheckMotion(const py::object& motion, const py::dict& options,
+                            const py::object& progress) {
   const InputRequest request = RequestOf(options).input;
   DynamicsOptions dynamics;
   ReadKeywords(options, Options(&dynamics));
+  std::optional<MmmMotion> arrays;
+  if (py::isinstance<py::dict>(motion)) arrays = MotionOf(motion);
+  const auto* conversion =
+      py::isinstance<Conversion>(motion) ? motion.cast<const Conversion*>() : nullptr;
   return InBackground(progress, [&](const Progress& on_progress) {
-    return CheckedDynamics{
-        request, CheckDynamics(ReadCheckedMotion(request), dynamics, OrThrow(on_progress))};
+    CheckedMotion checked = conversion != nullptr ? CheckedMotionOf(conversion->report, request)
+                            : arrays              ? CheckedMotionOf(*std::move(arrays), request)
+                                                  : ReadCheckedMotion(request);
+    return CheckedDynamics{request,
+                           CheckDynamics(std::move(checked), dynamics, OrThrow(on_progress))};
   });
+}
+
+struct Learning {
+  LearnRequest request;
+  LearnReport report;
+};
+
+Learning Learn(const py::list& inputs, const py::dict& options, const py::object& progress) {
+  LearnRequest request;
+  request.inputs = InputRequestsOf(inputs);
+  if (request.inputs.empty()) throw Error("learn_markers: which recordings?");
+  request.converter = RequestOf(options).converter;
+  request.name = TextOf(options, "name");
+  return InBackground(progress, [&](const Progress& on_progress) {
+    return Learning{request, RunLearning(request, OrThrow(on_progress))};
+  });
+}
+
+void SaveMarkerSet(Learning* learning, const std::string& file) {
+  LearnReport& report = learning->report;
+  if (learning->request.name.empty()) report.name = std::filesystem::path(file).stem().string();
+  WriteBeside(learning->request.inputs, file, Whole(FormatLearnedSet(report)));
+  report.output = file;
 }
 
 }  // namespace
@@ -221,7 +275,15 @@ void BindStudies(py::module_* module) {
         const std::string title = std::filesystem::path(d.report.motion.file).filename().string();
         WriteBeside({d.request}, file, Whole(FormatDynamicsPage(title, d.report)));
       });
+  py::class_<Learning>(*module, "LearnedMarkers")
+      .def_property_readonly("summary",
+                             [](const Learning& l) { return PythonOf(ToJson(l.report)); })
+      .def_property_readonly("text", [](const Learning& l) { return FormatLearnSummary(l.report); })
+      .def_property_readonly("warnings",
+                             [](const Learning& l) { return l.report.warnings.texts(); })
+      .def("save", &SaveMarkerSet);
   module->def("calibrate", &Calibrate);
+  module->def("learn_markers", &Learn);
   module->def("compare", &CompareAll);
   module->def("label", &LabelPoints);
   module->def("check_dynamics", &CheckMotion);

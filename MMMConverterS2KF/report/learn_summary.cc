@@ -63,6 +63,7 @@ std::string FormatLearnSummary(const LearnReport& report) {
                         marker.left_out);
     is_first = false;
   }
+  if (report.output.empty()) return text;
   return text + fmt::format("written    {}; use it with --marker-set\n", report.output);
 }
 

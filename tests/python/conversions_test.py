@@ -8,7 +8,6 @@ import os
 import signal
 import threading
 import unittest
-import unittest.mock
 
 import numpy as np
 
@@ -80,10 +79,6 @@ class Conversions(Case):
                                       angles.values[:, angles.names.index("left knee flexion")])
         with self.assertRaisesRegex(KeyError, "left knee flexion"):
             angles["knee"]
-        pandas = unittest.mock.MagicMock()
-        with unittest.mock.patch.dict("sys.modules", pandas=pandas):
-            angles.to_dataframe()
-        self.assertEqual(pandas.DataFrame.call_args.kwargs["columns"], angles.names)
         import matplotlib
         matplotlib.use("Agg")
         axes = angles.plot("knee flexion")
@@ -254,21 +249,6 @@ class Conversions(Case):
         self.assertEqual(incident["kind"], "misplaced")
         self.assertEqual(incident["marker"], recording.labels[10])
         self.assertEqual(incident["first_frame"], 50)
-
-    def test_dataframe(self):
-        result = mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 20))
-        try:
-            import pandas
-        except ImportError:
-            pandas = unittest.mock.MagicMock()
-            with unittest.mock.patch.dict("sys.modules", pandas=pandas):
-                result.to_dataframe()
-            data = pandas.DataFrame.call_args.args[0]
-            self.assertEqual(pandas.DataFrame.call_args.kwargs["columns"][7:], result.joint_names)
-        else:
-            data = result.to_dataframe().to_numpy()
-        np.testing.assert_array_equal(data[:, :3], result.root_positions)
-        np.testing.assert_array_equal(data[:, 7:], result.joints)
 
 
 if __name__ == "__main__":

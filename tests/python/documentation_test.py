@@ -38,6 +38,11 @@ for source in json.load(sys.stdin):
 """
 
 
+def arguments_of(function):
+    """How many a compiled function has, as the first line of its docstring says."""
+    return len(re.findall(r"(?:\(|, )\w+: ", function.__doc__.splitlines()[0]))
+
+
 class Documentation(unittest.TestCase):
 
     def test_examples_are_right(self):
@@ -125,6 +130,13 @@ class Documentation(unittest.TestCase):
             of_class = {member for member in vars(getattr(compiled, name))
                         if not member.startswith("_")}
             self.assertEqual(members - {"__init__"}, of_class, name)
+        for node in ast.walk(stub):  # as many arguments as pybind11 says in the first line
+            if isinstance(node, ast.FunctionDef) and node.name in there:
+                self.assertEqual(len(node.args.args), arguments_of(getattr(compiled, node.name)), node.name)
+            if isinstance(node, ast.ClassDef):
+                for one in filter(lambda part: isinstance(part, ast.FunctionDef), node.body):
+                    method = getattr(getattr(compiled, node.name), one.name)
+                    self.assertEqual(len(one.args.args), arguments_of(method), f"{node.name}.{one.name}")
 
     def test_options_are_those_of_the_table(self):
         folder = pathlib.Path(mmmconverter.__file__).parent

@@ -107,8 +107,70 @@ class Studies(Case):
         labelled.report(self.folder / "page.html")
         self.assertIn("points 53", repr(labelled))
         self.assertTrue(labelled.text)
-        with self.assertRaisesRegex(mmmconverter.Error, "reads its recordings from files"):
-            mmmconverter.label(labelled.recording)
+
+    def test_arrays_are_as_good_as_files(self):
+        recording = mmmconverter.read(SAMPLE)
+        arrays = mmmconverter.Recording.from_arrays(recording.labels, recording.markers[:100], 100,
+                                                    recording.first_time, "handstand")
+        whole = mmmconverter.Recording.from_arrays(recording.labels, recording.markers, 100)
+        of_arrays, of_file = (mmmconverter.calibrate(one, height=1.8, frames=(0, 300)) for one in (whole, SAMPLE))
+        self.assertEqual(of_arrays.subject.data["segments"], of_file.subject.data["segments"])
+        arrays.save(self.folder / "short.c3d")
+        of_arrays, of_file = (mmmconverter.label(one, height=1.8, repair=True)
+                              for one in (arrays, self.folder / "short.c3d"))
+        self.assertEqual(of_arrays.recording.labels, of_file.recording.labels)
+        np.testing.assert_allclose(of_arrays.recording.markers, of_file.recording.markers, atol=1e-6)
+        of_arrays.save(self.folder / "labelled.c3d")
+        self.assertEqual(len(mmmconverter.read(self.folder / "labelled.c3d")), 100)
+        of_arrays, of_file = (mmmconverter.compare(one, ["jacobian_pull"], height=1.8, frames=(0, 100))
+                              for one in (arrays, SAMPLE))
+        rows = [without_times(one.summary["rows"]) for one in (of_arrays, of_file)]
+        self.assertEqual(*[[{**row, "trial": ""} for row in one] for one in rows])
+
+    def test_learn_markers(self):
+        recording = mmmconverter.read(SAMPLE)
+        arrays = mmmconverter.Recording.from_arrays([f"M{i}" for i in range(53)], recording.markers, 100)
+        arrays.save(self.folder / "unknown.c3d")
+        self.run_program("learn-markers", self.folder / "unknown.c3d", "--height", "1.8", "--frames", ":300",
+                         "-o", self.folder / "ours.xml")
+        learned = mmmconverter.learn_markers(self.folder / "unknown.c3d", height=1.8, frames=(0, 300))
+        self.assertIsNone(learned.file)
+        self.assertNotIn("written", learned.text)
+        before = mmmconverter.convert(arrays, height=1.8, marker_set=learned, frames=(0, 20))
+        (self.folder / "again").mkdir()
+        learned.save(self.folder / "again/ours.xml")
+        self.assertEqual(learned.file, str(self.folder / "again/ours.xml"))
+        self.assert_same_files(self.folder / "ours.xml", learned.file)
+        after = mmmconverter.convert(arrays, height=1.8, marker_set=learned.file, frames=(0, 20))
+        np.testing.assert_array_equal(before.joints, after.joints)
+        self.assertRegex(repr(learned), r"LearnedMarkers of 1 recordings: markers \d\d, mean distance")
+        self.assertIn("written", learned.text)
+        self.assertEqual(learned.warnings, learned.summary["warnings"])
+        with self.assertRaises(mmmconverter.Error):
+            mmmconverter.learn_markers([])
+
+    def test_dynamics_of_arrays(self):
+        checks = mmmconverter.check_dynamics(MOTION).summary["checks"]
+        motion = mmmconverter.read_motion(MOTION)
+        self.assertEqual(mmmconverter.check_dynamics(motion).summary["checks"], checks)
+        of_arrays = mmmconverter.Motion.from_arrays(
+            motion.joint_names, motion.root_positions, motion.root_quaternions, motion.joints, motion.rate,
+            height=motion.height, mass=motion.mass, first_time=motion.first_time)
+        self.assertEqual(mmmconverter.check_dynamics(of_arrays).summary["checks"], checks)
+        motion.root_positions = motion.root_positions + [0, 0, 9.81 / 2] * (motion.times**2)[:, np.newaxis]
+        self.assertEqual(mmmconverter.check_dynamics(motion).judgement, "implausible")  # rises as if thrown
+        with self.assertRaisesRegex(mmmconverter.Error, "root_quaternions: has the shape"):
+            mmmconverter.check_dynamics(mmmconverter.Motion.from_arrays(
+                [], np.zeros((2, 3)), np.zeros((3, 4)), np.zeros((2, 0)), 100, height=1.8))
+        result = mmmconverter.convert(SAMPLE, height=1.8, frames=(0, 200))
+        result.save(self.folder / "m.xml")
+        written, computed = (mmmconverter.check_dynamics(one) for one in (self.folder / "m.xml", result))
+        self.assertEqual(computed.judgement, written.judgement)
+        for ours, theirs in zip(computed.summary["checks"], written.summary["checks"]):
+            self.assertEqual(ours.keys(), theirs.keys())
+            for name, value in ours.items():
+                if isinstance(value, float):  # the file has eight digits
+                    self.assertAlmostEqual(value, theirs[name], delta=1e-3 * (1 + abs(value)), msg=name)
 
     def test_check_dynamics(self):
         self.run_program("check-dynamics", MOTION, "--summary", self.folder / "program.json")

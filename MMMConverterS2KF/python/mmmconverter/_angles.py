@@ -8,6 +8,7 @@ from typing import List
 import numpy as np
 
 from ._present import Presented
+from ._tables import dataframe, dataset
 
 COLOURS = {"left": "#c8553d", "right": "#2a7f9e", "": "#444444"}
 
@@ -48,9 +49,15 @@ class Angles(Presented):
         return len(self.times)
 
     def to_dataframe(self):
-        """The angles [degrees] over time [s], as a pandas.DataFrame."""
-        import pandas
-        return pandas.DataFrame(self.values, columns=self.names, index=pandas.Index(self.times, name="time"))
+        """The angles and their standard deviations [degrees] over time [s], as a pandas.DataFrame with the
+        columns "left knee flexion [deg]", "left knee flexion sd [deg]"."""
+        return dataframe(self.times, (self.names, "deg", self.values),
+                         ([f"{name} sd" for name in self.names], "deg", self.sd))
+
+    def to_xarray(self):
+        """The same as an xarray.Dataset of `angle` and `angle_sd` over `time` and `name`, with units."""
+        return dataset(self.times, {"name": self.names},
+                       {"angle": (("name",), "deg", self.values), "angle_sd": (("name",), "deg", self.sd)})
 
     def plot(self, name, axes=None):
         """Draws an angle of both sides ("knee flexion") or of one ("left knee flexion"), with the band

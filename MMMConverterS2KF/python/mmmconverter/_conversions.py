@@ -17,13 +17,14 @@ from ._present import Kept, Presented, WrongValue, input_text, of_raw, path_text
 from ._progress import shown
 from ._recordings import Recording, keywords
 from ._stills import draw_stills, still_frames
+from ._tables import Postures
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
     from ._options import ConvertOptions
 
 
-class Conversion(Presented):
+class Conversion(Postures, Presented):
     """What `convert` found. J joints are tracked, M markers are used.
 
     Attributes
@@ -134,14 +135,6 @@ class Conversion(Presented):
         """Writes the page of ``convert --report``."""
         self._raw.report(path_text(file))
 
-    def to_dataframe(self):
-        """Root positions [m], quaternions and joints [rad] over time [s], as a pandas.DataFrame."""
-        import pandas
-        columns = [f"root_{axis}" for axis in ("x", "y", "z", "qw", "qx", "qy", "qz")]
-        data = np.hstack([self.root_positions, self.root_quaternions, self.joints])
-        return pandas.DataFrame(data, columns=columns + self.joint_names,
-                                index=pandas.Index(self.times, name="time"))
-
     def __len__(self):
         return len(self.times)
 
@@ -206,4 +199,4 @@ def convert(recording, *, progress: Union[Callable[[int, int], None], bool, None
     if raw is not None and recording._options is not None:
         options = {**recording._options, **options}
     with shown(progress, "frames") as callback:
-        return Conversion(_mmmconverter.convert(raw, options, callback), source)
+        return Conversion(_mmmconverter.convert(dict(options, recording=raw), callback), source)

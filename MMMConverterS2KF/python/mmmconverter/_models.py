@@ -9,16 +9,24 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _mmmconverter
+from ._angles import Angles
 from ._options import with_options
-from ._present import Presented, given, in_metres, of_raw, path_text
+from ._present import Presented, WrongValue, given, in_metres, of_raw, path_text
 from ._recordings import keywords
+from ._tables import AXES, dataframe, dataset, spread
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
     from ._options import ReadModelOptions
 
 
-class Poses(NamedTuple):
+class _Places(NamedTuple):
+    positions: np.ndarray
+    rotations: np.ndarray
+    markers: np.ndarray
+
+
+class Poses(_Places):
     """Where a body is; of one posture without the first axis.
 
     Attributes
@@ -29,11 +37,36 @@ class Poses(NamedTuple):
         Their rotation matrices in the world.
     markers : numpy.ndarray, shape (frames, markers, 3)
         Of all model markers in metres.
+    segments, marker_names : list of str
+        Of the model.
+    times : numpy.ndarray, shape (frames,), or None
+        In seconds, where they are known.
     """
 
-    positions: np.ndarray
-    rotations: np.ndarray
-    markers: np.ndarray
+    segments: list = []
+    marker_names: list = []
+    times: Optional[np.ndarray] = None
+
+    def to_dataframe(self):
+        """Places of segments and markers [m] over time [s], as a pandas.DataFrame with the columns
+        "LWx_joint x [m]", "marker LASI x [m]"; rotations are left out."""
+        markers = [f"marker {name}" for name in self.marker_names]
+        return dataframe(self._times(), (spread(self.segments, AXES), "m", self.positions),
+                         (spread(markers, AXES), "m", self.markers))
+
+    def to_xarray(self):
+        """All as an xarray.Dataset: segment_position [m], segment_rotation, marker_position [m]."""
+        many = self.positions.ndim > 2
+        positions, rotations, markers = self if many else (one[np.newaxis] for one in self)
+        return dataset(self._times(), {"segment": self.segments, "marker": self.marker_names, "axis": AXES}, {
+            "segment_position": (("segment", "axis"), "m", positions),
+            "segment_rotation": (("segment", "row", "column"), "", rotations),
+            "marker_position": (("marker", "axis"), "m", markers)})
+
+    def _times(self):
+        if self.times is None:
+            raise WrongValue("times: those of the frames are not known; set them, poses.times = ...")
+        return np.atleast_1d(self.times)
 
 
 class Model(Presented):
@@ -85,13 +118,17 @@ class Model(Presented):
         >>> np.round(poses.positions[0, wrist], 3)
         array([-0.287,  0.059,  0.886])
         """
+        times = getattr(root_positions, "times", None)
         positions, quaternions, joints, joint_names = self._postures(
             root_positions, root_quaternions, joints, joint_names)
         if positions.ndim > 1:
-            return Poses(*self._raw.forward(positions, quaternions, joints, joint_names))
-        poses = self._raw.forward(positions[np.newaxis], quaternions[np.newaxis],
-                                  joints[np.newaxis], joint_names)
-        return Poses(*(array[0] for array in poses))
+            poses = Poses(*self._raw.forward(positions, quaternions, joints, joint_names))
+        else:
+            arrays = self._raw.forward(positions[np.newaxis], quaternions[np.newaxis],
+                                       joints[np.newaxis], joint_names)
+            poses = Poses(*(array[0] for array in arrays))
+        poses.segments, poses.marker_names, poses.times = self.segments, self.markers, times
+        return poses
 
     def place_markers(self, root_positions: Any, root_quaternions: Any = None, joints: Any = None,
                       joint_names: Optional[Sequence[str]] = None) -> np.ndarray:
@@ -108,6 +145,20 @@ class Model(Presented):
             return self._raw.place_markers(positions, quaternions, joints, joint_names)
         return self._raw.place_markers(positions[np.newaxis], quaternions[np.newaxis],
                                        joints[np.newaxis], joint_names)[0]
+
+    def angles(self, motion) -> Angles:
+        """Angles of a `Motion` or `Conversion` by their anatomical names, in degrees; with standard
+        deviations where it has them.
+
+        Examples
+        --------
+        >>> motion = mmmconverter.read_motion("examples/handstand_true.xml")
+        >>> angles = read_model(height=1.8).angles(motion)
+        >>> angles
+        <Angles of 675 frames: names 37>
+        """
+        postures = self._postures(motion, None, None, None)
+        return Angles(motion.times, *self._raw.angles(*postures, getattr(motion, "sd", None)))
 
     def _postures(self, root_positions, root_quaternions, joints, joint_names):
         if root_quaternions is None:

@@ -3,6 +3,9 @@
 
 import html
 import os
+import shutil
+import tempfile
+import weakref
 
 import numpy as np
 
@@ -35,6 +38,22 @@ class MissingFile(Error, FileNotFoundError):
 
 class WrongValue(Error, ValueError):
     """What an argument can't be."""
+
+
+class Filed:
+    """What other functions read from a file: the one where it is saved, or one for the time that it lives."""
+
+    file = None
+    _folder = None
+
+    def _as_file(self):
+        if self.file is not None:
+            return self.file
+        if self._folder is None:
+            self._folder = tempfile.mkdtemp()
+            weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
+            self._write(os.path.join(self._folder, "saved.xml"))
+        return os.path.join(self._folder, "saved.xml")
 
 
 def of_raw(name):

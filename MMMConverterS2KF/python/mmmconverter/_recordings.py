@@ -6,16 +6,15 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
-import shutil
-import tempfile
-import weakref
 from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 import numpy as np
 
 from . import _mmmconverter
+from ._angles import Angles
 from ._options import with_options
-from ._present import Presented, WrongValue, given, in_metres, input_text, of_raw, path_text
+from ._present import Filed, Presented, WrongValue, given, in_metres, input_text, of_raw, path_text
+from ._tables import AXES, Postures, dataframe, dataset, spread
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -112,6 +111,15 @@ class Recording(Presented):
         """Of all frames, shape (frames,), in seconds."""
         return self.first_time + np.arange(len(self.markers)) / self.rate
 
+    def to_dataframe(self):
+        """The markers [m] over time [s], as a pandas.DataFrame with the columns "LASI x [m]", ..."""
+        return dataframe(self.times, (spread(self.labels, AXES), "m", self.markers))
+
+    def to_xarray(self):
+        """The same as an xarray.Dataset of `position` over `time`, `label` and `axis`."""
+        return dataset(self.times, {"label": self.labels, "axis": AXES},
+                       {"position": (("label", "axis"), "m", self.markers)})
+
     def save(self, file) -> None:
         """Writes the markers as C3D, in millimetres with z up."""
         self._raw.save_c3d(path_text(file))
@@ -164,8 +172,8 @@ def read(file, *, with_unlabelled: bool = False, **options: Unpack[ReadOptions])
 
 
 @dataclasses.dataclass(repr=False, eq=False)
-class Motion(Presented):
-    """A motion of an MMM file.
+class Motion(Postures, Presented):
+    """A motion of an MMM file, or of arrays.
 
     Attributes
     ----------
@@ -183,6 +191,8 @@ class Motion(Presented):
     labels : list of str
     markers : numpy.ndarray, shape (frames, labels, 3)
         Those that the file has; it may have none.
+    file : str
+        That it was read from.
     """
 
     name: str
@@ -197,8 +207,34 @@ class Motion(Presented):
     root_positions: np.ndarray
     root_quaternions: np.ndarray
     joints: np.ndarray
-    labels: list
-    markers: np.ndarray
+    labels: list = dataclasses.field(default_factory=list)
+    markers: Any = None
+    file: str = ""
+
+    @classmethod
+    def from_arrays(cls, joint_names: Sequence[str], root_positions: Any, root_quaternions: Any, joints: Any,
+                    rate: float, *, height: float, mass: Optional[float] = None, first_time: float = 0.0,
+                    name: str = "motion") -> "Motion":
+        """A motion of postures that are there already, of a person of this height [m] and mass [kg].
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> upright = np.tile([1.0, 0, 0, 0], (5, 1))
+        >>> Motion.from_arrays(["LKx_joint"], np.zeros((5, 3)), upright, np.zeros((5, 1)), 100, height=1.8)
+        <Motion motion: frames 5, joints 1, rate 100 Hz>
+        """
+        return cls(name, "mmm", "", height, mass, None, rate, first_time, list(joint_names),
+                   *(np.asarray(one, dtype=float) for one in (root_positions, root_quaternions, joints)))
+
+    @functools.cached_property
+    def angles(self) -> Angles:
+        """Flexion, adduction and rotation of the joints in degrees, by their anatomical names, of the
+        model that the file names, else of the shipped one."""
+        from ._models import read_model
+        named = os.path.join(os.path.dirname(self.file), self.model) if self.model else ""
+        size = {"height": self.height, "mass": self.mass} if self.height else {}
+        return read_model(named if os.path.isfile(named) else None, **size).angles(self)
 
     @property
     def times(self) -> np.ndarray:
@@ -218,7 +254,8 @@ def read_motions(file) -> "list[Motion]":
     >>> [motion.name for motion in read_motions("examples/handstand_true.xml")]
     ['synthetic_subject']
     """
-    return [Motion(**one) for one in _mmmconverter.read_motions(input_text(file))]
+    file = input_text(file)
+    return [Motion(**one, file=file) for one in _mmmconverter.read_motions(file)]
 
 
 def read_motion(file, motion: Optional[str] = None) -> Motion:
@@ -239,7 +276,7 @@ def read_motion(file, motion: Optional[str] = None) -> Motion:
         f"{path_text(file)}: which motion? It has {names or 'none'} (motion=\"NAME\")")
 
 
-class Subject(Presented):
+class Subject(Filed, Presented):
     """A calibrated person: height, mass, segment lengths and marker places.
 
     Attributes
@@ -257,20 +294,10 @@ class Subject(Presented):
         self.data = data
         self.file = file
         self._write = write
-        self._folder = None
 
     name = property(lambda self: self.data["name"])
     height = property(lambda self: self.data["height_m"])
     mass = property(lambda self: self.data["mass_kg"])
-
-    def _as_file(self):
-        if self.file is not None:
-            return self.file
-        if self._folder is None:
-            self._folder = tempfile.mkdtemp()
-            weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
-            self._write(os.path.join(self._folder, "subject.xml"))
-        return os.path.join(self._folder, "subject.xml")
 
     def _facts(self):
         return [("subject", self.name), ("height", f"{self.height:.3f} m"),
@@ -310,11 +337,8 @@ def keywords(options, **more):
     return found
 
 
-def input_options(recording, what):
-    """The options that read a recording again. what: for the message."""
+def input_options(recording):
+    """The options that read a recording again, or the recording itself where it is of arrays."""
     if not isinstance(recording, Recording):
         return {"file": input_text(recording)}
-    if recording._options is None:
-        raise _mmmconverter.Error(
-            f"{what}: reads its recordings from files; save() this one and name its file")
-    return dict(recording._options)
+    return {"recording": recording._raw} if recording._options is None else dict(recording._options)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the commands calibrate, compare, label and check-dynamics do."""
+"""What the commands calibrate, compare, label, learn-markers and check-dynamics do."""
 
 from __future__ import annotations
 
@@ -7,14 +7,16 @@ import functools
 from typing import TYPE_CHECKING, Callable, Optional, Sequence, Union
 
 from . import _mmmconverter
+from ._conversions import Conversion
 from ._options import with_options
-from ._present import Presented, given, input_text, path_text
+from ._present import Filed, Presented, given, input_text, path_text
 from ._progress import shown
-from ._recordings import Recording, Subject, input_options, keywords
+from ._recordings import Motion, Recording, Subject, input_options, keywords
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-    from ._options import (CalibrateOptions, CheckDynamicsOptions, CompareOptions, LabelOptions)
+    from ._options import (CalibrateOptions, CheckDynamicsOptions, CompareOptions, LabelOptions,
+                           LearnMarkersOptions)
 
 Progress = Union[Callable[[int, int], None], bool, None]
 
@@ -87,7 +89,7 @@ def calibrate(recordings, *, name: Optional[str] = None, progress: Progress = No
     Parameters
     ----------
     recordings : path or Recording, or several
-        Of one person and one session, from files.
+        Of one person and one session.
     name : str, optional
         Of the person.
     progress : optional
@@ -101,7 +103,7 @@ def calibrate(recordings, *, name: Optional[str] = None, progress: Progress = No
     <Subject anna: height 1.800 m, mass 70.0 kg>
     """
     options = keywords(options)
-    inputs = [{**input_options(one, "calibrate"), **options} for one in _several(recordings)]
+    inputs = [{**input_options(one), **options} for one in _several(recordings)]
     options = given(**options, name=name)
     with shown(progress, "recordings read") as callback:
         return Calibration(_mmmconverter.calibrate(inputs, options, callback))
@@ -132,7 +134,6 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
     Parameters
     ----------
     recordings : path or Recording, or several
-        From files.
     configs : sequence of str or path
     truths : sequence of path or None, optional
         MMM motions that the recordings' markers were made from.
@@ -147,7 +148,7 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
     <Comparison 1 configurations: recordings 1>
     """
     options = keywords(options)
-    inputs = [{**input_options(one, "compare"), **options} for one in _several(recordings)]
+    inputs = [{**input_options(one), **options} for one in _several(recordings)]
     truths = ["" if one is None else path_text(one) for one in truths or [None] * len(inputs)]
     if len(truths) != len(inputs):
         raise _mmmconverter.Error(f"truths: {len(truths)} for {len(inputs)} recordings")
@@ -184,14 +185,62 @@ def label(recording, *, progress: Progress = None,
     Parameters
     ----------
     recording : path or Recording
-        From a file.
     progress : optional
         As of `convert`.
     **options
     """
-    options = {**input_options(recording, "label"), **keywords(options)}
+    options = {**input_options(recording), **keywords(options)}
     with shown(progress, "frames") as callback:
         return LabelledRecording(_mmmconverter.label(options, callback))
+
+
+class LearnedMarkers(Filed, _Study):
+    """Where markers that no marker set knows are worn: summary, text, warnings. It may stand for the
+    marker set's file: ``convert(recording, marker_set=learned)``.
+
+    Attributes
+    ----------
+    file : str or None
+        Where it is saved.
+    """
+
+    def save(self, file) -> None:
+        """Writes the marker set."""
+        self._raw.save(path_text(file))
+        self.file = path_text(file)
+
+    def _write(self, file):
+        self._raw.save(file)
+
+    def __fspath__(self) -> str:
+        return self._as_file()
+
+    def _facts(self):
+        summary = self.summary
+        learnt = sum(one["left_out"] is None for one in summary["markers"])
+        return [("marker set", f"of {len(summary['inputs'])} recordings"), ("markers", learnt),
+                ("mean distance", f"{summary['mean_distance_mm']:.1f} mm")]
+
+
+@with_options("learn_markers")
+def learn_markers(recordings, *, name: Optional[str] = None, progress: Progress = None,
+                  **options: Unpack[LearnMarkersOptions]) -> LearnedMarkers:
+    """Finds where markers are worn whose labels nobody knows, as the command learn-markers does.
+
+    Parameters
+    ----------
+    recordings : path or Recording, or several
+        Of one person and one session.
+    name : str, optional
+        Of the marker set; default: that of its file.
+    progress : optional
+        As of `convert`.
+    **options
+    """
+    options = keywords(options)
+    inputs = [{**input_options(one), **options} for one in _several(recordings)]
+    with shown(progress, "steps") as callback:
+        return LearnedMarkers(_mmmconverter.learn_markers(inputs, given(**options, name=name), callback))
 
 
 class Dynamics(_Study):
@@ -218,12 +267,12 @@ class Dynamics(_Study):
 @with_options("check_dynamics")
 def check_dynamics(file, *, progress: Progress = None,
                    **options: Unpack[CheckDynamicsOptions]) -> Dynamics:
-    """Whether a human body can move like an MMM motion, as the command says.
+    """Whether a human body can move like a motion, as the command says.
 
     Parameters
     ----------
-    file : path
-        Of a finished motion.
+    file : path, Motion or Conversion
+        A finished motion; `Motion.from_arrays` makes one. A conversion has its model and person.
     progress : optional
         As of `convert`.
     **options
@@ -233,6 +282,13 @@ def check_dynamics(file, *, progress: Progress = None,
     >>> check_dynamics("examples/handstand_true.xml").judgement
     'plausible'
     """
-    options = keywords(options, file=input_text(file))
+    raw = None
+    if isinstance(file, Motion):
+        raw, source = vars(file), file.file or file.name
+    elif isinstance(file, Conversion):
+        raw, source = file._raw, file._source
+    else:
+        source = input_text(file)
+    options = keywords(options, file=source)
     with shown(progress, "frames") as callback:
-        return Dynamics(_mmmconverter.check_dynamics(options, callback))
+        return Dynamics(_mmmconverter.check_dynamics(raw, options, callback))

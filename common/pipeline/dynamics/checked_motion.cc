@@ -129,7 +129,31 @@ bool IsHeightKnown(const PersonRequest& person, const MmmMotion& motion) {
 }  // namespace
 
 CheckedMotion ReadCheckedMotion(const InputRequest& request) {
-  MmmMotion motion = ReadChosenMotion(request.file, request.reading.motion);
+  return CheckedMotionOf(ReadChosenMotion(request.file, request.reading.motion), request);
+}
+
+CheckedMotion CheckedMotionOf(const ConversionReport& conversion, const InputRequest& request) {
+  const ConversionPlan& plan = conversion.plan;
+  if (plan.object) {
+    throw Error(request.file + ": is the motion of a rigid object, without joints");
+  }
+  CheckedMotion checked = {request.file,
+                           plan.motion_name,
+                           0,
+                           plan.input.model_file,
+                           plan.person,
+                           *plan.setup.model,
+                           conversion.result.trajectory,
+                           {}};
+  checked.forces_file = request.forces_file;
+  KeepFrames(request, &checked);
+  return checked;
+}
+
+CheckedMotion CheckedMotionOf(MmmMotion motion, const InputRequest& request) {
+  if (motion.trajectory.num_frames() == 0 || motion.trajectory.joint_names.empty()) {
+    throw Error(request.file + ": is no motion of a person: it has no joint angles");
+  }
   Warnings warnings;
   const std::string model_file = ChooseModel(request, motion, &warnings);
   if (!warnings.empty() && !IsHeightKnown(request.person, motion)) {

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "common/io/mmm/mmm_motion.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
+#include "common/pipeline/conversion.h"
 #include "common/pipeline/input/input.h"
 #include "common/pipeline/input/person.h"
 #include "common/support/warnings.h"
@@ -34,5 +36,11 @@ struct CheckedMotion {
 /// as for recordings, but nobody's height is estimated.
 /// @throws Error
 CheckedMotion ReadCheckedMotion(const InputRequest& request);
+
+/// The same of a motion that was read; request.file names it, and the folder of its model.
+CheckedMotion CheckedMotionOf(MmmMotion motion, const InputRequest& request);
+
+/// The same of what was converted, with its model and person.
+CheckedMotion CheckedMotionOf(const ConversionReport& conversion, const InputRequest& request);
 
 }  // namespace mmm_converter

@@ -79,7 +79,7 @@ WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputReques
 
 Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {
   Recording recording;
-  const auto& read = read_before.motion.value ? read_before.motion : read_before.recording;
+  const auto& read = read_before.motion.value ? read_before.motion : request.recording;
   if (read.value) {
     recording = *read.value;
     warnings->Append(read.warnings);

@@ -29,6 +29,8 @@ struct InputRequest {
   std::string forces_file;  ///< of the ground, beside a recording without (ReadExternalLoads)
   std::string marker_set;   ///< file or name; comes before the configuration's
   PersonRequest person;
+  /// What was read of the file before, or made of arrays, and is then no file. Null: is read.
+  WithWarnings<std::shared_ptr<const Recording>> recording = {};
 };
 
 struct NamedRecording;
@@ -39,7 +41,6 @@ struct ReadBefore {
   WithWarnings<std::shared_ptr<const LoadedModel>> model = {};
   WithWarnings<std::shared_ptr<const ConverterChoice>> choice = {};
   WithWarnings<std::shared_ptr<const Recording>> motion = {};      ///< one of several of the file
-  WithWarnings<std::shared_ptr<const Recording>> recording = {};   ///< the whole of the file
   WithWarnings<std::shared_ptr<const NamedRecording>> named = {};  ///< see LabelFirst
 };
 
