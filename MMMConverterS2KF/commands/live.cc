@@ -54,7 +54,7 @@ constexpr const char* kLiveUsage = R"(MMMConverterS2KF live SOURCE [options]
 Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is one of
 {}
 {}Examples
-  MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o anna.xml --view
+  MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o walk_mmm.xml --view
   MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1
   MMMConverterS2KF live qtm://192.168.0.10 --label --subject-file anna.xml --view
   MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
