@@ -6,6 +6,7 @@
 #include "MMMConverterS2KF/batch/batch_file_kinds.h"
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/request_options.h"
+#include "MMMConverterS2KF/live/live_file_kinds.h"
 #include "MMMConverterS2KF/report/file_kinds.h"
 #include "MMMConverterS2KF/report/version.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
@@ -45,6 +46,7 @@ int RunInfo(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const ConversionRequest request = MakeRequest(task::kInfo, arguments, *arguments.positional());
   std::vector<FileKind> kinds = BatchFileKinds();
+  kinds.insert(kinds.end(), LiveFileKinds().begin(), LiveFileKinds().end());
   kinds.insert(kinds.end(), FileKinds().begin(), FileKinds().end());
   const Description description = DescribeFile(request.input.file, request.input.reading, kinds);
   LogWarnings(description.warnings);

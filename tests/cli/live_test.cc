@@ -173,6 +173,9 @@ TEST(Live, WhatAKilledProcessLeftBecomesAMotion) {
   const std::string motion = TestFolder() + "/motion.xml";
   LeaveJournal(motion);
   EXPECT_FALSE(std::filesystem::exists(motion));
+  const auto info = RunProgram({"info", motion + ".live"});
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("MMMConverterS2KF live SOURCE -o " + motion + "\n"));
   const auto run =
       RunProgram({"live", "replay:" + Handstand() + "@max", "--height", "1.8", "-o", motion});
   ASSERT_EQ(run.exit_code, 0) << run.err;
