@@ -13,6 +13,7 @@ class LabelPage(PageCase):
         self.open("label.html")
         figures = json.loads((self.folder / "label.json").read_text())
         names = [one["name"] for one in figures["names"] if one["frames"] > 0]
+        self.assertRegex(self.text("#sentence"), r"Verdict: .*[^.]\.$")
         self.assertCountEqual(self.texts("#name option"), names)
         self.assertEqual(len(self.texts("table.changes tbody tr")), len(figures["changes"]))
         for plot in PLOTS:

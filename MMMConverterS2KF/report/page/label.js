@@ -114,7 +114,7 @@ function start() {
   const block = (name) => JSON.parse(document.querySelector(`script.${name}`).textContent);
   const figures = block("figures");
   byId("program").textContent = figures.program;
-  byId("sentence").textContent = figures.sentence + ".";
+  byId("sentence").textContent = figures.sentence;
   byId("about").textContent = `${figures.input.file}: ${plural(figures.frames, "frame")} at ` +
     `${formatNumber(figures.rate_hz, 0)} Hz, ${plural(figures.input.points, "point")}. ` +
     (figures.output === null ? "Nothing was written." : `Written to ${figures.output}.`);
