@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "common/judge/retarget_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/judge/evidence.h"
+
+namespace mmm_converter {
+namespace {
+
+using Level = Verdict::Level;
+
+// Right is what motions that a robot can do have, wrong what framewise fits without contacts have
+// (README.md of common/retarget).
+constexpr Limit kSlide = {0.02, 0.3};          // share of what is in contact
+constexpr Limit kPenetration = {0.002, 0.03};  // [m]
+constexpr Limit kFloating = {0.003, 0.03};     // [m]
+constexpr Limit kDirection = {6, 25};          // [deg] on average
+constexpr Limit kLimb = {12, 45};              // [deg] of one half of a limb, on average
+constexpr Limit kPath = {0.05, 0.3};           // from 1
+constexpr Limit kAtLimit = {0.1, kNever};      // share of the frames
+constexpr Limit kJump = {0.5, 1.5};            // [rad] from frame to frame
+constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
+constexpr std::size_t kMostJointsNamed = 4;
+
+void JudgeJoints(const RetargetFigures& figures, VerdictReasons* reasons) {
+  std::size_t named = 0;
+  for (const JointFigures& joint : figures.joints) {
+    if (named == kMostJointsNamed) break;
+    const double most = std::max(joint.share_at_limit, joint.share_at_speed);
+    named += reasons->AddBeyond(
+                 kAtLimit, most,
+                 fmt::format("{} stands at its limit of {} in {:.0f} % of the frames", joint.name,
+                             joint.share_at_limit >= joint.share_at_speed ? "position" : "velocity",
+                             100 * most))
+                 ? 1
+                 : 0;
+  }
+}
+
+}  // namespace
+
+Verdict JudgeRetargeting(const RetargetFigures& figures) {
+  VerdictReasons reasons;
+  if (figures.is_mirrored) {
+    reasons.Add(Level::kFailed,
+                "the robot moves as the person in a mirror, or with sides exchanged");
+  }
+  if (figures.is_backwards) reasons.Add(Level::kFailed, "the robot faces backwards");
+  if (figures.position_breaks > 0 || figures.velocity_breaks > 0) {
+    reasons.Add(Level::kCheck,
+                fmt::format("limits are broken: of position {} times, of velocity {} times",
+                            figures.position_breaks, figures.velocity_breaks));
+  }
+  reasons.AddBeyond(
+      kSlide, figures.slide,
+      fmt::format("feet slide in {:.1f} % of the frames in contact", 100 * figures.slide));
+  reasons.AddBeyond(kPenetration, figures.penetration,
+                    fmt::format("a foot is {:.1f} mm below the floor at {:.2f} s",
+                                1e3 * figures.penetration, figures.penetration_time));
+  reasons.AddBeyond(kFloating, figures.floating,
+                    fmt::format("feet in contact are {:.1f} mm above the floor on average",
+                                1e3 * figures.floating));
+  reasons.AddBeyond(kDirection, figures.direction * kDegreesOfRadian,
+                    fmt::format("limbs point {:.1f} degrees elsewhere than the person's on average",
+                                figures.direction * kDegreesOfRadian));
+  for (const LimbFigures& limb : figures.limbs) {
+    reasons.AddBeyond(kLimb, limb.mean * kDegreesOfRadian,
+                      fmt::format("the {} points {:.0f} degrees elsewhere on average, at {:.2f} s "
+                                  "{:.0f}",
+                                  limb.name, limb.mean * kDegreesOfRadian, limb.most_time,
+                                  limb.most * kDegreesOfRadian));
+  }
+  JudgeJoints(figures, &reasons);
+  reasons.AddBeyond(kJump, figures.largest_jump,
+                    fmt::format("a joint jumps by {:.0f} degrees from a frame to the next",
+                                figures.largest_jump * kDegreesOfRadian));
+  reasons.AddBeyond(
+      kPath, std::abs(figures.path - 1),
+      fmt::format("the path is {:.2f} times as long as the legs allow", figures.path));
+  return reasons.Conclude();
+}
+
+}  // namespace mmm_converter

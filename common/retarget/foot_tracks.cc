@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "common/math/rotation.h"
+#include "common/math/statistics.h"
+#include "common/retarget/retarget_targets.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPitchSmoothing = 0.025;  // [s]
+constexpr double kLongestDraw = 0.5;       // [s] in which a swing leaves or reaches a place
+constexpr double kSoftness = 0.04;         // [rad] of feet in the first pass
+constexpr double kClearance = 0.0;         // [m] of a swinging foot above the floor
+
+double YawOf(const Vector3d& forward) { return std::atan2(forward.y(), forward.x()); }
+/// > 0: heel up.
+double PitchOf(const Vector3d& forward) { return -std::asin(std::clamp(forward.z(), -1.0, 1.0)); }
+
+/// Below the ankle, W.
+Vector3d HumanSole(const HumanMotion& human, double ankle_height, std::size_t foot, int k) {
+  return human.bodies[k].legs[foot].distal - ankle_height * human.R_feet[foot][k].col(2);
+}
+
+double SoleLevel(const Retargeted& retargeted, double ankle_height, std::size_t foot) {
+  std::vector<double> standing, all;
+  for (int k = 0; k < retargeted.human.num_frames(); ++k) {
+    all.push_back(HumanSole(retargeted.human, ankle_height, foot, k).z());
+    if (retargeted.contacts[foot].heel[k]) standing.push_back(all.back());
+  }
+  return standing.empty() ? Percentile(all, 5) : Median(standing);
+}
+
+/// Only the end of the foot that the person lifts goes up.
+double GatedPitch(const FootContacts& contacts, int k, double pitch) {
+  if (contacts.heel[k] && contacts.toe[k]) return 0;
+  if (contacts.toe[k]) return std::max(0.0, pitch);
+  if (contacts.heel[k]) return std::min(0.0, pitch);
+  return pitch;
+}
+
+/// What of an angle is more than a fit's softness: the robot's joints do not allow a flat foot.
+double Unavoidable(double angle) {
+  return std::copysign(std::max(0.0, std::abs(angle) - kSoftness), angle);
+}
+
+std::vector<double> Smoothed(const std::vector<double>& values, double sigma) {
+  const int reach = static_cast<int>(std::ceil(3 * sigma));
+  const int count = static_cast<int>(values.size());
+  std::vector<double> smooth(values.size());
+  for (int k = 0; k < count; ++k) {
+    double sum = 0, weights = 0;
+    for (int i = std::max(0, k - reach); i <= std::min(count - 1, k + reach); ++i) {
+      const double weight = std::exp(-0.5 * (i - k) * (i - k) / (sigma * sigma));
+      sum += weight * values[i];
+      weights += weight;
+    }
+    smooth[k] = sum / weights;
+  }
+  return smooth;
+}
+
+/// From value and slope at 0 to neither at 1, without acceleration at both: a quintic.
+double Fading(double value, double slope, double t) {
+  const double u = 1 - t;
+  return u * u * u * (value * (1 + 3 * t + 6 * t * t) + slope * t * (1 + 3 * t));
+}
+
+/// A small motion from one pose to another: place, then turn (W).
+Eigen::Matrix<double, 6, 1> Difference(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  Eigen::Matrix<double, 6, 1> difference;
+  difference.head<3>() = to.translation() - from.translation();
+  difference.tail<3>() = Log(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
+  return difference;
+}
+
+/// Adds to frames from an end of a stance on, away from it, what is missing there, fading.
+/// step: +1 behind the stance, -1 before it; others: where the next stance ends that way.
+void DrawSwing(const FootTrack& pass, const FootTrack& anchored, int edge, int step, int limit,
+               double rate, std::vector<Eigen::Matrix<double, 6, 1>>* draws) {
+  const int length = std::min(std::abs(limit - edge), static_cast<int>(kLongestDraw * rate));
+  if (length < 2) return;
+  const auto missing = [&](int k) { return Difference(pass.X_WF[k], anchored.X_WF[k]); };
+  const Eigen::Matrix<double, 6, 1> value = missing(edge);
+  Eigen::Matrix<double, 6, 1> slope = Eigen::Matrix<double, 6, 1>::Zero();
+  const int inside = edge - step;
+  if (inside >= 0 && inside < static_cast<int>(pass.stands.size()) && anchored.stands[inside]) {
+    slope = (value - missing(inside)) * length;
+  }
+  for (int i = 1; i < length; ++i) {
+    const double t = static_cast<double>(i) / length;
+    for (int j = 0; j < 6; ++j) (*draws)[edge + step * i][j] += Fading(value[j], slope[j], t);
+  }
+}
+
+/// Places of a stance's frames; the flat foot's place and direction are averages.
+void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<double>& pitch,
+            const std::vector<double>& roll, const Stance& stance, FootTrack* track) {
+  const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
+  std::complex<double> direction = 0;
+  for (int k = stance.begin; k < stance.end; ++k) {
+    direction += std::polar(1.0, YawOf(pass.X_WF[k].linear() * foot.R_FA.col(0)));
+  }
+  const double yaw = std::arg(direction);
+  const Eigen::AngleAxisd R_WY(yaw, Vector3d::UnitZ());
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  for (int k = stance.begin; k < stance.end; ++k) {
+    const Vector3d pivot = pitch[k] > 0 ? foot.toe : foot.heel;
+    const Vector3d flat = pass.X_WF[k] * pivot - R_WY * (R_AF * (pivot - foot.sole));
+    place += flat.head<2>() / (stance.end - stance.begin);
+  }
+  for (int k = stance.begin; k < stance.end; ++k) {
+    track->X_WF[k] = StandingFoot(foot, place, yaw, pitch[k], roll[k]);
+  }
+}
+
+}  // namespace
+
+FootTracks ScaledFeet(const Retargeted& retargeted, const Robot& /*robot*/, const RobotBody& body) {
+  FootTracks tracks;
+  if (!body.feet) return tracks;
+  const HumanMotion& human = retargeted.human;
+  const auto hip_width = [](const BodyPosture& one) {
+    return (one.legs[0].proximal - one.legs[1].proximal).norm();
+  };
+  const double s = retargeted.scale;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RobotFoot& foot = (*body.feet)[i];
+    const double level = SoleLevel(retargeted, retargeted.ankle_height, i);
+    tracks[i].stands.assign(human.num_frames(), false);
+    for (const Stance& stance : retargeted.contacts[i].stances) {
+      std::fill(tracks[i].stands.begin() + stance.begin, tracks[i].stands.begin() + stance.end,
+                true);
+    }
+    for (int k = 0; k < human.num_frames(); ++k) {
+      const BodyPosture& person = human.bodies[k];
+      Vector3d place = HumanSole(human, retargeted.ankle_height, i, k);
+      place.z() -= level;
+      Vector3d left = person.R_pelvis.col(1);
+      left.z() = 0;
+      const double wider = 0.5 * (body.hip_width - s * hip_width(person));
+      place = s * place + (i == 0 ? wider : -wider) * left.normalized();
+      Eigen::Matrix3d R_WA = human.R_feet[i][k];
+      if (tracks[i].stands[k]) {
+        const Vector3d forward = R_WA.col(0);
+        const double pitch = GatedPitch(retargeted.contacts[i], k, PitchOf(forward));
+        R_WA = Eigen::AngleAxisd(YawOf(forward), Vector3d::UnitZ()) *
+               Eigen::AngleAxisd(pitch, Vector3d::UnitY());
+      }
+      Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+      X.linear() = R_WA * foot.R_FA.transpose();
+      X.translation() = place - X.linear() * foot.sole;
+      const double lowest = LowestOf(foot, X);
+      if (tracks[i].stands[k] || lowest < 0) X.translation().z() -= lowest;
+      tracks[i].X_WF.push_back(X);
+    }
+  }
+  return tracks;
+}
+
+FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
+                        const FootTracks& first_pass) {
+  FootTracks tracks = first_pass;
+  const double rate = retargeted.human.rate;
+  const int frames = retargeted.human.num_frames();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RobotFoot& foot = (*body.feet)[i];
+    const FootTrack& pass = first_pass[i];
+    FootTrack& track = tracks[i];
+    std::vector<double> pitch, roll;
+    for (int k = 0; k < frames; ++k) {
+      const Vector3d forward = pass.X_WF[k].linear() * foot.R_FA.col(0);
+      const double gated = GatedPitch(retargeted.contacts[i], k, PitchOf(forward));
+      pitch.push_back(gated + Unavoidable(PitchOf(forward) - gated));
+      // A robot without such a joint rolls its feet as its legs lean.
+      const Vector3d left = pass.X_WF[k].linear() * foot.R_FA.col(1);
+      const double leaning = std::asin(std::clamp(left.z(), -1.0, 1.0));
+      roll.push_back(foot.rolls ? Unavoidable(leaning) : leaning);
+    }
+    roll = Smoothed(roll, kPitchSmoothing * rate);
+    pitch = Smoothed(pitch, kPitchSmoothing * rate);
+    const std::vector<Stance>& stances = retargeted.contacts[i].stances;
+    for (const Stance& stance : stances) Anchor(foot, pass, pitch, roll, stance, &track);
+    std::vector<Eigen::Matrix<double, 6, 1>> draws(frames, Eigen::Matrix<double, 6, 1>::Zero());
+    for (std::size_t n = 0; n < stances.size(); ++n) {
+      const int next = n + 1 < stances.size() ? stances[n + 1].begin : frames;
+      const int last = n > 0 ? stances[n - 1].end - 1 : -1;
+      DrawSwing(pass, track, stances[n].end - 1, 1, next, rate, &draws);
+      DrawSwing(pass, track, stances[n].begin, -1, last, rate, &draws);
+    }
+    for (int k = 0; k < frames; ++k) {
+      if (track.stands[k]) continue;
+      Eigen::Isometry3d& X = track.X_WF[k];
+      X.translation() += draws[k].head<3>();
+      X.linear() = Exp(draws[k].tail<3>()).toRotationMatrix() * X.linear();
+      X.translation().z() += std::max(0.0, kClearance - LowestOf(foot, X));
+    }
+  }
+  return tracks;
+}
+
+}  // namespace mmm_converter

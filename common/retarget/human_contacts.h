@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "common/retarget/human_body.h"
+
+namespace mmm_converter {
+
+/// How high and how fast a point of a person's foot is, for each frame.
+struct PointState {
+  Eigen::VectorXd height;  ///< above the point's own level while it stands [m]
+  Eigen::VectorXd speed;   ///< from 20 ms before to 20 ms behind [m/s]
+  double level = 0;        ///< of the point where it stands, W [m]
+};
+PointState StateOf(const Eigen::Matrix3Xd& path, double rate);
+
+/// Heel and toe of both feet.
+struct FootStates {
+  std::array<PointState, 2> heels, toes;
+};
+FootStates StatesOf(const HumanMotion& motion);
+
+/// Frames [begin, end) in which a foot stands.
+struct Stance {
+  int begin = 0, end = 0;
+};
+
+/// Which of a foot's ends are on the ground: on below 40 mm and 0.3 m/s, off above 60 mm or
+/// 0.5 m/s, for 80 ms at least.
+struct FootContacts {
+  std::vector<bool> heel, toe;
+  std::vector<Stance> stances;  ///< of either
+};
+std::array<FootContacts, 2> FindFootContacts(const FootStates& states, double rate);
+
+/// Below 40 mm and 0.3 m/s in this frame: what figures count as contact.
+inline bool IsInContact(const PointState& point, int k) {
+  return point.height[k] < 0.04 && point.speed[k] < 0.3;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/model/kinematic_model.h"
+
+namespace mmm_converter {
+
+/// A robot as it stands at its zero pose, and what of it moves.
+struct ZeroPose {
+  explicit ZeroPose(const KinematicModel& model);
+
+  const KinematicModel* model;
+  std::vector<Eigen::Isometry3d> X_WS;
+  std::vector<int> moving_parent;  ///< of each segment, the next one above that moves; -1: none
+  std::vector<Eigen::Vector3d> mass_centre;  ///< of its rigid body, W; its origin if it has no mass
+  double size = 0;                           ///< of a box around all origins, its diagonal [m]
+
+  bool Moves(int segment) const { return model->segments()[segment].joint >= 0; }
+  Eigen::Vector3d origin(int segment) const { return X_WS[segment].translation(); }
+  /// Of a segment that moves: its joint's axis, W.
+  Eigen::Vector3d axis(int segment) const;
+};
+
+/// Two chains of moving segments that are images of each other in a vertical plane, from the first
+/// that is not common to both to the last before fingers or the end.
+struct MirroredPair {
+  std::array<std::vector<int>, 2> chains;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the plane, from chain 1 to chain 0, W
+  /// How far the joint that folds most brings the ends nearer to the first joints [m].
+  double most_folding = 0;
+  double lowest = 0;  ///< height of the ends [m]
+};
+
+/// What bends a chain: by how much the distance from its first joint to its end changes while each
+/// joint goes through its limits [m], the others standing at zero; a column a joint.
+struct FoldSweep {
+  Eigen::VectorXd change;
+  Eigen::VectorXd straight;  ///< where the distance is largest [rad]
+};
+FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain);
+
+/// All pairs of at least three joints each. @throws Error where the model has too many joints.
+std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero);
+
+/// +1: the first is on the left and the second on the right by their names ("left_knee",
+/// "R_Elbow", "l1"), which differ in that alone; -1: the other way; 0: they do not tell.
+int SideByNames(const std::string& first, const std::string& second);
+
+}  // namespace mmm_converter

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/retarget.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "common/model/forward_kinematics.h"
+#include "common/retarget/retarget_targets.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kFewestFrames = 3;
+constexpr int kFirstIterations = 3, kSecondIterations = 5;
+constexpr FootDeviations kSoft = {0.006, 0.03, 0.006, 0.1};
+constexpr FootDeviations kFirm = {0.0001, 0.001, 0.006, 0.1};
+
+FootTracks FeetOf(const KinematicModel& model, const RobotBody& body,
+                  const std::vector<Posture>& postures, FootTracks tracks) {
+  for (std::size_t k = 0; k < postures.size(); ++k) {
+    const auto X_WS = SegmentPoses(model, postures[k]);
+    for (std::size_t i = 0; i < 2; ++i) tracks[i].X_WF[k] = X_WS[(*body.feet)[i].segment];
+  }
+  return tracks;
+}
+
+}  // namespace
+
+Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
+                          const Robot& robot, const RobotBody& body) {
+  if (motion.num_frames() < kFewestFrames) {
+    throw Error(fmt::format("a motion of {} frames; at least {} are brought to a robot",
+                            motion.num_frames(), kFewestFrames));
+  }
+  const HumanBody person = FindHumanBody(human_model);
+  Retargeted result;
+  result.human = MoveHuman(human_model, person, motion);
+  result.states = StatesOf(result.human);
+  result.contacts = FindFootContacts(result.states, motion.rate);
+  result.ankle_height = person.ankle_height;
+  result.heel_heights = person.heel_heights;
+  result.scale = body.size / (body.feet ? person.leg_length() : person.arm_length());
+  FootTracks feet = ScaledFeet(result, robot, body);
+  TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
+  std::vector<Posture> start = StartTrajectory(problem, FirstPosture(result, robot, body));
+  FitResult fit = FitTrajectory(problem, std::move(start), kFirstIterations);
+  if (body.feet) {
+    feet = AnchoredFeet(result, body, FeetOf(robot.model, body, fit.postures, feet));
+    problem = MakeProblem(result, robot, body, feet, kFirm);
+    fit = FitTrajectory(problem, std::move(fit.postures), kSecondIterations);
+  }
+  result.iterations = fit.iterations;
+  result.keeps_limits = fit.has_converged;
+  result.motion.rate = motion.rate;
+  result.motion.first_time = motion.first_time;
+  for (int j = 0; j < robot.model.num_joints(); ++j) {
+    result.motion.joint_names.push_back(robot.model.joint(j).name);
+  }
+  result.motion.postures = std::move(fit.postures);
+  return result;
+}
+
+}  // namespace mmm_converter

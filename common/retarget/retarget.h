@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/motion/pose_trajectory.h"
+#include "common/retarget/human_body.h"
+#include "common/retarget/human_contacts.h"
+#include "common/retarget/robot_body.h"
+
+namespace mmm_converter {
+
+/// A person's motion on a robot.
+struct Retargeted {
+  PoseTrajectory motion;  ///< of all joints of the robot's model, as many frames as the person's
+  double scale = 1;       ///< robot over person
+  HumanMotion human;
+  FootStates states;
+  std::array<FootContacts, 2> contacts;
+  double ankle_height = 0;             ///< of the person [m]
+  std::array<double, 2> heel_heights;  ///< of HumanMotion::heels above the sole [m]
+  int iterations = 0;                  ///< of the fit, the most
+  bool keeps_limits = false;           ///< the fit met all of them
+};
+
+/// README.md has the algorithm. human_model: a person's, of MMM or OpenSim.
+/// @throws Error where the person's model is not known, or the motion has fewer than three frames.
+Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
+                          const Robot& robot, const RobotBody& body);
+
+}  // namespace mmm_converter

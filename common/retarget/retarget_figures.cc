@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/retarget_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/math/square.h"
+#include "common/math/statistics.h"
+#include "common/model/forward_kinematics.h"
+#include "common/retarget/foot_figures.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kBeyond = 2e-6;      // [rad] of a position beyond its limit that counts
+constexpr double kMoves = 0.01;       // [rad] of a joint that moves
+constexpr double kAtLimit = 1e-3;     // [rad]
+constexpr double kAtSpeed = 0.98;     // of a velocity limit
+constexpr double kLeastShare = 0.02;  // of the frames at a limit that are worth a word
+constexpr double kSteepest = 60;      // [deg] of a pelvis whose heading is known
+constexpr double kBetterShare = 0.7;  // another reading of the sides fits better below
+constexpr double kBetterAngle = 2;    // [deg] and by so much
+constexpr double kLeastPath = 0.2;    // [m] rms of a person who goes somewhere
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// The limbs' directions as the pelvis' heading sees them.
+struct Directions {
+  std::vector<Vector3d> limbs;
+  double heading = 0;
+  bool is_known = true;
+};
+
+Directions DirectionsOf(const BodyMap& map, const BodyPosture& body, bool by_chest) {
+  Directions directions;
+  const Vector3d left = by_chest ? body.R_chest.col(1) : body.R_pelvis.col(1);
+  directions.is_known = std::abs(left.z()) < std::sin(kSteepest * kDegree);
+  directions.heading = std::atan2(-left.x(), left.y());
+  const Eigen::AngleAxisd back(-directions.heading, Vector3d::UnitZ());
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!map.legs[i]) continue;
+    directions.limbs.push_back(back * UpperDirection(body.legs[i]));
+    directions.limbs.push_back(back * LowerDirection(body.legs[i]));
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!map.arms[i]) continue;
+    directions.limbs.push_back(back * UpperDirection(body.arms[i]));
+    directions.limbs.push_back(back * LowerDirection(body.arms[i]));
+  }
+  return directions;
+}
+
+/// The person's map without the limbs that the robot has not.
+BodyMap LimbsOfBoth(const BodyMap& robot) {
+  BodyMap map;
+  map.legs = robot.legs;
+  map.arms = robot.arms;
+  return map;
+}
+
+double Angle(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+std::vector<std::string> NamesOf(const BodyMap& map) {
+  std::vector<std::string> names;
+  for (const Side side : kSides) {
+    if (!map.leg(side)) continue;
+    names.push_back(std::string(Name(side)) + " thigh");
+    names.push_back(std::string(Name(side)) + " shank");
+  }
+  for (const Side side : kSides) {
+    if (!map.arm(side)) continue;
+    names.push_back(std::string(Name(side)) + " upper arm");
+    names.push_back(std::string(Name(side)) + " forearm");
+  }
+  return names;
+}
+
+/// Limbs stand in fours, left and right in twos.
+std::size_t OtherSide(std::size_t limb) { return limb ^ 2U; }
+
+class DirectionMeasure {
+ public:
+  DirectionMeasure(const Retargeted& retargeted, const RobotBody& body, const PosesOverTime& X_WS)
+      : retargeted_(retargeted) {
+    const BodyMap map = LimbsOfBoth(body.map);
+    const bool by_chest = !body.feet;
+    names_ = NamesOf(map);
+    errors_.resize(names_.size());
+    for (int k = 0; k < retargeted.human.num_frames(); ++k) {
+      const Directions person = DirectionsOf(map, retargeted.human.bodies[k], by_chest);
+      const Directions robot = DirectionsOf(map, PostureOfBody(body.map, X_WS[k]), by_chest);
+      if (!person.is_known || !robot.is_known) continue;
+      times_.push_back(retargeted.motion.time(k));
+      turned_ += std::abs(std::remainder(robot.heading - person.heading, 2 * std::numbers::pi));
+      AddFrame(person.limbs, robot.limbs);
+    }
+    is_fixed_ = by_chest;
+  }
+
+  void Conclude(RetargetFigures* figures) const {
+    std::vector<double> all;
+    for (std::size_t n = 0; n < names_.size() && !times_.empty(); ++n) {
+      const std::vector<double>& errors = errors_[n];
+      const auto most = std::max_element(errors.begin(), errors.end());
+      figures->limbs.push_back({names_[n], Mean(errors), Percentile(errors, 95), *most,
+                                times_[static_cast<std::size_t>(most - errors.begin())]});
+      all.insert(all.end(), errors.begin(), errors.end());
+    }
+    if (all.empty()) return;
+    figures->direction = Mean(all);
+    figures->direction95 = Percentile(all, 95);
+    const auto count = static_cast<double>(all.size());
+    const double other = std::min(exchanged_, reflected_) / count;
+    figures->is_mirrored = other < kBetterShare * figures->direction &&
+                           other < figures->direction - kBetterAngle * kDegree;
+    figures->is_backwards =
+        !is_fixed_ && turned_ / static_cast<double>(times_.size()) > std::numbers::pi / 2;
+  }
+
+ private:
+  static double Mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+
+  void AddFrame(const std::vector<Vector3d>& person, const std::vector<Vector3d>& robot) {
+    const Eigen::DiagonalMatrix<double, 3> reflect(1, -1, 1);
+    for (std::size_t n = 0; n < robot.size(); ++n) {
+      errors_[n].push_back(Angle(person[n], robot[n]));
+      const Vector3d& other = person[OtherSide(n)];
+      exchanged_ += Angle(other, robot[n]);
+      reflected_ += Angle(reflect * other, robot[n]);
+    }
+  }
+
+  const Retargeted& retargeted_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> errors_;
+  std::vector<double> times_;
+  double exchanged_ = 0, reflected_ = 0, turned_ = 0;
+  bool is_fixed_ = false;
+};
+
+/// Root mean squares of differences over the joints that move.
+void MeasureSmoothness(const PoseTrajectory& motion, RetargetFigures* figures) {
+  const int frames = motion.num_frames();
+  const Eigen::Index joints = motion.postures[0].joint_angles.size();
+  const auto q = [&](int k) -> const Eigen::VectorXd& { return motion.postures[k].joint_angles; };
+  Eigen::VectorXd lowest = q(0), highest = q(0);
+  for (int k = 1; k < frames; ++k) {
+    lowest = lowest.cwiseMin(q(k));
+    highest = highest.cwiseMax(q(k));
+    if (joints == 0) continue;
+    figures->largest_jump =
+        std::max(figures->largest_jump, (q(k) - q(k - 1)).cwiseAbs().maxCoeff());
+  }
+  const Eigen::ArrayXd moves = ((highest - lowest).array() > kMoves).cast<double>();
+  const double moving = std::max(1.0, moves.sum());
+  double second = 0, third = 0;
+  for (int k = 2; k < frames; ++k) {
+    second += (moves * (q(k) - 2 * q(k - 1) + q(k - 2)).array()).square().sum();
+    if (k < 3) continue;
+    third += (moves * (q(k) - 3 * q(k - 1) + 3 * q(k - 2) - q(k - 3)).array()).square().sum();
+  }
+  const double rate = motion.rate;
+  figures->acceleration = Square(rate) * std::sqrt(second / moving / std::max(1, frames - 2));
+  figures->jerk = rate * Square(rate) * std::sqrt(third / moving / std::max(1, frames - 3));
+}
+
+void MeasureLimits(const PoseTrajectory& motion, const Robot& robot, RetargetFigures* figures) {
+  const int frames = motion.num_frames();
+  for (int j = 0; j < robot.model.num_joints(); ++j) {
+    const Segment& joint = robot.model.joint(j);
+    int at_limit = 0, at_speed = 0;
+    for (int k = 0; k < frames; ++k) {
+      const double q = motion.postures[k].joint_angles[j];
+      if (q < joint.lower - kBeyond || q > joint.upper + kBeyond) ++figures->position_breaks;
+      if (q < joint.lower + kAtLimit || q > joint.upper - kAtLimit) ++at_limit;
+      if (k == 0) continue;
+      const double speed = std::abs(q - motion.postures[k - 1].joint_angles[j]) * motion.rate;
+      if (speed > robot.velocity_limits[j]) ++figures->velocity_breaks;
+      if (speed > kAtSpeed * robot.velocity_limits[j]) ++at_speed;
+    }
+    const double share = static_cast<double>(at_limit) / frames;
+    const double fast = static_cast<double>(at_speed) / frames;
+    if (share > kLeastShare || at_speed > 0) figures->joints.push_back({joint.name, share, fast});
+  }
+  std::stable_sort(
+      figures->joints.begin(), figures->joints.end(), [](const auto& a, const auto& b) {
+        return a.share_at_limit + a.share_at_speed > b.share_at_limit + b.share_at_speed;
+      });
+}
+
+double PathOf(const Retargeted& retargeted, const BodyMap& map, const PosesOverTime& X_WS) {
+  const auto frames = static_cast<Eigen::Index>(X_WS.size());
+  Eigen::Matrix3Xd person(3, frames), robot(3, frames);
+  for (Eigen::Index k = 0; k < frames; ++k) {
+    person.col(k) = retargeted.human.bodies[k].mid_hip;
+    robot.col(k) = PostureOfBody(map, X_WS[k]).mid_hip;
+  }
+  person.colwise() -= person.rowwise().mean().eval();
+  robot.colwise() -= robot.rowwise().mean().eval();
+  if (person.norm() < kLeastPath * std::sqrt(static_cast<double>(frames))) return NAN;
+  return robot.norm() / person.norm() / retargeted.scale;
+}
+
+}  // namespace
+
+RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& robot,
+                                   const RobotBody& body) {
+  RetargetFigures figures;
+  figures.rate = retargeted.motion.rate;
+  figures.num_frames = retargeted.motion.num_frames();
+  PosesOverTime X_WS;
+  for (const Posture& posture : retargeted.motion.postures) {
+    X_WS.push_back(SegmentPoses(robot.model, posture));
+  }
+  figures.slide = figures.toe_slide = figures.floating = figures.path = NAN;
+  if (body.feet) {
+    MeasureFeet(retargeted, body, X_WS, &figures);
+    figures.path = PathOf(retargeted, body.map, X_WS);
+  }
+  MeasureLimits(retargeted.motion, robot, &figures);
+  MeasureSmoothness(retargeted.motion, &figures);
+  DirectionMeasure(retargeted, body, X_WS).Conclude(&figures);
+  return figures;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/retarget/retarget.h"
+
+namespace mmm_converter {
+
+/// How far a limb's half points elsewhere than the person's, as the pelvis sees it [rad].
+struct LimbFigures {
+  std::string name;  ///< "left thigh"
+  double mean = 0, percentile95 = 0;
+  double most = 0, most_time = 0;  ///< [s]
+};
+
+/// A joint that stands at its limits.
+struct JointFigures {
+  std::string name;
+  double share_at_limit = 0;  ///< of the frames, of position
+  double share_at_speed = 0;  ///< of velocity
+};
+
+/// A robot's motion in numbers; what each counts is in README.md.
+struct RetargetFigures {
+  double rate = 0;  ///< [Hz]
+  int num_frames = 0;
+  double contact_share = 0;  ///< of frames and feet
+  double slide = 0;          ///< share of pairs of frames in contact; NaN: none
+  double toe_slide = 0;      ///< by the toe's rule at 30 Hz, as others count
+  double penetration = 0;    ///< deepest [m]
+  double penetration_time = 0;
+  double floating = 0;  ///< mean height in contact [m]
+  int position_breaks = 0, velocity_breaks = 0;
+  double acceleration = 0;  ///< rms of the joints that move [rad/s^2]
+  double jerk = 0;          ///< [rad/s^3]
+  double largest_jump = 0;  ///< of a joint, from frame to frame [rad]
+  double direction = 0, direction95 = 0;
+  std::vector<LimbFigures> limbs;
+  std::vector<JointFigures> joints;  ///< that are at a limit for a while, the longest first
+  bool is_mirrored = false, is_backwards = false;
+  double path = 0;  ///< length over what the legs allow; NaN: the person stays
+};
+
+RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& robot,
+                                   const RobotBody& body);
+
+}  // namespace mmm_converter

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/robot_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/model/forward_kinematics.h"
+#include "common/retarget/body_posture.h"
+#include "common/support/error.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kTilt = 0.3;        // of directions in which the sole's ends are the lowest points
+constexpr double kSamePlace = 1e-4;  // [m]
+
+void AddBall(int segment, const Vector3d& p_S, double radius, std::vector<FloorBall>* balls) {
+  const bool is_known = std::any_of(balls->begin(), balls->end(), [&](const FloorBall& ball) {
+    return (ball.p_S - p_S).norm() < kSamePlace && ball.radius == radius;
+  });
+  if (!is_known) balls->push_back({segment, p_S, radius});
+}
+
+/// Points of a shape that may be its lowest ones as the foot tilts.
+void AddBalls(const RobotFoot& foot, const ContactShape& shape, std::vector<FloorBall>* balls) {
+  const Eigen::Isometry3d& X = shape.X_SG;
+  if (shape.kind == ContactShape::Kind::kSphere || shape.kind == ContactShape::Kind::kCapsule) {
+    for (const double end : {-shape.half_length, shape.half_length}) {
+      const bool is_sphere = shape.kind == ContactShape::Kind::kSphere;
+      AddBall(foot.segment, X * Vector3d(0, 0, is_sphere ? 0 : end), shape.radius, balls);
+    }
+    return;
+  }
+  for (const double x : {0.0, -kTilt, kTilt}) {
+    for (const double y : {-kTilt, kTilt}) {
+      const Vector3d p = SupportPoint(shape, foot.R_FA * Vector3d(x, y, -1).normalized());
+      AddBall(foot.segment, p, 0, balls);
+    }
+  }
+}
+
+/// The farthest point of the foot in a direction of its flat axes.
+Vector3d FarthestOf(const RobotFoot& foot, const Vector3d& direction_A) {
+  const Vector3d direction = foot.R_FA * direction_A;
+  Vector3d farthest = Vector3d::Zero();
+  double most = -INFINITY;
+  for (const ContactShape& shape : foot.shapes) {
+    const Vector3d p = SupportPoint(shape, direction);
+    if (p.dot(direction) > most) farthest = p;
+    most = std::max(most, p.dot(direction));
+  }
+  return farthest;
+}
+
+RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS,
+                   const BodyMap& map, Side side, std::optional<double> sole_height) {
+  const LimbMap& leg = *map.leg(side);
+  std::string reason;
+  const auto sole = FindSole(robot, leg.end, sole_height, &reason);
+  if (!sole) {
+    throw Error(
+        fmt::format("the robot {}: where the sole of its {} foot is, its file does not "
+                    "say ({}); give the height of {} above the sole",
+                    robot.model.name(), Name(side), reason, robot.model.segments()[leg.end].name));
+  }
+  RobotFoot foot;
+  foot.segment = sole->segment;
+  foot.said = sole->said;
+  foot.rolls = static_cast<int>(leg.chain.size()) - leg.fold > 2;
+  foot.shapes = sole->shapes;
+  foot.R_FA = X_WS[foot.segment].linear().transpose() * map.R_WA;
+  for (const ContactShape& shape : foot.shapes) AddBalls(foot, shape, &foot.balls);
+  const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
+  const Vector3d lowest = R_AF * FarthestOf(foot, -Vector3d::UnitZ());
+  const double right = (R_AF * FarthestOf(foot, {0, -1, -3})).y();
+  const double left = (R_AF * FarthestOf(foot, {0, 1, -3})).y();
+  const Vector3d ankle_W = X_WS[leg.distal.segment] * leg.distal.p_S;
+  const Vector3d ankle = R_AF * (X_WS[foot.segment].inverse() * ankle_W);
+  const double middle = 0.5 * (right + left);
+  const auto place = [&](double x) {
+    return Vector3d(foot.R_FA * Vector3d(x, middle, lowest.z()));
+  };
+  foot.sole = place(ankle.x());
+  foot.heel = place((R_AF * FarthestOf(foot, {-1, 0, -3})).x());
+  foot.toe = place((R_AF * FarthestOf(foot, {1, 0, -3})).x());
+  foot.ankle_height = ankle.z() - lowest.z();
+  return foot;
+}
+
+}  // namespace
+
+double LowestOf(const RobotFoot& foot, const Eigen::Isometry3d& X_WF) {
+  double lowest = INFINITY;
+  for (const ContactShape& shape : foot.shapes)
+    lowest = std::min(lowest, LowestHeight(shape, X_WF));
+  return lowest;
+}
+
+Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& place, double yaw,
+                               double pitch, double roll) {
+  const Eigen::Matrix3d R_WY = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d R_YA =
+      (Eigen::AngleAxisd(pitch, Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Vector3d::UnitX()))
+          .toRotationMatrix();
+  const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
+  const Vector3d pivot = pitch > 0 ? foot.toe : foot.heel;
+  const Vector3d pivot_W = Vector3d(place.x(), place.y(), 0) + R_WY * R_AF * (pivot - foot.sole);
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = R_WY * R_YA * R_AF;
+  X.translation() = pivot_W - X.linear() * pivot;
+  X.translation().z() -= LowestOf(foot, X);
+  return X;
+}
+
+RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
+                        std::optional<double> sole_height) {
+  RobotBody body;
+  body.map = FindBodyMap(robot.model, choice);
+  const auto X_WS = SegmentPoses(robot.model, ZeroPosture(robot.model));
+  if (body.map.has_legs()) {
+    body.feet = {MakeFoot(robot, X_WS, body.map, Side::kLeft, sole_height),
+                 MakeFoot(robot, X_WS, body.map, Side::kRight, sole_height)};
+    const LimbMap& leg = *body.map.legs[0];
+    const BodyPosture zero = PostureOfBody(body.map, X_WS);
+    body.hip_width = (zero.legs[0].proximal - zero.legs[1].proximal).norm();
+    body.size = leg.upper.length + leg.lower.length + (*body.feet)[0].ankle_height;
+  } else {
+    body.size = body.map.arms[0]->upper.length + body.map.arms[0]->lower.length;
+  }
+  return body;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/robot.h"
+#include "common/retarget/body_map.h"
+#include "common/retarget/trajectory_fit.h"
+
+namespace mmm_converter {
+
+/// A robot's foot as it meets the ground.
+struct RobotFoot {
+  int segment = 0;
+  Eigen::Matrix3d R_FA = Eigen::Matrix3d::Identity();  ///< forward, left and up where it is flat
+  /// In the segment [m]: the sole below the ankle, and where it touches last as it is tilted.
+  Eigen::Vector3d sole, heel, toe;
+  std::vector<ContactShape> shapes;
+  std::vector<FloorBall> balls;  ///< points of these
+  bool rolls = true;             ///< an ankle joint turns it about its length
+  std::string said;              ///< Sole::said
+  double ankle_height = 0;       ///< above the sole [m]
+};
+
+/// Height of its lowest point [m].
+double LowestOf(const RobotFoot& foot, const Eigen::Isometry3d& X_WF);
+
+/// The pose that stands on z = 0, its sole at `place` if it were flat, its toes towards yaw,
+/// turned by pitch [rad] about its toes' edge (> 0: heel up) or its heel's, and by roll about its
+/// length.
+Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& place, double yaw,
+                               double pitch, double roll);
+
+/// A robot with what a motion is brought to it by.
+struct RobotBody {
+  BodyMap map;
+  std::optional<std::array<RobotFoot, 2>> feet;  ///< nothing: it has no legs
+  /// Thigh, shank and ankle height; without legs upper arm and forearm [m].
+  double size = 0;
+  double hip_width = 0;  ///< [m]
+};
+
+/// sole_height: of the last segment's origin above the sole, where the file does not tell it [m].
+/// @throws Error as FindBodyMap, and where it is not known where a sole is.
+RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
+                        std::optional<double> sole_height);
+
+}  // namespace mmm_converter

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/trajectory_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "common/math/rotation.h"
+#include "common/retarget/trajectory_window.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr int kWindow = 600;   // frames that are solved at once
+constexpr int kOverlap = 100;  // of them, that are solved again with those behind them
+constexpr int kFrameIterations = 3;
+constexpr double kFrameDamping = 20;
+constexpr int kAnew = 12;        // postures from which a frame is begun anew
+constexpr int kMostAnew = 4;     // frames that are
+constexpr double kBetter = 0.7;  // of the cost, that makes another posture the better one
+constexpr int kMostMore = 12;    // iterations until limits are met
+
+void ClampIntoLimits(const KinematicModel& model, Posture* posture) {
+  for (int j = 0; j < model.num_joints(); ++j) {
+    const Segment& joint = model.joint(j);
+    posture->joint_angles[j] = std::clamp(posture->joint_angles[j], joint.lower, joint.upper);
+  }
+}
+
+/// Joints at a limit that the step would leave: they stay.
+bool HoldAtLimits(const KinematicModel& model, const Posture& posture, const Eigen::VectorXd& step,
+                  Eigen::MatrixXd* H, Eigen::VectorXd* b) {
+  bool holds = false;
+  for (int j = 0; j < model.num_joints(); ++j) {
+    const Segment& joint = model.joint(j);
+    const double q = posture.joint_angles[j], change = step[6 + j];
+    const bool leaves = (q <= joint.lower && change < 0) || (q >= joint.upper && change > 0);
+    if (!leaves) continue;
+    H->row(6 + j).setZero();
+    H->col(6 + j).setZero();
+    (*H)(6 + j, 6 + j) = 1;
+    (*b)[6 + j] = 0;
+    holds = true;
+  }
+  return holds;
+}
+
+/// One frame alone by damped least squares within the limits.
+class FrameFit {
+ public:
+  explicit FrameFit(const TrajectoryProblem& problem)
+      : problem_(problem),
+        equations_(problem),
+        H_(6 + problem.model->num_joints(), 6 + problem.model->num_joints()),
+        b_(H_.rows()) {}
+
+  /// Returns the cost of what it began with in the last iteration.
+  double Fit(int frame, int iterations, double damping, Posture* posture) {
+    const KinematicModel& model = *problem_.model;
+    double cost = 0;
+    for (int i = 0; i < iterations; ++i) {
+      H_.setZero();
+      b_.setZero();
+      cost = equations_.AddAims(frame, *posture, &H_, &b_);
+      H_.diagonal().array() += damping;
+      Eigen::VectorXd step = H_.selfadjointView<Eigen::Lower>().llt().solve(b_);
+      if (HoldAtLimits(model, *posture, step, &H_, &b_)) {
+        step = H_.selfadjointView<Eigen::Lower>().llt().solve(b_);
+      }
+      const double longest = step.tail(step.size() - 3).cwiseAbs().maxCoeff();
+      *posture = Retract(*posture, step * std::min(1.0, 0.5 / longest));
+      ClampIntoLimits(model, posture);
+      if (longest < 1e-3) break;
+    }
+    return cost;
+  }
+
+  /// From several postures between the limits: the nearest counts.
+  double FitAnew(int frame, const Posture& first, Posture* best) {
+    double lowest = std::numeric_limits<double>::infinity();
+    std::mt19937 random(1);
+    for (int n = 0; n < kAnew; ++n) {
+      Posture tried = first;
+      for (int j = 0; j < problem_.model->num_joints(); ++j) {
+        const Segment& joint = problem_.model->joint(j);
+        const double lower = std::max(joint.lower, -3.0), upper = std::min(joint.upper, 3.0);
+        const double part = n < 2 ? 0.5 : static_cast<double>(random() % 1024) / 1024;
+        const double share = n == 0 ? 0 : n == 1 ? 0.3 : 0.7;
+        tried.joint_angles[j] += share * (lower + part * (upper - lower) - tried.joint_angles[j]);
+      }
+      const double cost = Fit(frame, 60, 5, &tried);
+      if (cost < lowest) *best = tried;
+      lowest = std::min(lowest, cost);
+    }
+    return lowest;
+  }
+
+ private:
+  const TrajectoryProblem& problem_;
+  FrameEquations equations_;
+  Eigen::MatrixXd H_;
+  Eigen::VectorXd b_;
+};
+
+}  // namespace
+
+std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Posture& first) {
+  FrameFit fit(problem);
+  std::vector<Posture> postures(problem.num_frames);
+  std::vector<double> costs(problem.num_frames, std::numeric_limits<double>::infinity());
+  // Goes on from a frame as long as that is better than what there is.
+  const auto go_on = [&](int from, int step, Posture posture) {
+    for (int k = from; k >= 0 && k < problem.num_frames; k += step) {
+      const double cost = fit.Fit(k, kFrameIterations, kFrameDamping, &posture);
+      if (cost >= kBetter * costs[k]) break;
+      postures[k] = posture;
+      costs[k] = cost;
+    }
+  };
+  Posture posture;
+  fit.FitAnew(0, first, &posture);
+  go_on(0, 1, posture);
+  // A limb that has got to the end of its joints' limits may get farther the other way round.
+  for (int n = 0; n < kMostAnew; ++n) {
+    const auto worst = std::max_element(costs.begin(), costs.end());
+    const int frame = static_cast<int>(worst - costs.begin());
+    const double cost = fit.FitAnew(frame, postures[frame], &posture);
+    if (cost >= kBetter * *worst) break;
+    go_on(frame, 1, posture);
+    costs[frame] = std::numeric_limits<double>::infinity();
+    go_on(frame, -1, posture);
+  }
+  return postures;
+}
+
+FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> start,
+                        int iterations) {
+  FitResult result;
+  result.postures = std::move(start);
+  TrajectoryWindow window(problem);
+  for (int begin = 0; begin < problem.num_frames;) {
+    const int end = std::min(begin + kWindow, problem.num_frames);
+    window.Begin(begin, end);
+    int done = 0;
+    for (; done < iterations + kMostMore; ++done) {
+      const double longest = window.Step(&result.postures);
+      const bool is_within = window.IsWithinLimits(result.postures);
+      if (is_within && (done + 1 >= iterations || longest < 1e-4)) break;
+    }
+    result.iterations = std::max(result.iterations, done + 1);
+    if (!window.IsWithinLimits(result.postures)) result.has_converged = false;
+    if (end == problem.num_frames) break;
+    begin = end - kOverlap;
+  }
+  for (Posture& posture : result.postures) ClampIntoLimits(*problem.model, &posture);
+  return result;
+}
+
+}  // namespace mmm_converter

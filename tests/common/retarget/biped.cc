@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "tests/common/retarget/biped.h"
+
+#include <fmt/format.h>
+
+#include "common/io/urdf/urdf_robot.h"
+
+namespace mmm_converter::testing {
+namespace {
+
+constexpr double kPi = 3.14;
+
+struct JointText {
+  std::string name, parent, place, axis;
+  double lower, upper, velocity;
+};
+
+/// A joint with the link that it carries; the link's centre of mass and box, if it has one.
+std::string JointAndLink(const JointText& joint, const std::string& mass_at,
+                         const std::string& shape = "") {
+  return fmt::format(
+      R"(<link name="{0}_link"><inertial><origin xyz="{1}"/><mass value="1"/><inertia ixx="0.01"
+ ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>{2}</link>
+<joint name="{0}" type="revolute"><parent link="{3}"/><child link="{0}_link"/><origin xyz="{4}"/>
+<axis xyz="{5}"/><limit lower="{6}" upper="{7}" effort="100" velocity="{8}"/></joint>
+)",
+      joint.name, mass_at, shape, joint.parent, joint.place, joint.axis, joint.lower, joint.upper,
+      joint.velocity);
+}
+
+std::string LegText(const BipedShape& shape, const std::string& side, double y) {
+  const std::string here = "0 0 0", foot = shape.has_sole
+                                               ? R"(<collision><origin xyz="0.04 0 -0.07"/>
+<geometry><box size="0.2 0.08 0.02"/></geometry></collision>)"
+                                               : "";
+  const auto link = [&](const char* name) { return side + name + "_link"; };
+  const double v = shape.hip_velocity;
+  return JointAndLink({side + "hip_yaw", "pelvis", fmt::format("0 {} 0", y), "0 0 1", -1, 1, v},
+                      here) +
+         JointAndLink({side + "hip_roll", link("hip_yaw"), here, "1 0 0", -0.6, 0.6, v}, here) +
+         JointAndLink({side + "hip_pitch", link("hip_roll"), here, "0 1 0", -2, 2, v},
+                      "0 0 -0.18") +
+         JointAndLink({side + "knee", link("hip_pitch"), "0 0 -0.36", "0 1 0", shape.knee_lower,
+                       shape.knee_upper, 20},
+                      "0 0 -0.18") +
+         JointAndLink({side + "ankle_pitch", link("knee"), "0 0 -0.36", "0 1 0", -1, 1, 20}, here) +
+         JointAndLink({side + "ankle_roll", link("ankle_pitch"), here, "1 0 0", -0.5, 0.5, 20},
+                      "0.02 0 -0.04", foot);
+}
+
+std::string ArmText(const BipedShape& shape, const std::string& side, double y) {
+  const std::string here = "0 0 0";
+  const auto link = [&](const char* name) { return side + name + "_link"; };
+  return JointAndLink({side + "shoulder_pitch", "waist_link", fmt::format("0 {} 0.4", y), "0 1 0",
+                       -3, 3, 20},
+                      here) +
+         JointAndLink(
+             {side + "shoulder_roll", link("shoulder_pitch"), here, "1 0 0", -kPi, kPi, 20}, here) +
+         JointAndLink({side + "shoulder_yaw", link("shoulder_roll"), here, "0 0 1", -2, 2, 20},
+                      "0 0 -0.12") +
+         JointAndLink({side + "elbow", link("shoulder_yaw"), "0 0 -0.25", "0 1 0",
+                       shape.elbow_lower, shape.elbow_upper, 20},
+                      "0 0 -0.22");
+}
+
+}  // namespace
+
+Robot MakeBiped(const BipedShape& shape) {
+  const char* mass = R"(<inertial><origin xyz="0 0 0"/><mass value="5"/><inertia ixx="0.1" ixy="0"
+ ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>)";
+  std::string text = R"(<robot name="biped">)";
+  if (!shape.has_legs) {
+    text += R"(<link name="world"/><joint name="stand" type="fixed"><parent link="world"/>
+<child link="pelvis"/></joint>)";
+  }
+  text += fmt::format(R"(<link name="pelvis">{}</link>)", mass);
+  if (shape.has_legs) {
+    text += LegText(shape, shape.sides[0], 0.1) + LegText(shape, shape.sides[1], -0.1);
+  }
+  text += JointAndLink({"waist", "pelvis", "0 0 0.1", "0 0 1", -1, 1, 20}, "0 0 0.2");
+  text += ArmText(shape, shape.sides[0], 0.2) + ArmText(shape, shape.sides[1], -0.2);
+  return ParseUrdfRobot(text + "</robot>", "biped.urdf");
+}
+
+}  // namespace mmm_converter::testing

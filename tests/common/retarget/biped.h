@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "common/model/robot.h"
+
+namespace mmm_converter::testing {
+
+/// How a robot made for the tests differs: 0.8 m of legs (thigh and shank 0.36, ankle 0.08 above
+/// the sole), hips 0.2 apart, arms of 0.25 and 0.22; x forward, hanging arms.
+struct BipedShape {
+  std::array<std::string, 2> sides = {"left_", "right_"};  ///< before the names at +y and at -y
+  double knee_lower = 0, knee_upper = 2.4;                 ///< about y
+  double elbow_lower = -2.4, elbow_upper = 0;
+  double hip_velocity = 20;  ///< [rad/s], of all hip joints
+  bool has_legs = true;      ///< else the trunk stands on the world
+  bool has_sole = true;
+};
+
+Robot MakeBiped(const BipedShape& shape);
+
+}  // namespace mmm_converter::testing

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/body_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/retarget/limb_chains.h"
+#include "common/retarget/robot_body.h"
+#include "common/support/atomic_file.h"
+#include "common/support/error.h"
+#include "tests/common/retarget/biped.h"
+#include "tests/support/test_folder.h"
+
+namespace mmm_converter {
+namespace {
+
+using testing::BipedShape;
+using ::testing::HasSubstr;
+using testing::MakeBiped;
+using testing::TestFolder;
+
+std::string RefusalOf(const BipedShape& shape, const BodyMapChoice& choice = {}) {
+  try {
+    FindBodyMap(MakeBiped(shape).model, choice);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string NameOf(const Robot& robot, const std::optional<LimbMap>& limb) {
+  return robot.model.segments()[limb->chain[limb->fold]].name;
+}
+
+TEST(BodyMapTest, FindsLimbsWithTheirLengths) {
+  const Robot robot = MakeBiped({});
+  const BodyMap map = FindBodyMap(robot.model, {});
+  EXPECT_EQ(NameOf(robot, map.leg(Side::kLeft)), "left_knee");
+  EXPECT_EQ(NameOf(robot, map.leg(Side::kRight)), "right_knee");
+  EXPECT_EQ(NameOf(robot, map.arm(Side::kLeft)), "left_elbow");
+  EXPECT_NEAR(map.legs[0]->upper.length, 0.36, 1e-9);
+  EXPECT_NEAR(map.legs[0]->lower.length, 0.36, 1e-9);
+  EXPECT_NEAR(map.arms[1]->upper.length, 0.25, 1e-9);
+  EXPECT_NEAR(map.arms[1]->lower.length, 0.22, 1e-9);
+  EXPECT_TRUE(map.R_WA.isApprox(Eigen::Matrix3d::Identity(), 1e-9));
+  EXPECT_EQ(robot.model.segments()[map.chest].name, "waist");
+}
+
+TEST(BodyMapTest, LimbAxesPointToTheProximalCentreAndLeft) {
+  const BodyMap map = FindBodyMap(MakeBiped({}).model, {});
+  for (const auto* limb : {&map.legs[0], &map.legs[1], &map.arms[0], &map.arms[1]}) {
+    EXPECT_TRUE((*limb)->upper.R_SL.isApprox(Eigen::Matrix3d::Identity(), 1e-9));
+    EXPECT_TRUE((*limb)->lower.R_SL.isApprox(Eigen::Matrix3d::Identity(), 1e-9));
+  }
+}
+
+TEST(BodyMapTest, WithoutSidesInNamesTheFoldsDecide) {
+  BipedShape shape;
+  shape.sides = {"a_", "b_"};
+  const Robot forward = MakeBiped(shape);
+  EXPECT_EQ(NameOf(forward, FindBodyMap(forward.model, {}).leg(Side::kLeft)), "a_knee");
+  shape.knee_lower = -2.4;
+  shape.knee_upper = 0;
+  shape.elbow_lower = 0;
+  shape.elbow_upper = 2.4;
+  const Robot backward = MakeBiped(shape);
+  const BodyMap map = FindBodyMap(backward.model, {});
+  EXPECT_EQ(NameOf(backward, map.leg(Side::kLeft)), "b_knee");
+  EXPECT_NEAR(map.R_WA(0, 0), -1, 1e-9);
+}
+
+TEST(BodyMapTest, ExchangedNamesAreRefused) {
+  BipedShape shape;
+  shape.sides = {"right_", "left_"};
+  EXPECT_THAT(RefusalOf(shape), HasSubstr("contradict"));
+  EXPECT_THAT(RefusalOf(shape), HasSubstr("knee"));
+}
+
+TEST(BodyMapTest, ElbowsAgainstKneesAreRefused) {
+  BipedShape shape;
+  shape.sides = {"a_", "b_"};
+  shape.elbow_lower = 0;
+  shape.elbow_upper = 2.4;
+  EXPECT_THAT(RefusalOf(shape), HasSubstr("a_elbow"));
+}
+
+TEST(BodyMapTest, LimitsThatSayNothingAreRefusedUnlessNamesOrAMapDecide) {
+  BipedShape shape;
+  shape.knee_lower = shape.elbow_lower = -3.14;
+  shape.knee_upper = shape.elbow_upper = 3.14;
+  EXPECT_EQ(RefusalOf(shape), "");
+  shape.sides = {"a_", "b_"};
+  EXPECT_THAT(RefusalOf(shape), HasSubstr("a_knee"));
+  BodyMapChoice choice;
+  choice.forward = -Eigen::Vector3d::UnitX();
+  EXPECT_EQ(RefusalOf(shape, choice), "");
+  const Robot robot = MakeBiped(shape);
+  EXPECT_EQ(NameOf(robot, FindBodyMap(robot.model, choice).leg(Side::kLeft)), "b_knee");
+}
+
+TEST(BodyMapTest, AFixedTrunkHasArmsAlone) {
+  BipedShape shape;
+  shape.has_legs = false;
+  const BodyMap map = FindBodyMap(MakeBiped(shape).model, {});
+  EXPECT_FALSE(map.has_legs());
+  EXPECT_TRUE(map.has_arms());
+}
+
+TEST(BodyMapTest, AMapFileDecides) {
+  const std::string file = TestFolder() + "/map.xml";
+  WriteFileAtomically(file, std::string(R"(<BodyMap forward="1 0 0">
+<Limb name="left arm" first="left_shoulder_pitch" fold="left_elbow" last="left_elbow"/>
+<Limb name="right arm" first="right_shoulder_pitch" fold="right_elbow" last="right_elbow"/>
+</BodyMap>)"));
+  const BodyMap map = FindBodyMap(MakeBiped({}).model, ReadBodyMapChoice(file));
+  EXPECT_FALSE(map.has_legs());
+  EXPECT_NEAR(map.arms[0]->upper.length, 0.25, 1e-9);
+  WriteFileAtomically(file, std::string(R"(<BodyMap><Limb name="tail" first="a" last="b"/>
+<Leg/></BodyMap>)"));
+  try {
+    ReadBodyMapChoice(file);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("map.xml:1: <Limb name=\"tail\">"));
+    EXPECT_THAT(error.what(), HasSubstr("map.xml:2: <Leg>"));
+  }
+}
+
+TEST(SideByNamesTest, OneLetterOrWordTells) {
+  EXPECT_EQ(SideByNames("left_knee", "right_knee"), 1);
+  EXPECT_EQ(SideByNames("R_Elbow", "L_Elbow"), -1);
+  EXPECT_EQ(SideByNames("leg_l1_joint", "leg_r1_joint"), 1);
+  EXPECT_EQ(SideByNames("a_knee", "b_knee"), 0);
+  EXPECT_EQ(SideByNames("left_knee", "right_hip"), 0);
+}
+
+TEST(RobotBodyTest, TheSoleIsFoundOrAskedFor) {
+  const RobotBody body = FindRobotBody(MakeBiped({}), {}, {});
+  EXPECT_NEAR(body.size, 0.8, 1e-9);
+  EXPECT_NEAR(body.hip_width, 0.2, 1e-9);
+  const RobotFoot& foot = (*body.feet)[0];
+  EXPECT_TRUE(foot.toe.isApprox(Eigen::Vector3d(0.14, 0, -0.08), 1e-9));
+  EXPECT_TRUE(foot.heel.isApprox(Eigen::Vector3d(-0.06, 0, -0.08), 1e-9));
+  BipedShape shape;
+  shape.has_sole = false;
+  EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, {}), Error);
+  EXPECT_NEAR(FindRobotBody(MakeBiped(shape), {}, 0.1).size, 0.82, 1e-9);
+}
+
+TEST(RobotBodyTest, AStandingFootTouchesTheFloorAndTurnsAboutItsEdges) {
+  const RobotFoot foot = (*FindRobotBody(MakeBiped({}), {}, {}).feet)[1];
+  for (const double pitch : {-0.4, 0.0, 0.3, 0.9}) {
+    const Eigen::Isometry3d X = StandingFoot(foot, {1, 2}, 0.5, pitch, 0);
+    EXPECT_NEAR(LowestOf(foot, X), 0, 1e-12);
+    const Eigen::Vector3d edge = pitch > 0 ? foot.toe : foot.heel;
+    const Eigen::Vector3d flat = StandingFoot(foot, {1, 2}, 0.5, 0, 0) * edge;
+    EXPECT_TRUE((X * edge).isApprox(flat, 1e-9)) << pitch;
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/retarget.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/io/mmm/mmm_model.h"
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/robot_file.h"
+#include "common/model/forward_kinematics.h"
+#include "common/model/model_scaling.h"
+#include "common/retarget/retarget_figures.h"
+#include "common/support/error.h"
+#include "tests/common/retarget/biped.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using testing::MakeBiped;
+using testing::SharedData;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+KinematicModel Person(double height) {
+  return ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")),
+                     {height, 70, {}});
+}
+
+/// Bends its knees, with the feet where they are, and swings an arm: 2 s at 100 Hz.
+PoseTrajectory Squat(const KinematicModel& person) {
+  PoseTrajectory motion;
+  motion.rate = 100;
+  const std::vector<std::pair<std::string, double>> joints = {
+      {"LHx_joint", 1}, {"RHx_joint", 1}, {"LKx_joint", -2}, {"RKx_joint", -2},
+      {"LAx_joint", 1}, {"RAx_joint", 1}, {"LSx_joint", 2}};
+  for (const auto& [name, share] : joints) motion.joint_names.push_back(name);
+  const double thigh =
+      (SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LHy_joint")].translation() -
+       SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LKx_joint")].translation())
+          .norm();
+  const double shank =
+      (SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LKx_joint")].translation() -
+       SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LAy_joint")].translation())
+          .norm();
+  const double low =
+      SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LeftFootHeight_joint")]
+          .translation()
+          .z();
+  for (int k = 0; k < 200; ++k) {
+    const double bend = 0.25 * (1 - std::cos(2 * std::numbers::pi * k / 100));
+    Posture posture;
+    posture.joint_angles.resize(static_cast<Eigen::Index>(joints.size()));
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      posture.joint_angles[static_cast<Eigen::Index>(i)] = bend * joints[i].second;
+    }
+    posture.position = {0, (thigh - shank) * -std::sin(bend),
+                        -low - (thigh + shank) * (1 - std::cos(bend))};
+    motion.postures.push_back(posture);
+  }
+  return motion;
+}
+
+TEST(RetargetTest, ASquatIsASquatAndItsFeetStandStill) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
+  EXPECT_TRUE(result.keeps_limits);
+  const RetargetFigures figures = MeasureRetargeting(result, robot, body);
+  EXPECT_EQ(figures.slide, 0);
+  EXPECT_LT(figures.penetration, 3e-4);
+  EXPECT_LT(std::abs(figures.floating), 3e-4);
+  EXPECT_EQ(figures.position_breaks, 0);
+  EXPECT_EQ(figures.velocity_breaks, 0);
+  EXPECT_LT(figures.direction, 2 * kDegree);
+  EXPECT_FALSE(figures.is_mirrored);
+  EXPECT_FALSE(figures.is_backwards);
+  const int knee = robot.model.FindJoint("left_knee");
+  EXPECT_NEAR(result.motion.postures[50].joint_angles[knee], 1.0, 0.06);
+  EXPECT_NEAR(result.motion.postures[100].joint_angles[knee], 0.0, 0.06);
+}
+
+TEST(RetargetTest, TurnsWithThePerson) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  PoseTrajectory motion = Squat(person);
+  const Retargeted one = RetargetMotion(person, motion, robot, body);
+  const Eigen::Isometry3d X =
+      Eigen::Translation3d(1, 2, 0) * Eigen::AngleAxisd(2.2, Eigen::Vector3d::UnitZ());
+  for (Posture& posture : motion.postures) {
+    posture.position = X * posture.position;
+    posture.orientation = X.linear() * posture.orientation;
+  }
+  const Retargeted other = RetargetMotion(person, motion, robot, body);
+  for (int k = 0; k < 200; k += 10) {
+    const Eigen::VectorXd difference =
+        one.motion.postures[k].joint_angles - other.motion.postures[k].joint_angles;
+    EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-3) << k;  // how far fits converge
+  }
+}
+
+TEST(RetargetTest, AFixedTrunkMovesItsArms) {
+  const KinematicModel person = Person(1.75);
+  testing::BipedShape shape;
+  shape.has_legs = false;
+  const Robot robot = MakeBiped(shape);
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
+  EXPECT_LT(MeasureRetargeting(result, robot, body).direction, 1 * kDegree);
+  EXPECT_LT(result.motion.postures[70].position.norm(), 1e-3);
+}
+
+TEST(RetargetTest, TooFewFramesAreRefused) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  PoseTrajectory motion = Squat(person);
+  motion.postures.resize(2);
+  EXPECT_THROW(RetargetMotion(person, motion, robot, FindRobotBody(robot, {}, {})), Error);
+}
+
+struct RealCase {
+  const char* robot;
+  const char* motion;
+  double slide, direction;  ///< at most; [deg]
+};
+
+class RealRobotTest : public ::testing::TestWithParam<RealCase> {};
+
+// Bounds are what was wanted of walking and of other motions, not what is reached.
+TEST_P(RealRobotTest, FeetStandAndLimitsAreKept) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const RealCase& one = GetParam();
+  const MmmMotionFile file = ReadMmmMotionFile(SharedData(one.motion));
+  const MmmMotion& motion = file.motions.front();
+  const Robot robot = ReadRobotFile(SharedData(one.robot));
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  const Retargeted result =
+      RetargetMotion(Person(motion.size.height.value_or(1.8)), motion.trajectory, robot, body);
+  const RetargetFigures figures = MeasureRetargeting(result, robot, body);
+  EXPECT_EQ(figures.position_breaks, 0);
+  EXPECT_EQ(figures.velocity_breaks, 0);
+  EXPECT_FALSE(figures.is_mirrored);
+  EXPECT_FALSE(figures.is_backwards);
+  EXPECT_LE(figures.slide, one.slide);
+  EXPECT_LE(figures.direction, one.direction * kDegree);
+}
+
+constexpr const char* kG1 = "robots/unitree_g1/g1_custom_collision_29dof.urdf";
+constexpr const char* kT1 = "robots/booster_t1/T1_23dof.urdf";
+constexpr const char* kH1 = "robots/unitree_h1/h1.urdf";
+constexpr const char* kWalk = "mmm/motions_legacy/walking_medium01_motion395.xml";
+constexpr const char* kTurn = "mmm/motions_legacy/test_mmm_subject314_40joints_100Hz.xml";
+constexpr const char* kWave = "mmm/motions_mmm2/wave_left01.xml";
+INSTANTIATE_TEST_SUITE_P(
+    Robots, RealRobotTest,
+    ::testing::Values(RealCase{kG1, kWalk, 0.02, 3}, RealCase{kG1, kTurn, 0.05, 5},
+                      RealCase{kG1, kWave, 0.02, 3}, RealCase{kT1, kWalk, 0.03, 3},
+                      RealCase{kT1, kWave, 0.02, 3}, RealCase{kH1, kWalk, 0.02, 5}));
+
+}  // namespace
+}  // namespace mmm_converter
