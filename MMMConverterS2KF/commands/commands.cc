@@ -51,6 +51,7 @@ const std::vector<Command>& Commands() {
       {"print-config", "print the configuration of a converter with every setting",
        PrintConfigManual, RunPrintConfig},
       {"report", "show finished motions and their recording on a page", ReportManual, RunReport},
+      {"retarget", "bring a motion to a humanoid robot", RetargetManual, RunRetarget},
       {"serve", "play a recording as a motion capture system streams", ServeManual, RunServe}};
   return commands;
 }

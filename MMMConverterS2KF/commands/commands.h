@@ -38,6 +38,7 @@ Manual LearnMarkersManual();
 Manual LiveManual();
 Manual PrintConfigManual();
 Manual ReportManual();
+Manual RetargetManual();
 Manual ServeManual();
 
 int RunBatch(const Arguments& arguments);
@@ -55,6 +56,7 @@ int RunLearnMarkers(const Arguments& arguments);
 int RunLive(const Arguments& arguments);
 int RunPrintConfig(const Arguments& arguments);
 int RunReport(const Arguments& arguments);
+int RunRetarget(const Arguments& arguments);
 int RunServe(const Arguments& arguments);
 
 }  // namespace mmm_converter

@@ -14,9 +14,11 @@ namespace {
 
 // Tasks that read recordings, write motions, name points, read motions, and have a person.
 constexpr Task kTrackings = task::kConvert | task::kLabel | task::kCalibrate | task::kCompare |
-                            task::kEvaluate | task::kLearnMarkers | task::kReport | task::kLive;
+                            task::kEvaluate | task::kLearnMarkers | task::kReport | task::kLive |
+                            task::kRetarget;
 constexpr Task kWritings = task::kConvert | task::kLive;
-constexpr Task kLabellings = task::kConvert | task::kLabel;
+constexpr Task kConversions = kWritings | task::kRetarget;
+constexpr Task kLabellings = task::kConvert | task::kLabel | task::kRetarget;
 constexpr Task kReadings = kTrackings | task::kServe | task::kRead;
 constexpr Task kMotions = task::kCheckDynamics | task::kExportPoses;
 constexpr Task kPersons = kTrackings | kMotions | task::kModel;
@@ -139,12 +141,12 @@ std::vector<Option> PersonOptions(InputRequest* input) {
 std::vector<Option> ConverterOptions(ConverterRequest* converter) {
   return {
       Row({"config,c", "config", "config"}, kShipped, "configuration, or the name of a shipped one",
-          "s2kf_default", kLabellings | kWritings | task::kCalibrate | task::kLearnMarkers,
+          "s2kf_default", kLabellings | kConversions | task::kCalibrate | task::kLearnMarkers,
           &converter->config, {.alias = "converterConfigFile"}),
       Row({"converter", "converter", "converter"}, kName, "another converter, by its name",
-          "what the configuration says, else S2KFConverter", kWritings, &converter->converter),
+          "what the configuration says, else S2KFConverter", kConversions, &converter->converter),
       Row({"plugin", "plugin", "plugin"}, kFile, "take the converter from this plugin file", "",
-          kWritings, &converter->plugin_file)};
+          kConversions, &converter->plugin_file)};
 }
 
 std::vector<Option> LabelOptions(ConversionRequest* request) {
@@ -160,7 +162,7 @@ std::vector<Option> LabelOptions(ConversionRequest* request) {
       Row({"label", "label", "label"}, {OptionKind::kSwitch, "true|repair|false"},
           "find the names of points that have none first, as label does: by {subject-file}, or by "
           "{height} and {marker-set}",
-          "", kWritings, set_label),
+          "", kConversions, set_label),
       Row({"repair", "", "repair"}, kSwitch,
           "the recording has labels: keep them except where the body says that they are wrong", "",
           kLabellings, set_repair, {.absent = "label=\"repair\" of manifests"}),
@@ -201,7 +203,7 @@ std::vector<Option> Options(ConversionRequest* request) {
       {Row({"self-calibrate", "selfCalibrate", "self_calibrate"}, kSwitch,
            "estimate segment lengths and marker places from what is recorded first, as calibrate "
            "does",
-           "", kWritings, &request->self_calibrate)},
+           "", kConversions, &request->self_calibrate)},
       &options);
   Add("Objects",
       {Row({"object", "object", "object"}, kSwitch,

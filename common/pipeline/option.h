@@ -33,6 +33,7 @@ inline constexpr Task kInfo = 1 << 10;
 inline constexpr Task kCheckDynamics = 1 << 11;
 inline constexpr Task kExportPoses = 1 << 12;
 inline constexpr Task kModel = 1 << 13;  ///< of a person, without a recording
+inline constexpr Task kRetarget = 1 << 14;
 }  // namespace task
 
 enum class OptionKind {

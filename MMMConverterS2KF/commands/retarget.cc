@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
+#include "MMMConverterS2KF/report/retarget_summary.h"
+#include "MMMConverterS2KF/terminal/command_line.h"
+#include "MMMConverterS2KF/terminal/log.h"
+#include "MMMConverterS2KF/terminal/progress.h"
+#include "common/pipeline/dynamics/retarget_run.h"
+#include "common/support/atomic_file.h"
+
+namespace mmm_converter {
+namespace {
+
+const std::vector<OptionGroup> kRetargetOptions = {
+    {"Files",
+     {{"output,o", "FILE",
+       "the robot's motion, MMM 2.0; default: INPUT without its ending + _robot.xml", ""},
+      {"summary", "FILE", "write all figures as JSON", ""}}},
+    {"Robot",
+     {{"robot", "FILE", "the robot: URDF or MJCF", ""},
+      {"map", "FILE", "which joints are its limbs (XML), instead of what its structure tells", ""},
+      {"sole-height", "METRES",
+       "of the origin of the last ankle link above the sole, where the file does not tell it", ""},
+      {"print-map", "", "print which joints are the limbs; without INPUT nothing else is done",
+       ""}}}};
+
+constexpr const char* kRetargetUsage =
+    R"(MMMConverterS2KF retarget INPUT --robot ROBOT [options]
+Brings the motion of a person to a humanoid robot. INPUT is a recording, which is converted first
+as convert does, or a finished MMM motion. Feet stand still where the person's stand, limits of
+joints are kept, and the summary says what the robot could not do and where.
+
+A map is <BodyMap forward="1 0 0"> with <Limb name="left leg" first="JOINT" fold="JOINT"
+last="JOINT"/> for left and right legs and arms; limbs that it leaves out are not used.
+
+{}Examples
+  MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf
+  MMMConverterS2KF retarget walk.c3d --height 1.75 --robot g1.urdf -o g1_walk.xml
+  MMMConverterS2KF retarget jump_mmm.xml --robot h1.xml --sole-height 0.07 --summary jump.json
+  MMMConverterS2KF retarget --robot g1.urdf --print-map
+)";
+
+RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
+  RetargetRequest request;
+  request.conversion = MakeRequest(task::kRetarget, arguments, arguments.positional().value_or(""));
+  request.conversion.output = arguments.Get("output").value_or("");
+  request.robot_file = arguments.Get("robot").value_or("");
+  request.map_file = arguments.Get("map").value_or("");
+  request.sole_height = arguments.GetNumber("sole-height", "metres");
+  if (request.robot_file.empty()) {
+    throw UsageError(
+        "retarget: which robot? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
+        "g1.urdf");
+  }
+  if (const auto file = arguments.Get("summary")) request.conversion.more_outputs.push_back(*file);
+  return request;
+}
+
+}  // namespace
+
+Manual RetargetManual() {
+  return {kRetargetUsage, CommandOptions(task::kRetarget, kRetargetOptions)};
+}
+
+int RunRetarget(const Arguments& arguments) {
+  StartLog(arguments.Get("log").value_or("info"));
+  const RetargetRequest request = MakeRetargetRequest(arguments);
+  if (!arguments.positional()) {
+    if (!arguments.Has("print-map")) {
+      throw UsageError(
+          "retarget: which motion? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
+          "g1.urdf");
+    }
+    Warnings warnings;
+    const LoadedRobot robot = ReadRobot(request, &warnings);
+    LogWarnings(warnings);
+    std::cout << FormatBodyMap(robot.robot.model, robot.body.map);
+    return 0;
+  }
+  ProgressBar bar("frames");
+  const RetargetReport report = RunRetargeting(request, [&](int done, int all) {
+    bar.Show(done, all);
+    return true;
+  });
+  bar.Clear();
+  WriteRobotMotion(report);
+  LogWarnings(report.warnings);
+  if (const auto file = arguments.Get("summary")) {
+    WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  if (arguments.Has("print-map")) {
+    std::cout << FormatBodyMap(report.robot.model, report.body.map);
+  }
+  std::cout << FormatRetargetSummary(report);
+  return 0;
+}
+
+}  // namespace mmm_converter

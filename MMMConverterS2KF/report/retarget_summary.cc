@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/report/retarget_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kInDegrees = 180 / std::numbers::pi;
+constexpr std::size_t kLimbsShown = 3;
+
+std::string RetargetLine(const std::string& name, const std::string& text) {
+  return fmt::format("{:<12}{}\n", name, text);
+}
+
+std::string DescribeFeet(const RetargetReport& report) {
+  const RetargetFigures& figures = report.figures;
+  std::string text = RetargetLine("sole", (*report.body.feet)[0].said);
+  if (std::isnan(figures.slide)) {
+    text += RetargetLine("feet", "the person's feet are nowhere in contact");
+  } else {
+    text += RetargetLine(
+        "feet", fmt::format("slide in {:.1f} % of the frames in contact ({:.1f} % by the toe's "
+                            "rule at 30 Hz), {:.1f} mm above the floor in contact",
+                            100 * figures.slide, 100 * figures.toe_slide, 1e3 * figures.floating));
+  }
+  return text +
+         RetargetLine("floor", fmt::format("at most {:.1f} mm below it, at {:.2f} s",
+                                           1e3 * figures.penetration, figures.penetration_time));
+}
+
+std::vector<LimbFigures> FarthestLimbs(const RetargetFigures& figures) {
+  std::vector<LimbFigures> limbs = figures.limbs;
+  std::stable_sort(limbs.begin(), limbs.end(), [](const LimbFigures& a, const LimbFigures& b) {
+    return a.percentile95 > b.percentile95;
+  });
+  limbs.resize(std::min(limbs.size(), kLimbsShown));
+  return limbs;
+}
+
+Json LimbsJson(const RetargetFigures& figures) {
+  Json limbs = Json::array();
+  for (const LimbFigures& limb : figures.limbs) {
+    limbs.push_back({{"name", limb.name},
+                     {"mean_rad", Number(limb.mean)},
+                     {"p95_rad", Number(limb.percentile95)},
+                     {"most_rad", Number(limb.most)},
+                     {"most_at_s", Number(limb.most_time)}});
+  }
+  return limbs;
+}
+
+Json JointsJson(const RetargetFigures& figures) {
+  Json joints = Json::array();
+  for (const JointFigures& joint : figures.joints) {
+    joints.push_back({{"name", joint.name},
+                      {"at_position_limit", Number(joint.share_at_limit)},
+                      {"at_velocity_limit", Number(joint.share_at_speed)}});
+  }
+  return joints;
+}
+
+}  // namespace
+
+std::string FormatRetargetSummary(const RetargetReport& report) {
+  const RetargetFigures& figures = report.figures;
+  std::string text =
+      RetargetLine("motion", fmt::format("{}: {}, {} frames at {:g} Hz", report.file,
+                                         report.motion_name, figures.num_frames, figures.rate));
+  if (report.conversion_verdict) {
+    text += RetargetLine("conversion", DescribeVerdict(*report.conversion_verdict));
+  }
+  text +=
+      RetargetLine("robot", fmt::format("{} ({}), {} joints; {:.3f} times the person",
+                                        report.robot.model.name(), report.robot_file,
+                                        report.robot.model.num_joints(), report.retargeted.scale));
+  if (report.body.feet) text += DescribeFeet(report);
+  std::string limbs;
+  for (const LimbFigures& limb : FarthestLimbs(figures)) {
+    limbs += fmt::format("; {} up to {:.0f} at {:.2f} s", limb.name, limb.most * kInDegrees,
+                         limb.most_time);
+  }
+  text += RetargetLine("limbs", fmt::format("{:.1f} degrees from the person's, 95 % below {:.1f}{}",
+                                            figures.direction * kInDegrees,
+                                            figures.direction95 * kInDegrees, limbs));
+  text += RetargetLine("joints", fmt::format("{:.3g} rad/s^2 and {:.3g} rad/s^3 rms; limits of "
+                                             "position broken {} times, of velocity {} times",
+                                             figures.acceleration, figures.jerk,
+                                             figures.position_breaks, figures.velocity_breaks));
+  if (!std::isnan(figures.path)) {
+    text += RetargetLine("path", fmt::format("{:.3f} of what the legs allow", figures.path));
+  }
+  text += RetargetLine("written", report.output);
+  return text + RetargetLine("verdict", DescribeVerdict(report.verdict));
+}
+
+Json ToJson(const RetargetReport& report) {
+  const RetargetFigures& figures = report.figures;
+  Json json = {{"input", report.file},
+               {"motion", report.motion_name},
+               {"robot", report.robot.model.name()},
+               {"robot_file", report.robot_file},
+               {"output", report.output},
+               {"map", FormatBodyMap(report.robot.model, report.body.map)},
+               {"sole", report.body.feet ? TextOrNull((*report.body.feet)[0].said) : Json()},
+               {"scale", Number(report.retargeted.scale)},
+               {"frames", figures.num_frames},
+               {"rate_hz", Number(figures.rate)},
+               {"contact", Number(figures.contact_share)},
+               {"slide", Number(figures.slide)},
+               {"toe_slide_30_hz", Number(figures.toe_slide)},
+               {"penetration_m", Number(figures.penetration, 6)},
+               {"penetration_at_s", Number(figures.penetration_time)},
+               {"floating_m", Number(figures.floating, 6)},
+               {"position_limits_broken", figures.position_breaks},
+               {"velocity_limits_broken", figures.velocity_breaks},
+               {"acceleration_rad_s2", Number(figures.acceleration)},
+               {"jerk_rad_s3", Number(figures.jerk)},
+               {"largest_jump_rad", Number(figures.largest_jump)},
+               {"direction_rad", Number(figures.direction)},
+               {"direction_p95_rad", Number(figures.direction95)},
+               {"mirrored", figures.is_mirrored},
+               {"backwards", figures.is_backwards},
+               {"path", Number(figures.path)},
+               {"limbs", LimbsJson(figures)},
+               {"joints_at_limits", JointsJson(figures)}};
+  json["conversion_verdict"] =
+      report.conversion_verdict ? Json(Name(report.conversion_verdict->level)) : Json();
+  json["verdict"] = Name(report.verdict.level);
+  json["reasons"] = report.verdict.reasons;
+  json["warnings"] = report.warnings.texts();
+  return json;
+}
+
+}  // namespace mmm_converter

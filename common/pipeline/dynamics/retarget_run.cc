@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/dynamics/retarget_run.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/recording/recording_formats.h"
+#include "common/io/robot_file.h"
+#include "common/pipeline/dynamics/checked_motion.h"
+#include "common/support/atomic_file.h"
+#include "common/support/output_plan.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFinishedMotion(const std::string& file) {
+  const RecordingFormat* format = FindFormatOfContent(file);
+  if (format == nullptr || !format->holds_motions) return false;
+  const MmmMotionFile content = ReadMmmMotionFile(file);
+  return std::any_of(content.motions.begin(), content.motions.end(), [](const MmmMotion& motion) {
+    return motion.trajectory.num_frames() > 0 && !motion.trajectory.joint_names.empty();
+  });
+}
+
+/// The frames that are asked for.
+PoseTrajectory FramesOf(const CheckedMotion& checked) {
+  PoseTrajectory part = checked.trajectory;
+  part.first_time = part.time(checked.begin);
+  part.postures = {part.postures.begin() + checked.begin, part.postures.begin() + checked.end};
+  return part;
+}
+
+std::string DefaultOutput(const std::string& input) {
+  const fs::path file = input;
+  return (file.parent_path() / (file.stem().string() + "_robot.xml")).string();
+}
+
+void CheckFiles(const RetargetRequest& request, const std::string& output) {
+  OutputPlan plan;
+  NameInputs(request.conversion.input, &plan);
+  plan.Read(request.robot_file);
+  plan.Read(request.map_file);
+  plan.Write(output);
+  for (const std::string& file : request.conversion.more_outputs) plan.Write(file);
+  plan.Check();
+}
+
+}  // namespace
+
+LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings) {
+  Robot robot = ReadRobotFile(request.robot_file, warnings);
+  BodyMapChoice choice;
+  if (!request.map_file.empty()) choice = ReadBodyMapChoice(request.map_file);
+  RobotBody body = FindRobotBody(robot, choice, request.sole_height);
+  return {std::move(robot), std::move(body)};
+}
+
+RetargetReport RunRetargeting(const RetargetRequest& request,
+                              const std::function<bool(int, int)>& progress) {
+  const std::string& file = request.conversion.input.file;
+  const std::string output =
+      request.conversion.output.empty() ? DefaultOutput(file) : request.conversion.output;
+  CheckFiles(request, output);
+  Warnings warnings;
+  LoadedRobot robot = ReadRobot(request, &warnings);
+  RetargetReport report = {file,
+                           "",
+                           request.robot_file,
+                           output,
+                           std::move(robot.robot),
+                           std::move(robot.body),
+                           {},
+                           {},
+                           {},
+                           {},
+                           {}};
+  if (IsFinishedMotion(file)) {
+    const CheckedMotion checked = ReadCheckedMotion(request.conversion.input);
+    warnings.Append(checked.warnings);
+    report.motion_name = checked.name;
+    report.retargeted = RetargetMotion(checked.model, FramesOf(checked), report.robot, report.body);
+  } else {
+    ConversionRequest conversion = request.conversion;
+    conversion.output = output;
+    conversion.more_outputs.clear();
+    const ConversionReport converted =
+        RunConversion(conversion, LabelFirst(conversion, {}, progress), progress);
+    warnings.Append(converted.warnings);
+    report.motion_name = converted.plan.motion_name;
+    report.conversion_verdict = converted.verdict;
+    report.retargeted = RetargetMotion(*converted.plan.setup.model, converted.result.trajectory,
+                                       report.robot, report.body);
+  }
+  report.figures = MeasureRetargeting(report.retargeted, report.robot, report.body);
+  report.verdict = JudgeRetargeting(report.figures);
+  report.warnings = std::move(warnings);
+  return report;
+}
+
+void WriteRobotMotion(const RetargetReport& report) {
+  MmmMotionOutput output;
+  output.recording_name = fs::path(report.file).stem().string();
+  output.motion_name = report.motion_name;
+  output.model_path = ModelPathFor(report.robot_file, report.output);
+  output.trajectory = &report.retargeted.motion;
+  WriteFileAtomically(report.output, FormatMmmMotion2(output));
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/judge/retarget_verdict.h"
+#include "common/pipeline/conversion.h"
+#include "common/retarget/retarget_figures.h"
+
+namespace mmm_converter {
+
+/// What the user asked for. Empty: a default.
+struct RetargetRequest {
+  /// The recording, which is converted first, or the finished motion; output is the robot's.
+  ConversionRequest conversion;
+  std::string robot_file;
+  std::string map_file;               ///< see ReadBodyMapChoice
+  std::optional<double> sole_height;  ///< of the last ankle joint above the sole [m]
+};
+
+struct RetargetReport {
+  std::string file, motion_name;
+  std::string robot_file, output;
+  Robot robot;
+  RobotBody body;
+  Retargeted retargeted;
+  RetargetFigures figures;
+  Verdict verdict;
+  std::optional<Verdict> conversion_verdict;  ///< of a recording
+  Warnings warnings;
+};
+
+struct LoadedRobot {
+  Robot robot;
+  RobotBody body;
+};
+
+/// The robot with its map. @throws Error
+LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings);
+
+/// Reads all, converts where that is to be done, and brings the motion to the robot; writes
+/// nothing. progress(done, all): frames of a conversion; may be empty.
+/// @throws Error
+RetargetReport RunRetargeting(const RetargetRequest& request,
+                              const std::function<bool(int, int)>& progress);
+
+/// An MMM motion with the robot's model. @throws Error; the file is then as it was before.
+void WriteRobotMotion(const RetargetReport& report);
+
+}  // namespace mmm_converter
