@@ -21,9 +21,9 @@ const OptionGroup kInfoOptions = {
 
 constexpr const char* kInfoUsage = R"(MMMConverterS2KF info FILE [--json]
 What is in a file that this program reads or writes: recordings (C3D, TRC), MMM motions, models,
-robots (URDF, MJCF), configurations, marker sets, subjects, persons, plugins, manifests, journals and results of a
-batch, summaries, tables (CSV, MOT) and pages. Of a C3D file also analog channels, force plates,
-events and parameters; it need not have markers.
+robots (URDF, MJCF), configurations, marker sets, subjects, persons, plugins, manifests, journals
+and results of a batch, summaries, tables (CSV, MOT) and pages. Of a C3D file also analog channels,
+force plates, events and parameters; it need not have markers.
 
 {}Examples
   MMMConverterS2KF info walk.c3d

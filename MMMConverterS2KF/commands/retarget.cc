@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -8,11 +10,14 @@
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/io/robot/robot_exports.h"
 #include "common/pipeline/dynamics/retarget_run.h"
 #include "common/support/atomic_file.h"
 
 namespace mmm_converter {
 namespace {
+
+constexpr double kMostExportRate = 1000;  // [Hz]
 
 const std::vector<OptionGroup> kRetargetOptions = {
     {"Files",
@@ -27,6 +32,47 @@ const std::vector<OptionGroup> kRetargetOptions = {
       {"print-map", "", "print which joints are the limbs; without INPUT nothing else is done",
        ""}}}};
 
+std::vector<OptionGroup> RetargetOptions() {
+  std::vector<OptionGroup> groups = kRetargetOptions;
+  OptionGroup exports{"Robot learning", {}};
+  for (const RobotExporter& format : RobotExporters()) {
+    exports.options.push_back({format.option, "FILE", format.help, ""});
+  }
+  exports.options.push_back(
+      {"export-rate", "HZ", "of these files; default: what their readers expect", ""});
+  exports.options.push_back(
+      {"order", "ORDER",
+       "of joints where no file tells it: isaac (breadth first) or mujoco (depth first)", ""});
+  groups.push_back(std::move(exports));
+  return groups;
+}
+
+struct RobotExport {
+  const RobotExporter* format = nullptr;
+  std::string file;
+};
+
+std::vector<RobotExport> ExportsOf(const Arguments& arguments, RobotExportOptions* options) {
+  options->rate = arguments.GetNumber("export-rate", "hertz");
+  if (options->rate && !(*options->rate > 0 && *options->rate <= kMostExportRate)) {
+    throw UsageError(
+        fmt::format("--export-rate has to be above 0 and at most {:g} Hz", kMostExportRate));
+  }
+  if (const auto order = arguments.Get("order")) options->order = ParseRobotOrder(*order);
+  std::vector<RobotExport> exports;
+  for (const RobotExporter& format : RobotExporters()) {
+    const auto file = arguments.Get(format.option);
+    if (!file) continue;
+    if (format.needs_order && !options->order) {
+      throw UsageError(fmt::format(
+          "--{} needs --order isaac or --order mujoco: no reader of the file can tell which it is",
+          format.option));
+    }
+    exports.push_back({&format, *file});
+  }
+  return exports;
+}
+
 constexpr const char* kRetargetUsage =
     R"(MMMConverterS2KF retarget INPUT --robot ROBOT [options]
 Brings the motion of a person to a humanoid robot. INPUT is a recording, which is converted first
@@ -40,6 +86,8 @@ last="JOINT"/> for left and right legs and arms; limbs that it leaves out are no
   MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf
   MMMConverterS2KF retarget walk.c3d --height 1.75 --robot g1.urdf -o g1_walk.xml
   MMMConverterS2KF retarget jump_mmm.xml --robot h1.xml --sole-height 0.07 --summary jump.json
+  MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf --export-lafan1 walk.csv --export-rate 50
+  MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf --export-beyondmimic w.npz --order isaac
   MMMConverterS2KF retarget --robot g1.urdf --print-map
 )";
 
@@ -56,18 +104,25 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
         "g1.urdf");
   }
   if (const auto file = arguments.Get("summary")) request.conversion.more_outputs.push_back(*file);
+  for (const RobotExporter& format : RobotExporters()) {
+    if (const auto file = arguments.Get(format.option)) {
+      request.conversion.more_outputs.push_back(*file);
+    }
+  }
   return request;
 }
 
 }  // namespace
 
 Manual RetargetManual() {
-  return {kRetargetUsage, CommandOptions(task::kRetarget, kRetargetOptions)};
+  return {kRetargetUsage, CommandOptions(task::kRetarget, RetargetOptions())};
 }
 
 int RunRetarget(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const RetargetRequest request = MakeRetargetRequest(arguments);
+  RobotExportOptions options;
+  const std::vector<RobotExport> exports = ExportsOf(arguments, &options);
   if (!arguments.positional()) {
     if (!arguments.Has("print-map")) {
       throw UsageError(
@@ -87,6 +142,10 @@ int RunRetarget(const Arguments& arguments) {
   });
   bar.Clear();
   WriteRobotMotion(report);
+  options.motion_name = report.motion_name;
+  for (const RobotExport& one : exports) {
+    one.format->write(one.file, report.robot, report.retargeted.motion, options);
+  }
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report)));

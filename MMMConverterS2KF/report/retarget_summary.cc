@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "MMMConverterS2KF/report/conversion_summary.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -130,9 +132,8 @@ Json ToJson(const RetargetReport& report) {
                {"limbs", LimbsJson(figures)},
                {"joints_at_limits", JointsJson(figures)}};
   json["conversion_verdict"] =
-      report.conversion_verdict ? Json(Name(report.conversion_verdict->level)) : Json();
-  json["verdict"] = Name(report.verdict.level);
-  json["reasons"] = report.verdict.reasons;
+      report.conversion_verdict ? ToJson(*report.conversion_verdict) : Json();
+  json["verdict"] = ToJson(report.verdict);
   json["warnings"] = report.warnings.texts();
   return json;
 }

@@ -44,7 +44,7 @@ std::vector<std::string> OptionsOf(const std::string& command) {
   for (const std::string& line : Lines(RunProgram({command, "--help"}).out)) {
     if (!line.starts_with("  -")) continue;
     const std::size_t begin = line.starts_with("  --") ? 2 : 2 + kShort;
-    const std::size_t end = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", begin);
+    const std::size_t end = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-", begin);
     options.push_back(line.substr(begin, end - begin));
   }
   return options;

@@ -65,7 +65,7 @@ std::string ArmText(const BipedShape& shape, const std::string& side, double y) 
 
 }  // namespace
 
-Robot MakeBiped(const BipedShape& shape) {
+std::string BipedText(const BipedShape& shape) {
   const char* mass = R"(<inertial><origin xyz="0 0 0"/><mass value="5"/><inertia ixx="0.1" ixy="0"
  ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial>)";
   std::string text = R"(<robot name="biped">)";
@@ -79,7 +79,9 @@ Robot MakeBiped(const BipedShape& shape) {
   }
   text += JointAndLink({"waist", "pelvis", "0 0 0.1", "0 0 1", -1, 1, 20}, "0 0 0.2");
   text += ArmText(shape, shape.sides[0], 0.2) + ArmText(shape, shape.sides[1], -0.2);
-  return ParseUrdfRobot(text + "</robot>", "biped.urdf");
+  return text + "</robot>";
 }
+
+Robot MakeBiped(const BipedShape& shape) { return ParseUrdfRobot(BipedText(shape), "biped.urdf"); }
 
 }  // namespace mmm_converter::testing

@@ -19,6 +19,8 @@ struct BipedShape {
   bool has_sole = true;
 };
 
+/// A URDF.
+std::string BipedText(const BipedShape& shape);
 Robot MakeBiped(const BipedShape& shape);
 
 }  // namespace mmm_converter::testing
