@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/pipeline/dynamics/retarget_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/io/robot_file.h"
+#include "common/motion/marker_residuals.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/output_plan.h"
@@ -26,12 +29,25 @@ bool IsFinishedMotion(const std::string& file) {
   });
 }
 
-/// The frames that are asked for.
-PoseTrajectory FramesOf(const CheckedMotion& checked) {
-  PoseTrajectory part = checked.trajectory;
-  part.first_time = part.time(checked.begin);
-  part.postures = {part.postures.begin() + checked.begin, part.postures.begin() + checked.end};
+PoseTrajectory FramesOf(const PoseTrajectory& all, int begin, int end) {
+  PoseTrajectory part;
+  part.rate = all.rate;
+  part.first_time = all.time(begin);
+  part.joint_names = all.joint_names;
+  part.postures = {all.postures.begin() + begin, all.postures.begin() + end};
   return part;
+}
+
+/// Without the frames before the person is seen, whose postures are that of the first one.
+PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings) {
+  const PoseTrajectory& all = report.result.trajectory;
+  const int before = FramesBeforeFirstSeen(report.result.residuals);
+  if (before > 0 && before < all.num_frames()) {
+    warnings->Add(fmt::format("the robot's motion begins where the person is seen, at {:.2f} s",
+                              all.time(before)));
+    return FramesOf(all, before, all.num_frames());
+  }
+  return all;
 }
 
 std::string DefaultOutput(const std::string& input) {
@@ -82,7 +98,9 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
     const CheckedMotion checked = ReadCheckedMotion(request.conversion.input);
     warnings.Append(checked.warnings);
     report.motion_name = checked.name;
-    report.retargeted = RetargetMotion(checked.model, FramesOf(checked), report.robot, report.body);
+    report.retargeted =
+        RetargetMotion(checked.model, FramesOf(checked.trajectory, checked.begin, checked.end),
+                       report.robot, report.body);
   } else {
     ConversionRequest conversion = request.conversion;
     conversion.output = output;
@@ -92,8 +110,9 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
     warnings.Append(converted.warnings);
     report.motion_name = converted.plan.motion_name;
     report.conversion_verdict = converted.verdict;
-    report.retargeted = RetargetMotion(*converted.plan.setup.model, converted.result.trajectory,
-                                       report.robot, report.body);
+    report.retargeted =
+        RetargetMotion(*converted.plan.setup.model, TrackedFrames(converted, &warnings),
+                       report.robot, report.body);
   }
   report.figures = MeasureRetargeting(report.retargeted, report.robot, report.body);
   report.verdict = JudgeRetargeting(report.figures);
