@@ -72,6 +72,7 @@ std::string SummaryJson(Side side, const std::vector<Stride>& strides) {
 
 std::string ListJson(const std::array<double, GaitCycle::kSamples>& angles) {
   std::vector<std::string> texts;
+  texts.reserve(angles.size());
   for (const double angle : angles) texts.push_back(Json(kDegrees * angle));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
