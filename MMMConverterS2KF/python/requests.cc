@@ -25,7 +25,8 @@ const std::map<std::string, Task> kTasks = {
     {"calibrate", task::kCalibrate}, {"check_dynamics", task::kCheckDynamics},
     {"compare", task::kCompare},     {"convert", task::kConvert},
     {"label", task::kLabel},         {"learn_markers", task::kLearnMarkers},
-    {"read", task::kRead},           {"read_model", task::kModel}};
+    {"read", task::kRead},           {"read_model", task::kModel},
+    {"retarget", task::kRetarget}};
 
 // A value as the command line has it.
 std::string TextOfValue(const py::handle& value, OptionKind kind) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the commands calibrate, compare, label and check-dynamics do.
+// What the commands calibrate, compare, label, check-dynamics and retarget do.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <filesystem>
@@ -20,17 +21,21 @@
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/learn_summary.h"
 #include "MMMConverterS2KF/report/report.h"
+#include "MMMConverterS2KF/report/retarget_summary.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/subject_file.h"
+#include "common/io/robot/robot_exports.h"
 #include "common/label/track/relabelled.h"
 #include "common/pipeline/comparison/comparison_setup.h"
 #include "common/pipeline/dynamics/dynamics_check.h"
+#include "common/pipeline/dynamics/retarget_run.h"
 #include "common/pipeline/labelled_output.h"
 #include "common/pipeline/marker_learning.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
+#include "common/support/text.h"
 
 namespace mmm_converter::python {
 
@@ -226,6 +231,46 @@ void SaveMarkerSet(Learning* learning, const std::string& file) {
   report.output = file;
 }
 
+struct RetargetedMotion {
+  RetargetRequest request;
+  RetargetReport report;
+};
+
+RetargetedMotion Retarget(const py::dict& options, const std::string& map,
+                          std::optional<double> sole_height, const py::object& progress) {
+  RetargetRequest request;
+  request.conversion = RequestOf(options);
+  request.robot_file = TextOf(options, "robot");
+  request.map_file = map;
+  request.sole_height = sole_height;
+  return InBackground(progress, [&](const Progress& on_progress) {
+    return RetargetedMotion{request, RunRetargeting(request, on_progress)};
+  });
+}
+
+void SaveRobotMotion(RetargetedMotion* motion, const std::string& file) {
+  motion->report.output = file;
+  WriteRobotMotion(motion->report);
+}
+
+void ExportRobotMotion(const RetargetedMotion& motion, const std::string& format,
+                       const std::string& file, std::optional<double> rate,
+                       const std::optional<std::string>& order) {
+  RobotExportOptions options;
+  options.rate = rate;
+  options.motion_name = motion.report.motion_name;
+  if (order) options.order = ParseRobotOrder(*order);
+  for (const RobotExporter& one : RobotExporters()) {
+    if (one.name != format) continue;
+    one.write(file, motion.report.robot, motion.report.retargeted.motion, options);
+    return;
+  }
+  std::vector<std::string> names;
+  for (const RobotExporter& one : RobotExporters()) names.emplace_back(one.name);
+  throw Error(
+      fmt::format("format: \"{}\" is not known; there are {}", format, JoinNames(names, ", ")));
+}
+
 }  // namespace
 
 void BindStudies(py::module_* module) {
@@ -282,6 +327,29 @@ void BindStudies(py::module_* module) {
       .def_property_readonly("warnings",
                              [](const Learning& l) { return l.report.warnings.texts(); })
       .def("save", &SaveMarkerSet);
+  py::class_<RetargetedMotion>(*module, "Retargeted")
+      .def_property_readonly("summary",
+                             [](const RetargetedMotion& r) { return PythonOf(ToJson(r.report)); })
+      .def_property_readonly(
+          "text", [](const RetargetedMotion& r) { return FormatRetargetSummary(r.report); })
+      .def_property_readonly("verdict",
+                             [](const RetargetedMotion& r) { return Name(r.report.verdict.level); })
+      .def_property_readonly("warnings",
+                             [](const RetargetedMotion& r) { return r.report.warnings.texts(); })
+      .def_property_readonly(
+          "rate", [](const RetargetedMotion& r) { return r.report.retargeted.motion.rate; })
+      .def_property_readonly(
+          "joint_names",
+          [](const RetargetedMotion& r) { return r.report.retargeted.motion.joint_names; })
+      .def_property_readonly("arrays",
+                             [](const RetargetedMotion& r) {
+                               const PoseTrajectory& motion = r.report.retargeted.motion;
+                               return PostureArrays(motion.postures,
+                                                    static_cast<int>(motion.joint_names.size()));
+                             })
+      .def("save", &SaveRobotMotion)
+      .def("export", &ExportRobotMotion);
+  module->def("retarget", &Retarget);
   module->def("calibrate", &Calibrate);
   module->def("learn_markers", &Learn);
   module->def("compare", &CompareAll);

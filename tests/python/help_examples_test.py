@@ -13,8 +13,8 @@ import mmmconverter
 from support import Case, ROOT, SAMPLE, run_program
 
 PROGRAM = pathlib.Path(os.environ.get("MMM_CONVERTER_PROGRAM", ROOT / "build/bin/MMMConverterS2KF")).resolve()
-# These need a camera system, a robot, minutes, or two bodies: their options and files alone are checked.
-FAR = ("retarget ", "live qtm:", "live natnet:", "serve ", "evaluate", "--scale-setup", "cup.c3d", "both.c3d")
+# These need a camera system, minutes, or two bodies: their options and files alone are checked.
+FAR = ("live qtm:", "live natnet:", "serve ", "evaluate", "--scale-setup", "cup.c3d", "both.c3d")
 OUTPUTS = ("-o", "--subject-out", "--report", "--summary")
 
 
@@ -52,6 +52,8 @@ class HelpExamples(Case):
         for file in (ROOT / "examples/opensim").iterdir():
             if file.is_file():
                 shutil.copy(file, self.folder)
+        for name in ("g1.urdf", "h1.xml"):
+            shutil.copy(ROOT / "examples/robot/biped.urdf", self.folder / name)
         (self.folder / "xml_config").symlink_to(ROOT / "xml_config")
         (self.folder / "objects").mkdir()
         plugin = PROGRAM.parents[1] / "lib/MMMConverterS2KF/plugins/S2KFConverter.so"

@@ -187,6 +187,31 @@ class Studies(Case):
         with self.assertRaisesRegex(mmmconverter.Error, "low_pass"):
             mmmconverter.check_dynamics(MOTION, low_pass=-1)
 
+    def test_retarget(self):
+        robot = ROOT / "examples/robot/biped.urdf"
+        self.run_program("retarget", MOTION, "--robot", robot, "--frames", ":60", "-o", self.folder / "p.xml",
+                         "--summary", self.folder / "p.json", "--export-lafan1", self.folder / "p.csv")
+        moved = mmmconverter.retarget(MOTION, robot, frames=(None, 60))
+        moved.save(self.folder / "p.xml")
+        moved.export("lafan1", self.folder / "o.csv")
+        self.assert_same_files(self.folder / "p.csv", self.folder / "o.csv")
+        self.assertEqual(moved.summary["limbs"], self.summary("p.json")["limbs"])
+        self.assertEqual(moved.verdict, self.summary("p.json")["verdict"]["level"])
+        self.assertEqual(moved.rate, 100)
+        self.assertEqual((moved.positions.shape, moved.quaternions.shape), ((60, 3), (60, 4)))
+        self.assertEqual(moved.joints.shape, (60, len(moved.joint_names)))
+        self.assertIn("left_knee", moved.joint_names)
+        self.assertEqual(moved.warnings, moved.summary["warnings"])
+        self.assertIn("verdict", moved.text)
+        self.assertIn("biped", repr(moved))
+        with self.assertRaisesRegex(mmmconverter.Error, "lafan1"):
+            moved.export("lafan2", self.folder / "o.csv")
+        with self.assertRaisesRegex(mmmconverter.Error, "isaac"):
+            moved.export("beyondmimic", self.folder / "o.npz")
+        arrays = mmmconverter.Recording.from_arrays(
+            mmmconverter.read(SAMPLE).labels, mmmconverter.read(SAMPLE).markers[:40], 100)
+        self.assertEqual(len(mmmconverter.retarget(arrays, robot, height=1.8).joints), 40)
+
 
 if __name__ == "__main__":
     unittest.main()

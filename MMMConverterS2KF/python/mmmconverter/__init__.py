@@ -19,8 +19,8 @@ from ._conversions import Conversion, convert
 from ._mmmconverter import Error, version_text as _version_text
 from ._models import Estimate, Model, Poses, Tracker, read_model
 from ._recordings import Motion, Recording, Subject, read, read_motion, read_motions, read_subject
-from ._studies import (Calibration, Comparison, Dynamics, LabelledRecording, LearnedMarkers, calibrate,
-                       check_dynamics, compare, label, learn_markers)
+from ._studies import (Calibration, Comparison, Dynamics, LabelledRecording, LearnedMarkers, Retargeted,
+                       calibrate, check_dynamics, compare, label, learn_markers, retarget)
 
 Error.__module__ = __name__
 
@@ -28,6 +28,6 @@ __version__ = _version_text().split()[1]
 
 __all__ = [
     "Angles", "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
-    "LearnedMarkers", "Model", "Motion", "Poses", "Recording", "Subject", "Tracker", "calibrate", "check_dynamics",
-    "compare", "convert", "label", "learn_markers", "read", "read_model", "read_motion", "read_motions",
-    "read_subject"]
+    "LearnedMarkers", "Model", "Motion", "Poses", "Recording", "Retargeted", "Subject", "Tracker", "calibrate",
+    "check_dynamics", "compare", "convert", "label", "learn_markers", "read", "read_model", "read_motion", "read_motions",
+    "read_subject", "retarget"]

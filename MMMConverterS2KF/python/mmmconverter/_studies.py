@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the commands calibrate, compare, label, learn-markers and check-dynamics do."""
+"""What the commands calibrate, compare, label, learn-markers, check-dynamics and retarget do."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ._recordings import Motion, Recording, Subject, input_options, keywords
 if TYPE_CHECKING:
     from typing_extensions import Unpack
     from ._options import (CalibrateOptions, CheckDynamicsOptions, CompareOptions, LabelOptions,
-                           LearnMarkersOptions)
+                           LearnMarkersOptions, RetargetOptions)
 
 Progress = Union[Callable[[int, int], None], bool, None]
 
@@ -292,3 +292,102 @@ def check_dynamics(file, *, progress: Progress = None,
     options = keywords(options, file=source)
     with shown(progress, "frames") as callback:
         return Dynamics(_mmmconverter.check_dynamics(raw, options, callback))
+
+
+class Retargeted(_Study):
+    """A motion that `retarget` brought to a robot.
+
+    Attributes
+    ----------
+    positions : array (frames, 3)
+        Of the robot's root [m].
+    quaternions : array (frames, 4)
+        Of the root: w, x, y, z.
+    joints : array (frames, joints)
+        Angles [rad], shifts [m].
+    joint_names : list of str
+    rate : float
+        [Hz]
+    verdict : str
+        "good", "check" or "failed".
+    summary : dict
+    text : str
+    warnings : list of str
+    """
+
+    @property
+    def verdict(self) -> str:
+        return self._raw.verdict
+
+    @property
+    def rate(self) -> float:
+        return self._raw.rate
+
+    @property
+    def joint_names(self) -> list:
+        return self._raw.joint_names
+
+    @property
+    def positions(self):
+        return self._raw.arrays[0]
+
+    @property
+    def quaternions(self):
+        return self._raw.arrays[1]
+
+    @property
+    def joints(self):
+        return self._raw.arrays[2]
+
+    def save(self, file) -> None:
+        """Writes an MMM motion with the robot's model."""
+        self._raw.save(path_text(file))
+
+    def export(self, format, file, *, rate=None, order=None) -> None:
+        """Writes what robot learning reads, as ``retarget --export-FORMAT``.
+
+        Parameters
+        ----------
+        format : str
+            "lafan1", "gmr", "mujoco", "locomujoco", "beyondmimic", "mjlab" or "phc".
+        file : path
+        rate : float, optional
+            [Hz]; default: what the format's readers expect.
+        order : str, optional
+            Of joints where no file tells it: "isaac" or "mujoco".
+        """
+        self._raw.export(format, path_text(file), rate, order)
+
+    def _facts(self):
+        return [("robot", self.summary["robot"]), ("frames", len(self.joints)), ("verdict", self.verdict)]
+
+
+@with_options("retarget")
+def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None, progress: Progress = None,
+             **options: Unpack[RetargetOptions]) -> Retargeted:
+    """Brings a person's motion to a humanoid robot, as the command does.
+
+    Parameters
+    ----------
+    recording : path or Recording
+        A recording, which is converted first, or the path of a finished motion.
+    robot : path
+        URDF or MJCF.
+    map : path, optional
+        Which joints are its limbs, instead of what its structure tells.
+    sole_height : float, optional
+        Of the last ankle link's origin above the sole [m], where the file does not tell it.
+    progress : optional
+        As of `convert`.
+    **options
+
+    Examples
+    --------
+    >>> moved = retarget("examples/handstand_true.xml", "examples/robot/biped.urdf", frames=(0, 50))
+    >>> moved.joints.shape
+    (50, 21)
+    """
+    options = {**input_options(recording), **keywords(options), "robot": path_text(robot)}
+    with shown(progress, "frames") as callback:
+        return Retargeted(_mmmconverter.retarget(options, path_text(map) if map is not None else "",
+                                                 sole_height, callback))

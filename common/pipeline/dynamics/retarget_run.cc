@@ -94,7 +94,7 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                            {},
                            {},
                            {}};
-  if (IsFinishedMotion(file)) {
+  if (request.conversion.input.recording.value == nullptr && IsFinishedMotion(file)) {
     const CheckedMotion checked = ReadCheckedMotion(request.conversion.input);
     warnings.Append(checked.warnings);
     report.motion_name = checked.name;
