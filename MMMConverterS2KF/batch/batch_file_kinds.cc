@@ -44,6 +44,9 @@ Description DescribeManifest(const FileStart& file, const ReadRecordingOptions&)
   std::string text =
       fmt::format("{}: manifest of a batch\nname       {}\nrecordings {}\ngroups     {}\n",
                   file.path, manifest.name, manifest.entries.size(), groups.size());
+  Json persons = Json::array();
+  for (const auto& [id, person] : manifest.persons) persons.push_back(id);
+  if (!persons.empty()) text += fmt::format("persons    {}\n", persons.size());
   for (const auto& [group, count] : groups) {
     text += fmt::format("  {:>6} in {}\n", count, group.empty() ? "no group" : group);
   }
@@ -51,6 +54,7 @@ Description DescribeManifest(const FileStart& file, const ReadRecordingOptions&)
           FormatJson({{"kind", "manifest"},
                       {"file", file.path},
                       {"name", manifest.name},
+                      {"persons", persons},
                       {"recordings", entries}}),
           {}};
 }

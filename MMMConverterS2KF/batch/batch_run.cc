@@ -18,6 +18,7 @@
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/manifest_attributes.h"
 #include "MMMConverterS2KF/batch/memory_budget.h"
+#include "MMMConverterS2KF/batch/persons.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 
 namespace mmm_converter {
@@ -44,6 +45,7 @@ class BatchRunner {
         progress_(progress),
         folder_(options.output),
         memory_(options.memory),
+        persons_(manifest, entries_, options, {&folder_, &memory_, &inputs_, progress}),
         journal_(options.output, options.shard, options.shards) {
     if (options.resume) done_ = ReadJournals(options.output);
   }
@@ -51,6 +53,7 @@ class BatchRunner {
   BatchOutcome Run() {
     const CrashWatch watch;
     progress_->Start(static_cast<int>(entries_.size()));
+    persons_.WarnOfUnused();
     std::vector<std::thread> threads;
     threads.reserve(options_.jobs);
     try {
@@ -74,13 +77,21 @@ class BatchRunner {
     try {
       while (!IsEnding()) {
         const std::size_t i = next_++;
-        if (i >= entries_.size()) return;
-        Process(*entries_[i]);
+        if (i >= persons_.count() + entries_.size()) return;
+        i < persons_.count() ? Calibrate(i) : Process(*entries_[i - persons_.count()]);
       }
     } catch (...) {  // even what failed can't be noted
       const std::scoped_lock lock(mutex_);
       failure_ = std::current_exception();
       is_ending_ = true;
+    }
+  }
+
+  void Calibrate(std::size_t person) {
+    try {
+      persons_.Calibrate(person, [this] { return !IsEnding(); });
+    } catch (const WriteError& error) {
+      End(error.what());
     }
   }
 
@@ -91,6 +102,7 @@ class BatchRunner {
     std::string reason;
     try {
       if (const JournalRecord* crash = FindCrash(entry, "")) return NoteCrash(*crash);
+      persons_.WaitFor(entry);
       const ReadBefore read_before = inputs_.ReadFor(entry.request);
       record.fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
       if (const JournalRecord* crash = FindCrash(entry, record.fingerprint)) {
@@ -236,7 +248,8 @@ class BatchRunner {
   MemoryBudget memory_;
   SharedInputs inputs_;
   std::unordered_map<std::string, JournalRecord> done_;  // by id
-  std::atomic<std::size_t> next_ = 0;
+  BatchPersons persons_;
+  std::atomic<std::size_t> next_ = 0;  // of persons, then of entries
   std::atomic<bool> is_ending_ = false;
   std::mutex mutex_;  // of what follows
   Journal journal_;

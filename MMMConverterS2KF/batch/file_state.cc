@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "common/support/content_hash.h"
 #include "common/support/error.h"
@@ -34,6 +35,28 @@ FileState InspectFile(const std::string& path) {
 bool IsUnchanged(const std::string& path, const FileState& state) {
   if (FileSize(path) != state.bytes) return false;
   return ModifiedTime(path) == state.modified || HashFile(path) == state.hash;
+}
+
+Json ToJson(const FileState& state) {
+  return {{"bytes", state.bytes}, {"modified_ns", state.modified}, {"hash", state.hash}};
+}
+
+Json ToJson(const std::map<std::string, FileState>& states) {
+  Json json = Json::object();
+  for (const auto& [path, state] : states) json[path] = ToJson(state);
+  return json;
+}
+
+FileState ParseFileState(const Json& json) {
+  return {static_cast<std::uint64_t>(ParseInteger(json.at("bytes"), 0, INT64_MAX)),
+          ParseInteger(json.at("modified_ns"), INT64_MIN, INT64_MAX),
+          json.at("hash").get<std::string>()};
+}
+
+std::map<std::string, FileState> ParseFileStates(const Json& json) {
+  std::map<std::string, FileState> states;
+  for (const auto& [path, state] : json.items()) states[path] = ParseFileState(state);
+  return states;
 }
 
 std::uint64_t FileSize(const std::string& path) {

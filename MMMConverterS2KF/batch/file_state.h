@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
+
+#include "MMMConverterS2KF/report/json.h"
 
 namespace mmm_converter {
 
@@ -19,6 +22,14 @@ FileState InspectFile(const std::string& path);
 /// Whether the file is as it was: the same size and time, or else the same size and hash.
 /// @throws Error where it can't be read.
 bool IsUnchanged(const std::string& path, const FileState& state);
+
+/// As journals have it.
+Json ToJson(const FileState& state);
+Json ToJson(const std::map<std::string, FileState>& states);  ///< by path
+
+/// @throws nlohmann::json::exception or Error where it is something else.
+FileState ParseFileState(const Json& json);
+std::map<std::string, FileState> ParseFileStates(const Json& json);
 
 /// [bytes] @throws Error where there is none.
 std::uint64_t FileSize(const std::string& path);

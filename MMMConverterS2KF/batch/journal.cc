@@ -23,28 +23,7 @@ constexpr const char* kBegin = "journal";
 constexpr const char* kEnd = ".jsonl";
 constexpr std::int64_t kYear10000 = 253402300800000;  // [ms since 1970]
 
-Json ToJson(const FileState& state) {
-  return {{"bytes", state.bytes}, {"modified_ns", state.modified}, {"hash", state.hash}};
-}
-
-Json ToJson(const std::map<std::string, FileState>& states) {
-  Json json = Json::object();
-  for (const auto& [path, state] : states) json[path] = ToJson(state);
-  return json;
-}
-
 std::int64_t ParseTime(const Json& json) { return ParseInteger(json, INT64_MIN, INT64_MAX); }
-
-FileState ParseState(const Json& json) {
-  return {static_cast<std::uint64_t>(ParseInteger(json.at("bytes"), 0, INT64_MAX)),
-          ParseTime(json.at("modified_ns")), json.at("hash").get<std::string>()};
-}
-
-std::map<std::string, FileState> ParseStates(const Json& json) {
-  std::map<std::string, FileState> states;
-  for (const auto& [path, state] : json.items()) states[path] = ParseState(state);
-  return states;
-}
 
 std::optional<JournalRecord> ParseRecord(std::string_view line) {
   try {
@@ -53,9 +32,9 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
     record.id = json.at("id").get<std::string>();
     record.time = ParseTime(json.at("time_ms"));
     record.fingerprint = json.at("fingerprint").get<std::string>();
-    record.recording = ParseState(json.at("recording"));
-    if (json.contains("models")) record.models = ParseStates(json.at("models"));
-    record.outputs = ParseStates(json.at("outputs"));
+    record.recording = ParseFileState(json.at("recording"));
+    if (json.contains("models")) record.models = ParseFileStates(json.at("models"));
+    record.outputs = ParseFileStates(json.at("outputs"));
     record.result = ParseEntryResult(json.at("result"));
     record.crashed = json.value("crashed", false);
     return record;

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
+#include <sstream>
 #include <unordered_map>
 
 #include "MMMConverterS2KF/batch/manifest_attributes.h"
@@ -21,6 +24,21 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 240;  // of a file or folder [bytes]; most systems take 255
 constexpr std::size_t kMaxManifestBytes = std::size_t{64} << 20;
+constexpr std::size_t kMostRecordings = 1000;  // of a person
+
+// Files with ; between them; without any ; with spaces.
+std::vector<std::string> SplitFiles(std::string text) {
+  if (text.find(';') == std::string::npos) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n'; }, ';');
+  }
+  std::vector<std::string> files;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ';');) {
+    if (!Trim(part).empty()) files.emplace_back(Trim(part));
+  }
+  return files;
+}
 
 class ManifestReader {
  public:
@@ -38,6 +56,7 @@ class ManifestReader {
     manifest_.file = diagnostics_.file();
     recordings_ = folder_;
     if (const std::string* folder = root_.FindAttribute("folder")) recordings_ = folder_ / *folder;
+    CollectPersons(root_);
     BatchEntry defaults;
     Apply(root_, {"name", "folder"}, &defaults);
     if (const std::string* name = root_.FindAttribute("name")) manifest_.name = *name;
@@ -61,13 +80,53 @@ class ManifestReader {
         ReadRecording(child, settings);
       } else if (child.name == "Group") {
         ReadGroup(child, settings);
+      } else if (child.name == "Person") {
+        ReadPerson(child, settings);
       } else if (child.name != "Metadata") {
         diagnostics_.AddError(
             child.line,
-            fmt::format("unknown element <{}> in <{}>; use Group, Recording or Metadata",
+            fmt::format("unknown element <{}> in <{}>; use Group, Recording, Person or Metadata",
                         child.name, element.name));
       }
     }
+  }
+
+  // Those, too, that stand behind who names them.
+  void CollectPersons(const XmlElement& element) {
+    for (const XmlElement& child : element.children) {
+      const std::string* id = child.name == "Person" ? child.FindAttribute("id") : nullptr;
+      if (id != nullptr) persons_.insert(*id);
+      CollectPersons(child);
+    }
+  }
+
+  void ReadPerson(const XmlElement& element, const BatchEntry& around) {
+    BatchPerson person;
+    person.line = element.line;
+    person.settings = ForCalibration(around);
+    ApplyAttributes(element, {"id", "recordings"}, PersonAttributesOf(&person.settings),
+                    &person.settings);
+    for (const XmlElement& child : element.children) {
+      diagnostics_.AddError(child.line, fmt::format("<Person> has no <{}>", child.name));
+    }
+    const std::string* id = element.FindAttribute("id");
+    const std::string* files = element.FindAttribute("recordings");
+    if (files != nullptr) person.recordings = SplitFiles(*files);
+    if (id == nullptr || person.recordings.empty() || person.recordings.size() > kMostRecordings) {
+      diagnostics_.AddError(
+          element.line,
+          fmt::format("<Person> needs id=\"...\" and recordings=\"...\", of 1 to {} files",
+                      kMostRecordings));
+      return;
+    }
+    for (std::string& file : person.recordings) {
+      file = (recordings_ / file).lexically_normal().string();
+    }
+    person.settings.settings["recordings"] = *files;
+    person.settings.request.input.file = person.recordings.front();
+    person.id = person.settings.id = *id;
+    CheckId(element.line, *id, "person", &person_lines_);
+    manifest_.persons.emplace(*id, std::move(person));
   }
 
   void ReadGroup(const XmlElement& element, BatchEntry settings) {
@@ -98,7 +157,7 @@ class ManifestReader {
     entry.request.input.file = (recordings_ / *file).lexically_normal().string();
     const std::string* id = element.FindAttribute("id");
     entry.id = id != nullptr ? *id : DefaultId(*file);
-    CheckId(element.line, entry.id);
+    CheckId(element.line, entry.id, "recording", &lines_);
     manifest_.entries.push_back(std::move(entry));
   }
 
@@ -109,7 +168,8 @@ class ManifestReader {
     return (is_below ? path.parent_path() / path.stem() : path.stem()).generic_string();
   }
 
-  void CheckId(int line, const std::string& id) {
+  void CheckId(int line, const std::string& id, const char* what,
+               std::unordered_map<std::string, int>* lines) {
     if (!IsPlainId(id)) {
       diagnostics_.AddError(line,
                             fmt::format("id=\"{}\" names the outputs and must be a relative "
@@ -117,11 +177,11 @@ class ManifestReader {
                                         "{} bytes, such as 1723/Cut",
                                         id, kLongestName));
     }
-    const auto [found, is_new] = lines_.emplace(id, line);
+    const auto [found, is_new] = lines->emplace(id, line);
     if (is_new) return;
-    diagnostics_.AddError(line, fmt::format("id=\"{}\" is that of the recording in line {} too; "
+    diagnostics_.AddError(line, fmt::format("id=\"{}\" is that of the {} in line {} too; "
                                             "give one of them another id",
-                                            id, found->second));
+                                            id, what, found->second));
   }
 
   void ReadMetadata(const XmlElement& element, BatchEntry* settings) {
@@ -135,8 +195,15 @@ class ManifestReader {
     settings->metadata[*name] = *value;
   }
 
-  void Apply(const XmlElement& element, std::vector<std::string> own, BatchEntry* settings) {
-    const std::vector<Option> attributes = AttributesOf(settings);
+  void Apply(const XmlElement& element, const std::vector<std::string>& own, BatchEntry* settings) {
+    ChoosePerson(element, settings);
+    ApplyAttributes(element, own, AttributesOf(settings), settings);
+    if (!settings->person.empty()) settings->request.input.person.processor_file.clear();
+    ChooseSubject(element, settings);
+  }
+
+  void ApplyAttributes(const XmlElement& element, std::vector<std::string> own,
+                       const std::vector<Option>& attributes, BatchEntry* settings) {
     for (const Option& attribute : attributes) own.emplace_back(attribute.names.attribute);
     CheckNames(element, own);
     for (const Option& attribute : attributes) {
@@ -149,11 +216,43 @@ class ManifestReader {
       diagnostics_.AddError(element.line, fmt::format("<{}>: {}=\"{}\" is not allowed; {}",
                                                       element.name, name, *value, expected));
     }
-    ChooseSubject(element, &settings->request);
   }
 
-  // Of a subject that is estimated and one that is given the innermost holds.
-  void ChooseSubject(const XmlElement& element, ConversionRequest* request) {
+  // A <Person> has its own size: what is said of it around its recordings is of others. What is no
+  // id names a file (ModelProcessorConfig).
+  void ChoosePerson(const XmlElement& element, BatchEntry* settings) {
+    const std::string* person = element.FindAttribute("person");
+    if (person == nullptr) return;
+    settings->person.clear();
+    if (persons_.count(*person) == 0) {
+      if (IsMissingName(*person, folder_.string())) AddUnknownPerson(element, *person);
+      return;
+    }
+    settings->person = *person;
+    settings->request.input.person.size = {};
+    for (const char* size : {"height_m", "mass_kg", "handLength_mm"}) {
+      settings->settings.erase(size);
+      if (element.FindAttribute(size) == nullptr) continue;
+      diagnostics_.AddError(
+          element.line,
+          fmt::format("<{}>: {} is to be said of <Person id=\"{}\">", element.name, size, *person));
+    }
+  }
+
+  void AddUnknownPerson(const XmlElement& element, const std::string& person) {
+    const std::string closest = ClosestName(person, {persons_.begin(), persons_.end()});
+    diagnostics_.AddError(
+        element.line,
+        fmt::format("<{}>: person=\"{}\" is neither the id of a <Person> nor a file{}",
+                    element.name, person,
+                    closest.empty() ? "" : "; did you mean " + closest + "?"));
+  }
+
+  // Of a person that is estimated, one of the manifest, and one that is given, the innermost holds.
+  void ChooseSubject(const XmlElement& element, BatchEntry* settings) {
+    ConversionRequest* request = &settings->request;
+    const std::string* person = element.FindAttribute("person");
+    const bool is_of_manifest = person != nullptr && persons_.count(*person) > 0;
     const bool is_given = element.FindAttribute("subjectFile") != nullptr;
     const std::string* estimate = element.FindAttribute("selfCalibrate");
     const bool is_estimated = estimate != nullptr && *estimate == "true";
@@ -161,11 +260,15 @@ class ManifestReader {
       diagnostics_.AddError(element.line,
                             "selfCalibrate=\"true\" estimates the person, subjectFile "
                             "says who it is; use one");
-    } else if (is_given) {
-      request->self_calibrate = false;
-    } else if (is_estimated) {
-      request->input.person.subject_file.clear();
+    } else if (is_of_manifest && (is_given || is_estimated)) {
+      diagnostics_.AddError(element.line,
+                            fmt::format("person=\"{}\" says who it is; leave out subjectFile and "
+                                        "selfCalibrate",
+                                        *person));
     }
+    if (is_given || is_of_manifest) request->self_calibrate = false;
+    if (is_estimated || is_of_manifest) request->input.person.subject_file.clear();
+    if (is_given || is_estimated) settings->person.clear();
   }
 
   void CheckNames(const XmlElement& element, const std::vector<std::string>& names) {
@@ -184,7 +287,8 @@ class ManifestReader {
   fs::path recordings_;  // where their files start
   Diagnostics diagnostics_;
   BatchManifest manifest_;
-  std::unordered_map<std::string, int> lines_;
+  std::set<std::string> persons_;  // ids, of all
+  std::unordered_map<std::string, int> lines_, person_lines_;
 };
 
 constexpr const char* kTemplate = R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -198,6 +302,9 @@ constexpr const char* kTemplate = R"(<?xml version="1.0" encoding="UTF-8"?>
      <Group name="">: groups may stand in groups; the name goes into the results.
      <Recording file="" id="">: id names the outputs, FOLDER/motions/ID.xml; the file without its
      ending where it is not there.
+     <Person id="" recordings="">: a person who is calibrated once, by recordings with spaces or ;
+     between them, for the recordings with person="ID"; FOLDER/persons/ID.xml. It has
+     attributes for what the command calibrate has options for.
      <Metadata name="" value=""/> in any of them goes into the results as it is.  -->
 <Batch name="example" config="s2kf_default">
   <Group name="1723" height_m="1.68" mass_kg="62">
@@ -205,6 +312,8 @@ constexpr const char* kTemplate = R"(<?xml version="1.0" encoding="UTF-8"?>
     <Recording file="files_motions_1723/Cut.c3d"/>
     <Recording file="files_motions_1723/Peel.c3d" config="s2kf_offline" frames="100:"/>
   </Group>
+  <Person id="anna" recordings="static.c3d range.c3d" height_m="1.75"/>
+  <Recording file="run.c3d" person="anna"/>
   <Recording file="walk.c3d" id="walking/first" height_m="1.80" selfCalibrate="true"/>
 </Batch>
 )";

@@ -16,9 +16,18 @@ struct BatchEntry {
   std::string group;          ///< names of the groups around it, outermost first, "KIT / 1723"
   int line = 0;               ///< in the manifest
   ConversionRequest request;  ///< without outputs
+  std::string person;         ///< id of the BatchPerson whom it shows; empty: none
   std::map<std::string, std::string> settings;  ///< the attributes that the request is made of
   std::set<std::string> exports;                ///< "csv", "mot", "trc": written too
   std::map<std::string, std::string> metadata;  ///< passed on to the results
+};
+
+/// A `<Person>`: calibrated once by its recordings, for all entries that name it.
+struct BatchPerson {
+  std::string id;  ///< names its files, as that of an entry
+  int line = 0;    ///< in the manifest
+  std::vector<std::string> recordings;
+  BatchEntry settings;  ///< what holds for each of these; the request's file is the first
 };
 
 /// A `<Batch>` file (ManifestSchema). An attribute of <Batch> or <Group> holds for
@@ -26,7 +35,8 @@ struct BatchEntry {
 struct BatchManifest {
   std::string file;  ///< for messages
   std::string name;
-  std::vector<BatchEntry> entries;  ///< in the file's order; ids are unique
+  std::vector<BatchEntry> entries;             ///< in the file's order; ids are unique
+  std::map<std::string, BatchPerson> persons;  ///< by id
 };
 
 /// @throws Error with file and line for all that is not well-formed or not allowed.

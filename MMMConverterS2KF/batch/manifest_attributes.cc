@@ -24,10 +24,11 @@ std::string FileIn(const std::string& folder, const std::string& file) {
 
 // A file beside the manifest, or the name of something shipped.
 std::string FindShipped(const std::string& value, const std::string& folder) {
-  const std::string file = FileIn(folder, value);
-  const bool is_name = value.find('/') == std::string::npos && !value.ends_with(".xml");
-  std::error_code failure;
-  return is_name && !fs::exists(file, failure) ? value : file;
+  return IsMissingName(value, folder) ? value : FileIn(folder, value);
+}
+
+bool IsOfPersons(const Option& option) {
+  return (option.tasks & task::kCalibrate) != 0 && LongName(option) != "person";
 }
 
 bool SetExport(const std::string& format, const std::string& value, BatchEntry* entry) {
@@ -47,6 +48,7 @@ constexpr const char* kSchema = R"(<?xml version="1.0" encoding="UTF-8"?>
 <xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema">
   <xs:group name="Contents">
     <xs:choice>
+      <xs:element name="Person" type="Person"/>
       <xs:element name="Group" type="Group"/>
       <xs:element name="Recording" type="Recording"/>
       <xs:element name="Metadata" type="Metadata"/>
@@ -72,6 +74,11 @@ constexpr const char* kSchema = R"(<?xml version="1.0" encoding="UTF-8"?>
     <xs:attribute name="id" type="Name"/>
     <xs:attributeGroup ref="Settings"/>
   </xs:complexType>
+  <xs:complexType name="Person">
+    <xs:attribute name="id" type="Name" use="required"/>
+    <xs:attribute name="recordings" type="Name" use="required"/>
+    <xs:attributeGroup ref="Calibration"/>
+  </xs:complexType>
   <xs:complexType name="Metadata">
     <xs:attribute name="name" type="Name" use="required"/>
     <xs:attribute name="value" type="xs:string" use="required"/>
@@ -79,7 +86,10 @@ constexpr const char* kSchema = R"(<?xml version="1.0" encoding="UTF-8"?>
   <xs:simpleType name="Name">
     <xs:restriction base="xs:string"><xs:minLength value="1"/></xs:restriction>
   </xs:simpleType>
+  <xs:attributeGroup name="Calibration">
+{}  </xs:attributeGroup>
   <xs:attributeGroup name="Settings">
+    <xs:attributeGroup ref="Calibration"/>
 {}  </xs:attributeGroup>
 </xs:schema>
 )";
@@ -101,6 +111,20 @@ std::string FacetsOf(const Option& option) {
   return facets;
 }
 
+std::string SchemaOf(const Option& option) {
+  const std::string facets = FacetsOf(option);
+  const bool is_number = option.value.kind == OptionKind::kNumber;
+  const char* const base = is_number ? "xs:double" : "xs:string";
+  if (facets.empty()) {
+    return fmt::format("    <xs:attribute name=\"{}\" type=\"{}\"/>\n", option.names.attribute,
+                       base);
+  }
+  return fmt::format(
+      "    <xs:attribute name=\"{}\">\n      <xs:simpleType><xs:restriction base=\"{}\">{}"
+      "</xs:restriction></xs:simpleType>\n    </xs:attribute>\n",
+      option.names.attribute, base, facets);
+}
+
 }  // namespace
 
 std::vector<Option> AttributesOf(BatchEntry* entry) {
@@ -113,6 +137,31 @@ std::vector<Option> AttributesOf(BatchEntry* entry) {
     attributes.push_back(Row({"", exporter.name, ""}, {}, exporter.what, "", task::kConvert, set));
   }
   return attributes;
+}
+
+std::vector<Option> PersonAttributesOf(BatchEntry* entry) {
+  std::vector<Option> attributes = AttributesOf(entry);
+  std::erase_if(attributes, [](const Option& option) { return !IsOfPersons(option); });
+  return attributes;
+}
+
+BatchEntry ForCalibration(const BatchEntry& around) {
+  BatchEntry entry;
+  entry.request.input = around.request.input;
+  entry.request.input.person.subject_file.clear();
+  entry.request.converter = around.request.converter;
+  for (const Option& option : AttributesOf(&entry)) {
+    const auto setting = around.settings.find(option.names.attribute);
+    const bool counts = (option.tasks & task::kCalibrate) != 0;
+    if (counts && setting != around.settings.end()) entry.settings.insert(*setting);
+  }
+  return entry;
+}
+
+bool IsMissingName(const std::string& value, const std::string& folder) {
+  const bool is_name = value.find('/') == std::string::npos && !value.ends_with(".xml");
+  std::error_code failure;
+  return is_name && !fs::exists(FileIn(folder, value), failure);
 }
 
 std::string ReadAttribute(const Option& option, const std::string& value,
@@ -148,22 +197,12 @@ std::string WithManifestAdvice(const Error& error) {
 }
 
 std::string ManifestSchema() {
-  std::string settings;
+  std::string of_persons;
+  std::string others;
   for (const Option& option : DescribedAttributes()) {
-    const std::string facets = FacetsOf(option);
-    const bool is_number = option.value.kind == OptionKind::kNumber;
-    const char* const base = is_number ? "xs:double" : "xs:string";
-    if (facets.empty()) {
-      settings += fmt::format("    <xs:attribute name=\"{}\" type=\"{}\"/>\n",
-                              option.names.attribute, base);
-    } else {
-      settings += fmt::format(
-          "    <xs:attribute name=\"{}\">\n      <xs:simpleType><xs:restriction base=\"{}\">{}"
-          "</xs:restriction></xs:simpleType>\n    </xs:attribute>\n",
-          option.names.attribute, base, facets);
-    }
+    (IsOfPersons(option) ? of_persons : others) += SchemaOf(option);
   }
-  return fmt::format(kSchema, settings);
+  return fmt::format(kSchema, of_persons, others);
 }
 
 }  // namespace mmm_converter

@@ -12,6 +12,15 @@ namespace mmm_converter {
 /// The attributes that <Batch>, <Group> and <Recording> may have: all rows that go to the entry.
 std::vector<Option> AttributesOf(BatchEntry* entry);
 
+/// Those that <Person> may have: what calibrating asks for.
+std::vector<Option> PersonAttributesOf(BatchEntry* entry);
+
+/// What holds for the calibration of a person who stands among recordings.
+BatchEntry ForCalibration(const BatchEntry& around);
+
+/// Whether a value is a name as ids are, and no file beside the manifest has it.
+bool IsMissingName(const std::string& value, const std::string& folder);
+
 /// Sets what an attribute says; folder: where relative files start. Returns what is expected
 /// where it is something else, else nothing.
 std::string ReadAttribute(const Option& option, const std::string& value,

@@ -36,10 +36,8 @@ double TextBytes(const XmlElement& element) {
 void Add(const XmlElement& element, double inherited, Needs* needs) {
   const double text = inherited + TextBytes(element);
   needs->bytes += kBytesOfText * text;
-  if (element.name == "Recording") {
-    ++needs->recordings;
-    needs->bytes += kBytesOfRecording;
-  }
+  if (element.name == "Recording") ++needs->recordings;
+  if (element.name == "Recording" || element.name == "Person") needs->bytes += kBytesOfRecording;
   for (const XmlElement& child : element.children) {
     if (child.name != "Metadata") Add(child, text, needs);
   }

@@ -9,6 +9,7 @@
 #include "MMMConverterS2KF/batch/batch_run.h"
 #include "MMMConverterS2KF/batch/journal.h"
 #include "MMMConverterS2KF/batch/manifest.h"
+#include "MMMConverterS2KF/batch/persons.h"
 #include "MMMConverterS2KF/batch/result_files.h"
 #include "MMMConverterS2KF/batch/scan.h"
 #include "MMMConverterS2KF/commands/commands.h"
@@ -60,8 +61,8 @@ Converts the recordings of a manifest, an XML file ("print-config batch" prints 
 recording that cannot be converted does not stop the others. --resume continues a run that was
 interrupted.
 
-{}FOLDER contains motions/ID.xml, optionally reports/, csv/ and subjects/; journal.jsonl with a line
-for each finished recording; results.jsonl and results.csv; index.html, sorted by quality, the worst
+{}FOLDER contains motions/ID.xml, optionally reports/, csv/ and subjects/; persons/ID.xml of each
+<Person>, who is calibrated once; journal.jsonl with a line for each finished recording; results.jsonl and results.csv; index.html, sorted by quality, the worst
 first. The exit code is 1 if a recording failed, and 128 + N if signal N interrupted the run.
 
 Examples
@@ -223,7 +224,8 @@ int RunBatch(const Arguments& arguments) {
         "batch --scan FOLDER makes one");
   }
   const BatchOptions options = MakeOptions(arguments);
-  const BatchManifest manifest = ReadManifest(*arguments.positional());
+  BatchManifest manifest = ReadManifest(*arguments.positional());
+  UsePersons(options.output, &manifest);
   return arguments.Has("merge") ? Merge(manifest, options) : Convert(manifest, options);
 }
 

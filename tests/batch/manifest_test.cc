@@ -168,9 +168,62 @@ TEST(Manifest, AnIdStaysInsideTheFolder) {
   }
 }
 
+TEST(Manifest, APersonHasWhatCalibratingAsksFor) {
+  const BatchManifest manifest = Parse(R"(
+    <Batch folder="/archive" height_m="1.8" csv="true" plugin="own.so" subjectFile="other.xml">
+      <Recording file="a.c3d" person="anna"/>
+      <Group person="ben"><Person id="anna" recordings="static.c3d  ../range.c3d" unit="cm"/>
+        <Recording file="b.c3d"/><Recording file="c.c3d" selfCalibrate="true"/>
+        <Recording file="d.c3d" subjectFile="cleo.xml"/><Recording file="e.c3d" person="size.xml"/>
+      </Group>
+      <Person id="ben" recordings="my walk.c3d; run.c3d" height_m="1.7"/></Batch>)");
+  ASSERT_EQ(manifest.persons.size(), 2U);
+  const BatchPerson& anna = manifest.persons.at("anna");
+  const BatchPerson& ben = manifest.persons.at("ben");
+  EXPECT_THAT(anna.recordings, ElementsAre("/archive/static.c3d", "/range.c3d"));
+  EXPECT_THAT(ben.recordings, ElementsAre("/archive/my walk.c3d", "/archive/run.c3d"));
+  EXPECT_EQ(anna.settings.request.input.reading.unit, "cm");
+  EXPECT_FALSE(anna.settings.request.input.person.size.height);  // the group is of another
+  EXPECT_EQ(ben.settings.request.input.person.size.height, 1.7);
+  EXPECT_EQ(ben.settings.request.input.person.subject_file, "");
+  EXPECT_EQ(ben.settings.request.converter.plugin_file, "/data/own.so");
+  EXPECT_EQ(ben.settings.settings.count("csv"), 0U);
+  const std::vector<BatchEntry>& entries = manifest.entries;
+  EXPECT_EQ(entries[0].person, "anna");
+  EXPECT_FALSE(entries[0].request.input.person.size.height);
+  EXPECT_EQ(entries[0].request.input.person.subject_file, "");
+  EXPECT_EQ(entries[0].request.input.person.processor_file, "");
+  EXPECT_EQ(entries[1].person, "ben");
+  EXPECT_EQ(entries[2].person, "");
+  EXPECT_TRUE(entries[2].request.self_calibrate);
+  EXPECT_EQ(entries[3].person, "");
+  EXPECT_EQ(entries[3].request.input.person.subject_file, "/data/cleo.xml");
+  EXPECT_EQ(entries[4].person, "");
+  EXPECT_EQ(entries[4].request.input.person.processor_file, "/data/size.xml");
+}
+
+TEST(Manifest, SaysWhatIsWrongWithPersonsAndItsLine) {
+  EXPECT_THAT(
+      ErrorOf("<Batch>\n<Person id='anna' recordings='a.c3d' height='1.7'/>\n"
+              "<Recording file='a.c3d' person='ana'/>\n<Person id='anna' recordings='b.c3d'/>\n"
+              "<Person id='ben' recordings=' ; '/>\n<Person recordings='b.c3d'/>\n"
+              "<Recording file='b.c3d' person='anna' mass_kg='70'/>\n"
+              "<Recording file='c.c3d' person='anna' subjectFile='s.xml'/>\n"
+              "<Person id='../c' recordings='a'><Metadata name='a' value='b'/></Person>\n</Batch>"),
+      AllOf(
+          HasSubstr("/data/night.xml:2: <Person>: unknown attribute height; did you mean height_m"),
+          HasSubstr(":3: <Recording>: person=\"ana\" is neither the id of a <Person> nor a file; "
+                    "did you mean anna?"),
+          HasSubstr(":4: id=\"anna\" is that of the person in line 2 too"),
+          HasSubstr(":5: <Person> needs id"), HasSubstr(":6: <Person> needs id"),
+          HasSubstr(":7: <Recording>: mass_kg is to be said of <Person id=\"anna\">"),
+          HasSubstr(":8: person=\"anna\" says who it is"),
+          HasSubstr(":9: id=\"../c\" names the outputs"), HasSubstr(":9: <Person> has no")));
+}
+
 TEST(Manifest, TheTemplateIsAManifestAndNamesEveryAttribute) {
   const BatchManifest manifest = Parse(ManifestTemplate());
-  EXPECT_EQ(manifest.entries.size(), 3U);
+  EXPECT_EQ(manifest.entries.size(), 4U);
   EXPECT_THAT(ManifestTemplate(), AllOf(HasSubstr("  height_m "), HasSubstr("  csv ")));
 }
 

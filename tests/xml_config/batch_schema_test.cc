@@ -37,6 +37,8 @@ TEST(BatchSchema, AgreesWithTheReader) {
   for (const std::string& xml :
        {recording("height_m='0.5' mass_kg='400' handLength_mm='50' csv='true' unit='in'"),
         recording("up='-X' frames=':' format='1.0' rate_hz='1' ignoreResiduals='false'"),
+        std::string("<Batch><Person id='a' recordings='b' height_m='1.8'/><Recording file='a' "
+                    "person='a'/></Batch>"),
         std::string("<Batch><Metadata name='a' value=''/><Recording file='a'><Metadata name='a' "
                     "value='b'/></Recording></Batch>")}) {
     EXPECT_TRUE(IsValid(xml)) << xml;
@@ -48,6 +50,9 @@ TEST(BatchSchema, AgreesWithTheReader) {
         recording("frames='5'"), recording("format='3'"), recording("rate_hz='0.5'"),
         recording("selfCalibrate='1'"), recording("ignoreResiduals=''"), recording("what='1'"),
         recording("label='1'"), recording("id=''"),
+        std::string("<Batch><Person id='a'/><Recording file='a'/></Batch>"),
+        std::string(
+            "<Batch><Person id='a' recordings='b' csv='true'/><Recording file='a'/></Batch>"),
         std::string("<Batch><Group file='a.c3d'/></Batch>"),
         std::string("<Batch><Recording/></Batch>"),
         std::string("<Batch><Metadata value='1'/><Recording file='a'/></Batch>")}) {
@@ -60,7 +65,7 @@ TEST(BatchSchema, HasEveryAttribute) {
   BatchEntry entry;
   for (const Option& attribute : AttributesOf(&entry)) {
     std::string xml;
-    for (const char* value : {"1", "true", "mm", "x", ":", "2.0", "100"}) {
+    for (const char* value : {"1", "true", "mm", "x", ":", "2.0", "100", "x.xml"}) {
       xml = fmt::format("<Batch {}='{}'><Recording file='a.c3d'/></Batch>",
                         attribute.names.attribute, value);
       if (IsReadable(xml)) break;
