@@ -15,6 +15,7 @@ NaN. Arrays have frames first.
 """
 
 from ._angles import Angles
+from ._batch import Batch, batch
 from ._conversions import Conversion, convert
 from ._mmmconverter import Error, version_text as _version_text
 from ._models import Estimate, Model, Poses, Tracker, read_model
@@ -27,7 +28,7 @@ Error.__module__ = __name__
 __version__ = _version_text().split()[1]
 
 __all__ = [
-    "Angles", "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
-    "LearnedMarkers", "Model", "Motion", "Poses", "Recording", "Retargeted", "Subject", "Tracker", "calibrate",
+    "Angles", "Batch", "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
+    "LearnedMarkers", "Model", "Motion", "Poses", "Recording", "Retargeted", "Subject", "Tracker", "batch", "calibrate",
     "check_dynamics", "compare", "convert", "label", "learn_markers", "read", "read_model", "read_motion", "read_motions",
     "read_subject", "retarget"]
