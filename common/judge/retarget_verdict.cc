@@ -56,6 +56,10 @@ Verdict JudgeRetargeting(const RetargetFigures& figures) {
                 fmt::format("limits are broken: of position {} times, of velocity {} times",
                             figures.position_breaks, figures.velocity_breaks));
   }
+  if (!figures.keeps_limits) {
+    reasons.Add(Level::kCheck,
+                "the robot's limits were met only by holding joints back or lifting the robot");
+  }
   reasons.AddBeyond(
       kSlide, figures.slide,
       fmt::format("feet slide in {:.1f} % of the frames in contact", 100 * figures.slide));

@@ -103,7 +103,8 @@ void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<doub
   const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
   std::complex<double> direction = 0;
   for (int k = stance.begin; k < stance.end; ++k) {
-    direction += std::polar(1.0, YawOf(pass.X_WF[k].linear() * foot.R_FA.col(0)));
+    const Vector3d left = pass.X_WF[k].linear() * foot.R_FA.col(1);
+    direction += std::polar(1.0, std::atan2(-left.x(), left.y()));
   }
   const double yaw = std::arg(direction);
   const Eigen::AngleAxisd R_WY(yaw, Vector3d::UnitZ());

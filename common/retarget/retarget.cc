@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kFewestFrames = 3;
 constexpr int kFirstIterations = 3, kSecondIterations = 5;
+constexpr int kMore = 15;  // until limits are met
 constexpr FootDeviations kSoft = {0.006, 0.03, 0.006, 0.1};
 constexpr FootDeviations kFirm = {0.0001, 0.001, 0.006, 0.1};
 
@@ -45,11 +46,11 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
   FootTracks feet = ScaledFeet(result, robot, body);
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
   std::vector<Posture> start = StartTrajectory(problem, FirstPosture(result, robot, body));
-  FitResult fit = FitTrajectory(problem, std::move(start), kFirstIterations);
+  FitResult fit = FitTrajectory(problem, std::move(start), kFirstIterations, body.feet ? 0 : kMore);
   if (body.feet) {
     feet = AnchoredFeet(result, body, FeetOf(robot.model, body, fit.postures, feet));
     problem = MakeProblem(result, robot, body, feet, kFirm);
-    fit = FitTrajectory(problem, std::move(fit.postures), kSecondIterations);
+    fit = FitTrajectory(problem, std::move(fit.postures), kSecondIterations, kMore);
   }
   result.iterations = fit.iterations;
   result.keeps_limits = fit.has_converged;

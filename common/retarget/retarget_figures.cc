@@ -216,6 +216,7 @@ RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& ro
   RetargetFigures figures;
   figures.rate = retargeted.motion.rate;
   figures.num_frames = retargeted.motion.num_frames();
+  figures.keeps_limits = retargeted.keeps_limits;
   PosesOverTime X_WS;
   for (const Posture& posture : retargeted.motion.postures) {
     X_WS.push_back(SegmentPoses(robot.model, posture));

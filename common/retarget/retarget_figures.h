@@ -33,9 +33,10 @@ struct RetargetFigures {
   double penetration_time = 0;
   double floating = 0;  ///< mean height in contact [m]
   int position_breaks = 0, velocity_breaks = 0;
-  double acceleration = 0;  ///< rms of the joints that move [rad/s^2]
-  double jerk = 0;          ///< [rad/s^3]
-  double largest_jump = 0;  ///< of a joint, from frame to frame [rad]
+  bool keeps_limits = true;  ///< Retargeted::keeps_limits
+  double acceleration = 0;   ///< rms of the joints that move [rad/s^2]
+  double jerk = 0;           ///< [rad/s^3]
+  double largest_jump = 0;   ///< of a joint, from frame to frame [rad]
   double direction = 0, direction95 = 0;
   std::vector<LimbFigures> limbs;
   std::vector<JointFigures> joints;  ///< that are at a limit for a while, the longest first

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/body_posture.h"
@@ -15,8 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTilt = 0.3;        // of directions in which the sole's ends are the lowest points
-constexpr double kSamePlace = 1e-4;  // [m]
+constexpr double kTilts[] = {0.3, 1};  // of directions in which the sole's ends are the lowest
+constexpr int kAround = 8;             // of these
+constexpr double kSamePlace = 1e-4;    // [m]
 
 void AddBall(int segment, const Vector3d& p_S, double radius, std::vector<FloorBall>* balls) {
   const bool is_known = std::any_of(balls->begin(), balls->end(), [&](const FloorBall& ball) {
@@ -35,10 +37,11 @@ void AddBalls(const RobotFoot& foot, const ContactShape& shape, std::vector<Floo
     }
     return;
   }
-  for (const double x : {0.0, -kTilt, kTilt}) {
-    for (const double y : {-kTilt, kTilt}) {
-      const Vector3d p = SupportPoint(shape, foot.R_FA * Vector3d(x, y, -1).normalized());
-      AddBall(foot.segment, p, 0, balls);
+  for (const double tilt : kTilts) {
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / kAround;
+      const Vector3d down(tilt * std::cos(angle), tilt * std::sin(angle), -1);
+      AddBall(foot.segment, SupportPoint(shape, foot.R_FA * down.normalized()), 0, balls);
     }
   }
 }
@@ -103,15 +106,22 @@ double LowestOf(const RobotFoot& foot, const Eigen::Isometry3d& X_WF) {
 Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& place, double yaw,
                                double pitch, double roll) {
   const Eigen::Matrix3d R_WY = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+  // Roll last: the edge of heel or toes keeps its direction on the floor.
   const Eigen::Matrix3d R_YA =
-      (Eigen::AngleAxisd(pitch, Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Vector3d::UnitX()))
+      (Eigen::AngleAxisd(roll, Vector3d::UnitX()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()))
           .toRotationMatrix();
   const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
-  const Vector3d pivot = pitch > 0 ? foot.toe : foot.heel;
-  const Vector3d pivot_W = Vector3d(place.x(), place.y(), 0) + R_WY * R_AF * (pivot - foot.sole);
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() = R_WY * R_YA * R_AF;
-  X.translation() = pivot_W - X.linear() * pivot;
+  Vector3d bears = foot.sole;
+  double lowest = INFINITY;
+  for (const FloorBall& ball : foot.balls) {
+    const double height = X.linear().row(2).dot(ball.p_S) - ball.radius;
+    if (height < lowest - kSamePlace) bears = ball.p_S - ball.radius * foot.R_FA.col(2);
+    lowest = std::min(lowest, height);
+  }
+  const Vector3d bears_W = Vector3d(place.x(), place.y(), 0) + R_WY * R_AF * (bears - foot.sole);
+  X.translation() = bears_W - X.linear() * bears;
   X.translation().z() -= LowestOf(foot, X);
   return X;
 }

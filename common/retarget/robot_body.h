@@ -29,8 +29,8 @@ struct RobotFoot {
 double LowestOf(const RobotFoot& foot, const Eigen::Isometry3d& X_WF);
 
 /// The pose that stands on z = 0, its sole at `place` if it were flat, its toes towards yaw,
-/// turned by pitch [rad] about its toes' edge (> 0: heel up) or its heel's, and by roll about its
-/// length.
+/// turned by pitch [rad] (> 0: heel up) and roll about what then bears: that stays where it is of
+/// the flat foot.
 Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& place, double yaw,
                                double pitch, double roll);
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "common/math/rotation.h"
+#include "common/retarget/trajectory_limits.h"
 #include "common/retarget/trajectory_window.h"
 
 namespace mmm_converter {
@@ -16,10 +17,12 @@ constexpr int kWindow = 600;   // frames that are solved at once
 constexpr int kOverlap = 100;  // of them, that are solved again with those behind them
 constexpr int kFrameIterations = 3;
 constexpr double kFrameDamping = 20;
-constexpr int kAnew = 12;        // postures from which a frame is begun anew
-constexpr int kMostAnew = 4;     // frames that are
-constexpr double kBetter = 0.7;  // of the cost, that makes another posture the better one
-constexpr int kMostMore = 12;    // iterations until limits are met
+constexpr int kAnew = 12;            // postures from which a frame is begun anew
+constexpr int kMostAnew = 4;         // frames that are
+constexpr double kBetter = 0.7;      // of the cost, that makes another posture the better one
+constexpr double kShortStep = 1e-4;  // [rad] after which a fit does not change
+constexpr double kTurned = 1e-3;     // [rad] of a correction that does not count
+constexpr double kLifted = 1e-3;     // [m]
 
 void ClampIntoLimits(const KinematicModel& model, Posture* posture) {
   for (int j = 0; j < model.num_joints(); ++j) {
@@ -135,25 +138,28 @@ std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Pos
 }
 
 FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> start,
-                        int iterations) {
+                        int iterations, int more) {
   FitResult result;
   result.postures = std::move(start);
+  CorrectJoints(problem, &result.postures);
   TrajectoryWindow window(problem);
   for (int begin = 0; begin < problem.num_frames;) {
     const int end = std::min(begin + kWindow, problem.num_frames);
     window.Begin(begin, end);
     int done = 0;
-    for (; done < iterations + kMostMore; ++done) {
+    while (done < iterations + more) {
       const double longest = window.Step(&result.postures);
-      const bool is_within = window.IsWithinLimits(result.postures);
-      if (is_within && (done + 1 >= iterations || longest < 1e-4)) break;
+      ++done;
+      if (done < iterations && longest > kShortStep) continue;
+      if (window.IsWithinLimits(result.postures)) break;
     }
-    result.iterations = std::max(result.iterations, done + 1);
-    if (!window.IsWithinLimits(result.postures)) result.has_converged = false;
+    result.iterations = std::max(result.iterations, done);
     if (end == problem.num_frames) break;
     begin = end - kOverlap;
   }
-  for (Posture& posture : result.postures) ClampIntoLimits(*problem.model, &posture);
+  const double turned = CorrectJoints(problem, &result.postures);
+  const double lifted = LiftAboveFloor(problem, &result.postures);
+  result.has_converged = turned <= kTurned && lifted <= kLifted;
   return result;
 }
 

@@ -48,14 +48,16 @@ std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Pos
 
 struct FitResult {
   std::vector<Posture> postures;
-  int iterations = 0;         ///< the most of a window
-  bool has_converged = true;  ///< all limits are met
+  int iterations = 0;  ///< the most of a window
+  /// The fit met all limits by itself, but for LimitCorrection's tolerances.
+  bool has_converged = true;
 };
 
 /// By Gauss and Newton over windows of frames, each with all of its frames at once (a banded
-/// Cholesky factor), with stiff springs at the limits, a little within them. Linear in the number
-/// of frames.
+/// Cholesky factor), with stiff springs at the limits, a little within them: `iterations`, and
+/// up to `more` until all limits are met. What is left of them is corrected (trajectory_limits.h).
+/// Linear in the number of frames.
 FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> start,
-                        int iterations);
+                        int iterations, int more);
 
 }  // namespace mmm_converter

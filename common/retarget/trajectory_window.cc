@@ -11,17 +11,19 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kFirstStiffness = 1e5;   // of limits of joints [1/rad^2], tenfold each step
-constexpr double kStiffness = 1e8;        // of limits of joints [1/rad^2]
-constexpr double kFloorStiffness = 1e7;   // [1/m^2]
-constexpr double kStepMargin = 0.01;      // of velocity limits: what the stiffness leaves is less
+// Springs at limits of joints and at the floor [1/rad^2, 1/m^2], tenfold each step: at last firm
+// against any aim.
+constexpr double kFirstStiffness = 1e6, kStiffness = 1e10, kFloorStiffness = 1e9;
+constexpr double kStepMargin = 0.002;     // of velocity limits: what the stiffness leaves is less
 constexpr double kPositionMargin = 2e-4;  // [rad]
-constexpr double kFloorMargin = 3e-4;     // [m] that a foot may be below the floor
-constexpr double kFloorTolerance = 3e-4;  // [m]
+constexpr double kFloorMargin = 2e-4;     // [m] that a foot may be below the floor
+constexpr double kFloorReach = 0.01;      // [m] within which what was pressed down stays
+constexpr double kFloorWeight = 1e7;      // [1/m^2] of depth in what a step makes worse
+constexpr double kFloorTolerance = 2e-4;  // [m]
 constexpr double kFirstDamping = 100;     // of steps [1/rad^2]
-constexpr double kLeastDamping = 0.01;
-constexpr double kWorse = 1.02;       // of the cost before, that makes steps shorter
-constexpr double kMuchWorse = 1.5;    // that undoes a step
+constexpr double kLeastDamping = 10;
+constexpr double kWorse = 1.5;        // of the cost of aims as it was or as a step foretells it
+constexpr int kHalvings = 4;          // of a step that makes it worse
 constexpr double kLongestStep = 0.7;  // [rad]
 constexpr double kUnmoved = 1.0;      // weight of what nothing moves
 
@@ -74,17 +76,59 @@ double FrameEquations::AddAims(int frame, const Posture& posture, Eigen::MatrixX
   return cost;
 }
 
-double FrameEquations::AddFloor(Eigen::MatrixXd* H, Eigen::VectorXd* b) {
-  double deepest = 0;
+double FrameEquations::CostOf(int frame, const Posture& posture) {
+  jacobian_.Compute(posture);
+  double cost = 0;
+  for (const Aim& aim : problem_.aims) {
+    const Eigen::Isometry3d& X = jacobian_.X_WS(aim.segment);
+    const Eigen::Vector3d now = aim.is_direction ? X.linear() * aim.local : X * aim.local;
+    cost += aim.weight.col(frame).cwiseProduct(aim.target.col(frame) - now).squaredNorm();
+  }
+  return cost + CostOfFloor();
+}
+
+double FrameEquations::CostOfFloor() const {
+  double cost = 0;
+  for (const FloorBall& ball : problem_.balls) {
+    const double height = (jacobian_.X_WS(ball.segment) * ball.p_S).z() - ball.radius;
+    cost += kFloorWeight * Square(std::min(0.0, height + kFloorMargin));
+  }
+  return cost;
+}
+
+void FrameEquations::AddFloor(double stiffness, std::vector<FloorContact>* contacts,
+                              Eigen::MatrixXd* H, Eigen::VectorXd* b) {
+  contacts->resize(problem_.balls.size());
   for (std::size_t i = 0; i < problem_.balls.size(); ++i) {
     const FloorBall& ball = problem_.balls[i];
+    FloorContact& contact = (*contacts)[i];
     const Eigen::Vector3d p = jacobian_.X_WS(ball.segment) * ball.p_S;
-    const double height = p.z() - ball.radius;
-    deepest = std::max(deepest, -height);
-    if (height > -kFloorMargin) continue;
+    contact.missing = -kFloorMargin - (p.z() - ball.radius);
+    contact.is_on = contact.missing > (contact.force > 0 ? -kFloorReach : 0);
+    if (!contact.is_on) continue;
     jacobian_.OfPoint(ball.segment, p, &rows_);
-    const double residual = -kFloorMargin - height;
-    AddRows(ball.segment, {0, 0, std::sqrt(kFloorStiffness)}, {0, 0, residual}, H, b);
+    contact.row = rows_.row(2);
+    AddRows(ball.segment, {0, 0, std::sqrt(stiffness)}, {0, 0, contact.missing}, H, b);
+  }
+}
+
+void FrameEquations::FindForces(const Eigen::VectorXd& step,
+                                std::vector<FloorContact>* contacts) const {
+  for (std::size_t i = 0; i < problem_.balls.size(); ++i) {
+    FloorContact& contact = (*contacts)[i];
+    contact.force = 0;
+    if (!contact.is_on) continue;
+    const std::vector<int>& columns = jacobian_.columns(problem_.balls[i].segment);
+    contact.force = contact.missing - contact.row.dot(step(columns));
+  }
+}
+
+double FrameEquations::DepthOf(const Posture& posture) {
+  jacobian_.Compute(posture);
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const FloorBall& ball : problem_.balls) {
+    const Eigen::Vector3d p = jacobian_.X_WS(ball.segment) * ball.p_S;
+    deepest = std::max(deepest, ball.radius - p.z());
   }
   return deepest;
 }
@@ -115,12 +159,12 @@ void TrajectoryWindow::Begin(int begin, int end) {
   end_ = end;
   damping_ = kFirstDamping;
   stiffness_ = kFirstStiffness;
-  cost_ = std::numeric_limits<double>::infinity();
   band_.Resize(end - begin, 6 + problem_.model->num_joints());
+  aims_.resize(end - begin);
+  contacts_.assign(end - begin, {});
 }
 
-double TrajectoryWindow::AddSmoothness(const std::vector<Posture>& postures) {
-  double cost = 0;
+void TrajectoryWindow::AddSmoothness(const std::vector<Posture>& postures) {
   const Eigen::VectorXd& w = smoothness_;
   Eigen::VectorXd difference(w.size());
   for (int k = std::max(1, begin_ - 1); k < end_ - 1; ++k) {
@@ -144,9 +188,7 @@ double TrajectoryWindow::AddSmoothness(const std::vector<Posture>& postures) {
     band_.diagonal[i + 1].diagonal() += w;
     band_.right[i + 1] -= pull;
     if (i >= 1) band_.before2[i + 1] += w;
-    cost += difference.dot(pull);
   }
-  return cost;
 }
 
 void TrajectoryWindow::AddLimits(const std::vector<Posture>& postures) {
@@ -174,47 +216,63 @@ void TrajectoryWindow::AddLimits(const std::vector<Posture>& postures) {
   }
 }
 
-double TrajectoryWindow::Assemble(const std::vector<Posture>& postures) {
+void TrajectoryWindow::Assemble(const std::vector<Posture>& postures) {
   band_.SetZero();
-  double cost = 0;
-  deepest_ = 0;
   for (int k = begin_; k < end_; ++k) {
     const int i = k - begin_;
-    cost += equations_.AddAims(k, postures[k], &band_.diagonal[i], &band_.right[i]);
-    const double depth = equations_.AddFloor(&band_.diagonal[i], &band_.right[i]);
-    deepest_ = std::max(deepest_, depth);
+    FrameAims& aims = aims_[i];
+    aims.cost = equations_.AddAims(k, postures[k], &band_.diagonal[i], &band_.right[i]);
+    aims.floor_cost = equations_.CostOfFloor();
+    aims.H = band_.diagonal[i];
+    aims.b = band_.right[i];
+    equations_.AddFloor(std::min(stiffness_, kFloorStiffness), &contacts_[i], &band_.diagonal[i],
+                        &band_.right[i]);
   }
-  return cost + AddSmoothness(postures);
+  AddSmoothness(postures);
+  AddLimits(postures);
+  for (Eigen::MatrixXd& block : band_.diagonal) block.diagonal().array() += damping_;
+}
+
+bool TrajectoryWindow::Try(double part, std::vector<Posture>* postures) {
+  double before = 0, foretold = 0, cost = 0;
+  for (int k = begin_; k < end_; ++k) {
+    const FrameAims& aims = aims_[k - begin_];
+    const Eigen::VectorXd step = part * band_.right[k - begin_];
+    (*postures)[k] = Retract(before_[k - begin_], step);
+    before += aims.cost + aims.floor_cost;
+    foretold +=
+        aims.cost - 2 * aims.b.dot(step) + step.dot(aims.H.selfadjointView<Eigen::Lower>() * step);
+    cost += equations_.CostOf(k, (*postures)[k]);
+  }
+  return cost <= kWorse * std::max(before, foretold);
 }
 
 double TrajectoryWindow::Step(std::vector<Posture>* postures) {
-  double cost = Assemble(*postures);
-  if (cost > kMuchWorse * cost_) {
-    std::copy(before_.begin(), before_.end(), postures->begin() + begin_);
-    cost = Assemble(*postures);
-    damping_ *= 10;
-  }
-  damping_ = cost > kWorse * cost_ ? 4 * damping_ : std::max(0.25 * damping_, kLeastDamping);
-  cost_ = cost;
-  AddLimits(*postures);
+  Assemble(*postures);
   stiffness_ = std::min(10 * stiffness_, kStiffness);
-  for (Eigen::MatrixXd& block : band_.diagonal) block.diagonal().array() += damping_;
-  if (!SolveInPlace(&band_)) return 0;
+  if (!SolveInPlace(&band_)) {
+    damping_ *= 100;
+    return kLongestStep;
+  }
   before_.assign(postures->begin() + begin_, postures->begin() + end_);
   double longest = 0;
-  for (const Eigen::VectorXd& step : band_.right) {
+  for (int i = 0; i < end_ - begin_; ++i) {
+    const Eigen::VectorXd& step = band_.right[i];
+    equations_.FindForces(step, &contacts_[i]);
     longest = std::max(longest, step.tail(step.size() - 3).cwiseAbs().maxCoeff());
   }
-  const double part = std::min(1.0, kLongestStep / longest);
-  for (int k = begin_; k < end_; ++k) {
-    (*postures)[k] = Retract((*postures)[k], part * band_.right[k - begin_]);
+  double part = std::min(1.0, kLongestStep / longest);
+  damping_ = std::max((part < 1 ? 4 : 0.25) * damping_, kLeastDamping);
+  for (int n = 0; !Try(part, postures) && n < kHalvings; ++n) {
+    part *= 0.5;
+    damping_ *= 4;
   }
   return longest;
 }
 
-bool TrajectoryWindow::IsWithinLimits(const std::vector<Posture>& postures) const {
-  if (deepest_ > kFloorMargin + kFloorTolerance) return false;
+bool TrajectoryWindow::IsWithinLimits(const std::vector<Posture>& postures) {
   for (int k = begin_; k < end_; ++k) {
+    if (equations_.DepthOf(postures[k]) > kFloorMargin + kFloorTolerance) return false;
     const Eigen::VectorXd& q = postures[k].joint_angles;
     if (((q - lower_).array() < -kPositionMargin).any()) return false;
     if (((upper_ - q).array() < -kPositionMargin).any()) return false;

@@ -10,6 +10,14 @@
 
 namespace mmm_converter {
 
+/// A ball at the floor in the equations of a step.
+struct FloorContact {
+  bool is_on = false;
+  double missing = 0;      ///< to be where it may be [m]
+  Eigen::RowVectorXd row;  ///< of its height
+  double force = 0;        ///< that presses it down, over the stiffness; < 0: it would leave
+};
+
 /// The part of a problem's normal equations that concerns one frame alone.
 class FrameEquations {
  public:
@@ -20,9 +28,18 @@ class FrameEquations {
   /// Adds the aims of a frame at a posture to H (its lower half) and b, H step = b; returns the
   /// cost, the sum of squares. What nothing moves is held.
   double AddAims(int frame, const Posture& posture, Eigen::MatrixXd* H, Eigen::VectorXd* b);
-  /// Adds what keeps the balls above the floor, at the posture of the last AddAims. Returns the
-  /// largest depth [m].
-  double AddFloor(Eigen::MatrixXd* H, Eigen::VectorXd* b);
+  /// Of aims and of depths below the floor.
+  double CostOf(int frame, const Posture& posture);
+  /// At the posture of the last AddAims.
+  double CostOfFloor() const;
+  /// Adds what keeps the balls above the floor, at the posture of the last AddAims. A ball that
+  /// was pressed down by the step before stays on the floor.
+  void AddFloor(double stiffness, std::vector<FloorContact>* contacts, Eigen::MatrixXd* H,
+                Eigen::VectorXd* b);
+  /// How a step presses the balls that AddFloor has put on the floor.
+  void FindForces(const Eigen::VectorXd& step, std::vector<FloorContact>* contacts) const;
+  /// Of the lowest ball below the floor [m]; < 0: above it.
+  double DepthOf(const Posture& posture);
 
  private:
   void AddRows(int segment, const Eigen::Vector3d& weight, const Eigen::Vector3d& residual,
@@ -42,21 +59,30 @@ class TrajectoryWindow {
   void Begin(int begin, int end);
   /// One step of all of its frames; returns the longest of a joint [rad].
   double Step(std::vector<Posture>* postures);
-  bool IsWithinLimits(const std::vector<Posture>& postures) const;
+  bool IsWithinLimits(const std::vector<Posture>& postures);
 
  private:
-  /// All but limits of joints; returns the cost.
-  double Assemble(const std::vector<Posture>& postures);
-  /// Returns the cost.
-  double AddSmoothness(const std::vector<Posture>& postures);
+  /// What the aims of a frame alone are by the equations of a step.
+  struct FrameAims {
+    double cost = 0, floor_cost = 0;
+    Eigen::MatrixXd H;
+    Eigen::VectorXd b;
+  };
+
+  void Assemble(const std::vector<Posture>& postures);
+  void AddSmoothness(const std::vector<Posture>& postures);
   void AddLimits(const std::vector<Posture>& postures);
+  /// Goes a part of the step. False: the aims' directions and places bend away from what their
+  /// equations foretell. Limits do not count: their equations are exact.
+  bool Try(double part, std::vector<Posture>* postures);
 
   const TrajectoryProblem& problem_;
   FrameEquations equations_;
   int begin_ = 0, end_ = 0;
   BlockBand band_;
-  double damping_ = 0, stiffness_ = 0, cost_ = 0;
-  double deepest_ = 0;           ///< below the floor before the last step [m]
+  std::vector<FrameAims> aims_;
+  std::vector<std::vector<FloorContact>> contacts_;  ///< of each frame
+  double damping_ = 0, stiffness_ = 0;
   std::vector<Posture> before_;  ///< the last step
   Eigen::VectorXd smoothness_;   ///< weight of squared second differences
   Eigen::VectorXd most_step_;    ///< of a joint from frame to frame, less a margin

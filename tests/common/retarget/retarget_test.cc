@@ -131,7 +131,8 @@ struct RealCase {
 
 class RealRobotTest : public ::testing::TestWithParam<RealCase> {};
 
-// Bounds are what was wanted of walking and of other motions, not what is reached.
+// Depth, floating and slide are bounded by what is wanted of any robot; directions by what is
+// wanted of walking and of other motions. H1 has narrow hips and an ankle that does not roll.
 TEST_P(RealRobotTest, FeetStandAndLimitsAreKept) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const RealCase& one = GetParam();
@@ -146,6 +147,9 @@ TEST_P(RealRobotTest, FeetStandAndLimitsAreKept) {
   EXPECT_EQ(figures.velocity_breaks, 0);
   EXPECT_FALSE(figures.is_mirrored);
   EXPECT_FALSE(figures.is_backwards);
+  EXPECT_TRUE(result.keeps_limits);
+  EXPECT_LE(figures.penetration, 0.001);
+  EXPECT_LE(figures.floating, 0.003);
   EXPECT_LE(figures.slide, one.slide);
   EXPECT_LE(figures.direction, one.direction * kDegree);
 }
@@ -158,9 +162,10 @@ constexpr const char* kTurn = "mmm/motions_legacy/test_mmm_subject314_40joints_1
 constexpr const char* kWave = "mmm/motions_mmm2/wave_left01.xml";
 INSTANTIATE_TEST_SUITE_P(
     Robots, RealRobotTest,
-    ::testing::Values(RealCase{kG1, kWalk, 0.02, 3}, RealCase{kG1, kTurn, 0.05, 5},
-                      RealCase{kG1, kWave, 0.02, 3}, RealCase{kT1, kWalk, 0.03, 3},
-                      RealCase{kT1, kWave, 0.02, 3}, RealCase{kH1, kWalk, 0.02, 5}));
+    ::testing::Values(RealCase{kG1, kWalk, 0.01, 2.5}, RealCase{kG1, kTurn, 0.01, 2.5},
+                      RealCase{kG1, kWave, 0.01, 2.5}, RealCase{kT1, kWalk, 0.01, 2.5},
+                      RealCase{kT1, kTurn, 0.01, 2.5}, RealCase{kT1, kWave, 0.01, 2.5},
+                      RealCase{kH1, kWalk, 0.02, 5}));
 
 }  // namespace
 }  // namespace mmm_converter

@@ -10,6 +10,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/block_band.h"
 #include "common/retarget/segment_jacobian.h"
+#include "common/retarget/trajectory_limits.h"
 #include "tests/common/retarget/biped.h"
 
 namespace mmm_converter {
@@ -81,8 +82,8 @@ TEST(SegmentJacobianTest, IsTheDifferenceQuotient) {
   }
 }
 
-/// The left arm swings by 1 rad within 0.1 s, as far as its shoulder allows.
-TrajectoryProblem SwingArm(const Robot& robot, int frames) {
+/// The left arm swings by `most` within 0.1 s; weight: of its direction [1/rad].
+TrajectoryProblem SwingArm(const Robot& robot, int frames, double most = 1, double weight = 20) {
   TrajectoryProblem problem;
   problem.model = &robot.model;
   problem.rate = 100;
@@ -91,7 +92,7 @@ TrajectoryProblem SwingArm(const Robot& robot, int frames) {
   problem.rest = ZeroPosture(robot.model).joint_angles;
   const int arm = robot.model.FindSegment("left_shoulder_yaw");
   Aim aim{arm, true, -Eigen::Vector3d::UnitZ(), Eigen::Matrix3Xd(3, frames),
-          Eigen::Matrix3Xd::Constant(3, frames, 20)};
+          Eigen::Matrix3Xd::Constant(3, frames, weight)};
   Aim root{0, false, Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, frames),
            Eigen::Matrix3Xd::Constant(3, frames, 100)};
   Aim up{0, true, Eigen::Vector3d::UnitZ(), Eigen::Matrix3Xd::Zero(3, frames),
@@ -101,30 +102,95 @@ TrajectoryProblem SwingArm(const Robot& robot, int frames) {
   up.target.row(2).setOnes();
   ahead.target.row(0).setOnes();
   for (int k = 0; k < frames; ++k) {
-    const double angle = std::clamp((k - 0.5 * frames) / 10.0, 0.0, 1.0);
+    const double angle = most * std::clamp((k - 0.5 * frames) / 10.0, 0.0, 1.0);
     aim.target.col(k) = Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
   }
   problem.aims = {aim, root, up, ahead};
   return problem;
 }
 
-TEST(TrajectoryFitTest, VelocityLimitsHoldAndTheAimsAreReachedBesides) {
+double Fastest(const std::vector<Posture>& postures, double rate) {
+  double fastest = 0;
+  for (std::size_t k = 1; k < postures.size(); ++k) {
+    const Eigen::VectorXd step = postures[k].joint_angles - postures[k - 1].joint_angles;
+    fastest = std::max(fastest, step.cwiseAbs().maxCoeff() * rate);
+  }
+  return fastest;
+}
+
+class FastSwingTest : public ::testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(FastSwingTest, VelocityLimitsHoldAndTheAimsAreReachedBesides) {
   const Robot robot = MakeBiped({});
-  TrajectoryProblem problem = SwingArm(robot, 200);
+  const auto [most, weight] = GetParam();
+  TrajectoryProblem problem = SwingArm(robot, 200, most, weight);
   problem.velocity_limits.setConstant(5);
   const FitResult fit =
-      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), 4);
+      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), 5, 15);
   EXPECT_TRUE(fit.has_converged);
   const int shoulder = robot.model.FindJoint("left_shoulder_pitch");
-  double fastest = 0;
-  for (int k = 1; k < 200; ++k) {
-    const Eigen::VectorXd step = fit.postures[k].joint_angles - fit.postures[k - 1].joint_angles;
-    fastest = std::max(fastest, step.cwiseAbs().maxCoeff() * problem.rate);
-  }
-  EXPECT_LE(fastest, 5);
-  EXPECT_GT(fastest, 4.8);  // the limit is used
-  EXPECT_NEAR(fit.postures.back().joint_angles[shoulder], -1, 0.01);
+  EXPECT_LE(Fastest(fit.postures, problem.rate), 5);
+  EXPECT_GT(Fastest(fit.postures, problem.rate), 4.95);  // the limit is used
+  EXPECT_NEAR(fit.postures.back().joint_angles[shoulder], -most, 0.01);
   EXPECT_NEAR(fit.postures.front().joint_angles[shoulder], 0, 0.01);
+}
+INSTANTIATE_TEST_SUITE_P(OneAndTwoRadians, FastSwingTest,
+                         ::testing::Values(std::pair{1.0, 20.0}, std::pair{2.0, 100.0}));
+
+class AimlessTest : public ::testing::TestWithParam<unsigned> {};
+
+// Places and directions at random in each frame, which nothing can follow.
+TEST_P(AimlessTest, NoLimitIsBroken) {
+  const Robot robot = MakeBiped({});
+  TrajectoryProblem problem = SwingArm(robot, 120);
+  problem.velocity_limits.setConstant(3);
+  const int foot = robot.model.FindSegment("left_ankle_roll");
+  problem.balls = {{foot, {0.1, 0.02, -0.08}, 0}, {foot, {-0.1, 0, -0.07}, 0.01}};
+  problem.aims.push_back({foot,
+                          false,
+                          {0, 0, -0.08},
+                          Eigen::Matrix3Xd(3, 120),
+                          Eigen::Matrix3Xd::Constant(3, 120, 1000)});
+  std::mt19937 random(GetParam());
+  std::normal_distribution<double> normal;
+  for (Aim& aim : problem.aims) {
+    for (double& value : aim.target.reshaped()) value = normal(random);
+    if (aim.is_direction) aim.target.colwise().normalize();
+  }
+  const FitResult fit =
+      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), 3, 3);
+  EXPECT_LE(Fastest(fit.postures, problem.rate), 3);
+  for (const Posture& posture : fit.postures) {
+    for (int j = 0; j < robot.model.num_joints(); ++j) {
+      EXPECT_GE(posture.joint_angles[j], robot.model.joint(j).lower);
+      EXPECT_LE(posture.joint_angles[j], robot.model.joint(j).upper);
+    }
+    const Eigen::Isometry3d X = SegmentPoses(robot.model, posture)[foot];
+    for (const FloorBall& ball : problem.balls) {
+      EXPECT_GE((X * ball.p_S).z() - ball.radius, -5.001e-4);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, AimlessTest, ::testing::Range(1U, 11U));
+
+TEST(TrajectoryLimitsTest, AJumpIsSpreadOverTimeAndTheRestStays) {
+  const Robot robot = MakeBiped({});
+  TrajectoryProblem problem;
+  problem.model = &robot.model;
+  problem.rate = 100;
+  problem.velocity_limits = Eigen::VectorXd::Constant(robot.model.num_joints(), 5);
+  std::vector<Posture> postures(41, ZeroPosture(robot.model));
+  const int knee = robot.model.FindJoint("left_knee");
+  for (int k = 20; k <= 40; ++k) postures[k].joint_angles[knee] = 0.45;  // 9 steps of 0.05
+  EXPECT_NEAR(CorrectJoints(problem, &postures), 0.2, 1e-6);
+  for (int k = 0; k <= 40; ++k) {
+    // The mean of ramps of 9 steps that end and that begin at the jump.
+    const double ramp = 0.025 * (std::clamp(k - 11, 0, 9) + std::clamp(k - 19, 0, 9));
+    EXPECT_NEAR(postures[k].joint_angles[knee], ramp, 1e-6) << k;
+  }
+  EXPECT_NEAR(CorrectJoints(problem, &postures), 0, 1e-6);
+  postures[3].joint_angles[knee] = -0.01;  // below its limit
+  EXPECT_NEAR(CorrectJoints(problem, &postures), 0.01, 1e-6);
 }
 
 TEST(TrajectoryFitTest, WindowsJoinAsIfTheyWereOne) {
@@ -138,8 +204,8 @@ TEST(TrajectoryFitTest, WindowsJoinAsIfTheyWereOne) {
     aim.weight = Eigen::Matrix3Xd(aim.weight.middleCols(500, 400));
   }
   const Posture zero = ZeroPosture(robot.model);
-  const FitResult whole = FitTrajectory(all, StartTrajectory(all, zero), 5);
-  const FitResult middle = FitTrajectory(part, StartTrajectory(part, zero), 5);
+  const FitResult whole = FitTrajectory(all, StartTrajectory(all, zero), 5, 15);
+  const FitResult middle = FitTrajectory(part, StartTrajectory(part, zero), 5, 15);
   for (int k = 100; k < 300; ++k) {
     const Eigen::VectorXd difference =
         whole.postures[500 + k].joint_angles - middle.postures[k].joint_angles;
