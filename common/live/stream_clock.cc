@@ -8,7 +8,8 @@
 namespace mmm_converter {
 namespace {
 
-// [s] Frames may come out of order, and late; a clock that goes back further begins anew.
+// [s] Frames may come out of order, and late; a clock that goes back further, or after a longer
+// silence, begins anew.
 constexpr double kOutOfOrder = 0.5;
 // [s] The time that a new connection's clock may differ from its frames' arrival.
 constexpr double kSameClock = 1;
@@ -23,7 +24,8 @@ double StreamClock::Take(double source_time, SteadyTime received, double rate, b
     const double passed = std::chrono::duration<double>(received - received_).count();
     const double by_source = time - last_;
     const bool is_another = is_new && std::abs(by_source - passed) > kSameClock;
-    if (by_source < -kOutOfOrder || is_another) {
+    const bool goes_back = by_source <= 0 && std::max(-by_source, passed) > kOutOfOrder;
+    if (goes_back || is_another) {
       outage_ = std::max(passed, rate > 0 ? 1 / rate : kUsualStep);
       time = last_ + outage_;
       shift_ = time - source_time;

@@ -12,6 +12,13 @@
 #include "common/support/text.h"
 
 namespace mmm_converter {
+namespace {
+
+// [s] Between a loop's last frame and the next one's first: nobody moves from one to the other, so
+// that it is a gap in the motion. Shorter than what StreamClock takes for another clock.
+constexpr double kLoopGap = 0.5;
+
+}  // namespace
 
 ReplaySource::ReplaySource(MarkerSequence recording, long first_number, PlaybackOptions options,
                            const std::string& name)
@@ -42,7 +49,9 @@ StreamEvent ReplaySource::Next(std::chrono::milliseconds wait, StreamFrame* fram
   if (!number) return playback_.is_running() ? StreamEvent::kNothing : StreamEvent::kEnd;
   const int k = playback_.FrameOf(*number);
   frame->number = first_number_ + *number;
-  frame->time = recording_.time(k) + static_cast<double>(*number - k) / recording_.rate();
+  const std::int64_t loops = *number / recording_.num_frames();
+  frame->time = recording_.time(k) + static_cast<double>(*number - k) / recording_.rate() +
+                kLoopGap * static_cast<double>(loops);
   frame->received = std::chrono::steady_clock::now();
   frame->points = recording_.frame(k);
   frame->unnamed = 0;

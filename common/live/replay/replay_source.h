@@ -10,7 +10,7 @@
 namespace mmm_converter {
 
 /// A recording as a stream: frame k has the number first_number + k and the recording's time. A
-/// loop begins with a layout, and its frames count on.
+/// loop begins with a layout, half a second later, and its frames count on.
 class ReplaySource : public FrameSource {
  public:
   /// name: for messages.

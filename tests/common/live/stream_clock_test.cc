@@ -36,6 +36,27 @@ TEST(StreamClock, KeepsAnOutageThatTheSourcesClockDoesNot) {
   }
 }
 
+// A source that was at its first frames when it halted is back there soon.
+TEST(StreamClock, KeepsTheOutageOfASourceThatHadJustBegun) {
+  for (const double before : {0.3, 0.0}) {
+    StreamClock clock;
+    clock.Take(before, At(0), kRate, true);
+    EXPECT_NEAR(clock.Take(0, At(4), kRate, false), before + 4, 1e-9);
+    EXPECT_NEAR(clock.outage(), 4, 1e-9);
+    EXPECT_NEAR(clock.Take(0.01, At(4.01), kRate, false), before + 4.01, 1e-9);
+    EXPECT_EQ(clock.outage(), 0);
+  }
+}
+
+// A recording that is paused goes on in its own time; so do frames that a network held back.
+TEST(StreamClock, AClockThatGoesOnAfterASilenceStaysTheSources) {
+  StreamClock clock;
+  clock.Take(20, At(0), kRate, true);
+  EXPECT_EQ(clock.Take(20.01, At(4), kRate, false), 20.01);
+  EXPECT_EQ(clock.Take(20.02, At(4), kRate, false), 20.02);
+  EXPECT_EQ(clock.outage(), 0);
+}
+
 // Of a file that is played as fast as possible, again and again.
 TEST(StreamClock, GoesOnInALoop) {
   StreamClock clock;

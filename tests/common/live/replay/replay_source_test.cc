@@ -41,15 +41,17 @@ TEST(ReplaySource, GivesEveryFrameWithItsNumberAndTime) {
   EXPECT_EQ(source.counts().frames, 3);
 }
 
-TEST(ReplaySource, ALoopStartsWithALayoutAndCountsOn) {
+TEST(ReplaySource, ALoopStartsWithALayoutAfterAGapAndCountsOn) {
   ReplaySource source(ThreeFrames(), 1, {.speed = 0, .loop = true}, "walk.c3d");
   StreamFrame frame;
   for (int k = 0; k < 4; ++k) source.Next(milliseconds(0), &frame);
   ASSERT_EQ(source.Next(milliseconds(0), &frame), StreamEvent::kLayout);
   ASSERT_EQ(source.Next(milliseconds(0), &frame), StreamEvent::kFrame);
   EXPECT_EQ(frame.number, 4);
-  EXPECT_DOUBLE_EQ(frame.time, 2.53);
+  EXPECT_DOUBLE_EQ(frame.time, 2.53 + 0.5);
   EXPECT_EQ(frame.points(0, 0), 0);
+  source.Next(milliseconds(0), &frame);
+  EXPECT_DOUBLE_EQ(frame.time, 2.54 + 0.5);
 }
 
 TEST(ReplaySource, FramesAreDueInTheRecordingsTimeToTheMicrosecond) {
