@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/describe.h"
@@ -11,7 +12,9 @@
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm/processor_config.h"
 #include "common/io/xml/xml_document.h"
+#include "common/support/diagnostics.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -40,6 +43,32 @@ std::string Shown(const std::optional<double>& value, const char* unit) {
 
 Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+// As its converter complains of elements, where that is here.
+void CheckElements(const ConverterConfig& config, Warnings* warnings) {
+  if (config.type.empty()) return;
+  std::string known_by;
+  try {
+    known_by = LoadPluginByName(config.type, warnings).factory().config_template();
+  } catch (const Error& error) {
+    warnings->Add(fmt::format("{}: its elements are not checked: {}", config.file, error.what()));
+    return;
+  }
+  std::vector<std::string> known;
+  for (const XmlElement& one : ParseConverterConfig(known_by, config.type).plugin_elements) {
+    known.push_back(one.name);
+  }
+  Diagnostics diagnostics(config.file);
+  for (const XmlElement& one : config.plugin_elements) {
+    if (std::count(known.begin(), known.end(), one.name) > 0) continue;
+    const std::string closest = ClosestName(one.name, known);
+    diagnostics.AddError(
+        one.line,
+        fmt::format("unknown element <{}>{}; use {}", one.name,
+                    closest.empty() ? "" : " (did you mean " + closest + "?)", JoinNames(known)));
+  }
+  diagnostics.ThrowIfErrors();
+}
+
 }  // namespace
 
 Description DescribePlugin(const FileStart& file, const ReadRecordingOptions&) {
@@ -58,6 +87,7 @@ Description DescribePlugin(const FileStart& file, const ReadRecordingOptions&) {
 Description DescribeConfiguration(const FileStart& file, const ReadRecordingOptions&) {
   Warnings warnings;
   const ConverterConfig config = ReadConverterConfig(file.path, &warnings);
+  CheckElements(config, &warnings);
   std::vector<std::string> elements;
   for (const XmlElement& element : config.plugin_elements) elements.push_back(element.name);
   const std::string mapping = config.marker_pairs.empty()

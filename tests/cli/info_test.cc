@@ -87,6 +87,16 @@ TEST(Info, ConfigurationAndPlugin) {
   EXPECT_EQ(config["kind"], "configuration");
   EXPECT_EQ(config["converter"], "S2KFConverter");
   EXPECT_THAT(config["elements"], ElementsAre("Filter", "MotionModel", "Noise", "Start"));
+  // What convert would say of it is said.
+  const std::string file = testing::TestFolder() + "/config.xml";
+  testing::WriteText(file, "<ConverterConfig type='S2KFConverter'>\n<Nose/></ConverterConfig>");
+  const auto convert = RunProgram({"convert", testing::Handstand(), "-c", file});
+  const auto info = RunProgram({"info", file});
+  EXPECT_EQ(info.exit_code, 1);
+  EXPECT_THAT(info.err, HasSubstr("config.xml:2: unknown element <Nose> (did you mean Noise?)"));
+  EXPECT_EQ(info.err, convert.err);
+  testing::WriteText(file, "<ConverterConfig type='NoConverter'><Nose/></ConverterConfig>");
+  EXPECT_THAT(RunProgram({"info", file}).err, HasSubstr("its elements are not checked"));
   const auto plugin = InfoOf(testing::TestPlugin("test_converter"));
   EXPECT_EQ(plugin["kind"], "plugin");
   EXPECT_EQ(plugin["name"], "TestConverter");

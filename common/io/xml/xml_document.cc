@@ -17,7 +17,14 @@ namespace {
 std::string Explain(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "an element is closed by another name, or never closed";
+    case tinyxml2::XML_ERROR_PARSING:  // at its end
+      return "an element is closed by another name, or never closed: its end tag is missing";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "a tag has no >, or a name that is none";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "there is text outside of the elements, or the end tag behind a text is missing";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment has no -->";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute is not of the form name=\"value\"";
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:

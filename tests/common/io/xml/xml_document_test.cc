@@ -43,6 +43,13 @@ TEST(XmlDocument, SaysFileAndLineOfWhatIsWrong) {
   EXPECT_THAT(XmlMessageOf("<a>\n<b>\n</a>"),
               HasSubstr("walk.xml:2: not well-formed XML: an element"));
   EXPECT_THAT(XmlMessageOf("<a>\n<b c=1/>\n</a>"), HasSubstr("walk.xml:2: not well-formed XML"));
+  for (const char* text : {"<a>\n<b></b>", "<a>\n<b/>", "<a>", "<a>text"}) {
+    EXPECT_THAT(XmlMessageOf(text), HasSubstr("end tag")) << text;
+  }
+  for (const char* text :
+       {"<a></a", "<a><b", "<a><!-- b", "<a b='1", "<a>b", "text", "</a>", "<1/>"}) {
+    EXPECT_THAT(XmlMessageOf(text), ::testing::Not(HasSubstr("XML_"))) << text;
+  }
   EXPECT_THAT(XmlMessageOf("<a/>\n<b/>"),
               HasSubstr("walk.xml:2: not well-formed XML: <b> is a second"));
   EXPECT_THAT(XmlMessageOf("   "), HasSubstr("there is no element"));
