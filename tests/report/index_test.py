@@ -139,6 +139,17 @@ class ReportPage(PageCase):
         self.click("#failures li:last-child button")
         self.assertEqual({results[i]["state"] for i in self.chosen()}, {"missing"})
 
+    def test_the_worst_of_each_level_are_first(self):
+        self.open("levels.html")
+        told = self.run_script("""
+            return mmmReport.chosen.map((entry) => ["state", "verdict.level", "distance_mm.mean"].map(
+              (name) => mmmReport.entries.value(name, entry)))""")
+        worst = ["failed", "check", "good"]
+        ranks = [(worst.index(level), -mean) for state, level, mean in told if state == "converted"]
+        self.assertEqual(ranks, sorted(ranks))
+        self.assertEqual({rank for rank, _ in ranks}, {0, 1, 2})
+        self.assertNotEqual(told[0][0], "converted")
+
     def test_index_of_odd_batches(self):
         self.check_fits(("hostile.html", "empty.html", "failed.html", "one.html"))
         self.assertEqual(self.texts("#totals dd")[:3], ["1", "0", "0"])

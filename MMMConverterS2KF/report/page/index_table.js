@@ -87,14 +87,18 @@ class EntryTable {
     this.show(this.chosen);
   }
 
-  // Those without a value stand last; equal ones as in the results.
+  // Those without a value stand last; those of a level by their distance, the largest first; else
+  // equal ones as in the results.
   show(chosen) {
     const {converted} = this.entries;
     const {ranks} = this.sortedBy;
     const sign = this.isDescending ? -1 : 1;
+    const distances = this.entries.numbers("distance_mm.mean");
+    const distance = (i) => this.sortedBy.levels && Number.isFinite(distances[i]) ? distances[i] : -Infinity;
+    const worse = (a, b) => distance(a) === distance(b) ? 0 : distance(b) - distance(a);
     const place = (i) => (converted[i] ? 2 : 0) + (Number.isFinite(ranks[i]) ? 0 : 1);
     this.chosen = chosen.sort((a, b) =>
-      place(a) - place(b) || sign * (ranks[a] - ranks[b]) || a - b);
+      place(a) - place(b) || sign * (ranks[a] - ranks[b]) || worse(a, b) || a - b);
     this.body.replaceChildren();
     this.numShown = 0;
     this.showMore();
