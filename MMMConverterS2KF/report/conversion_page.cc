@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "MMMConverterS2KF/report/ground_json.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "common/support/units.h"
 
@@ -45,12 +47,16 @@ Comparison MakeComparison(const ConversionReport& report) {
 
 std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports) {
   std::vector<Comparison> comparisons;
+  std::vector<Json> grounds;
   std::vector<ReportSection> sections;
   comparisons.reserve(reports.size());
+  grounds.reserve(reports.size());
   sections.reserve(reports.size());
   for (const ConversionReport* report : reports) {
     comparisons.push_back(MakeComparison(*report));
-    sections.push_back({report->plan.motion_name, DescribeForPage(*report), &comparisons.back()});
+    grounds.push_back(GroundJson(*report));
+    sections.push_back(
+        {report->plan.motion_name, DescribeForPage(*report), &comparisons.back(), &grounds.back()});
   }
   const std::string title =
       reports.size() == 1

@@ -17,7 +17,11 @@ std::string FormatData(const std::vector<ReportSection>& sections) {
     blocks +=
         DataBlock("heading", FormatJsonLine({{"title", section.title}, {"text", section.text}}));
     blocks += DataBlock("figures", FormatJson(ToJson(*section.comparison)));
-    blocks += DataBlock("tracks", FormatJsonLine(TracksJson(*section.comparison)));
+    Json tracks = TracksJson(*section.comparison);
+    if (section.ground != nullptr && !section.ground->is_null()) {
+      tracks["trials"].front()["ground"] = *section.ground;
+    }
+    blocks += DataBlock("tracks", FormatJsonLine(tracks));
   }
   return blocks;
 }

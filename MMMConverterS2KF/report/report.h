@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/report/json.h"
 #include "common/pipeline/comparison/comparison.h"
 
 namespace mmm_converter {
@@ -13,6 +14,7 @@ struct ReportSection {
   std::string title;
   std::string text;  ///< paragraphs, separated by empty lines; may be empty
   const Comparison* comparison = nullptr;
+  const Json* ground = nullptr;  ///< GroundJson of its one trial; null, or of null: not drawn
 };
 
 /// One self-contained HTML page: tables, a player, plots. A single conversion is a comparison of

@@ -2,6 +2,7 @@
 #include "common/angles/anatomical_angles.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -309,6 +311,39 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
     }
   }
   return angles;
+}
+
+Eigen::MatrixXd AnatomicalMoments(const KinematicModel& model, const PoseTrajectory& motion,
+                                  const Eigen::MatrixXd& joint_forces) {
+  const std::vector<JointFrames> joints = FindJointFrames(model);
+  const std::vector<Row> rows = RowsOf(model, joints);
+  Eigen::MatrixXd moments =
+      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(rows.size()), motion.num_frames(), kNaN);
+  std::vector<int> columns;
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    const Posture posture = ModelPosture(model, motion, k);
+    const auto X_WS = SegmentPoses(model, posture);
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+      const JointFrames& joint = joints[rows[begin].joint];
+      while (end < rows.size() && rows[end].joint == rows[begin].joint) ++end;
+      if (joint.proximal < 0) continue;
+      const auto D = DerivativesOf(model, joint, posture, X_WS, &columns);
+      const auto count = static_cast<Eigen::Index>(end - begin);
+      Eigen::MatrixXd transposed(D.cols(), count);  // d angles / d joints
+      Eigen::VectorXd forces(D.cols());
+      for (Eigen::Index i = 0; i < D.cols(); ++i) {
+        forces[i] = joint_forces(columns[static_cast<std::size_t>(i)] - 6, k);
+        for (Eigen::Index r = 0; r < count; ++r) {
+          const Row& row = rows[begin + static_cast<std::size_t>(r)];
+          transposed(i, r) = row.sign * D(row.sense.turn, i);
+        }
+      }
+      if (!forces.allFinite()) continue;
+      moments.block(static_cast<Eigen::Index>(begin), k, count, 1) =
+          transposed.colPivHouseholderQr().solve(forces);
+    }
+  }
+  return moments;
 }
 
 }  // namespace mmm_converter

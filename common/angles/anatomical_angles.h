@@ -50,4 +50,10 @@ bool HasAnatomy(const KinematicModel& model);
 /// independent of each other. @throws Error where HasAnatomy is false.
 AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model, const PoseTrajectory& motion);
 
+/// Moments about the axes of these angles, a row for each: times the angles' rates they are the
+/// power of the joints. joint_forces: generalised forces, the model's joints x the motion's frames
+/// [N m]; NaN: not known, nor are moments that need it, nor those of the pelvis.
+Eigen::MatrixXd AnatomicalMoments(const KinematicModel& model, const PoseTrajectory& motion,
+                                  const Eigen::MatrixXd& joint_forces);
+
 }  // namespace mmm_converter

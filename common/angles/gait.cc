@@ -93,6 +93,8 @@ void AddStrides(Side side, const FootMotion& feet, const Contacts& contacts, con
   }
 }
 
+double ShareAt(int sample) { return static_cast<double>(sample) / (GaitCycle::kSamples - 1); }
+
 /// An angle over a stride.
 class AngleOfStride {
  public:
@@ -126,6 +128,16 @@ class AngleOfStride {
   double zero_ = 0;
 };
 
+constexpr double kKnownShare = 0.5;  // swing alone, before the next unmeasured stance, is less
+
+bool Counts(const AngleOfStride& stride) {
+  int known = 0;
+  for (int i = 0; i < GaitCycle::kSamples; ++i) {
+    if (std::isfinite(stride.Value(ShareAt(i)))) ++known;
+  }
+  return known >= kKnownShare * GaitCycle::kSamples;
+}
+
 GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,
                   const std::vector<Stride>& strides) {
   GaitCycle cycle;
@@ -133,23 +145,27 @@ GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,
   cycle.side = side;
   std::vector<AngleOfStride> own;
   for (const Stride& one : strides) {
-    if (one.side == side) own.emplace_back(angles, row, one);
+    if (one.side != side) continue;
+    const AngleOfStride angle(angles, row, one);
+    if (Counts(angle)) own.push_back(angle);
   }
   cycle.strides = static_cast<int>(own.size());
-  const auto count = static_cast<double>(own.size());
   for (int i = 0; i < GaitCycle::kSamples; ++i) {
-    const double share = static_cast<double>(i) / (GaitCycle::kSamples - 1);
-    double sum = 0, squares = 0, uncertain = 0;
+    const double share = ShareAt(i);
+    double sum = 0, squares = 0, uncertain = 0, count = 0;
     for (const AngleOfStride& one : own) {
+      if (!std::isfinite(one.Value(share))) continue;
       sum += one.Value(share);
       uncertain += one.Deviation(share) * one.Deviation(share);
+      ++count;
     }
     const double mean = sum / count;
     for (const AngleOfStride& one : own) {
+      if (!std::isfinite(one.Value(share))) continue;
       squares += (one.Value(share) - mean) * (one.Value(share) - mean);
     }
     cycle.mean[i] = mean;
-    cycle.deviation[i] = own.size() > 1 ? std::sqrt(squares / (count - 1)) : kNaN;
+    cycle.deviation[i] = count > 1 ? std::sqrt(squares / (count - 1)) : kNaN;
     cycle.uncertainty[i] = std::sqrt(uncertain / count);
   }
   return cycle;
@@ -157,19 +173,24 @@ GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,
 
 }  // namespace
 
+std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<Stride>& strides) {
+  std::vector<GaitCycle> cycles;
+  for (const Side side : kSides) {
+    for (std::size_t i = 0; i < rows.angles.size(); ++i) {
+      const std::string_view of = rows.angles[i].side;
+      if (!of.empty() && of != Name(side)) continue;
+      GaitCycle cycle = CycleOf(rows, static_cast<Eigen::Index>(i), side, strides);
+      if (cycle.strides > 0) cycles.push_back(cycle);
+    }
+  }
+  return cycles;
+}
+
 Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles,
                  const KnownLegs& known) {
   Gait gait;
   for (const Side side : kSides) AddStrides(side, feet, contacts, known, &gait);
-  for (const Side side : kSides) {
-    const bool has_stride = std::any_of(gait.strides.begin(), gait.strides.end(),
-                                        [&](const Stride& one) { return one.side == side; });
-    for (std::size_t i = 0; has_stride && i < angles.angles.size(); ++i) {
-      const std::string_view of = angles.angles[i].side;
-      if (!of.empty() && of != Name(side)) continue;
-      gait.cycles.push_back(CycleOf(angles, static_cast<Eigen::Index>(i), side, gait.strides));
-    }
-  }
+  gait.cycles = CyclesOf(angles, gait.strides);
   return gait;
 }
 

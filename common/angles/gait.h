@@ -41,6 +41,10 @@ struct GaitCycle {
   std::array<double, kSamples> uncertainty = {};
 };
 
+/// Each row of `rows` over the strides of its side, or of both feet where it has none. A stride
+/// counts where the row is known in half of it; the mean is of those that are known there.
+std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<Stride>& strides);
+
 /// By side: the frames in which enough of the leg is seen.
 using KnownLegs = std::array<std::vector<bool>, 2>;
 

@@ -77,6 +77,53 @@ TEST_F(RealForceExports, OpenSimsForcesOfAWalk) {
   EXPECT_THAT(xml, HasSubstr("<datafile>grf.mot</datafile>"));
 }
 
+/// The data of a page that are drawn.
+nlohmann::json TrackOf(const std::string& page) {
+  const std::string start = "<script type=\"application/json\" class=\"tracks\">";
+  const std::size_t begin = page.find(start) + start.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+const nlohmann::json* CycleOf(const nlohmann::json& gait, const std::string& side,
+                              const std::string& what) {
+  for (const auto& one : gait["cycles"]) {
+    if (one["side"] == side && one["what"] == what) return &one;
+  }
+  return nullptr;
+}
+
+double MostOf(const nlohmann::json& cycle) {
+  double most = 0;
+  for (const auto& one : cycle["mean"]) {
+    if (one.is_number()) most = std::max(most, one.get<double>());
+  }
+  return most;
+}
+
+/// The left foot is on plate 2 and the right one on plate 1, each once.
+TEST_F(RealForceExports, PageHasPlatesForcesAndMoments) {
+  const auto run = RunProgram({"convert", testing::SharedData("forces/walking2.c3d"), "--mass",
+                               "66", "-o", Out("o.xml"), "--report", Out("o.html")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto ground = TrackOf(ReadText(Out("o.html")))["trials"][0]["ground"];
+  EXPECT_NEAR(ground["body_weight_n"].get<double>(), 66 * 9.80665, 1);
+  ASSERT_EQ(ground["plates"].size(), 2);
+  EXPECT_EQ(ground["plates"][0]["loads"][0]["foot"], "right");
+  EXPECT_EQ(ground["plates"][1]["loads"][0]["foot"], "left");
+  EXPECT_EQ(ground["plates"][0]["corners"].size(), 12);
+  for (const char* side : {"left", "right"}) {
+    const auto* force = CycleOf(ground["gait"], side, "vertical force");
+    ASSERT_NE(force, nullptr) << side;
+    EXPECT_EQ((*force)["strides"], 1);
+    EXPECT_NEAR(MostOf(*force), std::string(side) == "left" ? 1.15 : 1.45, 0.05);
+  }
+  // While the right foot is on a plate, the left one comes to the floor.
+  const auto* push = CycleOf(ground["gait"], "left", "plantar flexion moment");
+  ASSERT_NE(push, nullptr);
+  EXPECT_NEAR(MostOf(*push), 1.5, 0.15);  // [N m/kg]
+  EXPECT_EQ(CycleOf(ground["gait"], "right", "plantar flexion moment"), nullptr);
+}
+
 /// Of a walk whose steps on plates 2 and 1 begin at 2.25 s and end at 3.25 s; before and after them
 /// the feet stand on the floor.
 TEST_F(RealForceExports, MomentsWhereThePlatesBearTheFeet) {

@@ -71,6 +71,17 @@ class Browser:
         self.wait("return Boolean(window.mmmReport)")
         self.settle()
 
+    def saved(self, click):
+        """The file that a click saves: its name and its bytes."""
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder.name))
+        self.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
+        click()
+        def whole(_):
+            files = [file for file in folder.iterdir() if file.suffix != ".crdownload"]
+            return files[0] if files and files[0].stat().st_size > 0 else None
+        file = WebDriverWait(self.driver, SECONDS, 0.05).until(whole)
+        return file.name, file.read_bytes()
+
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
 

@@ -11,6 +11,7 @@
 #include "common/support/atomic_file.h"
 #include "tests/report/comparison_cases.h"
 #include "tests/report/dynamics_cases.h"
+#include "tests/report/ground_cases.h"
 #include "tests/report/label_cases.h"
 
 namespace {
@@ -22,6 +23,9 @@ void MakeReports(const std::string& folder) {
   const std::string text = mmm_converter::testing::kHostileText;
   WriteFileAtomically(folder + "/hostile.html",
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
+  const Json ground = mmm_converter::testing::GroundCase(hostile.trials[0].markers.num_frames());
+  WriteFileAtomically(folder + "/ground.html",
+                      FormatReport("Ground", {{"Ground", "", &hostile, &ground}}));
   WriteFileAtomically(folder + "/hostile_dynamics.html",
                       mmm_converter::testing::HostileDynamicsPage());
   const LabelReport labels = mmm_converter::testing::LabelCase("RKNE");

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """page_test.py FOLDER [unittest arguments]: the reports of make_reports.py in a real browser."""
 
+import base64
 import json
+from xml.etree import ElementTree
 
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -72,6 +74,21 @@ class Scene(ReportCase):
         self.open("convert.html")
         self.assertFalse(self.find("#hidden-legend").is_displayed())
 
+    def test_no_head_is_cut_off_at_first(self):
+        for name in ("compare.html", "convert.html", "finished.html"):
+            self.open(name)
+            low, high = self.run_script("return mmmReport.reach")
+            self.assertGreater(low, -1, name)
+            self.assertLess(high, 1, name)
+            self.assertGreater(high - low, 1.2, name)
+
+    def test_picture_is_saved(self):
+        self.open("convert.html")
+        name, data = self.browser.saved(lambda: self.click("#save-picture"))
+        self.assertRegex(name, r"handstand.*\.png$")
+        shown = self.browser.driver.execute_async_script(COUNT_SHOWN, base64.b64encode(data).decode(), None)
+        self.assertGreater(shown, 500)
+
     def test_stills_jump(self):
         self.open("compare.html")
         stills = self.browser.driver.find_elements(By.CSS_SELECTOR, ".still")
@@ -134,6 +151,26 @@ class ReportPage(ReportCase):
               parseFloat(row.querySelector("td").textContent))""")
         self.assertEqual(moved, [30, 20, 10, 10])
         self.assertGreater(self.pixels("#person-markers .bar"), 1)
+
+    def test_plots_are_saved(self):
+        self.open("compare.html")
+        name, data = self.browser.saved(lambda: self.click("#distance-plot .save button:first-child"))
+        self.assertRegex(name, "Marker_distance_over_time.*csv$")
+        rows = [line.split(",") for line in data.decode().splitlines()]
+        self.assertEqual(len(rows), 676)
+        self.assertEqual(rows[0][0], "time [s]")
+        shown = self.run_script("return mmmReport.figures[0].rows[0].distance_mm.mean")
+        mean = sum(float(row[1]) for row in rows[1:]) / 675
+        self.assertAlmostEqual(mean, shown, delta=0.1 * shown)
+        name, data = self.browser.saved(lambda: self.click("#joint-plot .save button:last-child"))
+        picture = ElementTree.fromstring(data)
+        svg = "{http://www.w3.org/2000/svg}"
+        self.assertGreaterEqual(len(picture.findall(f".//{svg}polyline")), 3)
+        self.assertGreater(len(picture.findall(f".//{svg}text")), 8)
+        name, data = self.browser.saved(lambda: self.click("#heat-save button:first-child"))
+        self.assertEqual(len(data.decode().splitlines()), 676)
+        name, data = self.browser.saved(lambda: self.click("#heat-save button:last-child"))
+        self.assertTrue(data.startswith(b"\x89PNG"))
 
     def test_scrubbing(self):
         self.open("compare.html")

@@ -17,7 +17,8 @@ class Chart {
     this.plot = element("div", {class: "plot-area", role: "img", "aria-label": label});
     this.cursor = element("div", {class: "cursor"});
     this.readout = element("p", {class: "readout", "aria-hidden": "true"});
-    replaceContent(host, this.plot, this.readout);
+    this.label = label;
+    replaceContent(host, this.plot, this.readout, makePlotButtons(() => this.plotted()));
     this.graph = new Dygraph(this.plot, this.rows(), this.options(logarithmic, range, shades || [], hasNoScale));
     this.plot.append(this.cursor);
     this.setFrame(view.frame);
@@ -37,6 +38,13 @@ class Chart {
       rows[k] = row;
     }
     return rows;
+  }
+
+  // As it is saved.
+  plotted() {
+    const {trial} = this.view;
+    return {graph: this.graph, title: this.label, unit: this.unit, xName: "time [s]",
+      xs: Array.from({length: trial.frames}, (_, k) => trial.time(k)), lines: this.lines};
   }
 
   options(logarithmic, range, shades, hasNoScale) {

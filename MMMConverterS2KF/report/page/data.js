@@ -88,6 +88,7 @@ class Trial {
     this.model = json.model;
     this.subject = json.subject || null;  // of the model, where the person is calibrated
     this.truth = json.truth ? new Motion(json.truth) : null;
+    this.ground = json.ground ? new Ground(json.ground, this) : null;
     for (const name of ["positions", "hidden", "optimum", "mean_hidden", "most_hidden"]) {
       lazily(this, name, json[name]);
     }
@@ -155,17 +156,27 @@ function boundsOfFrame(trial, frame, axis) {
   return [least, most];
 }
 
-// Middles of the bounds, running over a third of a second; where nothing is measured, the last.
+// Of the first frame in which something is measured; 0 where nothing ever is.
+function firstMiddle(trial, axis) {
+  for (let frame = 0; frame < trial.frames; ++frame) {
+    const [least, most] = boundsOfFrame(trial, frame, axis);
+    if (least <= most) return (least + most) / 2;
+  }
+  return 0;
+}
+
+// Middles of the bounds, running over a third of a second; where nothing is measured, the last, and
+// before that the first.
 function smoothedMiddles(trial) {
   const middles = new Float32Array(3 * trial.frames);
   const share = Math.min(1, 6 / trial.rate);
   for (let axis = 0; axis < 3; ++axis) {
-    let smooth = NaN;
+    let smooth = firstMiddle(trial, axis);
     for (let frame = 0; frame < trial.frames; ++frame) {
       const [least, most] = boundsOfFrame(trial, frame, axis);
       const middle = (least + most) / 2;
-      if (least <= most) smooth = Number.isNaN(smooth) ? middle : smooth + share * (middle - smooth);
-      middles[3 * frame + axis] = Number.isNaN(smooth) ? 0 : smooth;
+      if (least <= most) smooth += share * (middle - smooth);
+      middles[3 * frame + axis] = smooth;
     }
   }
   return middles;

@@ -28,7 +28,18 @@ class HeatMap {
     byId("heat-order").addEventListener("change", () => this.refresh());
     this.canvas.addEventListener("pointermove", (event) => this.read(event));
     this.canvas.addEventListener("click", (event) => this.view.seek(this.placeOf(event).frame));
+    byId("heat-save").append(saveButton("CSV", "Save the numbers shown", () => this.saveNumbers()),
+      saveButton("PNG", "Save the picture", () => saveCanvas("residuals", this.canvas)));
     new ResizeObserver(this.redraw).observe(byId("heat-stage"));
+  }
+
+  // A row for each frame, [mm].
+  saveNumbers() {
+    const {trial} = this.view;
+    const rows = Array.from({length: trial.frames}, (_, k) =>
+      [trial.time(k), ...this.rows.map((row) => 1000 * row.distances[k])]);
+    saveText(`residuals ${this.track.name}.csv`, "text/csv",
+      csvOf(["time [s]", ...this.rows.map((row) => `${row.name} [mm]`)], rows));
   }
 
   show(trial) {

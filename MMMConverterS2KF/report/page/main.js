@@ -9,7 +9,7 @@ class View {
     this.trial = null;
     this.player = new Player(this);
     this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player),
-      new PersonPart(), new ReliabilityPart(this)];
+      new GaitPart(), new PersonPart(), new ReliabilityPart(this)];
     byId("trial").addEventListener("change", (event) => this.showTrial(Number(event.target.value)));
   }
 
@@ -137,6 +137,11 @@ function start() {
     get frame() { return view.frame; },
     get every() { return view.trial ? view.trial.every : 1; },
     get frames() { return view.trial ? view.trial.frames : 0; },
+    get arrows() {
+      const ground = view.player.scene ? view.player.scene.ground : null;
+      return ground ? ground.arrows.map((arrow) => arrow.said(ground.group.visible)) : [];
+    },
+    get reach() { return view.player.scene ? view.player.scene.reach : null; },
     get playing() { return view.player.playing; },
     play: () => view.player.play(),
     pause: () => view.player.pause(),

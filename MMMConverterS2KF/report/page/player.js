@@ -29,7 +29,9 @@ class Player {
     byId("scrub").addEventListener("input", (event) => this.view.seek(Number(event.target.value)));
     byId("player").addEventListener("keydown", (event) => this.onKey(event));
     byId("reset-camera").addEventListener("click", () => this.resetCamera());
-    const choices = {"show-body": "body", "show-residuals": "residuals", "show-truth": "truth"};
+    byId("save-picture").addEventListener("click", () => this.savePicture());
+    const choices = {"show-body": "body", "show-residuals": "residuals", "show-truth": "truth",
+      "show-forces": "forces"};
     for (const [id, name] of Object.entries(choices)) {
       byId(id).addEventListener("change", (event) => this.setOption(name, event.target.checked));
     }
@@ -67,6 +69,7 @@ class Player {
     byId("scrub").max = trial.frames - 1;
     byId("hidden-legend").hidden = !trial.hidesMarkers;
     byId("truth-option").hidden = !trial.truth;
+    showGround(trial.ground);
     byId("arrangement").hidden = trial.tracks.length < 2;
     if (!this.scene) return;
     this.scene.show(trial);
@@ -105,7 +108,8 @@ class Player {
     const hidden = trial.labels.filter((_, label) => trial.isHidden(label, frame)).length;
     byId("now").textContent = `${time} · frame ${recorded} of ${this.view.recordedFrames}` +
       (trial.hidesMarkers ? ` · ${plural(hidden, "marker")} hidden` : "") +
-      (this.view.section.figures.options.runs > 1 ? " · the first run" : "");
+      (this.view.section.figures.options.runs > 1 ? " · the first run" : "") +
+      (trial.ground ? ["", ...[trial.ground.describe(frame)].filter(Boolean)].join(" · ") : "");
     if (this.scene && byId("follow").checked) {
       const middle = trial.middle(frame);
       this.scene.moveCamera(middle.map((value, axis) => value - this.followed[axis]));
@@ -118,6 +122,12 @@ class Player {
     if (!this.scene || !this.view.trial) return;
     this.scene.setFrame(this.view.frame);
     this.scene.draw();
+  }
+
+  savePicture() {
+    if (!this.scene || !this.view.trial) return;
+    this.draw();  // the canvas keeps its picture until the browser has shown it
+    saveCanvas(`${this.view.trial.name} ${formatNumber(this.view.trial.time(this.view.frame), 2)} s`, byId("scene"));
   }
 
   toggle() {

@@ -2,7 +2,6 @@
 // What is plotted: marker distances, hidden markers, joint angles, times.
 
 const kDegrees = 180 / Math.PI;
-const kSideColours = {left: "#c8553d", right: "#2a7f9e"};
 
 // Which way an angle grows, by the motion's name.
 const kDirections = {

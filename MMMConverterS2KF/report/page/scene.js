@@ -139,7 +139,7 @@ class Scene {
     sun.position.set(2, -1, 4);
     this.scene.add(sun);
     this.signs = makeSigns();
-    this.options = {body: true, residuals: true, truth: false, beside: true};
+    this.options = {body: true, residuals: true, truth: false, beside: true, forces: true};
     this.measured = (label, k, target) =>
       target.fromArray(this.trial.positions, 3 * (k * this.trial.labels.length + label));
   }
@@ -154,6 +154,8 @@ class Scene {
     this.truth = trial.truth ? new Body(trial.model, []) : null;
     this.content.add(this.seen.object, this.unseen.object, ...this.figures.map((one) => one.group));
     if (this.truth) this.content.add(this.truth.root);
+    this.ground = trial.ground ? new GroundFigure(trial.ground) : null;
+    if (this.ground) this.content.add(this.ground.group);
     this.addFloor();
     this.scene.add(this.content);
     this.setLook();
@@ -180,6 +182,7 @@ class Scene {
     this.floor.geometry.getAttribute("color").needsUpdate = true;
     const shown = this.figures.filter((one) => one.group.visible).length;
     for (const one of this.figures) one.setLook(this.options, shown > 1 && !this.options.beside);
+    if (this.ground) this.ground.setLook(this.options.forces);
     if (this.truth) {
       this.truth.setLook(themeColour("muted"), 0.5, true);
       this.truth.root.visible = this.options.truth;
@@ -203,11 +206,13 @@ class Scene {
     this.unseen.finish();
     for (const one of this.figures) one.setFrame(k, this.measured);
     if (this.truth) this.truth.setPose(this.trial.truth, this.trial.frames, k);
+    if (this.ground) this.ground.setFrame(k);
   }
 
-  // Looks at `middle` from the front right, a little from above, so that a body fits.
+  // Looks at `middle` from the front right, a little from above, so that a body fits: `size` is that
+  // of its markers, beyond which head and feet reach, and what is near looks larger.
   placeCamera(camera, middle, size) {
-    const distance = 0.57 * size / Math.tan(kFieldOfView / 2 * Math.PI / 180);
+    const distance = 0.68 * size / Math.tan(kFieldOfView / 2 * Math.PI / 180);
     camera.position.set(middle[0] + 0.80 * distance, middle[1] + 0.55 * distance,
       middle[2] + 0.22 * distance);
     camera.lookAt(...middle);
@@ -217,6 +222,16 @@ class Scene {
     this.placeCamera(this.camera, middle, this.trial.size);
     this.controls.target.set(...middle);
     this.controls.update();
+  }
+
+  // How far down and up the bodies shown reach in the picture: -1 and 1 are its edges.
+  get reach() {
+    const box = new THREE.Box3();
+    for (const one of this.figures.filter((figure) => figure.group.visible)) box.expandByObject(one.body.root);
+    this.camera.updateMatrixWorld();
+    const heights = [box.min, box.max].flatMap(({z}) => [box.min, box.max].flatMap(({x}) =>
+      [box.min, box.max].map(({y}) => new THREE.Vector3(x, y, z).project(this.camera).y)));
+    return [Math.min(...heights), Math.max(...heights)];
   }
 
   moveCamera(way) {

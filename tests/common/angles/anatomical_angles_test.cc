@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "common/angles/angle_table.h"
 #include "common/io/mmm/mmm_model.h"
@@ -193,6 +194,39 @@ TEST_F(AnatomicalAnglesTest, DeviationsAreThoseOfTheJointsTurned) {
                 1e-8)
         << name;
   }
+}
+
+TEST_F(AnatomicalAnglesTest, MomentsHaveThePowerOfTheJoints) {
+  Posture posture = With("LHx_joint", 0.6);
+  posture.joint_angles[model_.FindJoint("LHy_joint")] = 0.2;
+  posture.joint_angles[model_.FindJoint("LHz_joint")] = -0.3;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(model_.num_joints());
+  Posture before = posture, after = posture;
+  constexpr double kStep = 1e-5;  // [s] from before to after: 2
+  double power = 0;
+  for (const auto& [name, force, rate] :
+       {std::tuple("LHx_joint", 40.0, 1.0), {"LHy_joint", -25.0, 2.0}, {"LHz_joint", 8.0, -3.0}}) {
+    const int joint = model_.FindJoint(name);
+    forces[joint] = force;
+    power += force * rate;
+    before.joint_angles[joint] -= kStep * rate;
+    after.joint_angles[joint] += kStep * rate;
+  }
+  const AnatomicalAngles angles = ComputeAnatomicalAngles(model_, Motion({before, after}));
+  forces[model_.FindJoint("RKx_joint")] = std::nan("");
+  forces[model_.FindJoint("LKx_joint")] = 30;
+  const Eigen::VectorXd moments = AnatomicalMoments(model_, Still(posture), forces);
+  double power_of_moments = 0;
+  for (const char* motion : {"flexion", "adduction", "internal rotation"}) {
+    const Eigen::Index row = RowOf(angles, "hip", "left", motion);
+    power_of_moments +=
+        moments[row] * (angles.values(row, 1) - angles.values(row, 0)) / (2 * kStep);
+  }
+  EXPECT_NEAR(power_of_moments, power, 1e-6);
+  // MMM's knees bend to negative angles.
+  EXPECT_NEAR(moments[RowOf(angles, "knee", "left", "flexion")], -30, kExact * 1e3);
+  EXPECT_TRUE(std::isnan(moments[RowOf(angles, "knee", "right", "flexion")]));
+  EXPECT_TRUE(std::isnan(moments[RowOf(angles, "pelvis", "", "tilt")]));
 }
 
 TEST_F(AnatomicalAnglesTest, OpenSimsCoordinatesOfHipKneeAndPelvis) {

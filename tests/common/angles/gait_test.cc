@@ -102,6 +102,24 @@ TEST_F(GaitTest, AnglesOverTheCycle) {
   EXPECT_NEAR(gait.cycles[2].mean[50], 0.1, kSame);  // against the way
 }
 
+TEST_F(GaitTest, StridesThatAreHardlyKnownDoNotCount) {
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  const double nan = std::nan("");
+  angles_.values.row(0).segment(55, 10).setConstant(nan);  // a tenth of the first stride
+  const GaitCycle first = CyclesOf(angles_, gait.strides)[0];
+  EXPECT_EQ(first.strides, 2);
+  EXPECT_NEAR(first.mean[50], -1 + kMore / 2, kSame);
+  EXPECT_NEAR(first.mean[10], std::cos(0.2 * std::numbers::pi) + kMore, kSame);
+  EXPECT_TRUE(std::isnan(first.deviation[10]));             // of one
+  angles_.values.row(0).segment(160, 60).setConstant(nan);  // and six of the second
+  const GaitCycle one = CyclesOf(angles_, gait.strides)[0];
+  EXPECT_EQ(one.strides, 1);
+  EXPECT_NEAR(one.mean[50], -1, kSame);
+  EXPECT_TRUE(std::isnan(one.mean[10]));
+  angles_.values.row(0).setConstant(nan);
+  EXPECT_STREQ(CyclesOf(angles_, gait.strides)[0].angle.joint, "pelvis");
+}
+
 TEST_F(GaitTest, StridesOfAHiddenLegAreLeftOut) {
   known_[1][70] = false;  // in the left foot's first stride
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/ground_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/angles/anatomical_angles.h"
+#include "common/contacts/person_mass.h"
+#include "common/forces/recording_forces.h"
+#include "common/judge/coverage.h"
+#include "common/kinetics/foot_wrenches.h"
+#include "common/kinetics/moment_deviations.h"
+#include "common/motion/marker_residuals.h"
+#include "common/pipeline/conversion.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+/// Without the frames before the person was seen.
+PoseTrajectory TrackedMotion(const ConversionResult& result) {
+  PoseTrajectory motion = result.trajectory;
+  const int begin = FramesBeforeFirstSeen(result.residuals);
+  motion.first_time = motion.time(begin);
+  motion.standard_deviations.resize(0, 0);
+  motion.velocities.resize(0, 0);
+  motion.accelerations.resize(0, 0);
+  motion.postures.erase(motion.postures.begin(), motion.postures.begin() + begin);
+  return motion;
+}
+
+/// Those of a trajectory whose first `begin` frames are left out.
+std::vector<PoseCovariance> CovariancesFrom(int begin, const ConversionResult& result) {
+  std::vector<PoseCovariance> covariances = result.covariances;
+  for (PoseCovariance& one : covariances) one.frame -= begin;
+  return covariances;
+}
+
+/// A model whose segments are as many times as heavy as the person is.
+KinematicModel WithMass(const KinematicModel& model, double mass) {
+  if (mass == model.total_mass()) return model;
+  ModelDescription description = DescriptionOf(model);
+  const double scale = mass / model.total_mass();
+  for (Segment& segment : description.segments) {
+    segment.mass *= scale;
+    segment.inertia *= scale;
+  }
+  return KinematicModel(std::move(description));
+}
+
+/// The moment against the one that makes an angle grow.
+const char* OppositeOf(std::string_view motion) {
+  if (motion == "flexion") return "extension moment";
+  if (motion == "dorsiflexion") return "plantar flexion moment";
+  if (motion == "adduction") return "abduction moment";
+  if (motion == "inversion") return "eversion moment";
+  return motion == "internal rotation" ? "external rotation moment" : nullptr;
+}
+
+bool IsOfLeg(std::string_view joint) {
+  return joint == "hip" || joint == "knee" || joint == "ankle";
+}
+
+/// By the model's joints, as far as they are known.
+Eigen::MatrixXd ByJoints(const KinematicModel& model, const JointForces& found) {
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Constant(model.num_joints(), found.num_frames(), kNaN);
+  for (std::size_t i = 0; i < found.names.size(); ++i) {
+    const int joint = model.FindJoint(found.names[i]);
+    if (joint >= 0) forces.row(joint) = found.forces.row(static_cast<Eigen::Index>(i));
+  }
+  return forces;
+}
+
+/// In body weights; NaN: no plate measures it.
+AnatomicalAngles VerticalForces(const ConversionReport& report, const GroundStudy& ground) {
+  const PoseTrajectory& motion = report.result.trajectory;
+  const FootWrenches feet = WrenchesOnFeet(
+      ground.contacts, *ground.forces, {motion.rate, motion.first_time, motion.num_frames()}, 0);
+  AnatomicalAngles rows;
+  rows.rate = motion.rate;
+  rows.first_time = motion.first_time;
+  rows.values.resize(2, motion.num_frames());
+  const double weight = KnownMass(report, ground) * kStandardGravity;
+  for (const Side side : kSides) {
+    rows.angles.push_back({"ground", Name(side), "vertical force"});
+    const FootWrench& foot = feet[static_cast<std::size_t>(side)];
+    for (int k = 0; k < motion.num_frames(); ++k) {
+      rows.values(static_cast<Eigen::Index>(side), k) =
+          foot.is_known[static_cast<std::size_t>(k)] ? foot.force(2, k) / weight : kNaN;
+    }
+  }
+  return rows;
+}
+
+/// Of muscles, by mass.
+AnatomicalAngles LegMoments(const ConversionReport& report, const GroundStudy& ground) {
+  const KinematicModel& model = *report.plan.setup.model;
+  const PoseTrajectory motion = TrackedMotion(report.result);
+  const JointForces found =
+      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
+  const AnatomicalAngles angles = ComputeAnatomicalAngles(model, motion);
+  const Eigen::MatrixXd moments = AnatomicalMoments(model, motion, ByJoints(model, found));
+  AnatomicalAngles rows;
+  rows.rate = motion.rate;
+  rows.first_time = motion.first_time;
+  rows.values.resize(moments.rows(), moments.cols());
+  for (std::size_t i = 0; i < angles.angles.size(); ++i) {
+    const AnatomicalAngle& angle = angles.angles[i];
+    const char* name = OppositeOf(angle.motion);
+    if (!IsOfLeg(angle.joint) || name == nullptr) continue;
+    rows.values.row(static_cast<Eigen::Index>(rows.angles.size())) =
+        -moments.row(static_cast<Eigen::Index>(i)) / found.mass;
+    rows.angles.push_back({angle.joint, angle.side, name});
+  }
+  return rows;
+}
+
+/// Where a leg shows what the verdict asks of it; without limbs, where the body is seen.
+KnownLegs FindKnownLegs(const ConversionReport& report) {
+  const MarkerSequence& markers = report.plan.input.recording.markers;
+  const Eigen::MatrixXd& residuals = report.result.residuals;
+  const std::vector<Limb> limbs = LimbsOf(report.plan.setup);
+  KnownLegs known;
+  for (const Side side : kSides) {
+    const std::string name = fmt::format("{} leg", Name(side));
+    const auto limb =
+        std::find_if(limbs.begin(), limbs.end(), [&](const Limb& one) { return one.name == name; });
+    std::vector<bool>& leg = known[static_cast<std::size_t>(side)];
+    for (int k = 0; k < markers.num_frames(); ++k) {
+      bool is_known = residuals.col(k).array().isFinite().any();
+      if (is_known && limb != limbs.end()) {
+        const auto seen = std::count_if(limb->labels.begin(), limb->labels.end(), [&](int label) {
+          return IsSeen(markers.frame(k).col(label));
+        });
+        is_known = limb->IsKnownBy(static_cast<int>(seen));
+      }
+      leg.push_back(is_known);
+    }
+  }
+  return known;
+}
+
+}  // namespace
+
+RecordedForces GroundForces(const Input& input, Warnings* warnings) {
+  if (input.forces_file.empty()) return ForcesOf(input.recording, warnings);
+  return ForcesOf(input.forces_file, input.recording.up_axis, warnings);
+}
+
+void CheckHasPlates(const RecordedForces& forces, const Input& input) {
+  if (!forces.plates.empty()) return;
+  throw Error(input.recording.file +
+              ": has no force plate that can be read, whose forces to export; forces "
+              "of another file are named by " +
+              OptionText("forces"));
+}
+
+std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, Warnings* warnings) {
+  if (report.ground) return report.ground;
+  GroundStudy ground;
+  ground.forces = report.plan.forces;
+  if (!ground.forces) {
+    ground.forces =
+        std::make_shared<const RecordedForces>(GroundForces(report.plan.input, warnings));
+  }
+  ground.feet = MoveFeet(*report.plan.setup.model, report.result.trajectory);
+  ground.contacts = FindContacts(ground.feet, *ground.forces);
+  return std::make_shared<const GroundStudy>(std::move(ground));
+}
+
+double KnownMass(const ConversionReport& report, const GroundStudy& ground) {
+  const double modelled = report.plan.setup.model->total_mass();
+  if (!IsAssumed(report.plan.person.mass)) return modelled;
+  const auto measured = EstimateMass(ground.contacts, *ground.forces);
+  return measured ? measured->mass : modelled;
+}
+
+JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
+                          bool with_deviations) {
+  CheckHasPlates(*ground.forces, report.plan.input);
+  const KinematicModel model = WithMass(*report.plan.setup.model, KnownMass(report, ground));
+  const PoseTrajectory motion = TrackedMotion(report.result);
+  JointForces found = ComputeJointForces(model, motion, ground.contacts, *ground.forces);
+  const int begin = report.result.trajectory.num_frames() - motion.num_frames();
+  if (with_deviations && !report.result.covariances.empty()) {
+    EstimateDeviations(model, motion, ground.contacts, *ground.forces,
+                       CovariancesFrom(begin, report.result), {}, &found);
+  }
+  return found;
+}
+
+Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
+  const AnatomicalAngles angles =
+      ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
+  return AnalyzeGait(ground.feet, ground.contacts, angles, FindKnownLegs(report));
+}
+
+std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
+                                     const Gait& gait) {
+  if (ground.forces->plates.empty() || !(report.plan.setup.model->total_mass() > 0)) return {};
+  std::vector<GaitCycle> cycles = CyclesOf(VerticalForces(report, ground), gait.strides);
+  const std::vector<GaitCycle> moments = CyclesOf(LegMoments(report, ground), gait.strides);
+  cycles.insert(cycles.end(), moments.begin(), moments.end());
+  return cycles;
+}
+
+}  // namespace mmm_converter

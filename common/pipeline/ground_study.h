@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/angles/gait.h"
+#include "common/contacts/contacts.h"
+#include "common/kinetics/joint_forces.h"
+
+namespace mmm_converter {
+
+struct ConversionReport;
+struct Input;
+
+/// What is known of the ground under a tracked person: found once for a conversion.
+struct GroundStudy {
+  std::shared_ptr<const RecordedForces> forces;
+  FootMotion feet;
+  Contacts contacts;
+  std::optional<JointForces> joint_forces;  ///< where they are exported
+  std::optional<Gait> gait;                 ///< where it is exported
+};
+
+/// Forces of the recording's file, or of the one that is beside it.
+RecordedForces GroundForces(const Input& input, Warnings* warnings);
+
+/// @throws Error where the recording has no plates.
+void CheckHasPlates(const RecordedForces& forces, const Input& input);
+
+/// That of the report where it has one. warnings: of plates that were not read before; may be null.
+/// @throws Error where the model has no feet (HasFeet), and as GroundForces.
+std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,
+                                               Warnings* warnings = nullptr);
+
+/// The mass that plates bore where none was given, else the model's [kg].
+double KnownMass(const ConversionReport& report, const GroundStudy& ground);
+
+/// Of KnownMass. @throws Error where there are no plates, or the model has no mass.
+JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
+                          bool with_deviations);
+
+/// Strides, and angles over them; of these is left out what was hidden.
+Gait GaitOf(const ConversionReport& report, const GroundStudy& ground);
+
+/// What legs bear and exert over the strides of `gait`: of joint "ground" the "vertical force" in
+/// body weights; of hips, knees and ankles the "extension moment" and so on that muscles exert [N
+/// m/kg], each about the axis of its angle. Empty: there are no plates, or the model has no mass.
+std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
+                                     const Gait& gait);
+
+}  // namespace mmm_converter
