@@ -166,7 +166,7 @@ TEST_F(RealForceExports, MomentsWhereThePlatesBearTheFeet) {
 TEST_F(RealForceExports, ForcesWithYUpBesideARecordingWithZUp) {
   const std::string walk = testing::SharedData("forces/walking2.c3d");
   const std::string few = "425:925";
-  ASSERT_EQ(RunProgram({"convert", walk, "--frames", few, "--mass", "66", "-o", Out("y.xml"),
+  ASSERT_EQ(RunProgram({"convert", walk, "--frames", few, "--mass", "66", "-o", Out("own.xml"),
                         "--export-id", Out("y.json"), "--export-grf", Out("y.mot")})
                 .exit_code,
             0);
