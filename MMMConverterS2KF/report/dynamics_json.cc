@@ -163,6 +163,7 @@ Json ToJson(const DynamicsReport& report) {
       {"center_of_mass", DescribeCenterOfMass(dynamics)},
       {"forces", DescribeForces(dynamics)},
       {"ground_m", Digits(dynamics.ground_height)},
+      {"raised_m", Digits(dynamics.raised.size() > 0 ? dynamics.raised.maxCoeff() : 0)},
       {"contacts", ContactsJson(dynamics)},
       {"flights", DescribeFlights(dynamics)},
       {"with_forces", report.with_forces ? Json::parse(FormatJointForcesJson(*report.with_forces))

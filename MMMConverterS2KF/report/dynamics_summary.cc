@@ -31,6 +31,23 @@ std::string Padded(const std::string& text, std::size_t width) {
   return text + std::string(width - std::min(width, Width(text)), ' ');
 }
 
+/// Frames in which the body rests above the ground, and how far.
+struct Raised {
+  int frames = 0;
+  double least = 0, most = 0;
+};
+
+Raised RaisedOf(const MotionDynamics& dynamics) {
+  Raised found;
+  for (const double height : dynamics.raised) {
+    if (height <= 0) continue;
+    found.least = found.frames == 0 ? height : std::min(found.least, height);
+    found.most = std::max(found.most, height);
+    ++found.frames;
+  }
+  return found;
+}
+
 std::string DescribeDifferentiation(const Differentiation& differentiation) {
   const std::string made =
       fmt::format("the ground's force is up to {:.3g} body weights (rms {:.2g} about its mean)",
@@ -69,6 +86,17 @@ std::string DescribeContacts(const MotionDynamics& dynamics, bool with_forces) {
              with_forces ? "" : " (--forces names what was measured)");
 }
 
+/// Empty: the ground is enough.
+std::string DescribeRaised(const MotionDynamics& dynamics) {
+  const auto [frames, least, most] = RaisedOf(dynamics);
+  if (frames == 0) return "";
+  return fmt::format(
+      "in {:.0f} % of the time no part of the body is near the ground, but one rests: it is "
+      "assumed "
+      "to stand on something there, {:.2f} to {:.2f} m above the ground (stairs, a box, a bar)",
+      100.0 * frames / dynamics.num_frames(), least, most);
+}
+
 std::string DescribeFlight(const MotionDynamics& dynamics, const BallisticPhase& flight) {
   return fmt::format(
       "{:.3f} to {:.3f} s (frames {} to {}): falls with {:.2f} m/s² (expected -{:g}), sideways "
@@ -87,6 +115,8 @@ std::string FormatFigures(const MotionDynamics& dynamics, bool with_forces) {
                                    height.mean(), height.minCoeff(), height.maxCoeff(),
                                    dynamics.com_velocity.colwise().norm().maxCoeff()));
   text += DynamicsLine("contacts", DescribeContacts(dynamics, with_forces));
+  const std::string raised = DescribeRaised(dynamics);
+  if (!raised.empty()) text += DynamicsLine("support", raised);
   for (const BallisticPhase& flight : dynamics.ballistic_phases)
     text += DynamicsLine("flight", DescribeFlight(dynamics, flight));
   return text;

@@ -122,17 +122,91 @@ LowestPoints FindLowestPoints(const KinematicModel& model, const std::vector<Con
   return lowest;
 }
 
+// A part that falls, from its highest point on, is slower than half of 0.8 m/s for 0.08 s.
+constexpr double kRestSpeed = 0.5;     // of the speed of what touches
+constexpr double kShortestRest = 0.2;  // [s]
+constexpr double kOtherLevel = 0.1;    // [m] lower than the ground is no noise
+
+/// Runs of frames [begin, end) in which is_resting(k) holds long enough.
+template <typename Predicate>
+std::vector<std::pair<Index, Index>> LongRuns(Index frames, double rate, Predicate is_resting) {
+  const auto least = std::max<Index>(2, static_cast<Index>(std::ceil(kShortestRest * rate)));
+  std::vector<std::pair<Index, Index>> runs;
+  Index begin = 0;
+  for (Index k = 0; k <= frames; ++k) {
+    if (k < frames && is_resting(k)) continue;
+    if (k - begin >= least) runs.emplace_back(begin, k);
+    begin = k + 1;
+  }
+  return runs;
+}
+
 /// The median of the whole body's lowest point over the frames in which that is slow; of all frames
-/// where there is none.
-double GroundHeight(const LowestPoints& lowest, double speed) {
+/// where there is none. Where the body rests clearly lower, as below stairs, that is the ground.
+double GroundHeight(const LowestPoints& lowest, double speed, double rate) {
   std::vector<double> slow;
   std::vector<double> all;
+  std::vector<double> speeds;
   for (Index k = 0; k < lowest.heights.cols(); ++k) {
     Index body = 0;
     all.push_back(lowest.heights.col(k).minCoeff(&body));
-    if (lowest.speeds(body, k) <= speed) slow.push_back(all.back());
+    speeds.push_back(lowest.speeds(body, k));
+    if (speeds.back() <= speed) slow.push_back(all.back());
   }
-  return Median(slow.empty() ? all : slow);
+  const double usual = Median(slow.empty() ? all : slow);
+  double ground = usual;
+  const auto is_lower = [&](Index k) {
+    return all[k] < usual - kOtherLevel && speeds[k] <= kRestSpeed * speed;
+  };
+  for (const auto& [begin, end] : LongRuns(lowest.heights.cols(), rate, is_lower)) {
+    const Eigen::Map<const Eigen::VectorXd> heights(all.data() + begin, end - begin);
+    ground = std::min(ground, heights.mean());
+  }
+  return ground;
+}
+
+/// Frames [begin, end) in which a body rests where none is near the ground, so high above it [m].
+struct Rest {
+  Index body = 0, begin = 0, end = 0;
+  double height = 0;
+};
+
+/// Not of hands that hang still: what bears the body is sometimes its lowest part.
+std::vector<Rest> FindRests(const GroundContact& contact, const Eigen::MatrixXd& speeds,
+                            double height, double speed, double rate) {
+  std::vector<Rest> rests;
+  for (Index body = 0; body < speeds.rows(); ++body) {
+    const auto is_resting = [&](Index k) {
+      return contact.heights.col(k).minCoeff() > height && speeds(body, k) <= kRestSpeed * speed;
+    };
+    for (const auto& [begin, end] : LongRuns(speeds.cols(), rate, is_resting)) {
+      const auto all = contact.heights.middleCols(begin, end - begin);
+      const Eigen::RowVectorXd own = all.row(body);
+      if ((own.array() > all.colwise().minCoeff().array()).all()) continue;
+      rests.push_back({body, begin, end, own.mean()});
+    }
+  }
+  return rests;
+}
+
+/// What rests touches, as long as it is low above that, and slow.
+void AddRests(const std::vector<Rest>& rests, const Eigen::MatrixXd& speeds, double height,
+              double speed, GroundContact* contact) {
+  const Eigen::MatrixXd heights = contact->heights;  // above the ground
+  const auto stays = [&](const Rest& rest, Index k) {
+    return std::abs(heights(rest.body, k) - rest.height) <= height && speeds(rest.body, k) <= speed;
+  };
+  for (Rest rest : rests) {
+    while (rest.begin > 0 && stays(rest, rest.begin - 1)) --rest.begin;
+    while (rest.end < heights.cols() && stays(rest, rest.end)) ++rest.end;
+    for (Index k = rest.begin; k < rest.end; ++k) {
+      contact->heights(rest.body, k) = heights(rest.body, k) - rest.height;
+      contact->touches(rest.body, k) = 1;
+      if (heights.col(k).minCoeff() > height) {
+        contact->raised[k] = std::max(contact->raised[k], rest.height);
+      }
+    }
+  }
 }
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -180,10 +254,13 @@ GroundContact FindGroundContact(const KinematicModel& model, const std::vector<C
                                 double height, double speed) {
   const LowestPoints lowest = FindLowestPoints(model, bodies, measured, smooth);
   GroundContact contact;
-  contact.ground_height = GroundHeight(lowest, speed);
+  contact.ground_height = GroundHeight(lowest, speed, measured.rate);
   contact.heights = lowest.heights.array() - contact.ground_height;
   contact.touches =
       (contact.heights.array() <= height && lowest.speeds.array() <= speed).cast<int>();
+  contact.raised = Eigen::VectorXd::Zero(contact.heights.cols());
+  AddRests(FindRests(contact, lowest.speeds, height, speed, measured.rate), lowest.speeds, height,
+           speed, &contact);
   return contact;
 }
 

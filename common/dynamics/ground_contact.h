@@ -23,14 +23,21 @@ std::vector<ContactBody> ContactBodies(const KinematicModel& model);
 
 /// Guesses: the points of a body are the origins of its segments and its markers.
 struct GroundContact {
-  double ground_height = 0;  ///< where the body's lowest point rests: the median of its heights [m]
-  Eigen::MatrixXd heights;   ///< bodies x frames: lowest point above the ground [m]
-  Eigen::MatrixXi touches;   ///< bodies x frames: 1 where that is low and slow, else 0
+  /// Where the body's lowest point rests: the median of its heights, or clearly lower [m].
+  double ground_height = 0;
+  /// Bodies x frames: lowest point above the ground, or above what the body rests on [m].
+  Eigen::MatrixXd heights;
+  Eigen::MatrixXi touches;  ///< bodies x frames: 1 where that is low and slow, else 0
+  /// By frame: how far above the ground the body rests where no part of it is near that [m]; else
+  /// 0.
+  Eigen::VectorXd raised;
 };
 
 /// Low is at most `height` [m] above the ground, slow at most `speed` [m/s]. Both motions name all
 /// joints of the model; z is up. Heights are those of `measured`, as a low-pass lifts a foot before
-/// it leaves the ground; speeds those of `smooth`, as differences are mostly noise.
+/// it leaves the ground; speeds those of `smooth`, as differences are mostly noise. Where no part
+/// of the body is near the ground, one that rests, slower and longer than a fall allows, stands on
+/// something there: on stairs, a box or a bar.
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
                                 const PoseTrajectory& measured, const PoseTrajectory& smooth,
                                 double height, double speed);

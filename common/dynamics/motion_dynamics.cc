@@ -228,19 +228,22 @@ GroundContact FindContacts(const KinematicModel& model, const PoseTrajectory& me
                         result->options.contact_height, result->options.contact_speed);
   contact.heights = MatrixXd(contact.heights.middleCols(begin, frames));
   contact.touches = Eigen::MatrixXi(contact.touches.middleCols(begin, frames));
+  contact.raised = Eigen::VectorXd(contact.raised.segment(begin, frames));
   result->ground_height = contact.ground_height;
+  result->raised = contact.raised;
   result->contact_heights = contact.heights;
   result->contacts = contact.touches;
   return contact;
 }
 
-/// Where on the plane z = ground the force would act without a moment about x and y.
+/// Where on the plane that bears the body, z = ground or above, the force would act without a
+/// moment about x and y.
 Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
   Eigen::Matrix2Xd centers(2, dynamics.num_frames());
   for (int k = 0; k < dynamics.num_frames(); ++k) {
     const Vector3d force = dynamics.residual_force.col(k);
     const Vector3d moment = dynamics.residual_moment.col(k);
-    const double height = dynamics.com(2, k) - dynamics.ground_height;
+    const double height = dynamics.com(2, k) - dynamics.ground_height - dynamics.raised[k];
     const Eigen::Vector2d from_com(-moment.y() - height * force.x(),
                                    moment.x() - height * force.y());
     centers.col(k) = dynamics.com.col(k).head<2>() + from_com / force.z();

@@ -115,7 +115,8 @@ struct MotionDynamics {
 
   double ground_height = 0;  ///< estimated [m]
   std::vector<ContactBody> contact_bodies;
-  Eigen::MatrixXd contact_heights;  ///< bodies x frames: lowest point above the ground [m]
+  Eigen::MatrixXd contact_heights;  ///< as GroundContact::heights
+  Eigen::VectorXd raised;           ///< as GroundContact::raised
   Eigen::MatrixXi contacts;         ///< bodies x frames: 1 touches, 0 does not
 
   std::vector<BallisticPhase> ballistic_phases;

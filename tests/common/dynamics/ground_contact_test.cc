@@ -75,6 +75,32 @@ TEST(GroundContact, TouchingIsLowAndSlow) {
   EXPECT_NEAR(contact.heights(0, 85), 0.2, 1e-12);
 }
 
+/// A brick on the ground, on a step of 0.3 m, and thrown up from there.
+TEST(GroundContact, WhatRestsStandsOnSomethingAndWhatFallsDoesNot) {
+  const KinematicModel model = testing::Brick();
+  constexpr double kRate = 100, kStep = 0.3, kSpeed = 3;
+  PoseTrajectory motion;
+  motion.rate = kRate;
+  for (int k = 0; k < 260; ++k) {
+    Posture q = ZeroPosture(model);
+    const double flown = std::max(0, k - 200) / kRate;
+    q.position.z() = 0.2 + (k < 150 ? 0 : kStep) + kSpeed * flown - 0.5 * 9.81 * flown * flown;
+    motion.postures.push_back(q);
+  }
+  const GroundContact contact =
+      FindGroundContact(model, ContactBodies(model), motion, motion, 0.04, 0.8);
+  EXPECT_NEAR(contact.ground_height, 0, 1e-12);
+  EXPECT_EQ(contact.touches(0, 100), 1);
+  EXPECT_EQ(contact.raised[100], 0);
+  EXPECT_EQ(contact.touches(0, 175), 1);
+  EXPECT_NEAR(contact.heights(0, 175), 0, 1e-9);
+  EXPECT_NEAR(contact.raised[175], kStep, 1e-9);
+  const int highest = 200 + static_cast<int>(std::lround(kRate * kSpeed / 9.81));
+  EXPECT_EQ(contact.touches(0, highest), 0);
+  EXPECT_EQ(contact.raised[highest], 0);
+  EXPECT_NEAR(contact.heights(0, highest), kStep + kSpeed * kSpeed / 2 / 9.81, 1e-3);
+}
+
 TEST(GroundContact, DistanceFromAHull) {
   const std::vector<Vector2d> square = {{0, 0}, {1, 0}, {0.5, 0.5}, {1, 1}, {0, 1}, {0.5, 0}};
   EXPECT_EQ(DistanceOutsideHull(square, {0.3, 0.9}), 0);
