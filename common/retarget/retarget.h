@@ -18,10 +18,10 @@ struct Retargeted {
   HumanMotion human;
   FootStates states;
   std::array<FootContacts, 2> contacts;
-  double ankle_height = 0;             ///< of the person [m]
-  std::array<double, 2> heel_heights;  ///< of HumanMotion::heels above the sole [m]
-  int iterations = 0;                  ///< of the fit, the most
-  bool keeps_limits = false;           ///< FitResult::has_converged
+  double ankle_height = 0;                  ///< of the person [m]
+  std::array<double, 2> heel_heights = {};  ///< of HumanMotion::heels above the sole [m]
+  int iterations = 0;                       ///< of the fit, the most
+  bool keeps_limits = false;                ///< FitResult::has_converged
 };
 
 /// README.md has the algorithm. human_model: a person's, of MMM or OpenSim.
