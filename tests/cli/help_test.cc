@@ -32,9 +32,10 @@ TEST(Help, IsPrintedWithoutArgumentsToo) {
 }
 
 TEST(Help, EveryCommandHasOneWithExamples) {
-  for (const char* command : {"calibrate", "check-dynamics", "compare", "convert", "evaluate",
-                              "export-poses", "export-urdf", "help", "info", "label",
-                              "learn-markers", "live", "print-config", "report", "serve"}) {
+  for (const char* command :
+       {"calibrate", "check-dynamics", "compare", "convert", "evaluate", "export-poses",
+        "export-urdf", "help", "info", "label", "learn-markers", "live", "print-config", "report",
+        "retarget", "serve"}) {
     const auto run = RunProgram({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, AllOf(StartsWith(std::string("MMMConverterS2KF ") + command),
@@ -50,9 +51,10 @@ int Columns(const std::string& line) {
 }
 
 TEST(Help, NoLineIsWiderThan100Columns) {
-  for (const char* command : {"help", "batch", "calibrate", "check-dynamics", "compare", "convert",
-                              "evaluate", "export-poses", "export-urdf", "help", "info", "label",
-                              "learn-markers", "live", "print-config", "report", "serve"}) {
+  for (const char* command :
+       {"help", "batch", "calibrate", "check-dynamics", "compare", "convert", "evaluate",
+        "export-poses", "export-urdf", "help", "info", "label", "learn-markers", "live",
+        "print-config", "report", "retarget", "serve"}) {
     std::istringstream help(RunProgram({command, "--help"}).out);
     for (std::string line; std::getline(help, line);) EXPECT_LE(Columns(line), 100) << line;
   }
@@ -107,8 +109,8 @@ TEST(Usage, WhatIsNotUnderstoodIsExitCode2WithAHint) {
       {{"covnert"}, "unknown command \"covnert\" (did you mean convert?)"},
       {{"fly"},
        "unknown command \"fly\"; use convert, batch, calibrate, check-dynamics, compare, evaluate, "
-       "export-poses, export-urdf, help, info, label, learn-markers, live, print-config, report or "
-       "serve"},
+       "export-poses, export-urdf, help, info, label, learn-markers, live, print-config, report, "
+       "retarget or serve"},
       {{"convert", "walk.c3d", "--heigth", "1.8"},
        "unknown option --heigth (did you mean --height?)"},
       {{"convert", "walk.c3d", "--zzzzzz"}, "unknown option --zzzzzz; see"},
