@@ -24,6 +24,7 @@ using Eigen::VectorXd;
 
 constexpr int kJudgedFrames = 12;
 constexpr int kPoseAttempts = 8;
+constexpr double kLooser = 5;        // clusters, once a posture is found by them
 constexpr int kFewestNamed = 4;      // labels of a frame that determine more than a pose
 constexpr double kNobodysMass = 70;  // [kg]; no place depends on it
 
@@ -200,6 +201,9 @@ void NameJudge::Pose(double height, const std::vector<Hypothesis>& clusters) {
   PostureSearch search(kinematics);
   PostureFitOptions options;
   options.robust_distance = 0.1;
+  // Clusters tell which way limbs bend; where they are worn they do not tell.
+  VectorXd loose = scales;
+  loose.tail(scales.size() - named) *= kLooser;
   Matrix3Xd z(3, scales.size());
   p_WM_.clear();
   for (std::size_t f = 0; f < frames_.size(); ++f) {
@@ -207,6 +211,7 @@ void NameJudge::Pose(double height, const std::vector<Hypothesis>& clusters) {
     z.leftCols(named) = Measured(frames_[f]);
     z.rightCols(z.cols() - named) = recording_.frame(frames_[f])(Eigen::all, worn);
     search.Assemble(z, scales, options, kPoseAttempts, &posture);
+    if (!worn.empty()) search.fit().Solve(z, loose, options, &posture);
     everything.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                               posture.joint_angles, &at);
     p_WM_.push_back(at.p_WM);
