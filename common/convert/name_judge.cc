@@ -195,6 +195,7 @@ void NameJudge::Pose(double height, const std::vector<Hypothesis>& clusters) {
   const KinematicModel scaled = ScaleWinter(*model_, {height, kNobodysMass, {}});
   const MarkerKinematics kinematics(scaled, joints_, markers);
   std::vector<MarkerIx> all;
+  all.reserve(model_->markers().size());
   for (int i = 0; i < static_cast<int>(model_->markers().size()); ++i) all.emplace_back(i);
   const MarkerKinematics everything(scaled, joints_, all);
   MarkerJacobian at = everything.MakeJacobian();
