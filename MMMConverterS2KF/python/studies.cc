@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What the commands calibrate, compare, label, check-dynamics and retarget do.
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <filesystem>
@@ -35,7 +34,6 @@
 #include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
-#include "common/support/text.h"
 
 namespace mmm_converter::python {
 
@@ -248,7 +246,17 @@ RetargetedMotion Retarget(const py::dict& options, const std::string& map,
   });
 }
 
+// An output that may not be one of the inputs.
+void CheckOutput(const RetargetedMotion& motion, const std::string& file) {
+  OutputPlan plan;
+  NameInputs(motion.request, &plan);
+  plan.Write(file);
+  plan.Check();
+}
+
 void SaveRobotMotion(RetargetedMotion* motion, const std::string& file) {
+  const py::gil_scoped_release release;
+  CheckOutput(*motion, file);
   motion->report.output = file;
   WriteRobotMotion(motion->report);
 }
@@ -256,19 +264,14 @@ void SaveRobotMotion(RetargetedMotion* motion, const std::string& file) {
 void ExportRobotMotion(const RetargetedMotion& motion, const std::string& format,
                        const std::string& file, std::optional<double> rate,
                        const std::optional<std::string>& order) {
+  const py::gil_scoped_release release;
   RobotExportOptions options;
   options.rate = rate;
   options.motion_name = motion.report.motion_name;
   if (order) options.order = ParseRobotOrder(*order);
-  for (const RobotExporter& one : RobotExporters()) {
-    if (one.name != format) continue;
-    one.write(file, motion.report.robot, motion.report.retargeted.motion, options);
-    return;
-  }
-  std::vector<std::string> names;
-  for (const RobotExporter& one : RobotExporters()) names.emplace_back(one.name);
-  throw Error(
-      fmt::format("format: \"{}\" is not known; there are {}", format, JoinNames(names, ", ")));
+  const RobotExporter& exporter = FindRobotExporter(format);
+  CheckOutput(motion, file);
+  exporter.write(file, motion.report.robot, motion.report.retargeted.motion, options);
 }
 
 }  // namespace

@@ -45,14 +45,20 @@ std::vector<bool> FindOn(const PointState& point, double rate) {
     const double height = was ? kOffHeight : kOnHeight, speed = was ? kOffSpeed : kOnSpeed;
     on[k] = point.height[k] < height && point.speed[k] < speed;
   }
-  for (int begin = 0; begin < frames;) {
-    int end = begin + 1;
-    while (end < frames && on[end] == on[begin]) ++end;
-    if (on[begin] && end - begin < kShortest * rate) {
-      std::fill(on.begin() + begin, on.begin() + end, false);
+  const auto each_run = [&](bool value, const auto& change) {
+    for (int begin = 0; begin < frames;) {
+      int end = begin + 1;
+      while (end < frames && on[end] == on[begin]) ++end;
+      if (on[begin] == value && end - begin < kShortest * rate) change(begin, end);
+      begin = end;
     }
-    begin = end;
-  }
+  };
+  each_run(false, [&](int begin, int end) {
+    const bool is_low = (point.height.segment(begin, end - begin).array() < kOffHeight).all();
+    if (begin > 0 && end < frames && is_low) std::fill(on.begin() + begin, on.begin() + end, true);
+  });
+  each_run(true,
+           [&](int begin, int end) { std::fill(on.begin() + begin, on.begin() + end, false); });
   return on;
 }
 

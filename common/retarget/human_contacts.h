@@ -29,7 +29,7 @@ struct Stance {
 };
 
 /// Which of a foot's ends are on the ground: on below 40 mm and 0.3 m/s, off above 60 mm or
-/// 0.5 m/s, for 80 ms at least.
+/// 0.5 m/s, for 80 ms at least; a point that stays below 60 mm is not off for less.
 struct FootContacts {
   std::vector<bool> heel, toe;
   std::vector<Stance> stances;  ///< of either

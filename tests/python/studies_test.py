@@ -206,6 +206,9 @@ class Studies(Case):
         self.assertIn("biped", repr(moved))
         with self.assertRaisesRegex(mmmconverter.Error, "lafan1"):
             moved.export("lafan2", self.folder / "o.csv")
+        for save in (moved.save, lambda file: moved.export("lafan1", file)):
+            with self.assertRaises(mmmconverter.Error):
+                save(MOTION)
         with self.assertRaisesRegex(mmmconverter.Error, "isaac"):
             moved.export("beyondmimic", self.folder / "o.npz")
         arrays = mmmconverter.Recording.from_arrays(

@@ -40,7 +40,14 @@ class _Study(Presented):
         return self._raw.warnings
 
 
-class Calibration(_Study):
+class _Judged(_Study):
+
+    @property
+    def verdict(self) -> str:
+        return self._raw.verdict
+
+
+class Calibration(_Judged):
     """A person as `calibrate` found them.
 
     Attributes
@@ -53,10 +60,6 @@ class Calibration(_Study):
     text : str
     warnings : list of str
     """
-
-    @property
-    def verdict(self) -> str:
-        return self._raw.verdict
 
     @functools.cached_property
     def subject(self) -> Subject:
@@ -294,7 +297,7 @@ def check_dynamics(file, *, progress: Progress = None,
         return Dynamics(_mmmconverter.check_dynamics(raw, options, callback))
 
 
-class Retargeted(_Study):
+class Retargeted(_Judged):
     """A motion that `retarget` brought to a robot.
 
     Attributes
@@ -315,29 +318,10 @@ class Retargeted(_Study):
     warnings : list of str
     """
 
-    @property
-    def verdict(self) -> str:
-        return self._raw.verdict
-
-    @property
-    def rate(self) -> float:
-        return self._raw.rate
-
-    @property
-    def joint_names(self) -> list:
-        return self._raw.joint_names
-
-    @property
-    def positions(self):
-        return self._raw.arrays[0]
-
-    @property
-    def quaternions(self):
-        return self._raw.arrays[1]
-
-    @property
-    def joints(self):
-        return self._raw.arrays[2]
+    def __init__(self, raw):
+        super().__init__(raw)
+        self.rate, self.joint_names = raw.rate, raw.joint_names
+        self.positions, self.quaternions, self.joints = raw.arrays
 
     def save(self, file) -> None:
         """Writes an MMM motion with the robot's model."""

@@ -12,6 +12,7 @@
 #include "common/math/rotation.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -275,6 +276,17 @@ const std::vector<RobotExporter>& RobotExporters() {
        "reads), 30 Hz; names beside it",
        kLafanRate, false, WritePhc}};
   return exporters;
+}
+
+const RobotExporter& FindRobotExporter(const std::string& name) {
+  std::vector<std::string> names;
+  names.reserve(RobotExporters().size());
+  for (const RobotExporter& one : RobotExporters()) {
+    if (one.name == name) return one;
+    names.emplace_back(one.name);
+  }
+  throw Error(fmt::format("\"{}\" is no format of robots' motions; there are {}", name,
+                          JoinNames(names, ", ")));
 }
 
 RobotOrder ParseRobotOrder(const std::string& text) {

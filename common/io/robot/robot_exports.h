@@ -34,6 +34,9 @@ struct RobotExporter {
 
 const std::vector<RobotExporter>& RobotExporters();
 
+/// @throws Error with the names that there are where it is none of them.
+const RobotExporter& FindRobotExporter(const std::string& name);
+
 /// "isaac" (breadth first) or "mujoco" (depth first). @throws Error for another text.
 RobotOrder ParseRobotOrder(const std::string& text);
 

@@ -13,7 +13,6 @@
 #include "common/motion/marker_residuals.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
-#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 namespace {
@@ -57,15 +56,19 @@ std::string DefaultOutput(const std::string& input) {
 
 void CheckFiles(const RetargetRequest& request, const std::string& output) {
   OutputPlan plan;
-  NameInputs(request.conversion.input, &plan);
-  plan.Read(request.robot_file);
-  plan.Read(request.map_file);
+  NameInputs(request, &plan);
   plan.Write(output);
   for (const std::string& file : request.conversion.more_outputs) plan.Write(file);
   plan.Check();
 }
 
 }  // namespace
+
+void NameInputs(const RetargetRequest& request, OutputPlan* plan) {
+  NameInputs(request.conversion.input, plan);
+  plan->Read(request.robot_file);
+  plan->Read(request.map_file);
+}
 
 LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings) {
   Robot robot = ReadRobotFile(request.robot_file, warnings);

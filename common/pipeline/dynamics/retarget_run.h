@@ -8,6 +8,7 @@
 #include "common/judge/retarget_verdict.h"
 #include "common/pipeline/conversion.h"
 #include "common/retarget/retarget_figures.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 
@@ -36,6 +37,9 @@ struct LoadedRobot {
   Robot robot;
   RobotBody body;
 };
+
+/// Says in the plan which files the request names.
+void NameInputs(const RetargetRequest& request, OutputPlan* plan);
 
 /// The robot with its map. @throws Error
 LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings);
