@@ -17,8 +17,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kMostExportRate = 1000;  // [Hz]
-
 const std::vector<OptionGroup> kRetargetOptions = {
     {"Files",
      {{"output,o", "FILE",
@@ -54,11 +52,12 @@ struct RobotExport {
 
 std::vector<RobotExport> ExportsOf(const Arguments& arguments, RobotExportOptions* options) {
   options->rate = arguments.GetNumber("export-rate", "hertz");
-  if (options->rate && !(*options->rate > 0 && *options->rate <= kMostExportRate)) {
-    throw UsageError(
-        fmt::format("--export-rate has to be above 0 and at most {:g} Hz", kMostExportRate));
+  if (options->rate && !IsExportRate(*options->rate)) {
+    throw UsageError("--export-rate has to be above 0 and at most 1000 Hz");
   }
-  if (const auto order = arguments.Get("order")) options->order = ParseRobotOrder(*order);
+  if (arguments.Get("order")) {
+    options->order = ParseRobotOrder(arguments.GetChoice("order", {"isaac", "mujoco"}, ""));
+  }
   std::vector<RobotExport> exports;
   for (const RobotExporter& format : RobotExporters()) {
     const auto file = arguments.Get(format.option);
@@ -69,6 +68,11 @@ std::vector<RobotExport> ExportsOf(const Arguments& arguments, RobotExportOption
           format.option));
     }
     exports.push_back({&format, *file});
+  }
+  for (const char* idle : {"export-rate", "order"}) {
+    if (exports.empty() && arguments.Get(idle)) {
+      throw UsageError(fmt::format("--{} is of an export, and none is asked for", idle));
+    }
   }
   return exports;
 }
@@ -105,8 +109,10 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
   }
   if (const auto file = arguments.Get("summary")) request.conversion.more_outputs.push_back(*file);
   for (const RobotExporter& format : RobotExporters()) {
-    if (const auto file = arguments.Get(format.option)) {
-      request.conversion.more_outputs.push_back(*file);
+    const auto file = arguments.Get(format.option);
+    if (!file) continue;
+    for (std::string& one : FilesOf(format, *file)) {
+      request.conversion.more_outputs.push_back(std::move(one));
     }
   }
   return request;
@@ -136,15 +142,18 @@ int RunRetarget(const Arguments& arguments) {
     return 0;
   }
   ProgressBar bar("frames");
-  const RetargetReport report = RunRetargeting(request, [&](int done, int all) {
+  RetargetReport report = RunRetargeting(request, [&](int done, int all) {
     bar.Show(done, all);
     return true;
   });
   bar.Clear();
-  WriteRobotMotion(report);
+  WriteRobotMotion(&report);
   options.motion_name = report.motion_name;
   for (const RobotExport& one : exports) {
     one.format->write(one.file, report.robot, report.retargeted.motion, options);
+    for (std::string& file : FilesOf(*one.format, one.file)) {
+      report.written.push_back(std::move(file));
+    }
   }
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {

@@ -246,19 +246,19 @@ RetargetedMotion Retarget(const py::dict& options, const std::string& map,
   });
 }
 
-// An output that may not be one of the inputs.
-void CheckOutput(const RetargetedMotion& motion, const std::string& file) {
+// None of them may be one of the inputs.
+void CheckOutputs(const RetargetedMotion& motion, const std::vector<std::string>& files) {
   OutputPlan plan;
   NameInputs(motion.request, &plan);
-  plan.Write(file);
+  for (const std::string& file : files) plan.Write(file);
   plan.Check();
 }
 
 void SaveRobotMotion(RetargetedMotion* motion, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckOutput(*motion, file);
+  CheckOutputs(*motion, {file});
   motion->report.output = file;
-  WriteRobotMotion(motion->report);
+  WriteRobotMotion(&motion->report);
 }
 
 void ExportRobotMotion(const RetargetedMotion& motion, const std::string& format,
@@ -270,7 +270,7 @@ void ExportRobotMotion(const RetargetedMotion& motion, const std::string& format
   options.motion_name = motion.report.motion_name;
   if (order) options.order = ParseRobotOrder(*order);
   const RobotExporter& exporter = FindRobotExporter(format);
-  CheckOutput(motion, file);
+  CheckOutputs(motion, FilesOf(exporter, file));
   exporter.write(file, motion.report.robot, motion.report.retargeted.motion, options);
 }
 

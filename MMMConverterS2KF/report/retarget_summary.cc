@@ -6,18 +6,24 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kInDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kLimbsShown = 3;
 
 std::string RetargetLine(const std::string& name, const std::string& text) {
   return fmt::format("{:<12}{}\n", name, text);
+}
+
+/// Without a minus before nothing.
+double Millimetres(double metres) {
+  const double tenths = std::round(10 * kMillimetres * metres);
+  return tenths == 0 ? 0 : tenths / 10;
 }
 
 std::string DescribeFeet(const RetargetReport& report) {
@@ -26,14 +32,17 @@ std::string DescribeFeet(const RetargetReport& report) {
   if (std::isnan(figures.slide)) {
     text += RetargetLine("feet", "the person's feet are nowhere in contact");
   } else {
-    text += RetargetLine(
-        "feet", fmt::format("slide in {:.1f} % of the frames in contact ({:.1f} % by the toe's "
-                            "rule at 30 Hz), {:.1f} mm above the floor in contact",
-                            100 * figures.slide, 100 * figures.toe_slide, 1e3 * figures.floating));
+    std::string feet = fmt::format(
+        "slide in {:.1f} % of the frames in contact ({:.1f} % by the toe's rule at 30 Hz)",
+        kPercent * figures.slide, kPercent * figures.toe_slide);
+    if (!std::isnan(figures.floating)) {
+      feet += fmt::format(", {:.1f} mm above the floor in contact", Millimetres(figures.floating));
+    }
+    text += RetargetLine("feet", feet);
   }
-  return text +
-         RetargetLine("floor", fmt::format("at most {:.1f} mm below it, at {:.2f} s",
-                                           1e3 * figures.penetration, figures.penetration_time));
+  return text + RetargetLine("floor", fmt::format("feet at most {:.1f} mm below it, at {:.2f} s",
+                                                  kMillimetres * figures.penetration,
+                                                  figures.penetration_time));
 }
 
 std::vector<LimbFigures> FarthestLimbs(const RetargetFigures& figures) {
@@ -43,6 +52,16 @@ std::vector<LimbFigures> FarthestLimbs(const RetargetFigures& figures) {
   });
   limbs.resize(std::min(limbs.size(), kLimbsShown));
   return limbs;
+}
+
+std::string DescribeLimbs(const RetargetFigures& figures) {
+  std::string limbs;
+  for (const LimbFigures& limb : FarthestLimbs(figures)) {
+    limbs += fmt::format("; {} up to {:.0f} at {:.2f} s", limb.name, limb.most * kDegrees,
+                         limb.most_time);
+  }
+  return fmt::format("{:.1f} degrees from the person's, 95 % below {:.1f}{}",
+                     figures.direction * kDegrees, figures.direction95 * kDegrees, limbs);
 }
 
 Json LimbsJson(const RetargetFigures& figures) {
@@ -82,14 +101,7 @@ std::string FormatRetargetSummary(const RetargetReport& report) {
                                         report.robot.model.name(), report.robot_file,
                                         report.robot.model.num_joints(), report.retargeted.scale));
   if (report.body.feet) text += DescribeFeet(report);
-  std::string limbs;
-  for (const LimbFigures& limb : FarthestLimbs(figures)) {
-    limbs += fmt::format("; {} up to {:.0f} at {:.2f} s", limb.name, limb.most * kInDegrees,
-                         limb.most_time);
-  }
-  text += RetargetLine("limbs", fmt::format("{:.1f} degrees from the person's, 95 % below {:.1f}{}",
-                                            figures.direction * kInDegrees,
-                                            figures.direction95 * kInDegrees, limbs));
+  if (!std::isnan(figures.direction)) text += RetargetLine("limbs", DescribeLimbs(figures));
   text += RetargetLine("joints", fmt::format("{:.3g} rad/s^2 and {:.3g} rad/s^3 rms; limits of "
                                              "position broken {} times, of velocity {} times",
                                              figures.acceleration, figures.jerk,
@@ -97,7 +109,7 @@ std::string FormatRetargetSummary(const RetargetReport& report) {
   if (!std::isnan(figures.path)) {
     text += RetargetLine("path", fmt::format("{:.3f} of what the legs allow", figures.path));
   }
-  text += RetargetLine("written", report.output);
+  text += RetargetLine("written", JoinNames(report.written, ", "));
   return text + RetargetLine("verdict", DescribeVerdict(report.verdict));
 }
 

@@ -56,14 +56,20 @@ RecordedForces ForcesOf(const Recording& recording, Warnings* warnings) {
 }
 
 RecordedForces ForcesOf(const std::string& file, UpAxis up, Warnings* warnings) {
-  RecordedForces forces = ReadTurned(file, up, warnings);
-  if (up == UpAxis::kY || Uprightness(forces) >= kLeastUpright) return forces;
-  RecordedForces other = ReadTurned(file, UpAxis::kY, nullptr);
-  if (Uprightness(other) < kLeastUpright) return forces;
-  if (warnings != nullptr) {
+  Warnings as_given, as_other;
+  RecordedForces forces = ReadTurned(file, up, &as_given);
+  bool is_other = false;
+  if (up != UpAxis::kY && Uprightness(forces) < kLeastUpright) {
+    RecordedForces other = ReadTurned(file, UpAxis::kY, &as_other);
+    is_other = Uprightness(other) >= kLeastUpright;
+    if (is_other) forces = std::move(other);
+  }
+  if (warnings == nullptr) return forces;
+  if (is_other) {
     warnings->Add(file + ": its forces point along y, which is taken as up, as in OpenSim's files");
   }
-  return other;
+  warnings->Append(is_other ? as_other : as_given);
+  return forces;
 }
 
 }  // namespace mmm_converter

@@ -77,7 +77,7 @@ void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons);
 
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, VerdictReasons* reasons);
 
-/// True where a calibrated person's segments are longer or shorter than a person's are.
+/// Where a calibrated person's segments are longer or shorter than a person's are.
 void JudgeProportions(const Subject& subject, VerdictReasons* reasons);
 
 /// True where a calibrated person's markers sit too far from where the model has them.

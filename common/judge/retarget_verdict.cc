@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/judge/evidence.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -21,10 +21,10 @@ constexpr Limit kPenetration = {0.002, 0.03};  // [m]
 constexpr Limit kFloating = {0.003, 0.03};     // [m]
 constexpr Limit kDirection = {6, 25};          // [deg] on average
 constexpr Limit kLimb = {12, 45};              // [deg] of one half of a limb, on average
+constexpr double kLeastContact = 0.1;          // share of the frames of both feet
 constexpr Limit kPath = {0.05, 0.3};           // from 1
 constexpr Limit kAtLimit = {0.1, kNever};      // share of the frames
 constexpr Limit kJump = {0.5, 1.5};            // [rad] from frame to frame
-constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
 constexpr std::size_t kMostJointsNamed = 4;
 
 void JudgeJoints(const RetargetFigures& figures, VerdictReasons* reasons) {
@@ -36,16 +36,39 @@ void JudgeJoints(const RetargetFigures& figures, VerdictReasons* reasons) {
                  kAtLimit, most,
                  fmt::format("{} stands at its limit of {} in {:.0f} % of the frames", joint.name,
                              joint.share_at_limit >= joint.share_at_speed ? "position" : "velocity",
-                             100 * most))
+                             kPercent * most))
                  ? 1
                  : 0;
   }
 }
 
+/// Of few contacts a share says nothing.
+void JudgeContacts(const RetargetFigures& figures, VerdictReasons* reasons) {
+  if (std::isnan(figures.slide)) return;
+  if (figures.contact_share < kLeastContact) {
+    reasons->Add(Level::kCheck,
+                 fmt::format("the person's feet stand still in {:.0f} % of the frames only, as in "
+                             "flight or on a treadmill: the robot's are not held",
+                             kPercent * figures.contact_share));
+    return;
+  }
+  reasons->AddBeyond(
+      kSlide, figures.slide,
+      fmt::format("feet slide in {:.1f} % of the frames in contact", kPercent * figures.slide));
+  reasons->AddBeyond(kFloating, figures.floating,
+                     fmt::format("feet in contact are {:.1f} mm above the floor on average",
+                                 kMillimetres * figures.floating));
+}
+
 }  // namespace
 
-Verdict JudgeRetargeting(const RetargetFigures& figures) {
+Verdict JudgeRetargeting(const RetargetFigures& figures, const Verdict* of_conversion) {
   VerdictReasons reasons;
+  if (of_conversion != nullptr && of_conversion->level != Level::kGood) {
+    reasons.Add(of_conversion->level,
+                "the recording's conversion: " +
+                    (of_conversion->reasons.empty() ? "" : of_conversion->reasons.front()));
+  }
   if (figures.is_mirrored) {
     reasons.Add(Level::kFailed,
                 "the robot moves as the person in a mirror, or with sides exchanged");
@@ -60,29 +83,27 @@ Verdict JudgeRetargeting(const RetargetFigures& figures) {
     reasons.Add(Level::kCheck,
                 "the robot's limits were met only by holding joints back or lifting the robot");
   }
-  reasons.AddBeyond(
-      kSlide, figures.slide,
-      fmt::format("feet slide in {:.1f} % of the frames in contact", 100 * figures.slide));
+  JudgeContacts(figures, &reasons);
   reasons.AddBeyond(kPenetration, figures.penetration,
                     fmt::format("a foot is {:.1f} mm below the floor at {:.2f} s",
-                                1e3 * figures.penetration, figures.penetration_time));
-  reasons.AddBeyond(kFloating, figures.floating,
-                    fmt::format("feet in contact are {:.1f} mm above the floor on average",
-                                1e3 * figures.floating));
-  reasons.AddBeyond(kDirection, figures.direction * kDegreesOfRadian,
+                                kMillimetres * figures.penetration, figures.penetration_time));
+  reasons.AddBeyond(kDirection, figures.direction * kDegrees,
                     fmt::format("limbs point {:.1f} degrees elsewhere than the person's on average",
-                                figures.direction * kDegreesOfRadian));
+                                figures.direction * kDegrees));
+  if (std::isnan(figures.direction)) {
+    reasons.Add(Level::kCheck, "limbs can't be compared: no frame shows which way the body faces");
+  }
   for (const LimbFigures& limb : figures.limbs) {
-    reasons.AddBeyond(kLimb, limb.mean * kDegreesOfRadian,
-                      fmt::format("the {} points {:.0f} degrees elsewhere on average, at {:.2f} s "
-                                  "{:.0f}",
-                                  limb.name, limb.mean * kDegreesOfRadian, limb.most_time,
-                                  limb.most * kDegreesOfRadian));
+    reasons.AddBeyond(
+        kLimb, limb.mean * kDegrees,
+        fmt::format("the {} points {:.0f} degrees elsewhere on average, at {:.2f} s "
+                    "{:.0f}",
+                    limb.name, limb.mean * kDegrees, limb.most_time, limb.most * kDegrees));
   }
   JudgeJoints(figures, &reasons);
   reasons.AddBeyond(kJump, figures.largest_jump,
                     fmt::format("a joint jumps by {:.0f} degrees from a frame to the next",
-                                figures.largest_jump * kDegreesOfRadian));
+                                figures.largest_jump * kDegrees));
   reasons.AddBeyond(
       kPath, std::abs(figures.path - 1),
       fmt::format("the path is {:.2f} times as long as the legs allow", figures.path));

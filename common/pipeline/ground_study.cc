@@ -119,6 +119,7 @@ AnatomicalAngles LegMoments(const ConversionReport& report, const GroundStudy& g
         -moments.row(static_cast<Eigen::Index>(i)) / found.mass;
     rows.angles.push_back({angle.joint, angle.side, name});
   }
+  rows.values.conservativeResize(static_cast<Eigen::Index>(rows.angles.size()), Eigen::NoChange);
   return rows;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "common/retarget/limb_chains.h"
@@ -14,6 +15,8 @@
 
 namespace mmm_converter {
 namespace {
+
+constexpr int kMostJoints = 200;  // of robots with hands some 100
 
 using Eigen::Vector3d;
 using Chains = std::array<std::vector<int>, 2>;
@@ -253,6 +256,16 @@ Limbs FindLimbs(const ZeroPose& zero, const BodyMapChoice& choice) {
     return ReadLimbs(zero, ChoosePairs(zero, pairs));
   }
   legs.pairs.insert(legs.pairs.end(), arms.pairs.begin(), arms.pairs.end());
+  std::set<int> taken;
+  for (const std::array<LimbReading, 2>& pair : legs.pairs) {
+    for (const LimbReading& limb : pair) {
+      for (const int segment : limb.chain) {
+        if (taken.insert(segment).second) continue;
+        Refuse(zero,
+               fmt::format("the map has {} in two limbs", zero.model->segments()[segment].name));
+      }
+    }
+  }
   legs.normals.insert(legs.normals.end(), arms.normals.begin(), arms.normals.end());
   return legs;
 }
@@ -264,6 +277,10 @@ std::string LimbName(bool is_leg, Side side) {
 }
 
 BodyMap FindBodyMap(const KinematicModel& model, const BodyMapChoice& choice) {
+  if (model.num_joints() > kMostJoints) {
+    throw Error(fmt::format("the robot {} has {} joints; a motion is brought to at most {}",
+                            model.name(), model.num_joints(), kMostJoints));
+  }
   const ZeroPose zero(model);
   BodyMap map;
   const Limbs limbs = FindLimbs(zero, choice);

@@ -41,7 +41,9 @@ void ReadLimbChoice(const XmlElement& element, BodyMapChoice* choice, Diagnostic
   for (const bool is_leg : {true, false}) {
     for (const Side side : kSides) {
       if (name != LimbName(is_leg, side)) continue;
-      (is_leg ? choice->legs : choice->arms)[static_cast<std::size_t>(side)] = limb;
+      auto& chosen = (is_leg ? choice->legs : choice->arms)[static_cast<std::size_t>(side)];
+      if (chosen) problems->AddError(element.line, fmt::format("a second {}", name));
+      chosen = limb;
       return;
     }
   }

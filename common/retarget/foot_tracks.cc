@@ -15,7 +15,6 @@ using Eigen::Vector3d;
 constexpr double kPitchSmoothing = 0.025;  // [s]
 constexpr double kLongestDraw = 0.5;       // [s] in which a swing leaves or reaches a place
 constexpr double kSoftness = 0.04;         // [rad] of feet in the first pass
-constexpr double kClearance = 0.0;         // [m] of a swinging foot above the floor
 
 double YawOf(const Vector3d& forward) { return std::atan2(forward.y(), forward.x()); }
 /// > 0: heel up.
@@ -121,7 +120,7 @@ void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<doub
 
 }  // namespace
 
-FootTracks ScaledFeet(const Retargeted& retargeted, const Robot& /*robot*/, const RobotBody& body) {
+FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
   FootTracks tracks;
   if (!body.feet) return tracks;
   const HumanMotion& human = retargeted.human;
@@ -198,7 +197,7 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
       Eigen::Isometry3d& X = track.X_WF[k];
       X.translation() += draws[k].head<3>();
       X.linear() = Exp(draws[k].tail<3>()).toRotationMatrix() * X.linear();
-      X.translation().z() += std::max(0.0, kClearance - LowestOf(foot, X));
+      X.translation().z() += std::max(0.0, -LowestOf(foot, X));
     }
   }
   return tracks;

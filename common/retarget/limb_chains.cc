@@ -20,7 +20,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr int kMostJoints = 400;  // of robots with hands some 100
 constexpr std::size_t kFewestJoints = 3;
 constexpr double kMirrorTolerance = 0.006;  // [m] of places that files round
 constexpr double kLeastApart = 0.02;        // [m] of places that tell where the plane is
@@ -108,16 +107,12 @@ bool AreMirrored(const ZeroPose& zero, const Plane& plane, const std::vector<int
 }
 
 double DistanceToEnd(const ZeroPose& zero, const std::vector<int>& chain, int joint, double angle) {
-  const int last = chain.back();
-  const Eigen::Vector3d end =
-      chain.size() > 1 || zero.Moves(last) ? zero.mass_centre[last] : zero.origin(last);
+  const Eigen::Vector3d end = zero.mass_centre[chain.back()];
   const int segment = chain[joint];
   const Eigen::Vector3d pivot = zero.origin(segment);
   const Eigen::Vector3d turned = Eigen::AngleAxisd(angle, zero.axis(segment)) * (end - pivot);
   return (pivot + turned - zero.origin(chain.front())).norm();
 }
-
-std::string Lower(const std::string& text) { return ToLower(text); }
 
 }  // namespace
 
@@ -173,10 +168,6 @@ FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain) {
 }
 
 std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero) {
-  if (zero.model->num_joints() > kMostJoints) {
-    throw Error(fmt::format("the robot {} has {} joints; a motion is brought to at most {}",
-                            zero.model->name(), zero.model->num_joints(), kMostJoints));
-  }
   const std::vector<double> reach = ReachesOf(zero);
   std::vector<int> num_children(zero.X_WS.size(), 0);
   for (std::size_t s = 0; s < zero.X_WS.size(); ++s) {
@@ -210,7 +201,7 @@ std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero) {
 }
 
 int SideByNames(const std::string& first, const std::string& second) {
-  const std::string a = Lower(first), b = Lower(second);
+  const std::string a = ToLower(first), b = ToLower(second);
   const auto replaced = [](std::string text, std::string_view from, std::string_view to) {
     const std::size_t at = text.find(from);
     if (at != std::string::npos) text.replace(at, from.size(), to);

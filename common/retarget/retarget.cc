@@ -43,7 +43,7 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
   result.ankle_height = person.ankle_height;
   result.heel_heights = person.heel_heights;
   result.scale = body.size / (body.feet ? person.leg_length() : person.arm_length());
-  FootTracks feet = ScaledFeet(result, robot, body);
+  FootTracks feet = ScaledFeet(result, body);
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
   std::vector<Posture> start = StartTrajectory(problem, FirstPosture(result, robot, body));
   FitResult fit = FitTrajectory(problem, std::move(start), kFirstIterations, body.feet ? 0 : kMore);

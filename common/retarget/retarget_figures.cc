@@ -222,6 +222,7 @@ RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& ro
     X_WS.push_back(SegmentPoses(robot.model, posture));
   }
   figures.slide = figures.toe_slide = figures.floating = figures.path = NAN;
+  figures.direction = figures.direction95 = NAN;
   if (body.feet) {
     MeasureFeet(retargeted, body, X_WS, &figures);
     figures.path = PathOf(retargeted, body.map, X_WS);

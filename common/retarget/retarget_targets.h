@@ -18,7 +18,7 @@ using FootTracks = std::array<FootTrack, 2>;
 
 /// What the robot has to do by the person's motion alone: the first pass. Feet go where the
 /// person's go, scaled, and as far apart as the robot's hips ask.
-FootTracks ScaledFeet(const Retargeted& retargeted, const Robot& robot, const RobotBody& body);
+FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body);
 
 /// Of what the first pass made of the feet: in each stance exactly one place and direction on the
 /// ground, where it had the foot on average, with its pitch about the edges; in between as it had

@@ -14,6 +14,7 @@
 namespace mmm_converter {
 namespace {
 
+constexpr double kMostSoleHeight = 0.5;  // [m]
 using Eigen::Vector3d;
 
 constexpr double kTilts[] = {0.3, 1};  // of directions in which the sole's ends are the lowest
@@ -128,6 +129,10 @@ Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& pla
 
 RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
                         std::optional<double> sole_height) {
+  if (sole_height && !(*sole_height >= 0 && *sole_height <= kMostSoleHeight)) {
+    throw Error(fmt::format("a sole {:g} m below the ankle is none; 0 to {:g} m are expected",
+                            *sole_height, kMostSoleHeight));
+  }
   RobotBody body;
   body.map = FindBodyMap(robot.model, choice);
   const auto X_WS = SegmentPoses(robot.model, ZeroPosture(robot.model));

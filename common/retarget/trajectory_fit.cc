@@ -13,8 +13,9 @@
 namespace mmm_converter {
 namespace {
 
-constexpr int kWindow = 600;   // frames that are solved at once
-constexpr int kOverlap = 100;  // of them, that are solved again with those behind them
+constexpr int kWindow = 600;               // frames that are solved at once, of
+constexpr double kWindowBytes = 64 << 20;  // at most
+constexpr int kOverlap = 100;              // of them, that are solved again with those behind them
 constexpr int kFrameIterations = 3;
 constexpr double kFrameDamping = 20;
 constexpr int kAnew = 12;            // postures from which a frame is begun anew
@@ -143,8 +144,13 @@ FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> s
   result.postures = std::move(start);
   CorrectJoints(problem, &result.postures);
   TrajectoryWindow window(problem);
+  const double states = 6 + problem.model->num_joints();
+  const double frame_bytes = 4 * states * states * sizeof(double);
+  const int window_frames =
+      std::clamp(static_cast<int>(kWindowBytes / frame_bytes), 2 * kOverlap, kWindow);
+  bool is_solved = true;
   for (int begin = 0; begin < problem.num_frames;) {
-    const int end = std::min(begin + kWindow, problem.num_frames);
+    const int end = std::min(begin + window_frames, problem.num_frames);
     window.Begin(begin, end);
     int done = 0;
     while (done < iterations + more) {
@@ -154,12 +160,13 @@ FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> s
       if (window.IsWithinLimits(result.postures)) break;
     }
     result.iterations = std::max(result.iterations, done);
+    is_solved &= window.is_solved();
     if (end == problem.num_frames) break;
     begin = end - kOverlap;
   }
   const double turned = CorrectJoints(problem, &result.postures);
   const double lifted = LiftAboveFloor(problem, &result.postures);
-  result.has_converged = turned <= kTurned && lifted <= kLifted;
+  result.has_converged = is_solved && turned <= kTurned && lifted <= kLifted;
   return result;
 }
 

@@ -157,6 +157,7 @@ TrajectoryWindow::TrajectoryWindow(const TrajectoryProblem& problem)
 void TrajectoryWindow::Begin(int begin, int end) {
   begin_ = begin;
   end_ = end;
+  is_solved_ = false;
   damping_ = kFirstDamping;
   stiffness_ = kFirstStiffness;
   band_.Resize(end - begin, 6 + problem_.model->num_joints());
@@ -254,6 +255,7 @@ double TrajectoryWindow::Step(std::vector<Posture>* postures) {
     damping_ *= 100;
     return kLongestStep;
   }
+  is_solved_ = true;
   before_.assign(postures->begin() + begin_, postures->begin() + end_);
   double longest = 0;
   for (int i = 0; i < end_ - begin_; ++i) {

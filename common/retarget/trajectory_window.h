@@ -23,8 +23,6 @@ class FrameEquations {
  public:
   explicit FrameEquations(const TrajectoryProblem& problem);
 
-  const KinematicModel& model() const { return *problem_.model; }
-
   /// Adds the aims of a frame at a posture to H (its lower half) and b, H step = b; returns the
   /// cost, the sum of squares. What nothing moves is held.
   double AddAims(int frame, const Posture& posture, Eigen::MatrixXd* H, Eigen::VectorXd* b);
@@ -60,6 +58,7 @@ class TrajectoryWindow {
   /// One step of all of its frames; returns the longest of a joint [rad].
   double Step(std::vector<Posture>* postures);
   bool IsWithinLimits(const std::vector<Posture>& postures);
+  bool is_solved() const { return is_solved_; }  ///< some step had a solution
 
  private:
   /// What the aims of a frame alone are by the equations of a step.
@@ -79,6 +78,7 @@ class TrajectoryWindow {
   const TrajectoryProblem& problem_;
   FrameEquations equations_;
   int begin_ = 0, end_ = 0;
+  bool is_solved_ = false;
   BlockBand band_;
   std::vector<FrameAims> aims_;
   std::vector<std::vector<FloorContact>> contacts_;  ///< of each frame

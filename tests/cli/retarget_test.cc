@@ -56,17 +56,30 @@ TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
       RunProgram(Words({"-o", File("o.xml"), "--summary", File("o.json"), "--export-lafan1",
                         File("o.csv"), "--export-beyondmimic", File("o.npz"), "--order", "isaac"}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("verdict"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("verdict"), HasSubstr(File("o.csv.names.json"))));
   const auto summary = nlohmann::json::parse(ReadText(File("o.json")));
   EXPECT_THAT(summary["verdict"]["level"], ::testing::AnyOf("good", "check"));
   EXPECT_THAT(ReadText(File("o.xml")), HasSubstr("left_hip_pitch"));
   const auto rows = ReadNumbers(ReadText(File("o.csv")));
-  EXPECT_NEAR(static_cast<double>(rows.size()), 30, 1);  // of a second
+  EXPECT_EQ(rows.size(), 30U);  // of 0.99 s
   for (const auto& row : rows) {
     ASSERT_EQ(row.size(), 7U + 21U);
     EXPECT_NEAR(std::hypot(std::hypot(row[3], row[4]), std::hypot(row[5], row[6])), 1, 1e-5);
   }
-  EXPECT_EQ(ReadText(File("o.npz")).substr(0, 2), "PK");
+  EXPECT_THAT(ReadText(File("o.npz")), HasSubstr("body_quat_w.npy"));
+  EXPECT_THAT(ReadText(File("o.csv.names.json")), HasSubstr("\"left_hip_pitch\""));
+}
+
+TEST_F(RetargetCommand, ConvertsARecordingFirst) {
+  const auto run =
+      RunProgram({"retarget", testing::Handstand(), "--height", "1.8", "--frames", "0:60",
+                  "--robot", robot_, "-o", File("r.xml"), "--summary", File("r.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(ReadText(File("r.json")));
+  EXPECT_EQ(summary["conversion_verdict"]["level"], "good");
+  EXPECT_EQ(summary["frames"], 60);
+  EXPECT_EQ(summary["velocity_limits_broken"], 0);
+  EXPECT_LT(summary["penetration_m"].get<double>(), 0.001);
 }
 
 TEST_F(RetargetCommand, PrintsWhichJointsAreTheLimbs) {
@@ -86,6 +99,13 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   EXPECT_THAT(refusal(Words({"-o", out, "--export-beyondmimic", File("n.npz")}), 2),
               HasSubstr("--order isaac"));
   EXPECT_THAT(refusal(Words({"-o", out, "--export-rate", "0"}), 2), HasSubstr("--export-rate"));
+  EXPECT_THAT(refusal(Words({"-o", out, "--order", "isaac"}), 2), HasSubstr("none is asked for"));
+  EXPECT_THAT(refusal(Words({"-o", out, "--export-gmr", File("n.pkl"), "--order", "bfs"}), 2),
+              HasSubstr("isaac"));
+  EXPECT_THAT(refusal(Words({"-o", out, "--export-lafan1", File("n.csv"), "--summary",
+                             File("n.csv.names.json")}),
+                      1),
+              HasSubstr("two outputs"));
   EXPECT_THAT(refusal(Words({"-o", robot_}), 1), HasSubstr(robot_));
   testing::BipedShape mirrored;
   mirrored.sides = {"right_", "left_"};
@@ -93,7 +113,7 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   EXPECT_THAT(refusal({"retarget", testing::SourcePath("examples/handstand_true.xml"), "--robot",
                        File("mirrored.urdf"), "-o", out},
                       1),
-              HasSubstr("left_"));
+              HasSubstr("contradict"));
 }
 
 }  // namespace

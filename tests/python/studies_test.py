@@ -209,6 +209,8 @@ class Studies(Case):
         for save in (moved.save, lambda file: moved.export("lafan1", file)):
             with self.assertRaises(mmmconverter.Error):
                 save(MOTION)
+        with self.assertRaisesRegex(ValueError, "export"):
+            moved.save(self.folder / "o.csv")
         with self.assertRaisesRegex(mmmconverter.Error, "isaac"):
             moved.export("beyondmimic", self.folder / "o.npz")
         arrays = mmmconverter.Recording.from_arrays(

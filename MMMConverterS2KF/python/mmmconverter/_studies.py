@@ -324,7 +324,9 @@ class Retargeted(_Judged):
         self.positions, self.quaternions, self.joints = raw.arrays
 
     def save(self, file) -> None:
-        """Writes an MMM motion with the robot's model."""
+        """Writes an MMM motion (.xml) with the robot's model; `export` writes other formats."""
+        if not path_text(file).endswith(".xml"):
+            raise ValueError(f"save: {path_text(file)}: is an MMM motion, .xml; export writes other formats")
         self._raw.save(path_text(file))
 
     def export(self, format, file, *, rate=None, order=None) -> None:

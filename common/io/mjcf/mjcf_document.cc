@@ -53,6 +53,7 @@ class MjcfDocumentReader {
   void ReadRange(const MjcfAttributes& attributes, const XmlElement& element, MjcfJoint* joint);
   void ReadGeom(const XmlElement& element, const Place& place, Masses* masses);
   void ReadSite(const XmlElement& element, const Place& place);
+  void CountShape(const XmlElement& element);
   void SetMass(const Masses& masses, MjcfBody* body);
   void ScaleMasses();
   void ReadEquality(const XmlElement& element);
@@ -65,7 +66,7 @@ class MjcfDocumentReader {
   MjcfDocument document_;
   std::set<std::string> body_names_{"world"}, joint_names_, site_names_;
   std::vector<std::string> without_mass_;
-  std::size_t num_joints_ = 0;
+  std::size_t num_joints_ = 0, num_shapes_ = 0;
 };
 
 /// Elements without a name are called by their number, from 1, as others would see them.
@@ -203,7 +204,14 @@ void MjcfDocumentReader::ReadRange(const MjcfAttributes& attributes, const XmlEl
   }
 }
 
+void MjcfDocumentReader::CountShape(const XmlElement& element) {
+  if (++num_shapes_ <= kMaxMjcfShapes) return;
+  text_.Fail(element, fmt::format("has more than {} shapes and sites", kMaxMjcfShapes));
+  text_.ThrowIfErrors();
+}
+
 void MjcfDocumentReader::ReadGeom(const XmlElement& element, const Place& place, Masses* masses) {
+  CountShape(element);
   const int of_class = defaults_.ClassOf(element, place.childclass, "class");
   const MjcfAttributes attributes = Attributes(element, of_class);
   MjcfGeom geom = ReadMjcfGeom(attributes, place.X_BF, element, &text_);
@@ -213,16 +221,13 @@ void MjcfDocumentReader::ReadGeom(const XmlElement& element, const Place& place,
   } else if (geom.touches) {
     ++BodyAt(place.body).num_meshes;
   }
-  if (document_.shapes.size() > kMaxMjcfShapes) {
-    text_.Fail(element, fmt::format("has more than {} shapes", kMaxMjcfShapes));
-    text_.ThrowIfErrors();
-  }
   const double group = attributes.Number("group", 0);
   if (group < settings_.inertia_groups[0] || group > settings_.inertia_groups[1]) return;
   geom.mass ? masses->of_geoms.Add(*geom.mass) : void(masses->has_unknown = true);
 }
 
 void MjcfDocumentReader::ReadSite(const XmlElement& element, const Place& place) {
+  CountShape(element);
   const int of_class = defaults_.ClassOf(element, place.childclass, "class");
   const MjcfAttributes attributes = Attributes(element, of_class);
   Robot::Site& site = document_.sites.emplace_back();

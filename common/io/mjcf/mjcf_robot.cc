@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "common/io/bytes/file_content.h"
@@ -55,6 +56,7 @@ class MjcfRobotBuilder {
   std::vector<int> links_;  // of bodies; -1: not the robot's
   std::vector<Robot::Link> robot_links_;
   std::map<std::string, int> segment_of_joint_;
+  std::set<int> leaders_;  // segments that others follow
   std::map<std::string, double> ref_of_joint_;
 };
 
@@ -198,7 +200,9 @@ void MjcfRobotBuilder::Couple(const MjcfCoupling& coupling) {
   if (follower == segment_of_joint_.end()) return;  // not the robot's
   Segment& segment = description_.segments[static_cast<std::size_t>(follower->second)];
   const std::array<double, 5>& p = coupling.polynomial;
-  if (coupling.leader.empty()) {
+  const bool is_free = segment.leader < 0 && segment.type != JointType::kFixed &&
+                       leaders_.count(follower->second) == 0;
+  if (coupling.leader.empty() && is_free) {
     segment.X_PF =
         segment.X_PF * (segment.type == JointType::kSliding
                             ? Eigen::Isometry3d(Eigen::Translation3d(p[0] * segment.axis))
@@ -209,14 +213,11 @@ void MjcfRobotBuilder::Couple(const MjcfCoupling& coupling) {
     return;
   }
   const auto leader = segment_of_joint_.find(coupling.leader);
-  const bool is_led = leader != segment_of_joint_.end() && leader->second != follower->second &&
-                      segment.leader < 0 && segment.type != JointType::kFixed;
+  const bool is_led =
+      is_free && leader != segment_of_joint_.end() && leader->second != follower->second;
   const Segment* moved =
       is_led ? &description_.segments[static_cast<std::size_t>(leader->second)] : nullptr;
-  const bool leads_others =
-      std::any_of(description_.segments.begin(), description_.segments.end(),
-                  [&](const Segment& other) { return other.leader == follower->second; });
-  if (!is_led || moved->leader >= 0 || moved->type == JointType::kFixed || leads_others) {
+  if (!is_led || moved->leader >= 0 || moved->type == JointType::kFixed) {
     text_.Warn(
         fmt::format("<equality><joint> of '{}' and '{}' is not kept: one of them follows "
                     "another or does not move",
@@ -227,6 +228,7 @@ void MjcfRobotBuilder::Couple(const MjcfCoupling& coupling) {
   const double own_ref = ref_of_joint_.at(coupling.follower);
   segment.X_PF = segment.X_PF * JointTransform(segment, 0);
   segment.leader = leader->second;
+  leaders_.insert(leader->second);
   segment.lower = moved->lower;
   segment.upper = moved->upper;
   segment.rest = moved->rest;
@@ -303,7 +305,8 @@ Robot ReadMjcf(const std::string& path, Warnings* warnings) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const auto read_part = [&](const std::string& name) -> std::optional<std::string> {
     const std::filesystem::path part = folder / name;
-    if (!std::filesystem::exists(part)) return {};
+    std::error_code unreadable;
+    if (!std::filesystem::exists(part, unreadable)) return {};
     return ReadFileContent(part.string(), kMaxPartBytes);
   };
   return ParseMjcf(ReadFileContent(path, kMaxPartBytes), path, read_part, warnings);

@@ -16,10 +16,9 @@ namespace {
 constexpr std::size_t kMaxFiles = 100;  // a model with its own actuators, assets, ... has some 5
 constexpr std::size_t kMaxBytes = std::size_t{32} << 20;
 constexpr int kMaxDepth = 400;
-// Lines of file i are i kLinesOfFile + line: more lines than a file of kMaxBytes can have.
+// Lines of file i are i kLinesOfFile + line: more lines than a file of so many bytes can have.
 constexpr int kLinesOfFile = 1 << 24;
 static_assert(kMaxFiles < (std::size_t{1} << 31) / kLinesOfFile);
-static_assert(kMaxBytes <= 2 * std::size_t{kLinesOfFile});
 
 void MoveLines(int offset, XmlElement* element) {
   element->line += offset;
@@ -46,7 +45,7 @@ MjcfText::MjcfText(std::string_view content, const MjcfPartReader& read_part,
 XmlElement MjcfText::Parse(std::string_view content, const std::string& path) {
   bytes_ += content.size();
   files_.push_back(path);
-  if (bytes_ > kMaxBytes || files_.size() > kMaxFiles) {
+  if (bytes_ > kMaxBytes || content.size() >= kLinesOfFile || files_.size() > kMaxFiles) {
     throw Error(fmt::format("{}: includes more than {} files or {} MB, which no robot has",
                             diagnostics_->file(), kMaxFiles, kMaxBytes >> 20));
   }

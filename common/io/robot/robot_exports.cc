@@ -54,7 +54,7 @@ Eigen::MatrixXd ScalarLast(const Eigen::MatrixXd& wxyz) {
 
 void AppendJsonText(const std::string& text, std::string* json) {
   *json += '"';
-  for (const char c : text) {
+  for (const char c : ToUtf8(text)) {
     if (c == '"' || c == '\\') *json += '\\';
     *json += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
@@ -77,7 +77,9 @@ std::vector<std::string> NamesOf(const Robot& robot, const std::vector<int>& lin
   return names;
 }
 
-/// Beside a file that has no names: FILE.names.json.
+std::string NamesFile(const std::string& file) { return file + ".names.json"; }
+
+/// Beside a file that has no names.
 void WriteNames(const std::string& file, const Robot& robot, const RobotMotion& motion,
                 const char* quaternion) {
   std::string json = fmt::format(
@@ -87,10 +89,13 @@ void WriteNames(const std::string& file, const Robot& robot, const RobotMotion& 
   AppendNames("joints", motion.joints, &json);
   json += ",\n";
   AppendNames("bodies", NamesOf(robot, MovingLinks(robot, RobotOrder::kDepthFirst)), &json);
-  WriteFileAtomically(file + ".names.json", json + "\n}\n");
+  WriteFileAtomically(NamesFile(file), json + "\n}\n");
 }
 
 std::optional<double> RateOf(const RobotExportOptions& options, double own) {
+  if (options.rate && !IsExportRate(*options.rate)) {
+    throw Error(fmt::format("the rate {:g} Hz is not between 0 and 1000", *options.rate));
+  }
   if (options.rate) return options.rate;
   return own > 0 ? std::optional<double>(own) : std::nullopt;
 }
@@ -113,8 +118,8 @@ void WriteLafan(const std::string& file, const Robot& robot, const PoseTrajector
     }
     csv += '\n';
   }
-  WriteFileAtomically(file, csv);
   WriteNames(file, robot, motion, "xyzw");
+  WriteFileAtomically(file, csv);
 }
 
 void WriteGmr(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
@@ -225,8 +230,11 @@ Eigen::MatrixXd PoseVectors(const Robot& robot, const RobotMotion& motion) {
     vectors.col(k).head<3>() = Log(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
     for (Eigen::Index i = 0; i < num_joints; ++i) {
       const int s = motion.joint_segments[static_cast<std::size_t>(i)];
-      vectors.col(k).segment<3>(3 + 3 * i) =
-          motion.joint_positions(i, k) * robot.model.segments()[static_cast<std::size_t>(s)].axis;
+      const Segment& joint = robot.model.segments()[static_cast<std::size_t>(s)];
+      if (joint.type == JointType::kSliding) {
+        throw Error(fmt::format("{} slides; a file of PHC has joints that turn only", joint.name));
+      }
+      vectors.col(k).segment<3>(3 + 3 * i) = motion.joint_positions(i, k) * joint.axis;
     }
   }
   return vectors;
@@ -235,7 +243,11 @@ Eigen::MatrixXd PoseVectors(const Robot& robot, const RobotMotion& motion) {
 void WritePhc(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
               const RobotExportOptions& options) {
   const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, kLafanRate));
+  if (motion.rate != std::round(motion.rate)) {
+    throw Error(fmt::format("a file of PHC has whole rates only; {:g} Hz is none", motion.rate));
+  }
   const Eigen::MatrixXd vectors = PoseVectors(robot, motion);
+  WriteNames(file, robot, motion, "xyzw");
   WriteFileAtomically(
       file,
       FormatPickle({PickleValue::Dict{
@@ -245,37 +257,40 @@ void WritePhc(const std::string& file, const Robot& robot, const PoseTrajectory&
                               {"dof", {Array("", motion.joint_positions)}},
                               {"root_rot", {Array("", ScalarLast(motion.root_quaternions))}},
                               {"fps", {static_cast<std::int64_t>(std::lround(motion.rate))}}}}}}}));
-  WriteNames(file, robot, motion, "xyzw");
 }
 
 }  // namespace
 
 const std::vector<RobotExporter>& RobotExporters() {
   static const std::vector<RobotExporter> exporters = {
-      {"lafan1", "export-lafan1", ".csv", "joint angles as Unitree's CSV",
+      {"lafan1", "export-lafan1",
        "root and joints as Unitree's LAFAN1 files have them (CSV without a header; x y z, qx qy qz "
        "qw, joints), 30 Hz; names beside it",
-       kLafanRate, false, WriteLafan},
-      {"gmr", "export-gmr", ".pkl", "motions as GMR's pickle",
-       "root, joints and bodies as GMR and TWIST have them (pickle)", 0, false, WriteGmr},
-      {"mujoco", "export-mujoco", ".npz", "qpos and qvel of MuJoCo",
-       "qpos and qvel of MuJoCo (NumPy; holosoma reads it as a retargeted motion)", 0, false,
+       false, true, WriteLafan},
+      {"gmr", "export-gmr", "root, joints and bodies as GMR and TWIST have them (pickle)", false,
+       false, WriteGmr},
+      {"mujoco", "export-mujoco",
+       "qpos and qvel of MuJoCo (NumPy; holosoma reads it as a retargeted motion)", false, false,
        WriteMujoco},
-      {"locomujoco", "export-locomujoco", ".npz", "trajectories of LocoMuJoCo",
-       "a trajectory of LocoMuJoCo (NumPy)", 0, false, WriteLocoMujoco},
-      {"beyondmimic", "export-beyondmimic", ".npz", "motions of BeyondMimic",
+      {"locomujoco", "export-locomujoco", "a trajectory of LocoMuJoCo (NumPy)", false, false,
+       WriteLocoMujoco},
+      {"beyondmimic", "export-beyondmimic",
        "joints and bodies that move, with velocities, as BeyondMimic has them (NumPy), 50 Hz; "
-       "needs "
-       "the order",
-       kMimicRate, true, WriteBeyondMimic},
-      {"mjlab", "export-mjlab", ".npz", "motions of mjlab",
-       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", kMimicRate, false,
-       WriteMjlab},
-      {"phc", "export-phc", ".pkl", "motions of PHC and ASAP",
+       "needs the order",
+       true, false, WriteBeyondMimic},
+      {"mjlab", "export-mjlab", "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz",
+       false, false, WriteMjlab},
+      {"phc", "export-phc",
        "root, joints and their rotation vectors as PHC and ASAP have them (a pickle that joblib "
        "reads), 30 Hz; names beside it",
-       kLafanRate, false, WritePhc}};
+       false, true, WritePhc}};
   return exporters;
+}
+
+std::vector<std::string> FilesOf(const RobotExporter& exporter, const std::string& file) {
+  std::vector<std::string> files = {file};
+  if (exporter.has_names) files.push_back(NamesFile(file));
+  return files;
 }
 
 const RobotExporter& FindRobotExporter(const std::string& name) {

@@ -9,30 +9,33 @@
 
 namespace mmm_converter {
 
+/// Of an exported motion: above 0 and at most 1000 Hz.
+inline bool IsExportRate(double rate) { return rate > 0 && rate <= 1000; }
+
 struct RobotExportOptions {
   std::optional<double> rate;       ///< [Hz]; nothing: the format's own, else the motion's
   std::optional<RobotOrder> order;  ///< of the formats that leave it open
   std::string motion_name = "motion";
 };
 
-/// A format of robot learning. A row of RobotExporters() is all there is to add: the option
-/// --export-NAME, the attribute of batches, the checks of outputs and the help texts are made from
-/// it.
+/// A format of robot learning. A row of RobotExporters() is all there is to add: the option and
+/// the checks of outputs are made from it.
 struct RobotExporter {
-  const char* name = "";    ///< "lafan1": attribute and folder of a batch
+  const char* name = "";    ///< "lafan1"
   const char* option = "";  ///< "export-lafan1"
-  const char* ending = "";  ///< of its files
-  const char* what = "";    ///< "joint angles as Unitree's CSV", for the help of a batch
   const char* help = "";    ///< of the option
-  double rate = 0;          ///< [Hz] that its readers expect; 0: any
   /// There are readers of both orders, which no file tells: without one it is an error.
   bool needs_order = false;
-  /// @throws Error; the file is then as it was before.
+  bool has_names = false;  ///< of joints and bodies beside it, in FILE.names.json
+  /// @throws Error where the rate is none; the file is then as it was before.
   void (*write)(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
                 const RobotExportOptions& options) = nullptr;
 };
 
 const std::vector<RobotExporter>& RobotExporters();
+
+/// What writing `file` makes.
+std::vector<std::string> FilesOf(const RobotExporter& exporter, const std::string& file);
 
 /// @throws Error with the names that there are where it is none of them.
 const RobotExporter& FindRobotExporter(const std::string& name);

@@ -118,18 +118,20 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                        report.robot, report.body);
   }
   report.figures = MeasureRetargeting(report.retargeted, report.robot, report.body);
-  report.verdict = JudgeRetargeting(report.figures);
+  report.verdict = JudgeRetargeting(
+      report.figures, report.conversion_verdict ? &*report.conversion_verdict : nullptr);
   report.warnings = std::move(warnings);
   return report;
 }
 
-void WriteRobotMotion(const RetargetReport& report) {
+void WriteRobotMotion(RetargetReport* report) {
   MmmMotionOutput output;
-  output.recording_name = fs::path(report.file).stem().string();
-  output.motion_name = report.motion_name;
-  output.model_path = ModelPathFor(report.robot_file, report.output);
-  output.trajectory = &report.retargeted.motion;
-  WriteFileAtomically(report.output, FormatMmmMotion2(output));
+  output.recording_name = fs::path(report->file).stem().string();
+  output.motion_name = report->motion_name;
+  output.model_path = ModelPathFor(report->robot_file, report->output);
+  output.trajectory = &report->retargeted.motion;
+  WriteFileAtomically(report->output, FormatMmmMotion2(output));
+  report->written.push_back(report->output);
 }
 
 }  // namespace mmm_converter

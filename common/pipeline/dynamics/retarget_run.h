@@ -31,6 +31,7 @@ struct RetargetReport {
   Verdict verdict;
   std::optional<Verdict> conversion_verdict;  ///< of a recording
   Warnings warnings;
+  std::vector<std::string> written = {};  ///< files
 };
 
 struct LoadedRobot {
@@ -51,6 +52,6 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                               const std::function<bool(int, int)>& progress);
 
 /// An MMM motion with the robot's model. @throws Error; the file is then as it was before.
-void WriteRobotMotion(const RetargetReport& report);
+void WriteRobotMotion(RetargetReport* report);
 
 }  // namespace mmm_converter

@@ -115,6 +115,14 @@ TEST(BodyMapTest, AMapFileDecides) {
   const BodyMap map = FindBodyMap(MakeBiped({}).model, ReadBodyMapChoice(file));
   EXPECT_FALSE(map.has_legs());
   EXPECT_NEAR(map.arms[0]->upper.length, 0.25, 1e-9);
+  WriteFileAtomically(file, std::string(R"(<BodyMap>
+<Limb name="left arm" first="left_shoulder_pitch" fold="left_elbow" last="left_elbow"/>
+<Limb name="right arm" first="left_shoulder_roll" fold="left_elbow" last="left_elbow"/>
+</BodyMap>)"));
+  EXPECT_THROW(FindBodyMap(MakeBiped({}).model, ReadBodyMapChoice(file)), Error);
+  WriteFileAtomically(file, std::string(R"(<BodyMap><Limb name="left leg" first="a" last="b"/>
+<Limb name="left leg" first="a" last="b"/></BodyMap>)"));
+  EXPECT_THROW(ReadBodyMapChoice(file), Error);
   WriteFileAtomically(file, std::string(R"(<BodyMap><Limb name="tail" first="a" last="b"/>
 <Leg/></BodyMap>)"));
   try {
@@ -145,6 +153,9 @@ TEST(RobotBodyTest, TheSoleIsFoundOrAskedFor) {
   shape.has_sole = false;
   EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, {}), Error);
   EXPECT_NEAR(FindRobotBody(MakeBiped(shape), {}, 0.1).size, 0.82, 1e-9);
+  for (const double none : {-0.1, 7.0, std::nan("")}) {
+    EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, none), Error) << none;
+  }
 }
 
 TEST(RobotBodyTest, AStandingFootTouchesTheFloorAndTurnsAboutItsEdges) {
@@ -155,6 +166,11 @@ TEST(RobotBodyTest, AStandingFootTouchesTheFloorAndTurnsAboutItsEdges) {
     const Eigen::Vector3d edge = pitch > 0 ? foot.toe : foot.heel;
     const Eigen::Vector3d flat = StandingFoot(foot, {1, 2}, 0.5, 0, 0) * edge;
     EXPECT_TRUE((X * edge).isApprox(flat, 1e-9)) << pitch;
+    for (const double roll : {-0.2, 0.3}) {
+      const Eigen::Isometry3d rolled = StandingFoot(foot, {1, 2}, 0.5, pitch, roll);
+      EXPECT_NEAR(LowestOf(foot, rolled), 0, 1e-12) << pitch << " " << roll;
+      EXPECT_NEAR((rolled.linear().transpose() * X.linear()).trace(), 1 + 2 * std::cos(roll), 1e-9);
+    }
   }
 }
 

@@ -167,5 +167,23 @@ INSTANTIATE_TEST_SUITE_P(
                       RealCase{kT1, kTurn, 0.01, 2.5}, RealCase{kT1, kWave, 0.01, 2.5},
                       RealCase{kH1, kWalk, 0.02, 5}));
 
+TEST(HumanContactsTest, AFootThatStaysLowIsNotOffForAMoment) {
+  PointState low, high;
+  for (PointState* point : {&low, &high}) {
+    point->height = Eigen::VectorXd::Constant(60, 0.01);
+    point->speed = Eigen::VectorXd::Constant(60, 0.1);
+    point->speed.segment(20, 5).setConstant(0.9);
+  }
+  high.height.segment(20, 5).setConstant(0.07);
+  FootStates states;
+  states.heels = {low, high};
+  states.toes = states.heels;
+  const auto feet = FindFootContacts(states, 100);
+  ASSERT_EQ(feet[0].stances.size(), 1U);
+  EXPECT_EQ(feet[0].stances[0].end, 60);
+  ASSERT_EQ(feet[1].stances.size(), 2U);
+  EXPECT_EQ(feet[1].stances[0].end, 20);
+}
+
 }  // namespace
 }  // namespace mmm_converter

@@ -199,6 +199,24 @@ TEST(MjcfRobot, EqualJointsFollowAndOtherEqualitiesAreNamed) {
   EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("<equality><connect> is not kept")));
 }
 
+// Neither what leads nor what follows is held, whatever comes first.
+TEST(MjcfRobot, AHeldJointThatLeadsOrFollowsIsSaidAndNotHeld) {
+  for (const char* held : {"a", "b"}) {
+    Warnings warnings;
+    const Robot robot =
+        ParseWith({},
+                  Floating("<body><joint name='a'/><geom size='1'/></body><body><joint name='b'/>"
+                           "<geom size='1'/></body>",
+                           "",
+                           std::string("<equality><joint joint1='b' joint2='a'/><joint joint1='") +
+                               held + "' polycoef='0.3'/></equality>"),
+                  &warnings);
+    EXPECT_EQ(robot.model.num_joints(), 1);
+    EXPECT_NE(SegmentOf(robot, held).type, JointType::kFixed);
+    EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("is not kept")));
+  }
+}
+
 TEST(MjcfRobot, IsAModelWithMarkers) {
   const std::string file = testing::TestFolder() + "/robot.xml";
   std::ofstream(file) << Floating(
@@ -289,6 +307,11 @@ TEST(MjcfRobot, DeepAndLongFilesEndWithAnError) {
   EXPECT_THAT(MjcfMessageOf(Floating(deep)), HasSubstr("nested too deep"));
   for (int i = 0; i < 100'000; ++i) many += "<body><joint/><geom size='1'/></body>";
   EXPECT_THAT(MjcfMessageOf(Floating(many)), HasSubstr("more than the 4096 bodies"));
+  std::string shapes;
+  for (int i = 0; i < 100'001; ++i) shapes += "<geom contype='0' conaffinity='0' size='1'/>";
+  EXPECT_THAT(MjcfMessageOf(Floating(shapes)), HasSubstr("more than 100000 shapes and sites"));
+  EXPECT_THAT(MjcfMessageOf(std::string(std::size_t{1} << 24, '\n') + "<mujoco/>"),
+              HasSubstr("which no robot has"));
   Files chain;
   for (int i = 0; i < 200; ++i) {
     chain[std::to_string(i)] =

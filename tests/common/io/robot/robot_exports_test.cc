@@ -65,13 +65,6 @@ PoseTrajectory Swing(const KinematicModel& model) {
   return motion;
 }
 
-const RobotExporter& ExporterOf(const std::string& name) {
-  for (const RobotExporter& one : RobotExporters()) {
-    if (one.name == name) return one;
-  }
-  throw Error("no exporter " + name);
-}
-
 bool HasNumPy() { return std::system("/usr/bin/python3 -c 'import numpy' 2> /dev/null") == 0; }
 
 /// What a script prints, word by word, as numbers. f is the file.
@@ -88,9 +81,8 @@ std::vector<double> RunPython(const std::string& file, const std::string& script
 
 std::string Write(const std::string& name, const Robot& robot, const PoseTrajectory& motion,
                   const RobotExportOptions& options = {}) {
-  const RobotExporter& exporter = ExporterOf(name);
-  std::string file = TestFolder() + "/" + name + exporter.ending;
-  exporter.write(file, robot, motion, options);
+  std::string file = TestFolder() + "/" + name + ".out";
+  FindRobotExporter(name).write(file, robot, motion, options);
   return file;
 }
 
@@ -276,6 +268,24 @@ TEST(RobotExports, UnknownJointsAndOrdersAreRefused) {
   motion.joint_names[0] = "tail";
   EXPECT_THROW(MakeRobotMotion(robot, motion, {}, RobotOrder::kDepthFirst), Error);
   EXPECT_THROW(ParseRobotOrder("Isaac"), Error);
+}
+
+TEST(RobotExports, RatesThatAreNoneWriteNothing) {
+  const Robot robot = Walker();
+  const PoseTrajectory motion = Swing(robot.model);
+  for (const RobotExporter& exporter : RobotExporters()) {
+    const std::string file = TestFolder() + "/rates_" + exporter.name;
+    for (const double rate : {-30.0, 0.0, 1e9, std::nan("")}) {
+      RobotExportOptions options = At(rate);
+      options.order = RobotOrder::kBreadthFirst;
+      EXPECT_THROW(exporter.write(file, robot, motion, options), Error) << exporter.name << rate;
+    }
+    for (const std::string& one : FilesOf(exporter, file)) {
+      EXPECT_FALSE(std::ifstream(one).good()) << one;
+    }
+  }
+  EXPECT_THROW(Write("phc", robot, motion, At(29.97)), Error);
+  EXPECT_THROW(FindRobotExporter("lafan2"), Error);
 }
 
 // The order of Isaac's joints as indices of Unitree's CSV, as its users have it.
