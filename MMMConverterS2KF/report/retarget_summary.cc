@@ -96,6 +96,9 @@ std::string FormatRetargetSummary(const RetargetReport& report) {
   if (report.conversion_verdict) {
     text += RetargetLine("conversion", DescribeVerdict(*report.conversion_verdict));
   }
+  if (!report.unshown.empty()) {
+    text += RetargetLine("not shown", report.unshown + ": the robot's are as a person's at rest");
+  }
   text +=
       RetargetLine("robot", fmt::format("{} ({}), {} joints; {:.3f} times the person",
                                         report.robot.model.name(), report.robot_file,
@@ -146,6 +149,7 @@ Json ToJson(const RetargetReport& report) {
   json["conversion_verdict"] =
       report.conversion_verdict ? ToJson(*report.conversion_verdict) : Json();
   json["verdict"] = ToJson(report.verdict);
+  json["not_shown"] = TextOrNull(report.unshown);
   json["warnings"] = report.warnings.texts();
   return json;
 }

@@ -59,6 +59,17 @@ void CheckPairs(const std::vector<MarkerPair>& pairs, const KinematicModel& mode
   std::vector<std::string> sources;
   sources.reserve(pairs.size());
   for (const MarkerPair& pair : pairs) sources.push_back(pair.source);
+  std::vector<std::string> unseen;
+  for (const std::string& label : labels.names) {
+    const bool is_mapped = std::any_of(
+        sources.begin(), sources.end(),
+        [&](const std::string& source) { return BareLabel(source) == BareLabel(label); });
+    if (is_mapped) unseen.push_back(label);
+  }
+  if (!unseen.empty()) {
+    throw Error(fmt::format("{}the labels that are mapped are seen in no frame: {}",
+                            labels.source.empty() ? "" : labels.source + ": ", FirstNames(unseen)));
+  }
   throw Error(fmt::format("{}no label of the recording is mapped: it has {}; the mapping has {}",
                           labels.source.empty() ? "" : labels.source + ": ",
                           labels.names.empty() ? "none" : FirstNames(labels.names),

@@ -77,6 +77,7 @@ TEST_F(RetargetCommand, ConvertsARecordingFirst) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto summary = nlohmann::json::parse(ReadText(File("r.json")));
   EXPECT_EQ(summary["conversion_verdict"]["level"], "good");
+  EXPECT_TRUE(summary["not_shown"].is_null());
   EXPECT_EQ(summary["frames"], 60);
   EXPECT_EQ(summary["velocity_limits_broken"], 0);
   EXPECT_LT(summary["penetration_m"].get<double>(), 0.001);

@@ -10,6 +10,7 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/io/robot_file.h"
+#include "common/judge/coverage.h"
 #include "common/motion/marker_residuals.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
@@ -113,6 +114,7 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
     warnings.Append(converted.warnings);
     report.motion_name = converted.plan.motion_name;
     report.conversion_verdict = converted.verdict;
+    report.unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
     report.retargeted =
         RetargetMotion(*converted.plan.setup.model, TrackedFrames(converted, &warnings),
                        report.robot, report.body);

@@ -31,6 +31,7 @@ struct RetargetReport {
   Verdict verdict;
   std::optional<Verdict> conversion_verdict;  ///< of a recording
   Warnings warnings;
+  std::string unshown = {};               ///< of the person, in words; empty: nothing
   std::vector<std::string> written = {};  ///< files
 };
 

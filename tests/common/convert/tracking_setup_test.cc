@@ -105,6 +105,9 @@ TEST(TrackingSetup, ErrorsSayWhichRecording) {
   const MarkerLabels labels = {.names = {"x", "y"}, .source = "walk.c3d"};
   EXPECT_THAT([&] { MatchMarkers(labels, Stick(), StickConfig()); },
               ThrowsMessage<Error>(HasSubstr("walk.c3d: no label of the recording is mapped")));
+  const MarkerLabels hidden = {{"a", "b", "c"}, {false, false, false}, "walk.c3d"};
+  EXPECT_THAT([&] { MatchMarkers(hidden, Stick(), StickConfig()); },
+              ThrowsMessage<Error>(HasSubstr("are seen in no frame: a, b, c")));
   EXPECT_THAT([&] { MatchMarkers(labels, Stick(), {}); },
               ThrowsMessage<Error>(
                   AllOf(HasSubstr("walk.c3d: no marker set"), HasSubstr("which has x, y"))));
