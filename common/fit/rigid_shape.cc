@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
 
+#include "common/math/rotation.h"
 #include "common/math/statistics.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -74,8 +75,9 @@ Vector3d PrincipalExtents(const Ref<const Matrix3Xd>& points) {
     const Vector3d p = points.col(i) - mean;
     scatter += p * p.transpose();
   }
-  const Eigen::JacobiSVD<Matrix3d> svd(scatter / CountPoints(points));
-  return svd.singularValues().cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(scatter / CountPoints(points),
+                                                      Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
 }
 
 class ShapeEstimator {
@@ -335,10 +337,7 @@ Isometry3d FitRigidPose(const Ref<const Matrix3Xd>& p_OM, const Ref<const Matrix
     if (!z.col(m).allFinite()) continue;
     correlation += weights[m] * (z.col(m) - center_z) * (p_OM.col(m) - center_p).transpose();
   }
-  const Eigen::JacobiSVD<Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  const Matrix3d R = svd.matrixU() * Vector3d(1, 1, handedness < 0 ? -1 : 1).asDiagonal() *
-                     svd.matrixV().transpose();
+  const Matrix3d R = NearestRotation(correlation);
   Isometry3d X = Isometry3d::Identity();
   X.linear() = R;
   X.translation() = center_z - R * center_p;

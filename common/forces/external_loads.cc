@@ -12,6 +12,7 @@
 #include "common/io/tables/storage_table.h"
 #include "common/io/xml/xml_document.h"
 #include "common/io/xml/xml_text.h"
+#include "common/math/rotation.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
@@ -152,8 +153,7 @@ PlateForces ForcesOf(const LoadColumns& load, const StorageTable& table, const E
   const Eigen::Index samples = forces.force.cols();
   forces.plate.has_moments = load.point >= 0;
   forces.plate.corners.setConstant(kNaN);
-  forces.plate.R_WP =
-      Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
+  forces.plate.R_WP = RotationBetween(-Eigen::Vector3d::UnitZ(), up);
   forces.cop = Eigen::Matrix3Xd::Constant(3, samples, kNaN);
   if (load.point >= 0) forces.cop = columns(load.point);
   forces.free_moment = Eigen::Matrix3Xd::Zero(3, samples);

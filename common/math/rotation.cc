@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/math/rotation.h"
 
+#include <Eigen/SVD>
+
 #include <cmath>
 #include <numbers>
 
@@ -66,6 +68,17 @@ Matrix3d RightJacobian(const Vector3d& w) {
   const double b =
       angle < 1e-3 ? 1.0 / 6 - angle2 / 120 : (angle - std::sin(angle)) / (angle2 * angle);
   return Matrix3d::Identity() - a * W + b * W * W;
+}
+
+Matrix3d RotationBetween(const Vector3d& a, const Vector3d& b) {
+  return Quaterniond::FromTwoVectors(a, b).toRotationMatrix();
+}
+
+Matrix3d NearestRotation(const Matrix3d& M) {
+  const Eigen::JacobiSVD<Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double handedness = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  return svd.matrixU() * Vector3d(1, 1, handedness < 0 ? -1 : 1).asDiagonal() *
+         svd.matrixV().transpose();
 }
 
 Matrix3d Skew(const Vector3d& w) {

@@ -25,6 +25,14 @@ Eigen::Vector3d Log(const Eigen::Quaterniond& q);
 /// Right Jacobian of SO(3): Exp(w + dw) = Exp(w) Exp(Jr(w) dw) to first order.
 Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
 
+/// The rotation by the least angle that takes the direction of a to that of b, neither of them
+/// zero. Of opposite directions it is one about some normal of theirs.
+Eigen::Matrix3d RotationBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// The rotation R with the largest trace of R^T M: the nearest one to M, and of M = sum z p^T the
+/// one that takes the points p nearest to the z (Umeyama 1991, eq. 39 to 43).
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& M);
+
 /// The matrix [w] with [w] v = w x v.
 Eigen::Matrix3d Skew(const Eigen::Vector3d& w);
 

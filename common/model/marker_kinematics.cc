@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/math/rotation.h"
+
 namespace mmm_converter {
 
 using Eigen::Isometry3d;
@@ -14,11 +16,6 @@ namespace {
 
 // A rotation below this is left out: it moves no marker by more than 1e-12 m.
 constexpr double kIdentityTolerance = 1e-12;
-
-/// A rotation A with A e_z = axis, for joints that turn about no coordinate axis.
-Matrix3d FrameWithZ(const Vector3d& axis) {
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
-}
 
 Eigen::Map<const Matrix3d> Rotation(const TrackedLink& link) {
   return Eigen::Map<const Matrix3d>(link.R_PF);
@@ -146,7 +143,7 @@ TrackedLink MarkerKinematics::MakeLink(const Segment& segment, int column, const
     link.axis = axis;
     link.slope = segment.axis[axis] > 0 ? slope : -slope;
   } else {
-    const Matrix3d A = FrameWithZ(segment.axis);
+    const Matrix3d A = RotationBetween(Vector3d::UnitZ(), segment.axis);
     R_PF = R_PF * A;
     X_LS->linear() = A.transpose();
     link.slope = slope;

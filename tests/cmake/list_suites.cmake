@@ -1,4 +1,4 @@
-# cmake -DPROGRAM=<GoogleTest program> -DOUTPUT=<file> [-DLABELS=<label>] -P list_suites.cmake
+# cmake -DPROGRAM=<GoogleTest program> -DOUTPUT=<file> [-DLABELS=<label>] [-DLONG=<suite>...] -P list_suites.cmake
 #
 # Writes a ctest entry for each test suite of a program. A process for each case would start a program some 900 times, and
 # make again what the cases of a suite share.
@@ -20,6 +20,10 @@ foreach(suite IN LISTS suites)
   set(labels "${LABELS}")
   if(suite MATCHES "Real")
     list(APPEND labels real)
+  endif()
+  string(REGEX REPLACE "^.*/" "" name "${suite}")
+  if(name IN_LIST LONG)
+    list(APPEND labels long)
   endif()
   string(APPEND entries "add_test([=[${program}.${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
     # Skipped are suites of which nothing was run, and nothing failed.

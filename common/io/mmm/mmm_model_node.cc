@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -161,8 +160,7 @@ Eigen::Matrix3d NodeReader::Rotation(const XmlElement& matrix) {
     return Eigen::Matrix3d::Identity();
   }
   if (R.isUnitary(1e-12)) return R;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  return NearestRotation(R);
 }
 
 Eigen::Isometry3d NodeReader::Matrix4x4(const XmlElement& matrix) {

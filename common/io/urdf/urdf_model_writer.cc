@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/io/xml/xml_text.h"
+#include "common/math/rotation.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -71,7 +72,7 @@ std::string Cylinder(const Eigen::Vector3d& p) {
   const double length = p.norm();
   if (length < kShortestShape) return "";
   Eigen::Isometry3d X(Eigen::Translation3d(0.5 * p));
-  X.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), p));
+  X.rotate(RotationBetween(Eigen::Vector3d::UnitZ(), p));
   return Visual(X, fmt::format("<cylinder radius=\"{:.4g}\" length=\"{:.4g}\"/>",
                                kThickness * length, length));
 }

@@ -30,6 +30,25 @@ TEST(RotationTest, RpyIsYawTimesPitchTimesRoll) {
   EXPECT_TRUE((R * Vector3d::UnitY()).isApprox(Vector3d::UnitZ(), kRotationRounding));
 }
 
+TEST(RotationTest, TheLeastRotationBetweenDirections) {
+  const Vector3d a(1, 2, -2);
+  const Matrix3d R = RotationBetween(a, {0, 0, 5});
+  EXPECT_TRUE((R * a / 3).isApprox(Vector3d::UnitZ(), kRotationRounding));
+  EXPECT_NEAR(Eigen::AngleAxisd(R).angle(), std::acos(-2.0 / 3), 1e-12);
+  EXPECT_TRUE((RotationBetween(a, -a) * a).isApprox(-a, 1e-12));
+}
+
+TEST(RotationTest, TheNearestRotationIsNoMirror) {
+  std::mt19937 generator(2);
+  for (int i = 0; i < 100; ++i) {
+    const Matrix3d R = Exp(RandomVector(generator, 2.0)).toRotationMatrix();
+    EXPECT_TRUE(NearestRotation(R * Vector3d(3, 2, 0.5).asDiagonal() * R.transpose() * R)
+                    .isApprox(R, 1e-12));
+    const Matrix3d mirrored = R * Vector3d(3, 2, -0.5).asDiagonal();
+    EXPECT_TRUE(NearestRotation(mirrored).isApprox(R, 1e-12));
+  }
+}
+
 TEST(RotationTest, RpyRoundTrip) {
   std::mt19937 generator(1);
   for (int i = 0; i < 1000; ++i) {
