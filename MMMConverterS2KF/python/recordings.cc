@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
@@ -53,6 +55,12 @@ ReadRecordingResult FromArrays(const std::vector<std::string>& labels, const Num
   CheckShape(positions, {-1, count, 3}, "markers");
   if (!IsFrameRate(rate)) throw Error("rate: must be from 1 to 100000 frames a second");
   if (positions.shape(0) == 0 || count == 0) throw Error("markers: there are none");
+  std::set<std::string> known;
+  for (const std::string& label : labels) {
+    if (known.insert(label).second) continue;
+    throw Error(
+        fmt::format("labels: {} is there twice; each marker needs a name of its own", label));
+  }
   auto recording = std::make_shared<Recording>();
   recording->file = name;
   recording->format = "arrays";

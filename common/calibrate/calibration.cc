@@ -185,13 +185,12 @@ void WarnOfSubject(const Subject& subject, Warnings* warnings) {
   }
 }
 
-/// Warns where a recording has many markers elsewhere than the others do.
-void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints,
-                    const std::vector<MarkerIx>& markers,
-                    const std::vector<CalibrationRecording>& recordings,
-                    const std::vector<CalibrationFrame>& frames, Warnings* warnings) {
-  if (recordings.size() < 2) return;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
+std::vector<MovedMarkers> FindMoved(const KinematicModel& fitted, const std::vector<int>& joints,
+                                    const std::vector<MarkerIx>& markers,
+                                    const std::vector<CalibrationRecording>& recordings,
+                                    const std::vector<CalibrationFrame>& frames) {
+  std::vector<MovedMarkers> found;
+  for (std::size_t r = 0; r < recordings.size() && recordings.size() > 1; ++r) {
     std::vector<CalibrationFrame> own;
     std::copy_if(frames.begin(), frames.end(), std::back_inserter(own),
                  [&](const auto& frame) { return frame.recording == static_cast<int>(r); });
@@ -199,12 +198,10 @@ void WarnOfSessions(const KinematicModel& fitted, const std::vector<int>& joints
     const Eigen::Matrix3Xd shifts = MedianResiduals(fitted, joints, markers, own);
     const auto moved = (shifts.colwise().norm().array() > kMovedMarker).count();
     if (static_cast<double>(moved) < kMovedShare * static_cast<double>(shifts.cols())) continue;
-    Warn(warnings,
-         fmt::format(
-             "{}: {} of {} markers sit more than {:.0f} mm from where the recordings together have "
-             "them; were markers attached again in between? Calibrate each session separately",
-             recordings[r].name, moved, shifts.cols(), 1000 * kMovedMarker));
+    found.push_back({recordings[r].name, static_cast<int>(moved), static_cast<int>(shifts.cols()),
+                     kMovedMarker});
   }
+  return found;
 }
 
 }  // namespace
@@ -257,7 +254,7 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   result.distance_after =
       FitPostures(fitted, joints, markers, &frames, options.between_steps).mean();
   AddSkinDeviations(fitted, joints, markers, frames, &result.subject);
-  WarnOfSessions(fitted, joints, markers, recordings, frames, warnings);
+  result.moved = FindMoved(fitted, joints, markers, recordings, frames);
   result.frames = static_cast<int>(chosen.size());
   result.iterations = fit.iterations;
   return result;

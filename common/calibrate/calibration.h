@@ -37,12 +37,20 @@ struct CalibrationOptions {
   std::function<void()> between_steps = {};
 };
 
+/// A recording that has many markers elsewhere than the others: they were put on anew in between.
+struct MovedMarkers {
+  std::string recording;
+  int moved = 0, markers = 0;
+  double distance = 0;  ///< that is exceeded [m]
+};
+
 struct CalibrationResult {
   Subject subject;  ///< scales, offsets and sources; the caller knows name, height and mass
   double distance_before = 0;  ///< mean marker distance of the chosen frames' best postures [m]
   double distance_after = 0;   ///< the same for the subject's model [m]
   int frames = 0;
   int iterations = 0;
+  std::vector<MovedMarkers> moved;
 };
 
 /// Estimates postures, marker offsets and segment scales jointly over frames chosen for how much

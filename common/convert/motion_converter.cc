@@ -24,28 +24,44 @@ int CountSeen(const MarkerSequence& recording, const TrackingSetup& setup, int f
       [&](const MarkerAssignment& assignment) { return IsSeen(points.col(assignment.label)); }));
 }
 
-// The first frame in which a posture can be assembled: a third of the markers are seen, or, where
-// that is not soon, as many as in any frame of the second after the first three. Who comes late is
-// there in part at first.
-int FindFirstFrame(const MarkerSequence& recording, const TrackingSetup& setup) {
+// Where tracking begins.
+struct FirstFrames {
+  int seen = -1;       // shows three markers
+  int assembled = -1;  // shows most of the body
+};
+
+// A posture can be assembled where a third of the markers are seen, or, where that is not soon, as
+// many as in any frame of the second after the first three. Who comes late is there in part at
+// first.
+FirstFrames FindFirstFrames(const MarkerSequence& recording, const TrackingSetup& setup) {
   const int enough = std::max(kFewestMarkers, static_cast<int>(setup.assignments().size()) / 3);
   const int second = std::max(1, static_cast<int>(std::ceil(recording.rate())));
   int end = recording.num_frames();
-  int best = -1, most = 0;
+  FirstFrames first;
+  int most = 0;
   for (int k = 0; k < end; ++k) {
     const int seen = CountSeen(recording, setup, k);
     if (seen <= most) continue;
     most = seen;
     if (seen < kFewestMarkers) continue;
-    if (best < 0) end = std::min(end, k + second);
-    best = k;
-    if (seen >= enough) return k;
+    if (first.seen < 0) {
+      first.seen = k;
+      end = std::min(end, k + second);
+    }
+    first.assembled = k;
+    if (seen >= enough) break;
   }
-  if (best >= 0) return best;
+  if (first.seen >= 0) return first;
   throw Error(
       fmt::format("no frame shows {} mapped markers (at most {} of {} are seen); check the "
                   "marker mapping",
                   kFewestMarkers, most, setup.assignments().size()));
+}
+
+// Whether three markers are where the posture has them.
+bool IsTracked(const FrameEstimate& estimate) {
+  return estimate.converged && !estimate.reassembled &&
+         estimate.markers_seen - estimate.markers_wrong >= kFewestMarkers;
 }
 
 // Fills one frame of a result from what a converter says of it.
@@ -94,10 +110,12 @@ class ResultWriter {
     if (estimate.verdicts.size() > 0) verdicts_.col(k) = estimate.verdicts;
   }
 
-  // Frames with too few markers to assemble take the first assembled posture, which is not theirs.
-  void WriteEarlier(int first, const FrameEstimate& estimate) {
+  // Frames before the body is there take its first posture, which is not theirs.
+  void WriteEarlier(int first) {
+    PoseTrajectory& trajectory = result_.trajectory;
     for (int k = 0; k < first; ++k) {
-      WritePosture(k, estimate);
+      trajectory.postures[k] = trajectory.postures[first];
+      trajectory.standard_deviations.col(k) = trajectory.standard_deviations.col(first);
       result_.frames[k].markers_seen = CountSeen(recording_, setup_, k);
     }
   }
@@ -125,22 +143,36 @@ MotionConverterFactory::~MotionConverterFactory() = default;
 ConversionResult MotionConverter::Convert(const MarkerSequence& recording,
                                           const std::function<bool(int)>& progress) {
   using Clock = std::chrono::steady_clock;
-  const int first = FindFirstFrame(recording, setup_);
+  const FirstFrames first = FindFirstFrames(recording, setup_);
   const int frames = recording.num_frames();
   const double dt = 1 / recording.rate();
   ResultWriter writer(recording, setup_);
-  for (int k = first; k < frames; ++k) {
-    const Clock::time_point start = Clock::now();
-    const FrameEstimate& estimate =
-        k == first ? Assemble(recording.frame(k)) : Track(recording.frame(k), dt);
+  const auto write = [&](int k, const FrameEstimate& estimate, Clock::time_point start) {
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     CheckEstimate(estimate, setup_);
     writer.Write(k, estimate, seconds);
-    if (k == first) writer.WriteEarlier(first, estimate);
-    if (progress && !progress(k + 1)) {
-      throw Error(fmt::format("cancelled after {} of {} frames", k + 1, frames));
+  };
+  const auto show = [&](int done) {
+    if (progress && !progress(done)) {
+      throw Error(fmt::format("cancelled after {} of {} frames", done, frames));
     }
+  };
+  int earliest = first.assembled;
+  if (first.seen < first.assembled) Assemble(recording.frame(first.assembled));
+  for (; earliest > first.seen; --earliest) {
+    const Clock::time_point start = Clock::now();
+    const FrameEstimate& estimate = Track(recording.frame(earliest - 1), dt);
+    if (!IsTracked(estimate)) break;
+    write(earliest - 1, estimate, start);
+    show(0);
   }
+  for (int k = first.assembled; k < frames; ++k) {
+    const Clock::time_point start = Clock::now();
+    write(k, k == first.assembled ? Assemble(recording.frame(k)) : Track(recording.frame(k), dt),
+          start);
+    show(k + 1);
+  }
+  writer.WriteEarlier(earliest);
   return writer.Finish();
 }
 

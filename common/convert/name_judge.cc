@@ -205,14 +205,22 @@ void NameJudge::Pose(double height, const std::vector<Hypothesis>& clusters) {
   // Clusters tell which way limbs bend; where they are worn they do not tell.
   VectorXd loose = scales;
   loose.tail(scales.size() - named) *= kLooser;
-  Matrix3Xd z(3, scales.size());
+  std::vector<Matrix3Xd> z(frames_.size(), Matrix3Xd(3, scales.size()));
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    z[f].leftCols(named) = Measured(frames_[f]);
+    z[f].rightCols(scales.size() - named) = recording_.frame(frames_[f])(Eigen::all, worn);
+    search.Assemble(z[f], scales, options, kPoseAttempts, &postures_[f]);
+  }
+  // What one frame shows less clearly another one does.
+  const auto take_over = [&](std::size_t from, std::size_t to) {
+    search.ImproveFrom(postures_[from].joint_angles, z[to], scales, options, &postures_[to]);
+  };
+  for (std::size_t f = 1; f < frames_.size(); ++f) take_over(f - 1, f);
+  for (std::size_t f = frames_.size(); f-- > 1;) take_over(f, f - 1);
   p_WM_.clear();
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     Posture& posture = postures_[f];
-    z.leftCols(named) = Measured(frames_[f]);
-    z.rightCols(z.cols() - named) = recording_.frame(frames_[f])(Eigen::all, worn);
-    search.Assemble(z, scales, options, kPoseAttempts, &posture);
-    if (!worn.empty()) search.fit().Solve(z, loose, options, &posture);
+    if (!worn.empty()) search.fit().Solve(z[f], loose, options, &posture);
     everything.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                               posture.joint_angles, &at);
     p_WM_.push_back(at.p_WM);

@@ -82,13 +82,26 @@ void PostureSearch::RandomizeLimb(const Ref<const Matrix3Xd>& z, Posture* postur
 
 bool PostureSearch::Improve(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
                             const PostureFitOptions& options, Posture* posture) {
-  const PostureFit::Result before = fit_.Evaluate(z, noise_scale, options, *posture);
   trial_ = *posture;
   if (random_() % 4 == 0) {
     trial_.joint_angles = fit_.natural_angles();
     FitRigid(z, &trial_);
   }
   RandomizeLimb(z, &trial_);
+  return TakeIfBetter(z, noise_scale, options, posture);
+}
+
+bool PostureSearch::ImproveFrom(const VectorXd& joint_angles, const Ref<const Matrix3Xd>& z,
+                                const VectorXd& noise_scale, const PostureFitOptions& options,
+                                Posture* posture) {
+  trial_.joint_angles = joint_angles;
+  FitRigid(z, &trial_);
+  return TakeIfBetter(z, noise_scale, options, posture);
+}
+
+bool PostureSearch::TakeIfBetter(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
+                                 const PostureFitOptions& options, Posture* posture) {
+  const PostureFit::Result before = fit_.Evaluate(z, noise_scale, options, *posture);
   const PostureFit::Result after = fit_.Solve(z, noise_scale, options, &trial_);
   if (!(after.cost < (1 - kLeastGain) * before.cost)) return false;
   Unwind(posture->joint_angles, &trial_);

@@ -30,6 +30,12 @@ class PostureSearch {
   bool Improve(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
                const PostureFitOptions& options, Posture* posture);
 
+  /// One from joint angles, those of another frame, say: the root by the rigid fit. True, and
+  /// posture replaced, as Improve.
+  bool ImproveFrom(const Eigen::VectorXd& joint_angles, const Eigen::Ref<const Eigen::Matrix3Xd>& z,
+                   const Eigen::VectorXd& noise_scale, const PostureFitOptions& options,
+                   Posture* posture);
+
   PostureFit& fit() { return fit_; }
 
   /// The only thing that a call leaves behind for the next one.
@@ -42,6 +48,10 @@ class PostureSearch {
 
   /// Joints that turn freely, by whole turns, to within half a turn of the angles of `reference`.
   void Unwind(const Eigen::VectorXd& reference, Posture* posture) const;
+
+  /// Of trial_, from where it is.
+  bool TakeIfBetter(const Eigen::Ref<const Eigen::Matrix3Xd>& z, const Eigen::VectorXd& noise_scale,
+                    const PostureFitOptions& options, Posture* posture);
 
   void RandomizeLimb(const Eigen::Ref<const Eigen::Matrix3Xd>& z, Posture* posture);
 

@@ -21,6 +21,14 @@ void JudgeSources(const CalibrationResult& result, VerdictReasons* reasons) {
                              "what the others have; are they of one person and session?",
                              source.recording));
   }
+  for (const MovedMarkers& one : result.moved) {
+    reasons->Add(
+        Verdict::Level::kCheck,
+        fmt::format("{}: {} of {} markers sit more than {:.0f} mm from where the recordings "
+                    "together have them; were markers put on anew in between? Calibrate each "
+                    "session separately",
+                    one.recording, one.moved, one.markers, kMillimetres * one.distance));
+  }
 }
 
 }  // namespace

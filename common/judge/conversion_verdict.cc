@@ -25,6 +25,9 @@ using Level = Verdict::Level;
 // One position. A marker on skin or a wand is at most 0.18 from the model (above), and 0.25 for 0.1
 // s of a somersault; the frame, or the label in it, is wrong beyond.
 constexpr Limit kFarthest = {0.3, kNever};
+// The average of a marker whose place its name tells within 0.028 on each axis: right at most
+// 0.105.
+constexpr Limit kNamedMean = {0.112, kNever};
 // Of a posture that is not tracked [s]: what a prediction bridges.
 constexpr Limit kLateStart = {0.5, kNever};
 // Share of the frames: right at most 0.06; left and right exchanged 0.1 to 0.8.
@@ -129,6 +132,24 @@ class Judge {
                     "can have them: {}; are they this person's?",
                     far.size(), figures_.of_markers.size(), kMillimetres * kMarkerMean.check,
                     LabelsOf(far)));
+    if (evidence_.names != nullptr && most == 0) JudgePlaces();
+  }
+
+  // Labels that are within what any marker may be off, but not within what their names leave open.
+  void JudgePlaces() {
+    std::vector<std::string> labels;
+    double most = 0;
+    for (std::size_t i = 0; i < figures_.of_markers.size(); ++i) {
+      const double mean = figures_.of_markers[i].mean;
+      const double relative = mean / evidence_.setup.assignments()[i].noise_scale;
+      if (!kNamedMean.IsBeyond(relative)) continue;
+      labels.push_back(
+          fmt::format("{} ({:.0f} mm)", LabelsOf({static_cast<int>(i)}), kMillimetres * mean));
+      most = std::max(most, relative);
+    }
+    reasons_.AddBeyond(
+        kNamedMean, most,
+        fmt::format("labels that are far from where their names say: {}", FirstNames(labels, 6)));
   }
 
   void JudgeFarthest() {

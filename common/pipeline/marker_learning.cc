@@ -8,6 +8,7 @@
 
 #include "common/convert/converter_config.h"
 #include "common/convert/marker_set_text.h"
+#include "common/pipeline/input/matched_labels.h"
 #include "common/support/error.h"
 #include "common/support/output_plan.h"
 #include "common/support/units.h"
@@ -19,13 +20,24 @@ Person FindWearer(const LearnRequest& request, const Input& input, const Convert
                   Warnings* warnings) {
   const PersonRequest& person = request.inputs.front().person;
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));
-  if (!person.size.height && person.processor_file.empty() && !input.recording.size().height) {
+  const Recording& recording = input.recording;
+  const bool is_told =
+      person.size.height || !person.processor_file.empty() || recording.size().height;
+  if (is_told) {
+    return FindPersonOfPoints(person, *input.reference, recording, config, warnings);
+  }
+  // Labels that are understood tell it, as they do where the recording is converted.
+  try {
+    Warnings of_labels;
+    const MatchedLabels matched =
+        MatchLabels(LabelsOf(recording.markers, recording.file), input, config, &of_labels);
+    return FindPerson(person, matched.setup, recording, config, warnings, matched.names.get());
+  } catch (const Error&) {
     throw Error(
         "how tall is the person? Markers whose places are not known yet do not tell; give the "
         "height",
         Remedy::kHeight);
   }
-  return FindPersonOfPoints(person, *input.reference, input.recording, config, warnings);
 }
 
 std::string Describe(const LearnedMarker& marker) {

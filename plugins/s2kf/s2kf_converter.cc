@@ -110,7 +110,9 @@ ConversionResult S2kfConverter::TrackAll(const MarkerSequence& recording,
   if (!keeps_covariances_) return MotionConverter::Convert(recording, progress);
   std::vector<PoseCovariance> covariances;
   ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
-    if (has_new_deviations_) covariances.push_back({done - 1, covariance_.Covariance()});
+    if (has_new_deviations_ && done > 0) {
+      covariances.push_back({done - 1, covariance_.Covariance()});
+    }
     return !progress || progress(done);
   });
   result.covariances = std::move(covariances);
@@ -157,7 +159,7 @@ ConversionResult S2kfConverter::Smooth(const MarkerSequence& recording,
   S2kfConverter filter(setup(), settings_, worn_, Deviations::kLater);
   OfflineTracker offline(recording, settings_, markers_, &filter.tracker_);
   ConversionResult result = filter.MotionConverter::Convert(recording, [&](int done) {
-    offline.Keep(done - 1, filter.track_, filter.frame_);
+    if (done > 0) offline.Keep(done - 1, filter.track_, filter.frame_);
     return !progress || progress(done);
   });
   offline.Smooth(keeps_covariances_, &result);

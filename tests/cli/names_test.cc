@@ -41,8 +41,8 @@ std::string WithSide(std::string name, char side) {
   return name;
 }
 
-// Frames of the sample, the first `hidden` of them without any marker.
-std::string Renamed(int first, int end, int hidden = 0) {
+// Frames of the sample, the first `hidden` of them without any marker, T10 worn lower [m].
+std::string Renamed(int first, int end, int hidden = 0, double lower = 0) {
   const MarkerSequence sample = ReadRecording(Handstand(), {}).markers.Slice(first, end);
   std::vector<std::string> labels;
   std::vector<int> columns;
@@ -60,6 +60,7 @@ std::string Renamed(int first, int end, int hidden = 0) {
       renamed.frame(k).setConstant(kNaN);
     } else {
       renamed.frame(k) = sample.frame(k)(Eigen::all, columns);
+      renamed.frame(k)(2, renamed.FindLabel("TV10")) -= lower;
     }
   }
   std::string file = TestFolder() + "/cast.c3d";
@@ -99,6 +100,13 @@ TEST(Names, AreUnderstoodByAConversionAndWrittenAsAMarkerSet) {
   RunWell({"convert", file, "--height", "1.8", "-o", folder + "/b.xml", "--marker-set",
            folder + "/set.xml"});
   EXPECT_LT(LargestDeviation(folder + "/a.xml", folder + "/b.xml"), 1e-3);
+}
+
+TEST(Names, ALabelThatIsFarFromItsPlaceIsSaid) {
+  const auto run = RunWell(
+      {"convert", Renamed(50, 110, 0, 0.15), "--height", "1.8", "-o", TestFolder() + "/a.xml"});
+  EXPECT_THAT(run.out, HasSubstr("verdict    check"));
+  EXPECT_THAT(run.out, HasSubstr("labels that are far from where their names say: TV10 (1"));
 }
 
 // MMM files have 8 decimals. No height is given: the file that is played tells it.

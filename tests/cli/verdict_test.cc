@@ -320,6 +320,15 @@ TEST(Verdict, WhoComesLateIsNotFarFromTheModel) {
   EXPECT_THAT(judged.reasons, Not(HasSubstr("from the model")));
 }
 
+// Who comes in little by little is tracked backward from where most of the body is there.
+TEST(Verdict, WhoComesInPartIsTrackedFromThreeMarkersOn) {
+  const Judged judged = ConvertMarkers(Changed([](int k, int i, Point p) {
+    if (k < 60 && i > 8) p.setConstant(kNaN);
+  }));
+  EXPECT_THAT(judged.reasons, Not(HasSubstr("too few markers to begin")));
+  EXPECT_THAT(judged.reasons, Not(HasSubstr("from the model")));
+}
+
 TEST(Verdict, AMarkerThatIsFarForAMoment) {
   const Judged judged = ConvertMarkers(Changed([](int k, int i, Point p) {
     if (i == 5 && k >= 100 && k < 103) p += Eigen::Vector3d(0, 0, 0.6);
