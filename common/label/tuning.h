@@ -136,6 +136,10 @@ struct SceneTuning {
   static constexpr int kFrames = 8;        ///< that bodies are looked for in
   static constexpr int kMedianTurns = 20;  ///< of k-medians
   static constexpr int kFullestShare = 3;  ///< one of so many frames is full enough
+  static constexpr double kBadCost = 2;    ///< of a marker: perhaps the size is wrong
+  static constexpr double kLeastScale = 0.55, kMostScale = 1.9, kScaleStep = 1.08;
+  static constexpr double kOtherSize = 0.15;    ///< of the height: it is wrong, not inexact
+  static constexpr double kClearlyFewer = 0.6;  ///< of the cost at the height that was given
 };
 
 /// Rigid objects (RigidFinder, FindObjectTracks).

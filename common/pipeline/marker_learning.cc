@@ -11,6 +11,7 @@
 #include "common/pipeline/input/matched_labels.h"
 #include "common/support/error.h"
 #include "common/support/output_plan.h"
+#include "common/support/text.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -38,6 +39,18 @@ Person FindWearer(const LearnRequest& request, const Input& input, const Convert
         "height",
         Remedy::kHeight);
   }
+}
+
+void CheckHasMarkers(const LearnedMarkers& learned) {
+  std::vector<std::string> left_out;
+  for (const LearnedMarker& marker : learned.markers) {
+    if (marker.left_out.empty()) return;
+    left_out.push_back(fmt::format("{}: {}", marker.label, marker.left_out));
+  }
+  throw Error(fmt::format(
+      "it is not sure of any of {} labels where they are worn ({}); a recording of one person in "
+      "which all joints move tells more, and so do usual names",
+      left_out.size(), FirstNames(left_out, 3)));
 }
 
 std::string Describe(const LearnedMarker& marker) {
@@ -78,6 +91,7 @@ LearnReport RunLearning(const LearnRequest& request,
       LearnMarkers({*first.reference, scale, ResolveJoints(choice.config, *first.reference)},
                    recordings, progress);
   for (const std::string& warning : report.learned.warnings) warnings->Add(warning);
+  CheckHasMarkers(report.learned);
   return report;
 }
 

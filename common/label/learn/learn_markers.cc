@@ -136,9 +136,10 @@ class Starts {
 /// From the body as it is found in several frames, and the best of these mirrored.
 void StartFromSearches(const LearnedPlaces& blank, const BodySites& sites,
                        const std::function<void(int, int)>& progress, Starts* starts) {
-  // Beyond that distance after so many starts there is nobody [m]; persons' are 0.005 to 0.03.
+  // Beyond that distance after so many starts there is nobody [m]; persons' are 0.002 to 0.03, even
+  // where the height is wrong or limbs are taken for others.
   constexpr int kTriedForNobody = 2;
-  constexpr double kNobody = 0.15;
+  constexpr double kNobody = 0.05;
   AnyBodySearch search(sites);
   const std::vector<LearnFrame>& frames = blank.frames();
   int tried = 0;

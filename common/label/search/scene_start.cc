@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -124,6 +125,10 @@ std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
   for (int b = 0; b < count; ++b) {
     const int matched = starts.empty() ? 0 : starts.front().second.matches[b].matched;
     if (2 * matched >= bodies[b]->num_markers()) continue;
+    if (count == 1 && 4 * matched >= bodies[b]->num_markers()) {
+      const SceneStart& best = starts.front().second;
+      CheckSize(*bodies[b], frames[best.frame], best.matches[b]);
+    }
     throw Error(fmt::format(
         "no frame shows {}: of {} markers at most {} fit any posture of this body; is it the right "
         "person, height and set of markers{}?",
@@ -134,6 +139,25 @@ std::vector<SceneStart> FindScene(const std::vector<const LabelBody*>& bodies,
   best_first.reserve(starts.size());
   for (auto& [cost, start] : starts) best_first.push_back(std::move(start));
   return best_first;
+}
+
+void CheckSize(const LabelBody& body, const Matrix3Xd& points, const BodyMatch& match) {
+  if (match.cost < SceneTuning::kBadCost * body.num_markers()) return;
+  BodySearch search(body);
+  double least = SceneTuning::kClearlyFewer * match.cost, best = 1;
+  for (double size = SceneTuning::kLeastScale; size < SceneTuning::kMostScale;
+       size *= SceneTuning::kScaleStep) {
+    if (std::abs(size - 1) < SceneTuning::kOtherSize) continue;
+    const double cost = search.Find(points / size).cost;
+    if (cost >= least) continue;
+    least = cost;
+    best = size;
+  }
+  if (best == 1) return;
+  throw Error(fmt::format(
+      "the points are those of a person who is {:.2f} times as tall; are the height and the file's "
+      "unit right?",
+      best));
 }
 
 }  // namespace mmm_converter

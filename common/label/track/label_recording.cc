@@ -108,7 +108,16 @@ class RecordingLabeller {
     std::vector<const LabelBody*> bodies;
     bodies.reserve(persons_.size());
     for (const LabelledPerson& person : persons_) bodies.push_back(&person.body());
-    return FindScene(bodies, frames, [this] { Show(0); });
+    std::vector<SceneStart> starts = FindScene(bodies, frames, [this] { Show(0); });
+    const SceneStart& best = starts.front();
+    if (bodies.size() == 1 && !has_labels()) {
+      CheckSize(*bodies.front(), frames[best.frame], best.matches.front());
+    }
+    return starts;
+  }
+
+  bool has_labels() const {
+    return std::any_of(stored_.begin(), stored_.end(), [](int marker) { return marker >= 0; });
   }
 
   /// Where somebody is not calibrated, what is wrong at the start is learnt by the calibration:
@@ -117,9 +126,7 @@ class RecordingLabeller {
     const bool is_known =
         std::all_of(persons_.begin(), persons_.end(),
                     [](const LabelledPerson& person) { return person.was_calibrated(); });
-    const bool has_labels =
-        std::any_of(stored_.begin(), stored_.end(), [](int marker) { return marker >= 0; });
-    return is_known || has_labels || recording_.num_frames() > RecordingTuning::kMostFramesTried
+    return is_known || has_labels() || recording_.num_frames() > RecordingTuning::kMostFramesTried
                ? 1
                : RecordingTuning::kStartsTried;
   }

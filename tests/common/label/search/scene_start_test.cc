@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/label/search/scene_start.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/math/seeded_random.h"
@@ -11,6 +12,8 @@ namespace mmm_converter::testing {
 namespace {
 
 using Eigen::Matrix3Xd;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 std::vector<Matrix3Xd> FramesOf(const MadePerson& made) {
   std::vector<Matrix3Xd> frames;
@@ -48,6 +51,17 @@ TEST(SceneStartTest, TwoPersonsWhoStandApartAreToldApart) {
   const SceneStart start = FindScene({&tall.body, &small_body}, frames).front();
   EXPECT_NEAR(start.matches[0].posture.position.x(), tall.PostureAt(start.frame).position.x(), 0.1);
   EXPECT_NEAR(start.matches[1].posture.position.x(), 2, 0.5);
+}
+
+TEST(SceneStartTest, APersonOfAnotherSizeIsSaid) {
+  const MadePerson made(45, 0.1);
+  const auto find = [&](double size) {
+    const Matrix3Xd points = size * made.PointsAt(0);
+    const SceneStart start = FindScene({&made.body}, {points}).front();
+    CheckSize(made.body, points, start.matches[0]);
+  };
+  EXPECT_NO_THROW(find(1));
+  EXPECT_THAT([&] { find(1.3); }, ThrowsMessage<Error>(HasSubstr("1.28 times as tall")));
 }
 
 TEST(SceneStartTest, NoiseAndTooFewPointsAreErrors) {
