@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr std::size_t kMostMarkers = 4096;
 constexpr const char* kGround = "ground";
 
 /// Nothing: it is no marker, or, with an error, hangs on nothing.
@@ -268,6 +269,10 @@ void OsimReader::ReadMarkers(const XmlElement& model) {
   ForEach(model, "MarkerSet", [&](const XmlElement& element) {
     std::optional<OsimMarker> marker = ReadMarker(element, &frames_, diagnostics_);
     if (!marker) return;
+    if (document_.markers.size() >= kMostMarkers) {
+      throw Error(fmt::format("{}:{}: has more than the {} markers that are read",
+                              diagnostics_->file(), element.line, kMostMarkers));
+    }
     if (names.insert(marker->name).second) {
       document_.markers.push_back(std::move(*marker));
       return;

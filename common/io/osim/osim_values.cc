@@ -33,6 +33,9 @@ std::vector<std::string> Words(std::string_view text) {
   return words;
 }
 
+// Of SI units: no body has more, and squares of it are numbers.
+constexpr double kMost = 1e9;
+
 std::vector<double> ReadOsimNumbers(const XmlElement& object, std::string_view property,
                                     std::size_t count, const std::vector<double>& otherwise,
                                     Diagnostics* diagnostics) {
@@ -41,7 +44,7 @@ std::vector<double> ReadOsimNumbers(const XmlElement& object, std::string_view p
   std::vector<double> numbers;
   const bool are_numbers =
       AppendDoubles(element->text, &numbers) &&
-      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::abs(x) <= kMost; });
   if (are_numbers && (count == 0 || numbers.size() == count)) return numbers;
   diagnostics->AddError(element->line,
                         fmt::format("<{}>: \"{:.60}\" is not {}", element->name, element->text,

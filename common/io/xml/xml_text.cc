@@ -90,6 +90,8 @@ std::string_view RootName(std::string_view content) {
     content.remove_prefix(std::min(content.find_first_not_of(kBlanks), content.size()));
     if (content.starts_with("<!--")) {
       content.remove_prefix(After(content, "-->", 4));
+    } else if (content.starts_with("<!") && content.find('[') < content.find('>')) {
+      content.remove_prefix(After(content, "]>", 2));  // declares entities
     } else if (content.starts_with("<?") || content.starts_with("<!")) {
       content.remove_prefix(After(content, ">", 2));
     } else if (content.starts_with('<')) {
