@@ -41,9 +41,10 @@ of the person can be used; the more the joints move, the better. Markers must no
 between these recordings and those that are converted with the result. What the recordings do not
 determine keeps the values of the scaled model. Use the result with convert --subject-file.
 
-With a model of OpenSim (--model generic.osim) the result is the person's model: sizes of bodies and
-places of all markers from these recordings, masses by --mass, everything else as it was. Use it
-with convert --model. With --scale-setup, OpenSim's own rules are followed instead.
+With a model of OpenSim (--model generic.osim) the result is the person's model: sizes of bodies
+along their axes and places of all markers from these recordings, masses by --mass, everything else
+as it was. Deviations are in the summary, and in a comment of the model that convert --model reads.
+With --scale-setup, OpenSim's own rules are followed instead.
 
 {}The options frames, subject, motion, unit, rate and up are given once for all recordings, or once
 for each recording in the same order.
@@ -88,16 +89,20 @@ void CheckOutputs(const Arguments& arguments, const CalibrationRequest& request,
   plan.Check();
 }
 
-// Each recording converted with the subject.
-std::string FormatCalibrationReport(const Arguments& arguments, const CalibrationReport& report) {
+// Each recording converted with the person. before: what the model was without.
+std::string FormatCalibrationReport(const Arguments& arguments,
+                                    const std::vector<CalibrationInput>& recordings,
+                                    const std::shared_ptr<const KinematicModel>& model,
+                                    const CalibrationResult& result, const std::string& before) {
+  const auto subject = std::make_shared<const Subject>(result.subject);
   std::vector<Trial> trials;
-  trials.reserve(report.recordings.size());
-  for (const CalibrationInput& one : report.recordings) {
+  trials.reserve(recordings.size());
+  for (const CalibrationInput& one : recordings) {
     Trial trial;
     trial.name = std::filesystem::path(one.input.recording.file).filename().string();
     trial.markers = one.input.recording.markers;
-    trial.model = report.model;
-    trial.subject = report.person.subject;
+    trial.model = model;
+    trial.subject = subject;
     trials.push_back(std::move(trial));
   }
   Contender contender = MakeContender(arguments.Get("config").value_or(""));
@@ -106,23 +111,23 @@ std::string FormatCalibrationReport(const Arguments& arguments, const Calibratio
   UseMarkerSet(request, &contender.config);
   const std::string text = fmt::format(
       "The person \"{}\", calibrated on {} frames: the best postures leave {:.1f} mm to the "
-      "markers "
-      "where the model scaled by height leaves {:.1f}. Below, the recordings are converted with "
-      "it.",
-      report.result.subject.name, report.result.frames, 1e3 * report.result.distance_after,
-      1e3 * report.result.distance_before);
-  return FormatPageOfRuns("Calibration of " + report.result.subject.name, text, std::move(trials),
+      "markers where {} leaves {:.1f}. Below, the recordings are converted with it.",
+      subject->name, result.frames, 1e3 * result.distance_after, before,
+      1e3 * result.distance_before);
+  return FormatPageOfRuns("Calibration of " + subject->name, text, std::move(trials),
                           std::move(contender));
 }
 
 constexpr const char* kOsimEnding = "_scaled.osim";
 
 void CheckOsimOptions(const Arguments& arguments) {
-  for (const char* output : {"model-out", "report", "name"}) {
-    if (!arguments.Get(output)) continue;
-    throw UsageError(fmt::format(
-        "calibrate writes a model of OpenSim (-o) where one is given; --{} is of a subject",
-        output));
+  if (arguments.Get("model-out")) {
+    throw UsageError(
+        "calibrate --model-out: -o is the person's model where one of OpenSim is given");
+  }
+  for (const char* option : {"report", "name"}) {
+    if (!arguments.Get("scale-setup") || !arguments.Get(option)) continue;
+    throw UsageError(fmt::format("calibrate --scale-setup: --{} is of a calibration", option));
   }
 }
 
@@ -165,12 +170,17 @@ int CalibrateOsimModel(const Arguments& arguments, const CalibrationRequest& req
   NameInputs(choice, &plan);
   plan.Write(output);
   plan.Write(arguments.Get("summary").value_or(""));
+  plan.Write(arguments.Get("report").value_or(""));
   plan.Check();
   ProgressBar bar("recordings read");
   const OsimScalingReport report =
       RunOsimCalibration(request, {std::move(choice.config), std::move(of_choice)},
                          [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatCalibrationReport(arguments, report.recordings, report.model,
+                                                       *report.result, "the model of that size"));
+  }
   return WriteOsim(arguments, report, output);
 }
 
@@ -211,7 +221,9 @@ int RunCalibrate(const Arguments& arguments) {
     WriteFileAtomically(*file, FormatJson(ToJson(report, output)));
   }
   if (const auto file = arguments.Get("report")) {
-    WriteFileAtomically(*file, FormatCalibrationReport(arguments, report));
+    WriteFileAtomically(
+        *file, FormatCalibrationReport(arguments, report.recordings, report.model, report.result,
+                                       "the model scaled by height"));
   }
   std::cout << FormatCalibrationSummary(report, output);
   return 0;

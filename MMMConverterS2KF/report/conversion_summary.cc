@@ -86,6 +86,9 @@ std::string DescribeSubject(const ConversionReport& report) {
   const ConversionPlan& plan = report.plan;
   if (!plan.person.subject) return "";
   const Subject& subject = *plan.person.subject;
+  if (plan.input.model->subject) {
+    return fmt::format("calibrated \"{}\": {} markers\n", subject.name, subject.offsets.size());
+  }
   std::string text = fmt::format("subject    \"{}\": {} segments, {} markers", subject.name,
                                  subject.scales.size(), subject.offsets.size());
   if (!plan.calibration) return text + ", from " + plan.person.subject_file + "\n";
@@ -101,7 +104,7 @@ std::string DescribeSubject(const ConversionReport& report) {
 // What an MMM program does with the motion.
 std::string DescribeSubjectOutput(const ConversionReport& report) {
   const ConversionPlan& plan = report.plan;
-  if (!plan.person.subject) return "";
+  if (!plan.person.subject || plan.input.model->subject) return "";
   std::string text =
       "note       the angles are the subject's; on the model scaled by height and mass, which the "
       "motion\n           names, segments and markers differ";

@@ -14,12 +14,36 @@ namespace mmm_converter {
 
 namespace {
 
+struct BodyFactors {
+  std::string name;
+  Eigen::Vector3d factors, deviations;
+};
+
+/// Of the bodies whose size was estimated; others go with one of them.
+std::vector<BodyFactors> FactorsOf(const OsimScalingReport& report, const Subject& subject) {
+  std::vector<BodyFactors> bodies;
+  for (std::size_t i = 0; i + 2 < subject.scales.size(); i += 3) {
+    BodyFactors& body = bodies.emplace_back();
+    const std::string& name = subject.scales[i].segment;
+    body.name = name.substr(0, name.rfind(' '));
+    for (int axis = 0; axis < 3; ++axis) {
+      const SegmentScale& scale = subject.scales[i + static_cast<std::size_t>(axis)];
+      body.factors[axis] = report.size * scale.scale;
+      body.deviations[axis] = report.size * scale.standard_deviation;
+    }
+  }
+  return bodies;
+}
+
 std::string FormatOsimCalibration(const OsimScalingReport& report, const CalibrationResult& result,
                                   const std::string& file) {
-  std::string text;
-  for (const SegmentScale& scale : result.subject.scales) {
-    text += fmt::format("{:24} {:.3f} +- {:.3f}\n", scale.segment, report.size * scale.scale,
-                        report.size * scale.standard_deviation);
+  std::string text = fmt::format("{:24} {}\n", "along", "x               y               z");
+  for (const BodyFactors& body : FactorsOf(report, result.subject)) {
+    text += fmt::format("{:24}", body.name);
+    for (int axis = 0; axis < 3; ++axis) {
+      text += fmt::format(" {:.3f} +- {:.3f} ", body.factors[axis], body.deviations[axis]);
+    }
+    text.back() = '\n';
   }
   text += fmt::format("{:24} {:.3f} kg\n", "mass", report.scaled.mass);
   text += fmt::format(
@@ -72,6 +96,11 @@ Json ToJson(const OsimScalingReport& report, const std::string& file) {
     summary["calibration"] = ToJson(*report.result);
     summary["size"] = report.size;
     summary["subject"] = ToJson(report.result->subject);
+    if (report.result->subject.height == 0) summary["subject"]["height_m"] = nullptr;
+    for (const BodyFactors& body : FactorsOf(report, report.result->subject)) {
+      const Eigen::Vector3d& deviations = body.deviations;
+      summary["factor_deviations"][body.name] = {deviations.x(), deviations.y(), deviations.z()};
+    }
     summary["verdict"] = ToJson(*report.verdict);
   }
   return summary;

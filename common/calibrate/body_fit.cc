@@ -23,6 +23,9 @@ namespace {
 // Of a marker's offset, in marker_deviations, where it begins to count less: some are worn far
 // from the model's place.
 constexpr double kOffsetScale = 2;
+// Of a marker on one side of a joint, as a share of marker_deviation across the line to that on the
+// other: both are palpated, and the joint is between them (Della Croce et al. 2005).
+constexpr double kPairShare = 0.5;
 constexpr double kLeastScale = 0.5;
 constexpr double kMostScale = 2;
 constexpr int kMostIterations = 150;
@@ -33,6 +36,15 @@ constexpr double kMostDamping = 1e6;
 // Frames are summed up in so many parts, whatever the number of threads: the same sum each time.
 constexpr int kParts = 8;
 
+/// U with U' U the information about three scales of scale_deviation each, whose common part leaves
+/// axis_deviation to each.
+Eigen::Matrix3d AxesFactor(const CalibrationOptions& options) {
+  const double own = Square(options.axis_deviation);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(Square(options.scale_deviation) - own);
+  covariance.diagonal().array() += own;
+  return covariance.inverse().llt().matrixU();
+}
+
 /// Information about the scales of a person of known height: the mean of left and right is 1 by
 /// scale_deviation, their difference 0 by side_deviation.
 MatrixXd OwnScalePrior(const SegmentLengths& lengths, const CalibrationOptions& options) {
@@ -42,6 +54,11 @@ MatrixXd OwnScalePrior(const SegmentLengths& lengths, const CalibrationOptions& 
     A(left, left) = A(left, right) = 0.5 / options.scale_deviation;
     A(right, left) = 1 / options.side_deviation;
     A(right, right) = -1 / options.side_deviation;
+  }
+  for (Eigen::Index i = 0; lengths.are_of_axes && i < n; i += 3) {
+    const bool is_difference = A.block(i, i, 3, 3).minCoeff() < 0;
+    if (is_difference) continue;
+    A.middleRows<3>(i) = AxesFactor(options) * options.scale_deviation * A.middleRows<3>(i).eval();
   }
   return A.transpose() * A;
 }
@@ -82,6 +99,14 @@ VectorXd OwnShares(const std::vector<CalibrationFrame>& frames, double skin_time
   return repeated.cwiseInverse();
 }
 
+/// What a pair's line adds to the information about a marker's offset, in marker_deviation^-2: 1
+/// across it.
+Eigen::Matrix3d AcrossLine(const Eigen::Matrix3Xd& lines, Eigen::Index m) {
+  if (m >= lines.cols() || lines.col(m).isZero(0)) return Eigen::Matrix3d::Zero();
+  const double more = 1 / Square(kPairShare) - 1;
+  return more * (Eigen::Matrix3d::Identity() - lines.col(m) * lines.col(m).transpose());
+}
+
 class BodyFit {
  public:
   BodyFit(BodyKinematics* kinematics, const CalibrationOptions& options,
@@ -118,6 +143,7 @@ class BodyFit {
   }
 
   double Cost(const Body& body, const std::vector<Posture>& postures);
+  double OffsetSquare(const Body& body, Eigen::Index m) const;
   double PriorCost(const Body& body) const;
   void Linearize();
   void AddPrior();
@@ -149,11 +175,16 @@ double BodyFit::Cost(const Body& body, const std::vector<Posture>& postures) {
   return costs_.sum() + PriorCost(body);
 }
 
+double BodyFit::OffsetSquare(const Body& body, Eigen::Index m) const {
+  const auto offset = body.offsets.col(m);
+  return offset.squaredNorm() + offset.dot(AcrossLine(kinematics_.lines(), m) * offset);
+}
+
 double BodyFit::PriorCost(const Body& body) const {
   double cost = 0;
   const double sigma = options_.marker_deviation;
   for (Eigen::Index m = 0; m < body.offsets.cols(); ++m) {
-    cost += CauchyCost(body.offsets.col(m).squaredNorm() / (sigma * sigma), kOffsetScale);
+    cost += CauchyCost(OffsetSquare(body, m) / (sigma * sigma), kOffsetScale);
   }
   const VectorXd d = body.scales.array() - 1;
   return cost + d.dot(scale_prior_ * d);
@@ -163,10 +194,13 @@ void BodyFit::AddPrior() {
   auto H = total_.H.view();
   const double offset = 1 / (options_.marker_deviation * options_.marker_deviation);
   for (Eigen::Index m = 0; m < body_.offsets.cols(); ++m) {
-    const double square = body_.offsets.col(m).squaredNorm() * offset;
+    const double square = OffsetSquare(body_, m) * offset;
     const double w = offset * CauchyWeight(square, kOffsetScale);
     H.diagonal().segment<3>(3 * m).array() += w;
     total_.g.segment<3>(3 * m) -= w * body_.offsets.col(m);
+    const Eigen::Matrix3d across = AcrossLine(kinematics_.lines(), m);
+    H.block<3, 3>(3 * m, 3 * m) += w * across;
+    total_.g.segment<3>(3 * m) -= w * (across * body_.offsets.col(m));
   }
   const Eigen::Index scales = body_.scales.size();
   H.bottomRightCorner(scales, scales) += scale_prior_;

@@ -33,6 +33,9 @@ struct BodySizes {
   SegmentLengths lengths;  ///< its segments stand for what has a size, and name it
   /// The model with these scales. At any posture, markers go straight with each of them.
   std::function<KinematicModel(const Eigen::VectorXd& scales)> rescale;
+  /// By used marker: the line to the one on the other side of a joint, a unit vector in axes of the
+  /// segment; 0: none. Empty: of none.
+  Eigen::Matrix3Xd lines;
 };
 
 /// Marker kinematics of a body that changes. Compute may be called by several threads.
@@ -49,6 +52,7 @@ class BodyKinematics {
   const std::vector<int>& joints() const { return joints_; }
   const std::vector<MarkerIx>& markers() const { return markers_; }
   const SegmentLengths& lengths() const { return lengths_; }
+  const Eigen::Matrix3Xd& lines() const { return lines_; }  ///< of BodySizes
   /// Of the body set last; the model's at first.
   const MarkerKinematics& kinematics() const { return *kinematics_; }
   const KinematicModel& fitted() const { return *fitted_; }
@@ -69,6 +73,7 @@ class BodyKinematics {
   std::vector<int> joints_;
   std::vector<MarkerIx> markers_;
   SegmentLengths lengths_;
+  Eigen::Matrix3Xd lines_;
   std::function<KinematicModel(const Eigen::VectorXd&)> rescale_;  // empty: FitToSubject
   std::vector<MarkerKinematics> sized_;  // with rescale_: the model, then each scale larger by 1
   /// lengths_ x markers_: true where the marker is below the segment, or on it.

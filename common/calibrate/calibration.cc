@@ -131,7 +131,7 @@ Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const Bo
   const KinematicModel& model = kinematics.model();
   subject.model = model.name();
   for (Eigen::Index i = 0; i < body.scales.size(); ++i) {
-    subject.scales.push_back({model.segments()[kinematics.lengths().segments[i]].name,
+    subject.scales.push_back({LengthName(model, kinematics.lengths(), static_cast<int>(i)),
                               body.scales[i], fit.deviations.scales[i],
                               fit.prior_scale_deviations[i]});
   }
@@ -163,13 +163,25 @@ void AddSkinDeviations(const KinematicModel& fitted, const std::vector<int>& joi
   }
 }
 
-void WarnOfSubject(const Subject& subject, Warnings* warnings) {
+/// The segments of which the recordings tell no length, or no axis.
+std::vector<std::string> OpenLengths(const BodyKinematics& kinematics, const Subject& subject) {
+  const SegmentLengths& lengths = kinematics.lengths();
+  const std::size_t axes = lengths.are_of_axes ? 3 : 1;
   std::vector<std::string> open;
-  for (const SegmentScale& scale : subject.scales) {
-    if (Observability(scale.standard_deviation, scale.prior_deviation) < kLeastObservability) {
-      open.push_back(scale.segment);
+  for (std::size_t i = 0; i < subject.scales.size(); i += axes) {
+    double most = 0;
+    for (std::size_t axis = i; axis < i + axes; ++axis) {
+      const SegmentScale& scale = subject.scales[axis];
+      most = std::max(most, Observability(scale.standard_deviation, scale.prior_deviation));
     }
+    if (most >= kLeastObservability) continue;
+    open.push_back(kinematics.model().segments()[lengths.segments[i]].name);
   }
+  return open;
+}
+
+void WarnOfSubject(const BodyKinematics& kinematics, const Subject& subject, Warnings* warnings) {
+  const std::vector<std::string> open = OpenLengths(kinematics, subject);
   if (!open.empty()) {
     Warn(warnings, fmt::format("the recordings tell little of the length of {}: their markers or "
                                "movements do not show it",
@@ -240,7 +252,7 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
     });
     result.subject.sources.push_back({recordings[r].name, static_cast<int>(taken)});
   }
-  WarnOfSubject(result.subject, warnings);
+  WarnOfSubject(*kinematics, result.subject, warnings);
   if (!fit.converged) {
     Warn(warnings, fmt::format("the estimate was still changing after {} steps; a recording with "
                                "more movement settles "

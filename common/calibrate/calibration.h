@@ -28,6 +28,7 @@ struct CalibrationOptions {
   int frames = 120;                ///< at most, chosen over all recordings
   double marker_deviation = 0.03;  ///< of a marker from the model's place, each coordinate [m]
   double scale_deviation = 0.06;   ///< of a segment's scale
+  double axis_deviation = 0.04;    ///< of a body's scale along an axis from its others' mean
   double side_deviation = 0.01;    ///< of left against right scale
   double height_deviation = 0;     ///< of all scales together, where the height is a guess
   double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]

@@ -43,9 +43,10 @@ std::vector<std::string> PartnersOf(const BodyKinematics& kinematics, const Matr
   for (Index m = 0; m < markers; ++m) {
     add(3 * m, 3, model.markers()[kinematics.markers()[static_cast<std::size_t>(m)]].name);
   }
-  const std::vector<int>& segments = kinematics.lengths().segments;
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    add(3 * markers + static_cast<Index>(s), 1, model.segments()[segments[s]].name);
+  const SegmentLengths& lengths = kinematics.lengths();
+  const int axes = lengths.are_of_axes ? 3 : 1;
+  for (int i = 0; i < static_cast<int>(lengths.segments.size()); i += axes) {
+    add(3 * markers + i, axes, model.segments()[lengths.segments[i]].name);
   }
   std::stable_sort(partners.begin(), partners.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -11,6 +11,7 @@
 #include "common/fit/posture_search.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_scaling.h"
+#include "common/io/osim/osim_subject.h"
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
@@ -252,7 +253,7 @@ ScaledOsim ScaleOsimPerson(const NamedText& model, const std::vector<NamedText>&
                            const ScaleSetup& setup, const std::string& setup_file,
                            const MarkerSequence& recording, Warnings* warnings) {
   ScaledOsim scaled;
-  scaled.content = std::string(model.content);
+  scaled.content = WithoutOsimSubject(model.content);
   OsimDocument document = Parse(model);
   if (!markers.empty()) {
     for (const NamedText& set : markers) {

@@ -20,6 +20,11 @@ std::vector<bool> CarriesOneOf(const KinematicModel& model, const std::vector<in
 
 }  // namespace
 
+std::string LengthName(const KinematicModel& model, const SegmentLengths& lengths, int length) {
+  const std::string& name = model.segments()[lengths.segments[length]].name;
+  return lengths.are_of_axes ? name + ' ' + "xyz"[length % 3] : name;
+}
+
 SegmentLengths FindSegmentLengths(const KinematicModel& model, const std::vector<int>& joints,
                                   const std::vector<MarkerIx>& markers) {
   std::vector<int> joint_segments;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,7 +15,12 @@ namespace mmm_converter {
 struct SegmentLengths {
   std::vector<int> segments;                ///< indices of the model
   std::vector<std::pair<int, int>> mirror;  ///< indices into segments: left and right of one length
+  /// Each segment stands there three times in a row, for its sizes along x, y and z.
+  bool are_of_axes = false;
 };
+
+/// "femur_r"; "femur_r y" of axes.
+std::string LengthName(const KinematicModel& model, const SegmentLengths& lengths, int length);
 
 /// joints, markers: the tracked and used ones, indices of the model. Left and right are told by
 /// their names: "L..." and "R..." or "Left..." and "Right...".

@@ -7,6 +7,7 @@
 #include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/osim/osim_model_reader.h"
+#include "common/io/osim/osim_subject.h"
 #include "common/io/osim/osim_xml.h"
 #include "common/io/urdf/urdf_model_reader.h"
 #include "common/io/xml/xml_text.h"
@@ -27,12 +28,21 @@ std::map<std::string, std::string> SegmentsOfLinks(const Robot& robot) {
   return names;
 }
 
+/// With what its calibration knows of it.
+LoadedModel ReadOsim(const std::string& path, const std::string& marker_file, Warnings* warnings) {
+  const std::string content = ReadFileContent(path, kMaxOsimBytes);
+  KinematicModel model = ParseOsimModel(content, path, marker_file, warnings);
+  auto subject = ParseOsimSubject(content, path, model, warnings);
+  if (subject) model = FitToSubject(model, *subject);
+  return {std::move(model), false, {}, std::move(subject)};
+}
+
 }  // namespace
 
 LoadedModel ReadModelFile(const std::string& path, Warnings* warnings,
                           const std::string& marker_file) {
   if (IsOsimDocument(ReadFileStart(path, kHeadBytes))) {
-    return {ReadOsimModel(path, marker_file, warnings), false, {}};
+    return ReadOsim(path, marker_file, warnings);
   }
   if (!marker_file.empty()) {
     throw Error(fmt::format("{}: is a set of markers for a model of OpenSim, and {} is none",

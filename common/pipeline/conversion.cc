@@ -45,7 +45,7 @@ void CheckHasSubject(const ConversionRequest& request, const ConversionPlan& pla
     throw Error(WhyUnscaled(plan.converter.config) +
                 ", but a subject is relative to the scaled one");
   }
-  if (is_calibrated || plan.person.subject) return;
+  if (is_calibrated || (plan.person.subject && !plan.input.model->subject)) return;
   if (!request.subject_output.empty()) {
     throw Error(OptionText("subject-out") + " " + request.subject_output +
                 ": a rigid object is no subject");
@@ -168,6 +168,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
   const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
   plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
+  if (!plan.object) UseModelsSubject(plan.input, &plan.person, warnings);
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   CheckHasSubject(request, plan);
   CheckExports(request.exports, *plan.setup.model);

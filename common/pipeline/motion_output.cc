@@ -26,7 +26,7 @@ bool AreMarkersAsInFile(const Recording& recording) {
 
 // The format has no place for a subject: players see the reference, scaled by height and mass.
 std::string SubjectComment(const ConversionPlan& plan) {
-  if (!plan.person.subject) return "";
+  if (!plan.person.subject || plan.input.model->subject) return "";
   const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
   const std::string& file =
       plan.subject_output.empty() ? plan.person.subject_file : plan.subject_output;

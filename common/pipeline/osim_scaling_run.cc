@@ -55,12 +55,12 @@ OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
   OsimScalingReport report;
   report.warnings = std::move(configuration.warnings);
   ConverterConfig& config = configuration.value;
-  const std::vector<CalibrationInput> inputs =
+  std::vector<CalibrationInput> inputs =
       ReadCalibrationInputs(request, &config, progress, &report.warnings);
   const InputRequest& first = request.inputs.front();
   const BodySize& size = first.person.size;
   if (size.height || size.hand_length) {
-    report.warnings.Add("height and hand length are left out: a model of OpenSim has a size");
+    report.warnings.Add("height and hand length change nothing: a model of OpenSim has a size");
   }
   const std::string file = ModelFile(first);
   const std::string model = ReadFileContent(file, kMaxOsimBytes);
@@ -71,8 +71,11 @@ OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
   const auto all = static_cast<int>(inputs.size());
   if (progress) options.between_steps = [&progress, all] { progress(all, all); };
   Warnings warnings;
+  const OsimPersonFacts person = {
+      request.name.empty() ? SubjectName(inputs.front().input) : request.name, size.mass,
+      size.height, SubjectProgram()};
   CalibratedOsim calibrated = CalibrateOsim({model, file}, document, *setup.model, setup.joints,
-                                            RecordingsOf(inputs), size.mass, options, &warnings);
+                                            RecordingsOf(inputs), person, options, &warnings);
   report.warnings.AppendNew(warnings);
   CheckProportions(calibrated.result.subject);
   CalibrationEvidence evidence{calibrated.result, {}, {}};
@@ -85,6 +88,8 @@ OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
   report.frames = calibrated.result.frames;
   report.result = std::move(calibrated.result);
   report.size = calibrated.size;
+  report.model = std::move(calibrated.model);
+  report.recordings = std::move(inputs);
   return report;
 }
 

@@ -28,6 +28,8 @@ struct OsimScalingReport {
   std::optional<CalibrationResult> result;  ///< of RunOsimCalibration
   std::optional<Verdict> verdict;           ///< of that
   double size = 1;  ///< of the whole person, which the result's scales are of
+  std::vector<CalibrationInput> recordings;     ///< of RunOsimCalibration
+  std::shared_ptr<const KinematicModel> model;  ///< of that, with its markers' deviations
   Warnings warnings;
 };
 

@@ -3,7 +3,8 @@
 //   osim_benchmark WHAT MODEL.osim FIRST_SEED LAST_SEED
 // WHAT: calibration, deviations, hidden or time. A model without markers gets three on each body.
 // Every seed is another person, whose bodies are up to some 10 % larger or smaller than the
-// model's, who wears every marker some 10 mm elsewhere, with soft tissue of 4 mm.
+// model's, and by some 3 % otherwise along each axis, who wears every marker some 10 mm elsewhere,
+// with soft tissue of 4 mm.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "common/calibrate/joint_doubts.h"
+#include "common/io/osim/osim_document.h"
+#include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
@@ -26,6 +30,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr int kSettled = 25;
+constexpr double kLeastLength = 0.05;  // [m]
 constexpr double kDegrees = 180 / EIGEN_PI;
 
 struct Share {
@@ -65,11 +70,10 @@ void Deviations(const std::string& text, int first, int last) {
       const CalibratedPerson person = Calibrate(text, made);
       const Case other = MoveOtherwise(made, seed, seed + 5000);
       const MarkerSequence seen = OccludeShare(other.markers, 0.1, 30, seed);
-      for (const auto& [what, model] : {std::pair("uncalibrated", made.generic),
-                                        {"calibrated", person.model},
-                                        {"its file", person.written}}) {
-        AddShares(other, model, Track(model, preset, seen), &shares[what]);
-      }
+      AddShares(other, made.generic, Track(made.generic, preset, seen), &shares["uncalibrated"]);
+      ConversionResult result = Track(person.model, preset, seen);
+      WidenDeviations(person.subject, &result);
+      AddShares(other, person.model, result, &shares["calibrated"]);
     }
     for (const auto& [what, of_groups] : shares) {
       for (const auto& [group, share] : of_groups) {
@@ -164,14 +168,47 @@ void Hidden(const std::string& text, int first, int last) {
   }
 }
 
-/// Sizes of bodies by those of the person, and where joints are while the person moves otherwise.
+/// How far apart the origins of bodies are that a joint connects, at rest [m].
+std::map<std::string, double> LengthsOf(const std::string& text, const KinematicModel& model) {
+  Diagnostics diagnostics("model");
+  const OsimDocument document = ParseOsim(text, {}, &diagnostics);
+  const auto poses = SegmentPoses(model, RestPosture(model));
+  std::map<std::string, double> lengths;
+  for (const OsimJoint& joint : document.joints) {
+    const std::string& parent = document.bodies[joint.parent].name;
+    const std::string& child = document.bodies[joint.child].name;
+    const int a = model.FindSegment(parent), b = model.FindSegment(child);
+    if (joint.parent == 0 || a < 0 || b < 0) continue;
+    const double length = (poses[a].translation() - poses[b].translation()).norm();
+    if (length > kLeastLength) lengths[parent + " to " + GroupOf(child)] = length;
+  }
+  return lengths;
+}
+
+/// Lengths of bodies and their factors by those of the person, and where joints are while the
+/// person moves otherwise.
 void Calibration(const std::string& text, int first, int last) {
   std::map<std::string, std::vector<double>> sizes, places;
+  std::map<std::string, Share> covered;
   for (int seed = first; seed <= last; ++seed) {
     const Case made = MakeCase(text, seed);
     const CalibratedPerson person = Calibrate(text, made);
     for (const auto& [body, factor] : made.factors) {
-      sizes[GroupOf(body)].push_back(100 * std::abs(person.factors.at(body)[0] / factor[0] - 1));
+      for (int axis = 0; axis < 3; ++axis) {
+        const double off = person.factors.at(body)[axis] / factor[axis] - 1;
+        sizes[fmt::format("size of {} {}", GroupOf(body), "xyz"[axis])].push_back(100 * off);
+      }
+    }
+    const auto lengths = LengthsOf(text, *person.model);
+    for (const auto& [what, length] : LengthsOf(text, *made.person)) {
+      sizes["length of " + GroupOf(what)].push_back(100 * (lengths.at(what) / length - 1));
+    }
+    for (const SegmentScale& scale : person.subject.scales) {
+      const std::string body = scale.segment.substr(0, scale.segment.rfind(' '));
+      const int axis = scale.segment.back() - 'x';
+      const double true_scale = made.factors.at(body)[axis] / person.size;
+      covered[scale.segment.substr(scale.segment.size() - 1)].Add(true_scale - scale.scale,
+                                                                  scale.standard_deviation);
     }
     const Case other = MoveOtherwise(made, seed, seed + 5000);
     for (const auto& [name, model] :
@@ -192,12 +229,20 @@ void Calibration(const std::string& text, int first, int last) {
   }
   const auto print = [](const std::string& what, std::vector<double> errors, const char* unit) {
     double squares = 0;
-    for (const double error : errors) squares += error * error;
+    for (double& error : errors) {
+      squares += error * error;
+      error = std::abs(error);
+    }
     fmt::print("{:44} {:.2f} {} rms, {:.2f} at most\n", what,
                std::sqrt(squares / static_cast<double>(errors.size())), unit,
                *std::max_element(errors.begin(), errors.end()));
   };
-  for (const auto& [body, errors] : sizes) print("size of " + body, errors, "%");
+  for (const auto& [what, errors] : sizes) print(what, errors, "%");
+  for (const auto& [axis, share] : covered) {
+    fmt::print("deviations of sizes along {} cover {:.2f} {:.2f}\n", axis,
+               share.one / static_cast<double>(share.all),
+               share.two / static_cast<double>(share.all));
+  }
   for (const auto& [body, errors] : places) print("joint above " + body, errors, "mm");
 }
 

@@ -105,11 +105,15 @@ std::map<std::string, Eigen::Vector3d> SizesOf(const std::string& text, int seed
   Diagnostics diagnostics("model");
   SeededRandom random(1000 + seed);
   std::map<std::string, Eigen::Vector3d> factors;
-  std::map<std::string, double> sizes;  // of both sides
+  std::map<std::string, Eigen::Vector3d> sizes;  // of both sides
+  const auto normal = [&] { return std::clamp(random.Normal(), -2.0, 2.0); };
   for (const OsimBody& body : ParseOsim(text, {}, &diagnostics).bodies) {
-    const auto [size, is_new] = sizes.try_emplace(GroupOf(body.name), 1);
-    if (is_new) size->second += 0.05 * std::clamp(random.Normal(), -2.0, 2.0);
-    if (body.mass > 0) factors[body.name] = Eigen::Vector3d::Constant(size->second);
+    const auto [size, is_new] = sizes.try_emplace(GroupOf(body.name), Eigen::Vector3d::Ones());
+    if (is_new) {
+      size->second.array() += 0.05 * normal();
+      for (double& along : size->second) along += 0.03 * normal();
+    }
+    if (body.mass > 0) factors[body.name] = size->second;
   }
   return factors;
 }
@@ -211,16 +215,9 @@ CalibratedPerson Calibrate(const std::string& text, const Case& made) {
   CalibratedPerson person;
   person.factors = found.scaled.factors;
   person.iterations = found.result.iterations;
-  person.written = Parse(found.scaled.content);
-  ModelDescription description = DescriptionOf(*person.written);
-  for (ModelMarker& marker : description.markers) {
-    for (const MarkerOffset& offset : found.result.subject.offsets) {
-      if (offset.marker != marker.name) continue;
-      marker.deviation = Deviation(offset);
-      if (offset.skin_deviation > 0) marker.skin_deviation = offset.skin_deviation;
-    }
-  }
-  person.model = std::make_shared<const KinematicModel>(std::move(description));
+  person.model = found.model;
+  person.subject = found.result.subject;
+  person.size = found.size;
   return person;
 }
 

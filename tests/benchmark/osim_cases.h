@@ -10,6 +10,7 @@
 
 #include "common/convert/motion_converter.h"
 #include "common/model/kinematic_model.h"
+#include "common/model/subject.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 
@@ -51,8 +52,9 @@ ConversionResult Track(const ModelPtr& model, const std::string& preset,
                        const MarkerSequence& seen);
 
 struct CalibratedPerson {
-  ModelPtr model;    ///< with the markers' deviations
-  ModelPtr written;  ///< as its file has it, without them
+  ModelPtr model;  ///< with the markers' deviations
+  Subject subject;
+  double size = 1;  ///< which the subject's scales are of
   std::map<std::string, Eigen::Vector3d> factors;
   int iterations = 0;
 };

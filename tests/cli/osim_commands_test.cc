@@ -116,22 +116,32 @@ TEST(OsimCommands, ThePersonIsCalibratedByRecordings) {
 
   const auto standing =
       RunProgram({"calibrate", ExampleFile("static.trc"), "--model", generic, "-o",
-                  OutFile("standing.osim"), "--summary", OutFile("standing.json")});
+                  OutFile("standing.osim"), "--summary", OutFile("standing.json"), "--report",
+                  OutFile("standing.html"), "--name", "A--na"});
   ASSERT_EQ(standing.exit_code, 0) << standing.err;
+  EXPECT_THAT(ReadText(OutFile("standing.html")), HasSubstr("The person \"A--na\""));
   EXPECT_THAT(standing.out, HasSubstr("verdict    good"));
   const Json summary = Json::parse(ReadText(OutFile("standing.json")));
   EXPECT_EQ(summary["verdict"]["level"], "good");
-  EXPECT_EQ(summary["factors"]["femur_r"][1], summary["factors"]["femur_r"][0]);
+  EXPECT_EQ(summary["subject"]["name"], "A--na");
+  const Json& deviations = summary["factor_deviations"]["femur_r"];
+  EXPECT_LT(deviations[1], deviations[0]);  // nothing shows the thickness of a thigh
   EXPECT_THAT(standing.err, HasSubstr("the person only stands"));
 
   const StrictTable truth = ReadStrictMot(ReadText(ExampleFile("walk_true.mot")));
+  double of_hip = 0;  // its deviation in the middle of the walk [deg]
   const auto error = [&](const std::string& model) {
     ExpectSuccess({"convert", ExampleFile("walk.trc"), "--model", model, "-c", "s2kf_offline", "-o",
                    OutFile("walk.mot")});
+    of_hip = ReadStrictMot(ReadText(OutFile("walk_deviations.sto"))).At(80, "hip_flexion_r");
     return AngleError(ReadStrictMot(ReadText(OutFile("walk.mot"))), truth);
   };
   const double calibrated = error(OutFile("person.osim"));
+  const double by_movement = of_hip;
   const double by_standing = error(OutFile("standing.osim"));
+  // What standing does not tell is in the deviations of every motion that the model moves by.
+  EXPECT_GT(of_hip, 1.3 * by_movement);
+  EXPECT_GT(of_hip, 2);
   const double uncalibrated = error(generic);
   std::printf("[ measured ] %.2f deg rms, by standing %.2f, before %.2f\n", calibrated, by_standing,
               uncalibrated);
@@ -148,8 +158,8 @@ TEST(OsimCommands, CalibrationsAreMisused) {
     EXPECT_FALSE(std::filesystem::exists(OutFile("none.osim")));
     return run.err;
   };
-  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--report", OutFile("s.html")}, 2),
-              HasSubstr("--report"));
+  EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--model-out", OutFile("s.xml")}, 2),
+              HasSubstr("--model-out"));
   EXPECT_THAT(refusal({ExampleFile("walk.trc"), "--mass", "0"}, 2), HasSubstr("mass"));
 }
 

@@ -287,22 +287,27 @@ std::string ScaleOsim(std::string_view content, const std::string& file, const O
   return ScaleLengths(before, edit.Finish(), file, warnings);
 }
 
-OsimDocument ScaleOsimDocument(OsimDocument document, const std::vector<double>& factors) {
-  for (std::size_t i = 0; i < document.bodies.size(); ++i) document.bodies[i].p_BC *= factors[i];
+OsimDocument ScaleOsimDocument(OsimDocument document, const std::vector<Vector3d>& factors) {
+  const auto scale = [&](int body, auto&& p) {
+    p.array() *= factors[static_cast<std::size_t>(body)].array();
+  };
+  for (std::size_t i = 0; i < document.bodies.size(); ++i) {
+    scale(static_cast<int>(i), document.bodies[i].p_BC);
+  }
   for (OsimJoint& joint : document.joints) {
-    const double f = factors[joint.parent];
-    joint.X_PF.translation() *= f;
-    joint.X_CM.translation() *= factors[joint.child];
+    scale(joint.parent, joint.X_PF.translation());
+    scale(joint.child, joint.X_CM.translation());
     for (OsimAxis& axis : joint.translations) {
       OsimExpression& value = axis.value;
       const bool is_coordinate = value.constant == 0 && value.terms.size() == 1 &&
                                  value.terms[0].function.AsLine() == ScalarFunction::Line{1, 0};
       if (is_coordinate) continue;
+      const double f = LengthAlong(axis.axis, factors[static_cast<std::size_t>(joint.parent)]);
       value.constant *= f;
       for (auto& term : value.terms) term.function = term.function.Scaled(f);
     }
   }
-  for (OsimMarker& marker : document.markers) marker.p_BM *= factors[marker.body];
+  for (OsimMarker& marker : document.markers) scale(marker.body, marker.p_BM);
   return document;
 }
 

@@ -31,9 +31,8 @@ struct OsimScaling {
 std::string ScaleOsim(std::string_view content, const std::string& file, const OsimScaling& scaling,
                       Warnings* warnings);
 
-/// Joints, centres of mass and markers as ScaleOsim leaves them; masses stay. factors: by body, the
-/// same along all axes.
-OsimDocument ScaleOsimDocument(OsimDocument document, const std::vector<double>& factors);
+/// Joints, centres of mass and markers as ScaleOsim leaves them; masses stay. factors: by body.
+OsimDocument ScaleOsimDocument(OsimDocument document, const std::vector<Eigen::Vector3d>& factors);
 
 /// The text with these markers: those that it has move to their place and body, others are added.
 /// document: whose bodies the markers name. @throws Error as ScaleOsim.

@@ -36,8 +36,8 @@ void ScaleTrialsModel(const InputRequest& request, ConverterConfig config, Input
   TrackingSetup setup = MatchLabels(LabelsOf(recording.markers, recording.file), read, config,
                                     nullptr);  // each row says it
   WarnOfFreeJoints(setup, config, warnings);
-  const Person person =
-      FindPerson(request.person, setup, recording, config, warnings, input.names.get());
+  Person person = FindPerson(request.person, setup, recording, config, warnings, input.names.get());
+  UseModelsSubject(input, &person, warnings);
   ScaleToPerson(ScalingOf(person, config), &setup);
   trial->model = setup.model;
   trial->subject = person.subject;

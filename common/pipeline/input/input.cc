@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/calibrate/joint_doubts.h"
 #include "common/support/advice.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
@@ -91,6 +92,17 @@ Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warn
   input.forces_file = request.forces_file;
   KeepFrames(request, &input);
   return input;
+}
+
+void UseModelsSubject(const Input& input, Person* person, Warnings* warnings) {
+  if (person->subject || !input.model->subject) return;
+  person->subject = input.model->subject;
+  person->subject_file = input.model_file;
+  const std::vector<std::string> doubts = DescribeDoubts(person->subject->joints);
+  if (doubts.empty()) return;
+  Warn(warnings, fmt::format("{}: its calibration leaves open what is zero for {}; deviations "
+                             "say it, and a calibration with more movement tells it",
+                             input.model_file, FirstNames(doubts, 6)));
 }
 
 ConverterChoice ChosenConverter(const ConverterRequest& request, const ReadBefore& read_before,

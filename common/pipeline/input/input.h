@@ -78,6 +78,9 @@ WithWarnings<std::shared_ptr<const LoadedModel>> ReadModelOnce(const InputReques
 /// @throws Error
 Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings);
 
+/// The person of a model that was calibrated, where there is no other.
+void UseModelsSubject(const Input& input, Person* person, Warnings* warnings);
+
 /// ChooseConverter. @throws Error
 ConverterChoice ChosenConverter(const ConverterRequest& request, const ReadBefore& read_before,
                                 Warnings* warnings);

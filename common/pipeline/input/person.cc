@@ -162,7 +162,7 @@ std::string WhyUnscaled(const ConverterConfig& config) {
 }
 
 PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
-  if (config.model_processor == "None") return {};
+  if (config.model_processor == "None") return {std::nullopt, person.subject};
   return {WinterScaling{person.height.value, person.mass.value, person.hand_length},
           person.subject};
 }

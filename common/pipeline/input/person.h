@@ -50,7 +50,7 @@ std::string DescribeHeight(const Person& person);
 /// For messages: which file has it that the model is not scaled.
 std::string WhyUnscaled(const ConverterConfig& config);
 
-/// What a model is scaled by for a person; nothing where the configuration says that it is not.
+/// What a model is scaled by for a person; no size where the configuration says that it is not.
 PersonScaling ScalingOf(const Person& person, const ConverterConfig& config);
 
 /// The recorded person: the subject where the request or the configuration names one. Height, mass

@@ -63,10 +63,11 @@ double FarthestMarkers(const KinematicModel& a, const KinematicModel& b) {
 }
 
 /// By body, ground first: all different.
-std::vector<double> SomeFactors(const OsimDocument& document) {
-  std::vector<double> factors = {1};
+std::vector<Eigen::Vector3d> SomeFactors(const OsimDocument& document) {
+  std::vector<Eigen::Vector3d> factors = {Eigen::Vector3d::Ones()};
   for (std::size_t i = 1; i < document.bodies.size(); ++i) {
-    factors.push_back(0.8 + 0.37 * std::fmod(0.61803 * static_cast<double>(i), 1));
+    const double f = 0.8 + 0.37 * std::fmod(0.61803 * static_cast<double>(i), 1);
+    factors.emplace_back(f, 1.05 * f, 0.9 * f);
   }
   return factors;
 }
@@ -74,10 +75,10 @@ std::vector<double> SomeFactors(const OsimDocument& document) {
 // What is scaled without its text moves as what is written and read again.
 void ExpectTheWrittenModelMovesAsTheScaledOne(const std::string& text) {
   const OsimDocument document = DocumentOf(text);
-  const std::vector<double> factors = SomeFactors(document);
+  const std::vector<Eigen::Vector3d> factors = SomeFactors(document);
   OsimScaling scaling;
   for (std::size_t i = 1; i < factors.size(); ++i) {
-    scaling.factors[document.bodies[i].name] = Eigen::Vector3d::Constant(factors[i]);
+    scaling.factors[document.bodies[i].name] = factors[i];
   }
   OsimDocument scaled = ScaleOsimDocument(document, factors);
   for (std::size_t m = 0; m < scaled.markers.size(); ++m) {
@@ -141,8 +142,8 @@ TEST(OsimCalibration, SlopesBySizesAreThoseOfDifferences) {
   const OsimDocument document = DocumentOf(testing::OsimOfAllKinds());
   const auto rescale = [&](const Eigen::VectorXd& scales) {
     Diagnostics diagnostics("m.osim");
-    std::vector<double> factors(document.bodies.size(), 1);
-    for (Eigen::Index i = 0; i < scales.size(); ++i) factors[i + 1] = scales[i];
+    std::vector<Eigen::Vector3d> factors(document.bodies.size(), Eigen::Vector3d::Ones());
+    for (Eigen::Index i = 0; i < scales.size(); ++i) factors[i + 1].setConstant(scales[i]);
     return MakeOsimModel(ScaleOsimDocument(document, factors), &diagnostics);
   };
   const auto n = static_cast<Eigen::Index>(document.bodies.size()) - 1;
@@ -226,7 +227,8 @@ CalibratedOsim Calibrate(const KnownPerson& person, std::optional<double> mass,
     one.marker = MarkerIx(reference.FindMarker(person.markers.labels()[label]));
   }
   return CalibrateOsim({person.generic, "m.osim"}, DocumentOf(person.generic), reference,
-                       AllJoints(reference), {recording}, mass, OsimCalibrationOptions(), warnings);
+                       AllJoints(reference), {recording}, {"Anna", mass, {}, "test"},
+                       OsimCalibrationOptions(), warnings);
 }
 
 // Without errors, what was assumed beforehand draws lengths by less than a part in two hundred. The
