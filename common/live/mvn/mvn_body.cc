@@ -109,4 +109,23 @@ MvnPoses MvnBody::Poses(const KinematicModel& model, const Posture& posture) con
   return mvn;
 }
 
+MvnPoses MvnBody::TPose(const KinematicModel& model) const {
+  Posture posture = ZeroPosture(model);
+  posture.joint_angles.setZero();
+  posture.joint_angles[model.FindJoint("LSy_joint")] = M_PI / 2;
+  posture.joint_angles[model.FindJoint("RSy_joint")] = -M_PI / 2;
+  MvnPoses poses = Poses(model, posture);
+  const Quaterniond to_x = AxesAtZero(Side::kMiddle).conjugate();
+  const Vector3d pelvis = poses.front().translation();
+  double lowest = pelvis.z();
+  for (const auto& pose : poses) lowest = std::min(lowest, pose.translation().z());
+  const Vector3d ground(pelvis.x(), pelvis.y(), lowest);
+  for (auto& pose : poses) {
+    const Vector3d place = to_x * (pose.translation() - ground);
+    pose.setIdentity();
+    pose.translation() = place;
+  }
+  return poses;
+}
+
 }  // namespace mmm_converter

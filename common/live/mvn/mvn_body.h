@@ -21,6 +21,10 @@ class MvnBody {
 
   MvnPoses Poses(const KinematicModel& model, const Posture& posture) const;
 
+  /// Of the person who stands with arms raised to the side, looking along x, all axes the world's:
+  /// the pelvis above the origin, the lowest segment's origin at z = 0.
+  MvnPoses TPose(const KinematicModel& model) const;
+
  private:
   struct Part {
     int segment = -1;
