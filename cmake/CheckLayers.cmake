@@ -20,7 +20,7 @@ set(layers
     common/io common/io/landmarks common/io/recording
     common/convert "common/calibrate|common/forces" common/contacts "common/angles|common/kinetics" common/retarget
     common/label common/label/search "common/label/track|common/label/learn" common/judge
-    common/pipeline/input common/pipeline "common/pipeline/comparison|common/pipeline/dynamics" common/live
+    common/pipeline/input common/pipeline "common/pipeline/comparison|common/pipeline/dynamics" common/live common/pipeline/live
     plugins
     "MMMConverterS2KF/terminal|MMMConverterS2KF/report"
     "MMMConverterS2KF/batch|MMMConverterS2KF/live"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/live/live_request.h"
-#include "MMMConverterS2KF/live/live_session.h"
 #include "common/live/sink_runner.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/live/live_request.h"
+#include "common/pipeline/live/live_session.h"
 
 namespace mmm_converter {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "MMMConverterS2KF/live/live_request.h"
-#include "MMMConverterS2KF/live/live_session.h"
 #include "common/live/frame_source.h"
 #include "common/live/latency_histogram.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/live/live_request.h"
+#include "common/pipeline/live/live_stream.h"
 
 namespace mmm_converter {
 
@@ -37,14 +37,6 @@ struct LiveReport {
   LatencyHistogram delays;  ///< from received to tracked
   std::vector<SinkReport> sinks;
   std::vector<ConversionReport> motions;  ///< that were written
-};
-
-/// What runs now, ten times a second.
-struct LiveStatus {
-  LiveStage stage = LiveStage::kMeasuring;
-  std::int64_t frames = 0;
-  std::int64_t dropped = 0;
-  double gathered = 0;
 };
 
 /// How a caller hears of a run; all on its own thread.

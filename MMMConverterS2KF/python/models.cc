@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
+#include "MMMConverterS2KF/python/estimates.h"
 #include "MMMConverterS2KF/python/forward.h"
 #include "MMMConverterS2KF/python/module.h"
 #include "MMMConverterS2KF/python/requests.h"
@@ -133,10 +134,8 @@ class Tracker {
     TrackingSetup setup = MatchLabels({labels}, &input, choice_.config, &warnings);
     WarnOfFreeJoints(setup, choice_.config, &warnings);
     if (is_scaled) ScaleToPerson(person.scaling, &setup);
-    for (const int joint : setup.joints) joint_names_.push_back(setup.model->joint(joint).name);
-    for (const MarkerAssignment& one : setup.assignments()) {
-      marker_labels_.push_back(labels[static_cast<std::size_t>(one.label)]);
-    }
+    joint_names_ = TrackedJoints(setup);
+    marker_labels_ = UsedLabels(setup, labels);
     converter_ = choice_.plugin->factory().Create(setup, choice_.config);
     num_labels_ = static_cast<py::ssize_t>(labels.size());
     warnings_ = warnings.texts();
@@ -171,38 +170,7 @@ class Tracker {
       estimate = &work(points);
     }
     is_assembled_ = true;
-    return DictOf(*estimate);
-  }
-
-  py::dict DictOf(const FrameEstimate& estimate) const {
-    const std::vector<int>& joints = converter_->setup().joints;
-    const auto count = static_cast<Eigen::Index>(joints.size());
-    Posture posture = estimate.posture;
-    posture.joint_angles.resize(count);
-    Eigen::VectorXd deviations;
-    if (estimate.standard_deviations.size() > 0) {
-      deviations.resize(6 + count);
-      deviations.head<6>() = estimate.standard_deviations.head<6>();
-    }
-    for (Eigen::Index i = 0; i < count; ++i) {
-      posture.joint_angles[i] = estimate.posture.joint_angles[joints[i]];
-      if (deviations.size() > 0) deviations[6 + i] = estimate.standard_deviations[6 + joints[i]];
-    }
-    const py::tuple arrays = PostureArrays(posture);
-    py::dict result;
-    result["root_position"] = arrays[0];
-    result["root_quaternion"] = arrays[1];
-    result["joints"] = arrays[2];
-    result["sd"] = deviations.size() == 0
-                       ? py::object(py::none())
-                       : py::array_t<double>(deviations.size(), deviations.data());
-    result["residuals"] = py::array_t<double>(estimate.residuals.size(), estimate.residuals.data());
-    result["markers_seen"] = estimate.markers_seen;
-    result["markers_wrong"] = estimate.markers_wrong;
-    result["nis"] = estimate.nis;
-    result["reassembled"] = estimate.reassembled;
-    result["converged"] = estimate.converged;
-    return result;
+    return EstimateDict(converter_->setup(), *estimate);
   }
 
   ConverterChoice choice_;  // its plugin outlives the converter

@@ -26,5 +26,6 @@ PYBIND11_MODULE(_mmmconverter, module) {
   python::BindModels(&module);
   python::BindConversions(&module);
   python::BindStudies(&module);
+  python::BindLive(&module);
   python::BindOptions(&module);
 }

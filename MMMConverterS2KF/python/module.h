@@ -42,5 +42,6 @@ void BindRecordings(pybind11::module_* module);
 void BindModels(pybind11::module_* module);
 void BindConversions(pybind11::module_* module);
 void BindStudies(pybind11::module_* module);
+void BindLive(pybind11::module_* module);
 
 }  // namespace mmm_converter::python

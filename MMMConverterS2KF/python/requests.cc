@@ -25,8 +25,8 @@ const std::map<std::string, Task> kTasks = {
     {"calibrate", task::kCalibrate}, {"check_dynamics", task::kCheckDynamics},
     {"compare", task::kCompare},     {"convert", task::kConvert},
     {"label", task::kLabel},         {"learn_markers", task::kLearnMarkers},
-    {"read", task::kRead},           {"read_model", task::kModel},
-    {"retarget", task::kRetarget}};
+    {"live", task::kLive},           {"read", task::kRead},
+    {"read_model", task::kModel},    {"retarget", task::kRetarget}};
 
 // A value as the command line has it.
 std::string TextOfValue(const py::handle& value, OptionKind kind) {
@@ -75,6 +75,12 @@ KeywordType TypeOf(const Option& option) {
   return found == types.end() ? KeywordType{"str", "str"} : found->second;
 }
 
+// What a motion's file is written with, of which postures that are given one by one have none.
+bool IsOfWriting(const Option& option) {
+  const std::string name = option.names.keyword;
+  return name == "format" || name == "model_path";
+}
+
 // Of each keyword its name, type in words, annotation, and help.
 py::list OptionsOf(const std::string& name) {
   const Task task = kTasks.at(name);
@@ -87,6 +93,7 @@ py::list OptionsOf(const std::string& name) {
   py::list options;
   for (const Option& option : table) {
     if ((option.tasks & task) == 0 || *option.names.keyword == 0) continue;
+    if (task == task::kLive && IsOfWriting(option)) continue;
     const KeywordType type = TypeOf(option);
     options.append(py::make_tuple(option.names.keyword, type.words, type.annotation,
                                   HelpOf(kMedium, option, task)));

@@ -234,15 +234,23 @@ struct RetargetedMotion {
   RetargetReport report;
 };
 
-RetargetedMotion Retarget(const py::dict& options, const std::string& map,
+// motion: as of CheckMotion.
+RetargetedMotion Retarget(const py::object& motion, const py::dict& options, const std::string& map,
                           std::optional<double> sole_height, const py::object& progress) {
   RetargetRequest request;
   request.conversion = RequestOf(options);
   request.robot_file = TextOf(options, "robot");
   request.map_file = map;
   request.sole_height = sole_height;
+  if (py::isinstance<py::dict>(motion)) request.motion = MotionOf(motion);
+  if (py::isinstance<Conversion>(motion)) {
+    request.converted = &motion.cast<const Conversion&>().report;
+  }
   return InBackground(progress, [&](const Progress& on_progress) {
-    return RetargetedMotion{request, RunRetargeting(request, on_progress)};
+    RetargetedMotion result{request, RunRetargeting(request, on_progress)};
+    result.request.motion.reset();
+    result.request.converted = nullptr;
+    return result;
   });
 }
 
@@ -341,6 +349,9 @@ void BindStudies(py::module_* module) {
                              [](const RetargetedMotion& r) { return r.report.warnings.texts(); })
       .def_property_readonly(
           "rate", [](const RetargetedMotion& r) { return r.report.retargeted.motion.rate; })
+      .def_property_readonly(
+          "first_time",
+          [](const RetargetedMotion& r) { return r.report.retargeted.motion.first_time; })
       .def_property_readonly(
           "joint_names",
           [](const RetargetedMotion& r) { return r.report.retargeted.motion.joint_names; })

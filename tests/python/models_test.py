@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Forward kinematics and tracking frame by frame."""
+import gc
+import os
+import signal
 import threading
 import time
 import unittest
@@ -151,6 +154,63 @@ class Models(Case):
         self.assertEqual(by_names.markers_seen, len(renamed))
         by_set = mmmconverter.Tracker(model, labels).assemble(frame)
         np.testing.assert_allclose(by_names.root_position, by_set.root_position, atol=0.005)
+
+    def test_live_postures_are_those_of_a_conversion(self):
+        result = mmmconverter.convert(SAMPLE, height=1.8)
+        with mmmconverter.live(f"replay:{SAMPLE}@max", height=1.8) as stream:
+            postures = list(stream)
+        np.testing.assert_array_equal([one.joints for one in postures], result.joints)
+        np.testing.assert_array_equal([one.root_quaternion for one in postures], result.root_quaternions)
+        np.testing.assert_allclose([one.time for one in postures], result.times, atol=1e-12)
+        self.assertEqual((stream.frames, stream.dropped, postures[5].stage), (675, 0, "tracking"))
+        body = postures[0].body
+        self.assertIs(postures[-1].body, body)
+        np.testing.assert_array_equal(postures[9].markers, mmmconverter.read(SAMPLE).markers[9])
+        self.assertEqual((body.model.height, body.is_calibrated), (1.8, False))
+        np.testing.assert_array_equal(body.model.forward(postures[0]).positions[0], postures[0].root_position)
+        self.assertEqual(len(body.marker_labels), len(postures[0].residuals))
+        self.assertTrue(any("53 labels" in text for text in stream.messages), stream.messages)
+        self.assertIn("frames 675", repr(stream))
+
+    def test_live_ends_where_its_caller_does(self):
+        def count_threads():
+            gc.collect()
+            return len(os.listdir("/proc/self/task"))
+
+        before = count_threads()
+        for posture in mmmconverter.live(f"replay:{SAMPLE}", loop=True, height=1.8):
+            break
+        self.assertEqual(count_threads(), before)
+        stream = mmmconverter.live(f"replay:{SAMPLE}@max", height=1.8)
+        with self.assertRaises(ZeroDivisionError), stream:
+            for posture in stream:
+                1 / 0
+        self.assertEqual((list(stream), count_threads()), ([], before))
+        # While it waits for a frame.
+        waiting = mmmconverter.live(f"replay:{SAMPLE}@0.001", height=1.8)
+        next(waiting)
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            list(waiting)
+        timer.join()
+        self.assertEqual((list(waiting), count_threads()), ([], before))
+        waiting.close()
+        self.assertLess(len(list(mmmconverter.live(f"replay:{SAMPLE}", loop=True, height=1.8, seconds=0.2))), 675)
+
+    def test_live_says_what_is_wrong(self):
+        for source, options, error in ((SAMPLE, {}, "qtm"), ("replay:none.c3d", {}, "no such file"),
+                                       (f"replay:{SAMPLE}@max", {"height": 9.0}, "height"),
+                                       (f"replay:{SAMPLE}", {"seconds": -1}, "seconds"),
+                                       (f"replay:{SAMPLE}", {"calibrate_seconds": 5}, "self_calibrate")):
+            with self.subTest(source, **options), self.assertRaisesRegex(mmmconverter.Error, error):
+                mmmconverter.live(source, **options)
+        for option in ({"frames": (0, 5)}, {"format": "1.0"}):
+            with self.assertRaises(TypeError):
+                mmmconverter.live(f"replay:{SAMPLE}", **option)
+        model = ROOT / "examples/robot/biped.urdf"
+        with self.assertRaises(mmmconverter.Error):
+            next(mmmconverter.live(f"replay:{SAMPLE}@max", model=model))
 
     def test_threads_have_a_tracker_each(self):
         recording = mmmconverter.read(SAMPLE)

@@ -198,7 +198,7 @@ class Studies(Case):
         self.assertEqual(moved.summary["limbs"], self.summary("p.json")["limbs"])
         self.assertEqual(moved.verdict, self.summary("p.json")["verdict"]["level"])
         self.assertEqual(moved.rate, 100)
-        self.assertEqual((moved.positions.shape, moved.quaternions.shape), ((60, 3), (60, 4)))
+        self.assertEqual((moved.root_positions.shape, moved.root_quaternions.shape), ((60, 3), (60, 4)))
         self.assertEqual(moved.joints.shape, (60, len(moved.joint_names)))
         self.assertIn("left_knee", moved.joint_names)
         self.assertEqual(moved.warnings, moved.summary["warnings"])
@@ -216,6 +216,13 @@ class Studies(Case):
         arrays = mmmconverter.Recording.from_arrays(
             mmmconverter.read(SAMPLE).labels, mmmconverter.read(SAMPLE).markers[:40], 100)
         self.assertEqual(len(mmmconverter.retarget(arrays, robot, height=1.8).joints), 40)
+        converted = mmmconverter.convert(arrays, height=1.8)
+        of_conversion = mmmconverter.retarget(converted, robot)
+        self.assertEqual(len(of_conversion.joints), 40)
+        with self.assertRaisesRegex(mmmconverter.Error, "height: a conversion is taken as it is"):
+            mmmconverter.retarget(converted, robot, height=1.8)
+        of_motion = mmmconverter.retarget(mmmconverter.read_motion(MOTION), robot, frames=(None, 60))
+        np.testing.assert_array_equal(of_motion.joints, moved.joints)
 
 
 if __name__ == "__main__":

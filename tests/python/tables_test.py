@@ -87,6 +87,22 @@ class Tables(Case):
         self.assertEqual(table.columns[7:], [f"{name} [rad]" for name in self.motion.joint_names])
         self.assertEqual(set(self.motion.to_xarray()), {"root_position", "root_quaternion", "joint_angle"})
 
+    def test_a_robots_motion(self):
+        moved = mmmconverter.retarget(self.motion, ROOT / "examples/robot/biped.urdf", frames=(0, 20))
+        table = moved.to_dataframe()
+        np.testing.assert_allclose(table.index, self.motion.times[:20])
+        knee = moved.joint_names.index("left_knee")
+        np.testing.assert_array_equal(table["left_knee [rad]"], moved.joints[:, knee])
+        import matplotlib
+        matplotlib.use("Agg")
+        line, = moved.plot("left_knee").get_lines()
+        np.testing.assert_array_equal(line.get_ydata(), np.degrees(moved.joints[:, knee]))
+
+    def test_what_a_missing_library_is(self):
+        with unittest.mock.patch.dict(sys.modules, {"pandas": None}):
+            with self.assertRaisesRegex(ImportError, "to_dataframe needs pandas: .*python3-pandas"):
+                self.motion.to_dataframe()
+
     def test_poses(self):
         model = mmmconverter.read_model(height=1.8)
         poses = model.forward(self.motion)

@@ -8,7 +8,7 @@ from typing import List
 import numpy as np
 
 from ._present import Presented
-from ._tables import dataframe, dataset
+from ._tables import dataframe, dataset, new_axes
 
 COLOURS = {"left": "#c8553d", "right": "#2a7f9e", "": "#444444"}
 
@@ -65,8 +65,7 @@ class Angles(Presented):
         chosen = [column for column, (joint, _, motion) in enumerate(self._names)
                   if name == f"{joint} {motion}"] or [self._column(name)]
         if axes is None:
-            from matplotlib import pyplot
-            axes = pyplot.subplots()[1]
+            axes = new_axes()
         for column in chosen:
             side = self._names[column][1]
             line, = axes.plot(self.times, self.values[:, column], color=COLOURS[side], label=side or name)

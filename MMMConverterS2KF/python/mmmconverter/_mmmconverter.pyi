@@ -90,6 +90,23 @@ class Conversion:
 def convert(options: Dict[str, Any], progress: Progress) -> Conversion: ...
 def exporters() -> List[Tuple[str, str]]: ...
 
+class LiveBody:
+    name: str
+    labels: List[str]
+    marker_labels: List[str]
+    rate: float
+    is_calibrated: bool
+    model: Model
+
+class Live:
+    stage: str
+    frames: int
+    dropped: int
+    def __init__(self, options: Dict[str, Any], loop: bool, calibrate_seconds: float, seconds: float,
+                 tell: Callable[[bool, str], None]) -> None: ...
+    def next(self) -> Optional[Dict[str, Any]]: ...
+    def close(self) -> None: ...
+
 class Calibration:
     summary: Dict[str, Any]
     text: str
@@ -130,6 +147,7 @@ class Retargeted:
     verdict: str
     warnings: List[str]
     rate: float
+    first_time: float
     joint_names: List[str]
     arrays: Tuple[Any, Any, Any]
     def save(self, file: str) -> None: ...
@@ -143,7 +161,7 @@ def learn_markers(inputs: List[Dict[str, Any]], options: Dict[str, Any],
                   progress: Progress) -> LearnedMarkers: ...
 def label(options: Dict[str, Any], progress: Progress) -> LabelledRecording: ...
 def check_dynamics(motion: Any, options: Dict[str, Any], progress: Progress) -> Dynamics: ...
-def retarget(options: Dict[str, Any], map: str, sole_height: Optional[float],
+def retarget(motion: Any, options: Dict[str, Any], map: str, sole_height: Optional[float],
              progress: Progress) -> Retargeted: ...
 def options(task: str) -> List[Tuple[str, str, str, str]]: ...
 def tasks() -> List[str]: ...

@@ -6,12 +6,15 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Callable, Optional, Sequence, Union
 
+import numpy as np
+
 from . import _mmmconverter
 from ._conversions import Conversion
 from ._options import with_options
-from ._present import Filed, Presented, given, input_text, path_text
+from ._present import Filed, Presented, WrongValue, given, input_text, path_text
 from ._progress import shown
 from ._recordings import Motion, Recording, Subject, input_options, keywords
+from ._tables import Postures, new_axes
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -267,6 +270,13 @@ class Dynamics(_Study):
         return [("dynamics", self.judgement), ("checks", len(self.summary["checks"]))]
 
 
+def _finished(motion):
+    """Of a Motion or Conversion what the compiled part takes, and a name; None: it is none."""
+    if isinstance(motion, Motion):
+        return vars(motion), motion.file or motion.name
+    return (motion._raw, motion._source) if isinstance(motion, Conversion) else None
+
+
 @with_options("check_dynamics")
 def check_dynamics(file, *, progress: Progress = None,
                    **options: Unpack[CheckDynamicsOptions]) -> Dynamics:
@@ -285,27 +295,23 @@ def check_dynamics(file, *, progress: Progress = None,
     >>> check_dynamics("examples/handstand_true.xml").judgement
     'plausible'
     """
-    raw = None
-    if isinstance(file, Motion):
-        raw, source = vars(file), file.file or file.name
-    elif isinstance(file, Conversion):
-        raw, source = file._raw, file._source
-    else:
-        source = input_text(file)
+    raw, source = _finished(file) or (None, input_text(file))
     options = keywords(options, file=source)
     with shown(progress, "frames") as callback:
         return Dynamics(_mmmconverter.check_dynamics(raw, options, callback))
 
 
-class Retargeted(_Judged):
+class Retargeted(Postures, _Judged):
     """A motion that `retarget` brought to a robot.
 
     Attributes
     ----------
-    positions : array (frames, 3)
+    times : array (frames,)
+        [s]
+    root_positions : array (frames, 3)
         Of the robot's root [m].
-    quaternions : array (frames, 4)
-        Of the root: w, x, y, z.
+    root_quaternions : array (frames, 4)
+        w, x, y, z.
     joints : array (frames, joints)
         Angles [rad], shifts [m].
     joint_names : list of str
@@ -321,7 +327,20 @@ class Retargeted(_Judged):
     def __init__(self, raw):
         super().__init__(raw)
         self.rate, self.joint_names = raw.rate, raw.joint_names
-        self.positions, self.quaternions, self.joints = raw.arrays
+        self.root_positions, self.root_quaternions, self.joints = raw.arrays
+        self.times = raw.first_time + np.arange(len(self.joints)) / self.rate
+
+
+    def plot(self, name, axes=None):
+        """Draws a joint of the robot over time, in degrees. Returns the matplotlib.axes.Axes."""
+        if name not in self.joint_names:
+            raise KeyError(f"no joint is called {name!r}; there are {', '.join(self.joint_names)}")
+        axes = axes if axes is not None else new_axes()
+        axes.plot(self.times, np.degrees(self.joints[:, self.joint_names.index(name)]), label=name)
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("joint [°]")
+        axes.legend()
+        return axes
 
     def save(self, file) -> None:
         """Writes an MMM motion (.xml) with the robot's model; `export` writes other formats."""
@@ -355,8 +374,8 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
 
     Parameters
     ----------
-    recording : path or Recording
-        A recording, which is converted first, or the path of a finished motion.
+    recording : path, Recording, Conversion or Motion
+        A recording, which is converted first, or a finished motion.
     robot : path
         URDF or MJCF.
     map : path, optional
@@ -373,7 +392,11 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
     >>> moved.joints.shape
     (50, 21)
     """
-    options = {**input_options(recording), **keywords(options), "robot": path_text(robot)}
+    raw, source = _finished(recording) or (None, None)
+    options = keywords(options)
+    if isinstance(recording, Conversion) and options:
+        raise WrongValue(f"{next(iter(options))}: a conversion is taken as it is; give it to convert()")
+    options.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot))
     with shown(progress, "frames") as callback:
-        return Retargeted(_mmmconverter.retarget(options, path_text(map) if map is not None else "",
+        return Retargeted(_mmmconverter.retarget(raw, options, path_text(map) if map is not None else "",
                                                  sole_height, callback))

@@ -1,10 +1,27 @@
 # SPDX-License-Identifier: MIT
 """Numbers over time for pandas and xarray, which are imported where they are asked for."""
 
+import importlib
+
 import numpy as np
 
 AXES = ["x", "y", "z"]
 QUATERNION = ["w", "x", "y", "z"]
+
+
+def optional(name, for_what):
+    """A module that only this needs. Raises ImportError with what to do where it is not there."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        package = name.partition(".")[0]
+        raise ImportError(f"{for_what} needs {package}: pip install {package}, or Debian's python3-{package}",
+                          name=name) from error
+
+
+def new_axes():
+    """Of matplotlib, in a figure of their own."""
+    return optional("matplotlib.pyplot", "plot").subplots()[1]
 
 
 def with_unit(name, unit):
@@ -19,7 +36,7 @@ def spread(names, axes):
 
 def dataframe(times, *blocks):
     """A pandas.DataFrame over time. blocks: (names, unit, values), values of shape (frames, ...) or None."""
-    import pandas
+    pandas = optional("pandas", "to_dataframe")
     there = [block for block in blocks if block[2] is not None]
     columns = [with_unit(name, unit) for names, unit, _ in there for name in names]
     values = np.hstack([np.reshape(values, (len(times), len(names))) for names, _, values in there])
@@ -28,7 +45,7 @@ def dataframe(times, *blocks):
 
 def dataset(times, coordinates, variables):
     """An xarray.Dataset over time. variables: name -> (dimensions behind time, unit, values or None)."""
-    import xarray
+    xarray = optional("xarray", "to_xarray")
     return xarray.Dataset(
         {name: (("time", *dimensions), values, {"units": unit} if unit else {})
          for name, (dimensions, unit, values) in variables.items() if values is not None},

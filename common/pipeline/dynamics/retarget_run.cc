@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/io/robot_file.h"
 #include "common/judge/coverage.h"
@@ -48,6 +47,16 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
     return FramesOf(all, before, all.num_frames());
   }
   return all;
+}
+
+void RetargetConversion(const ConversionReport& converted, RetargetReport* report,
+                        Warnings* warnings) {
+  warnings->Append(converted.warnings);
+  report->motion_name = converted.plan.motion_name;
+  report->conversion_verdict = converted.verdict;
+  report->unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
+  report->retargeted = RetargetMotion(
+      *converted.plan.setup.model, TrackedFrames(converted, warnings), report->robot, report->body);
 }
 
 std::string DefaultOutput(const std::string& input) {
@@ -98,8 +107,13 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                            {},
                            {},
                            {}};
-  if (request.conversion.input.recording.value == nullptr && IsFinishedMotion(file)) {
-    const CheckedMotion checked = ReadCheckedMotion(request.conversion.input);
+  if (request.converted != nullptr) {
+    RetargetConversion(*request.converted, &report, &warnings);
+  } else if (request.motion ||
+             (request.conversion.input.recording.value == nullptr && IsFinishedMotion(file))) {
+    const CheckedMotion checked = request.motion
+                                      ? CheckedMotionOf(*request.motion, request.conversion.input)
+                                      : ReadCheckedMotion(request.conversion.input);
     warnings.Append(checked.warnings);
     report.motion_name = checked.name;
     report.retargeted =
@@ -109,15 +123,8 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
     ConversionRequest conversion = request.conversion;
     conversion.output = output;
     conversion.more_outputs.clear();
-    const ConversionReport converted =
-        RunConversion(conversion, LabelFirst(conversion, {}, progress), progress);
-    warnings.Append(converted.warnings);
-    report.motion_name = converted.plan.motion_name;
-    report.conversion_verdict = converted.verdict;
-    report.unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
-    report.retargeted =
-        RetargetMotion(*converted.plan.setup.model, TrackedFrames(converted, &warnings),
-                       report.robot, report.body);
+    RetargetConversion(RunConversion(conversion, LabelFirst(conversion, {}, progress), progress),
+                       &report, &warnings);
   }
   report.figures = MeasureRetargeting(report.retargeted, report.robot, report.body);
   report.verdict = JudgeRetargeting(

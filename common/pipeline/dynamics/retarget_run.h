@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/io/mmm/mmm_motion.h"
 #include "common/judge/retarget_verdict.h"
 #include "common/pipeline/conversion.h"
 #include "common/retarget/retarget_figures.h"
@@ -19,6 +20,9 @@ struct RetargetRequest {
   std::string robot_file;
   std::string map_file;               ///< see ReadBodyMapChoice
   std::optional<double> sole_height;  ///< of the last ankle joint above the sole [m]
+  /// What was read or converted already, instead of the file, which names it.
+  std::optional<MmmMotion> motion = {};
+  const ConversionReport* converted = nullptr;
 };
 
 struct RetargetReport {

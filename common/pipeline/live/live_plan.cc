@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "MMMConverterS2KF/live/live_plan.h"
+#include "common/pipeline/live/live_plan.h"
+
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <utility>
@@ -7,6 +9,7 @@
 #include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/motion_output.h"
 #include "common/pipeline/object.h"
+#include "common/support/advice.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -21,6 +24,23 @@ std::string NameOf(const LiveRequest& request, const Recording& head) {
   return head.format == "live stream" ? "live" : std::filesystem::path(head.file).stem().string();
 }
 
+// A given model without joints is a rigid object's: it is tracked as it is.
+void UseObject(const LiveRequest& request, const Recording& head, ConversionPlan* plan) {
+  if (request.input.model_file.empty() || plan->input.reference->num_joints() > 0) return;
+  if (request.calibration_time > 0 || request.label || IsGiven(request.input.person)) {
+    throw Error(fmt::format(
+        "{} has no joints, and is tracked as a rigid object; {}, {}, {} and others are of a person",
+        request.input.model_file, OptionText("height"), OptionText("label"),
+        OptionText("self-calibrate")));
+  }
+  ObjectRequest object;
+  object.name = NameOf(request, head);
+  object.has_model_given = true;
+  plan->object = FindObject(object, plan->input, plan->converter.config, &plan->warnings);
+  UseModel(*plan->object, &plan->input);
+  plan->converter.config = ConfigOfObject(plan->input, plan->converter.config);
+}
+
 }  // namespace
 
 ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
@@ -32,6 +52,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   ConverterConfig& config = plan.converter.config;
   MatchModel(request.input, &plan.input, &config);
   if (request.calibration_time > 0) config.subject_file.clear();
+  UseObject(request, head, &plan);
   const Recording& recording = plan.input.recording;
   if (request.label) {
     plan.labels = FindNames(request.input, plan.input, config, warnings);
@@ -45,8 +66,9 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
       MatchLabels({recording.markers.labels(), {}, recording.file}, &plan.input, config, warnings);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
-  plan.person = FindPerson(request.input.person, plan.setup, recording, config, warnings,
-                           plan.input.names.get());
+  if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
+  const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
+  plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   if (request.calibration_time > 0 && config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");

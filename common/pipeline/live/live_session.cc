@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "MMMConverterS2KF/live/live_session.h"
+#include "common/pipeline/live/live_session.h"
 
 #include <fmt/format.h>
 

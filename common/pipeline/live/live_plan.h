@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "MMMConverterS2KF/live/live_request.h"
 #include "common/io/recording/recording.h"
 #include "common/live/pose_frame.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/live/live_request.h"
 
 namespace mmm_converter {
 
