@@ -39,8 +39,10 @@ const OptionGroup kCalibration = {
 
 constexpr const char* kAllMotions = "all";
 
-constexpr const char* kConvertUsage = R"(MMMConverterS2KF convert INPUT [options]
+constexpr const char* kConvertUsage = R"(MMMConverterS2KF convert INPUT... [options]
 Converts the markers of INPUT (C3D, TRC, or an MMM motion with markers) into an MMM motion.
+Several recordings of a person are written one by one; --report is one page of all of them, with the
+strides of all together.
 The other motions of an MMM 2.0 file are kept, and -o may then be INPUT. --motion all converts every
 motion that has markers: persons with the reference model, each rigid object with its own model.
 
@@ -56,6 +58,7 @@ Examples
   MMMConverterS2KF convert unlabelled.c3d --label --subject-file anna.xml
   MMMConverterS2KF convert both.c3d --label --subject-file anna.xml --and-subject-file ben.xml
   MMMConverterS2KF convert unlabelled.c3d --label --like standing.c3d --height 1.68
+  MMMConverterS2KF convert walk.c3d run.c3d --subject-file anna.xml --report anna.html
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
   MMMConverterS2KF convert cup.c3d --object --object-models objects
@@ -76,8 +79,8 @@ std::string ChooseInput(const Arguments& arguments) {
       "--height 1.75");
 }
 
-ConversionRequest MakeConversionRequest(const Arguments& arguments) {
-  ConversionRequest request = MakeRequest(task::kConvert, arguments, ChooseInput(arguments));
+ConversionRequest MakeConversionRequest(const Arguments& arguments, const std::string& input) {
+  ConversionRequest request = MakeRequest(task::kConvert, arguments, input);
   request.output = arguments.Get("output").value_or("");
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.model_output = arguments.Get("model-out").value_or("");
@@ -113,6 +116,50 @@ void LogWarningsOf(const AllMotions& all) {
   }
 }
 
+// Each is written where it would be alone; the page has all of them.
+int ConvertSeveral(const Arguments& arguments) {
+  std::vector<std::string> options = {"output",      "summary",   "marker-set-out",
+                                      "subject-out", "model-out", "inputMotion"};
+  for (const Exporter& exporter : Exporters()) options.emplace_back(exporter.option);
+  for (const std::string& option : options) {
+    if (!arguments.Has(option)) continue;
+    throw UsageError(fmt::format(
+        "convert: --{} is of one recording, but there are {}; batch has a place for all", option,
+        arguments.positionals().size()));
+  }
+  std::vector<ConversionReport> reports;
+  int failures = 0;
+  for (const std::string& file : arguments.positionals()) {
+    ConversionRequest request = MakeConversionRequest(arguments, file);
+    if (request.motion_name == kAllMotions) {
+      throw UsageError("convert: --motion all is of one file");
+    }
+    ProgressBar bar("frames");
+    const auto progress = [&](int done, int all) {
+      bar.Show(done, all);
+      return true;
+    };
+    try {
+      ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
+      bar.Clear();
+      WriteConversion(request, &report);
+      LogWarnings(report.warnings);
+      std::cout << (reports.empty() ? "" : "\n") << FormatSummary(report);
+      reports.push_back(std::move(report));
+    } catch (const Error& error) {
+      bar.Clear();
+      LogError(WithAdvice(error));
+      ++failures;
+    }
+  }
+  if (const auto file = arguments.Get("report"); file && !reports.empty()) {
+    std::vector<const ConversionReport*> all;
+    for (const ConversionReport& report : reports) all.push_back(&report);
+    WriteFileAtomically(*file, FormatConversionPage(all));
+  }
+  return failures == 0 ? 0 : 1;
+}
+
 int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& request) {
   CheckFitsAllMotions(arguments);
   ProgressBar bar("frames");
@@ -145,12 +192,13 @@ Manual ConvertManual() {
   std::vector<OptionGroup> options = CommandOptions(
       task::kConvert, {kConvertFiles}, {kCalibration, ExportGroup("Export", Exporters())});
   options.push_back({"", {{"inputMotion", "FILE", "", ""}}});
-  return {kConvertUsage, std::move(options)};
+  return {kConvertUsage, std::move(options), true};
 }
 
 int RunConvert(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
-  const ConversionRequest request = MakeConversionRequest(arguments);
+  if (arguments.positionals().size() > 1) return ConvertSeveral(arguments);
+  const ConversionRequest request = MakeConversionRequest(arguments, ChooseInput(arguments));
   if (request.motion_name == kAllMotions) return ConvertAllMotions(arguments, request);
   ProgressBar bar("frames");
   const auto progress = [&](int done, int all) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/model_json.h"
+#include "common/angles/anatomical_angles.h"
 #include "common/live/marker_states.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/units.h"
@@ -98,6 +99,32 @@ void AddMarkers(const LiveBody& body, const PoseFrame& frame, JsonText* json) {
   json->Close();
 }
 
+AnatomicalAngles AnglesOf(const LiveBody& body, const Posture& posture) {
+  PoseTrajectory one;
+  one.rate = 1;
+  one.joint_names.reserve(body.setup.joints.size());
+  Posture tracked = posture;
+  tracked.joint_angles.resize(static_cast<Eigen::Index>(body.setup.joints.size()));
+  for (std::size_t i = 0; i < body.setup.joints.size(); ++i) {
+    const int joint = body.setup.joints[i];
+    one.joint_names.push_back(body.setup.model->joint(joint).name);
+    tracked.joint_angles[static_cast<Eigen::Index>(i)] = posture.joint_angles[joint];
+  }
+  one.postures = {tracked};
+  return ComputeAnatomicalAngles(*body.setup.model, one);
+}
+
+// What the angles of a posture are called.
+Json AnatomyNames(const LiveBody& body) {
+  Json names = Json::array();
+  if (!HasAnatomy(*body.setup.model)) return names;
+  const AnatomicalAngles angles = AnglesOf(body, ZeroPosture(*body.setup.model));
+  for (const AnatomicalAngle& one : angles.angles) {
+    names.push_back({{"joint", one.joint}, {"side", one.side}, {"motion", one.motion}});
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string FormatBody(const LiveBody& body) {
@@ -112,12 +139,13 @@ std::string FormatBody(const LiveBody& body) {
                      {"labels", body.labels},
                      {"markers", markers},
                      {"joints", body.setup.joints},
+                     {"anatomy", AnatomyNames(body)},
                      {"model", ToJson(model)}};
   return FormatJsonLine(json);
 }
 
 std::string FormatPosture(const LiveBody& body, const PoseFrame& frame, SteadyTime now,
-                          bool with_segments) {
+                          const PostureDetails& details) {
   JsonText json;
   const std::chrono::duration<double> delay = now - frame.received;
   json.Raw(
@@ -128,7 +156,13 @@ std::string FormatPosture(const LiveBody& body, const PoseFrame& frame, SteadyTi
   AddMarkers(body, frame, &json);
   if (frame.is_tracking) {
     AddPosture(body, frame.estimate, &json);
-    if (with_segments) AddSegments(*body.setup.model, frame.estimate.posture, &json);
+    if (details.with_segments) AddSegments(*body.setup.model, frame.estimate.posture, &json);
+    if (details.with_anatomy && HasAnatomy(*body.setup.model)) {
+      json.Key("anatomy");
+      json.Open();
+      json.AddAll(AnglesOf(body, frame.estimate.posture).values.col(0));
+      json.Close();
+    }
   }
   return json.Take();
 }

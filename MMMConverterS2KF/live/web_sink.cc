@@ -21,8 +21,8 @@ constexpr const char* kLoopback = "127.0.0.1";
 
 class WebSink : public PoseSink {
  public:
-  WebSink(std::string name, const WebServerOptions& options, bool with_segments)
-      : name_(std::move(name)), with_segments_(with_segments), server_(options) {}
+  WebSink(std::string name, const WebServerOptions& options, const PostureDetails& details)
+      : name_(std::move(name)), details_(details), server_(options) {}
 
   std::string name() const override { return name_; }
   int port() const { return server_.port(); }
@@ -33,12 +33,12 @@ class WebSink : public PoseSink {
       body_ = body;
     }
     if (server_.clients() == 0) return;
-    server_.Publish(FormatPosture(*body, frame, std::chrono::steady_clock::now(), with_segments_));
+    server_.Publish(FormatPosture(*body, frame, std::chrono::steady_clock::now(), details_));
   }
 
  private:
   std::string name_;
-  bool with_segments_;
+  PostureDetails details_;
   WebServer server_;
   std::shared_ptr<const LiveBody> body_;
 };
@@ -51,13 +51,14 @@ std::string MakeToken() {
 }
 
 std::string MakePage(const std::string& title) {
-  return FormatPage({.title = title,
-                     .styles = LiveStyles(),
-                     .content = LiveContent(),
-                     .data = "",
-                     .libraries = {{SceneLibrary(), SceneLibrarySha256()}},
-                     .script = {LiveScript(), LiveScriptSha256()},
-                     .policy = "connect-src 'self' ws: wss:; "});
+  return FormatPage(
+      {.title = title,
+       .styles = LiveStyles(),
+       .content = LiveContent(),
+       .data = "",
+       .libraries = {{SceneLibrary(), SceneLibrarySha256()}, {PlotLibrary(), PlotLibrarySha256()}},
+       .script = {LiveScript(), LiveScriptSha256()},
+       .policy = "connect-src 'self' ws: wss:; "});
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ std::unique_ptr<PoseSink> OpenWebSocketSink(const std::string& address) {
   at.AllowOnly({});
   return std::make_unique<WebSink>(
       address, WebServerOptions{at.HostOr(kLoopback), at.port.value_or(kWebSocketPort), "/", ""},
-      true);
+      PostureDetails{.with_segments = true});
 }
 
 LivePage OpenLivePage(const std::string& at, const std::string& title) {
@@ -75,7 +76,8 @@ LivePage OpenLivePage(const std::string& at, const std::string& title) {
   const std::string host = address.HostOr(kLoopback);
   const std::string path = "/" + MakeToken() + "/";
   auto sink = std::make_unique<WebSink>(
-      "--view", WebServerOptions{host, address.port.value_or(0), path, MakePage(title)}, false);
+      "--view", WebServerOptions{host, address.port.value_or(0), path, MakePage(title)},
+      PostureDetails{.with_anatomy = true});
   const std::string where = fmt::format("http://{}:{}{}", InAddress(host), sink->port(), path);
   return {std::move(sink), where};
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -43,6 +44,18 @@ Comparison MakeComparison(const ConversionReport& report) {
                          {{plan.setup.mapping, report.warnings, report.result}});
 }
 
+// The motion; of several those of a file, or the person of several files.
+std::string TitleOf(const std::vector<const ConversionReport*>& reports) {
+  const ConversionPlan& first = reports.front()->plan;
+  if (reports.size() == 1) return first.motion_name;
+  const bool is_one_file = std::all_of(reports.begin(), reports.end(), [&](const auto* one) {
+    return one->plan.input.recording.file == first.input.recording.file;
+  });
+  if (is_one_file) return std::filesystem::path(first.input.recording.file).filename().string();
+  const std::string count = fmt::format("{} recordings", reports.size());
+  return first.person.subject ? fmt::format("{}: {}", first.person.subject->name, count) : count;
+}
+
 }  // namespace
 
 std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports) {
@@ -58,11 +71,7 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
     sections.push_back(
         {report->plan.motion_name, DescribeForPage(*report), &comparisons.back(), &grounds.back()});
   }
-  const std::string title =
-      reports.size() == 1
-          ? reports.front()->plan.motion_name
-          : std::filesystem::path(reports.front()->plan.input.recording.file).filename().string();
-  return FormatReport(title, sections);
+  return FormatReport(TitleOf(reports), sections);
 }
 
 }  // namespace mmm_converter

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """ground_test.py FOLDER [unittest arguments]: force plates and strides on a report, in a real browser."""
 
+import statistics
+
 from page_case import PageCase, run_tests
 
 
@@ -28,6 +30,15 @@ class GroundPage(PageCase):
         self.assertEqual(len(self.texts("#gait-more-charts canvas")), 0)
         self.click("#gait-more summary")
         self.assertEqual(len(self.texts("#gait-more-charts canvas")), 2)
+
+    def test_strides_of_several_recordings_are_as_of_one(self):
+        # Of 1, 2, 3 and of 4, 6: as of all five.
+        pooled = self.run_script("return mmmReport.pool([{mean: 2, sd: 1, count: 3}, {mean: 5, sd: Math.SQRT2, count: 2},"
+                                 " {mean: null, sd: null, count: 4}])")
+        self.assertEqual(pooled["count"], 5)
+        self.assertAlmostEqual(pooled["mean"], 3.2)
+        self.assertAlmostEqual(pooled["sd"], statistics.stdev([1, 2, 3, 4, 6]))
+        self.assertFalse(self.find("#gait-choice").is_displayed())
 
     def test_cycle_is_saved_as_shown(self):
         name, data = self.browser.saved(lambda: self.click("#gait-angles-charts .save button:first-child"))

@@ -45,6 +45,12 @@ class LivePage(unittest.TestCase):
         self.assertIn("handstand", browser.run("return document.getElementById('figures').textContent"))
         self.assertEqual(browser.run("return document.querySelectorAll('#marker-bars > div').length"), 53)
         self.assertGreater(browser.run(PIXELS + "mmmLive.drawNow(); return shadesOf(document.getElementById('scene'))"), 20)
+        browser.wait("return document.querySelectorAll('#angle-charts canvas').length > 0")
+        self.assertRegex(browser.run("return document.querySelector('#angle-charts h3').textContent"),
+                         r"^knee flexion left -?\d+° · right -?\d+°$")
+        browser.run("document.querySelector('#joint-picker [data-joint=elbow]').dispatchEvent(new Event('click'))")
+        self.assertIn("elbow flexion", browser.run("return document.getElementById('angle-charts').textContent"))
+        self.assertEqual(browser.run("return document.getElementById('wrong').textContent"), "nothing")
         self.assertEqual(browser.errors(), [])
 
     def test_2_nothing_else_is_served(self):

@@ -24,11 +24,23 @@ function valueOf(stages, angle) {
   }, angle);
 }
 
+// Segments whose place some marker tells: those with a marker, and what carries them. markers: indices.
+function segmentsWithMarkers(model, markers) {
+  const known = new Set();
+  for (const index of markers) {
+    for (let i = model.markers[index].segment; i >= 0 && !known.has(i); i = model.segments[i].parent) known.add(i);
+  }
+  return known;
+}
+
 class Body {
-  // labels: which model marker belongs to which label, as trial.markers.
-  constructor(model, markers) {
+  // markers: which model marker belongs to which label, as trial.markers. measured: those of them that are seen at
+  // all; bones that none of them moves are drawn pale. Null: nothing is.
+  constructor(model, markers, measured) {
     this.model = model;
     this.material = new THREE.MeshLambertMaterial({transparent: true});
+    this.pale = new THREE.MeshLambertMaterial({transparent: true, depthWrite: false});
+    this.known = measured ? segmentsWithMarkers(model, measured) : null;
     this.nodes = [];
     this.bones = [];
     this.root = new THREE.Group();
@@ -54,15 +66,24 @@ class Body {
       if (i === 0) return;
       const parent = this.nodes[segment.parent];
       parent.add(node);
-      this.addBone(parent, node.position, geometry);
-      if (segment.joint >= 0) this.addKnob(node, joints);
+      this.addBone(parent, node.position, geometry, this.materialOf(segment.parent));
+      if (segment.joint >= 0) this.addKnob(node, joints, this.materialOf(i));
     });
   }
 
-  addBone(parent, tip, geometry) {
+  materialOf(segment) {
+    return !this.known || this.known.has(segment) ? this.material : this.pale;
+  }
+
+  // Whether a limb, not only fingers, is drawn as not measured.
+  get hasPaleLimb() {
+    return this.bones.some((bone) => bone.material === this.pale && bone.geometry === Body.bone && bone.scale.y > 0.15);
+  }
+
+  addBone(parent, tip, geometry, material) {
     const length = tip.length();
     if (length < kShortestBone) return;
-    const bone = new THREE.Mesh(geometry, this.material);
+    const bone = new THREE.Mesh(geometry, material);
     const width = Math.min(0.11 * length, 0.03);
     bone.scale.set(width, length, width);
     bone.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), tip.clone().normalize());
@@ -70,8 +91,8 @@ class Body {
     this.bones.push(bone);
   }
 
-  addKnob(node, geometry) {
-    const knob = new THREE.Mesh(geometry, this.material);
+  addKnob(node, geometry, material) {
+    const knob = new THREE.Mesh(geometry, material);
     knob.scale.setScalar(node.position.length() < 0.06 ? 0.008 : 0.018);
     node.add(knob);
     this.bones.push(knob);
@@ -91,7 +112,7 @@ class Body {
       const middle = points.reduce((sum, point) => sum.add(point), new THREE.Vector3())
         .divideScalar(points.length);
       if (points.length < 3) {
-        this.addBone(this.nodes[segment], middle, Body.bone);
+        this.addBone(this.nodes[segment], middle, Body.bone, this.material);
       } else {
         const spread = points.reduce((sum, point) => sum + point.distanceTo(middle), 0);
         this.addBall(this.nodes[segment], middle, spread / points.length);
@@ -133,6 +154,14 @@ class Body {
     this.root.updateMatrixWorld(true);
   }
 
+  // Least and most of all segments, as the posture is set.
+  get bounds() {
+    const box = new THREE.Box3();
+    const place = new THREE.Vector3();
+    for (const node of [...this.nodes, ...this.bones]) box.expandByPoint(place.setFromMatrixPosition(node.matrixWorld));
+    return box;
+  }
+
   markerPosition(label, target) {
     return target.setFromMatrixPosition(this.markers[label].matrixWorld);
   }
@@ -140,6 +169,8 @@ class Body {
   setLook(colour, opacity, showBones) {
     this.material.color.set(colour);
     this.material.opacity = opacity;
+    this.pale.color.set(themeColour("muted"));
+    this.pale.opacity = 0.28;
     for (const bone of this.bones) bone.visible = showBones;
   }
 }

@@ -26,8 +26,15 @@ class Anatomy {
     for (const name of ["values", "deviations"]) lazily(this, name, json[name]);
   }
 
-  get titles() {
-    return Array.from(this.columns.keys());
+  // Of each joint its titles.
+  get joints() {
+    const joints = new Map();
+    for (const title of this.columns.keys()) {
+      const joint = title.split(" ")[0];
+      if (!joints.has(joint)) joints.set(joint, []);
+      joints.get(joint).push(title);
+    }
+    return joints;
   }
 }
 
@@ -118,14 +125,36 @@ class Trial {
     return !Number.isNaN(this.positions[3 * (frame * this.labels.length + label)]);
   }
 
-  // The middle of the measured markers, smoothed: what a camera looks at. Three numbers.
+  // Markers of the model whose labels are seen in some frame.
+  get seenMarkers() {
+    return this.markers.filter((_, label) => {
+      for (let k = 0; k < this.frames; ++k) if (this.isMeasured(label, k)) return true;
+      return false;
+    });
+  }
+
+  // The first frame that shows at least half of the most labels that a frame shows.
+  get firstSeen() {
+    const counts = new Uint16Array(this.frames);
+    let most = 0;
+    for (let k = 0; k < this.frames; ++k) {
+      for (let label = 0; label < this.labels.length; ++label) counts[k] += this.isMeasured(label, k);
+      most = Math.max(most, counts[k]);
+    }
+    return counts.findIndex((count) => 2 * count >= most);
+  }
+
+  // What a camera looks at, three numbers: the body where it is drawn (Scene.frameBodies), else the middle of the
+  // measured markers, smoothed.
   middle(frame) {
+    if (this.framing) return this.framing.middle(frame);
     if (!this.middles) this.middles = smoothedMiddles(this);
     return Array.from(this.middles.subarray(3 * frame, 3 * frame + 3));
   }
 
-  // The largest extent of the measured markers of a frame, over some frames [m].
+  // The largest extent of the body, or of the measured markers, of a frame, over some frames [m].
   get size() {
+    if (this.framing) return this.framing.size;
     if (!this.extent) {
       this.extent = 0.5;
       const step = Math.max(1, Math.floor(this.frames / 50));
@@ -180,6 +209,22 @@ function smoothedMiddles(trial) {
     }
   }
   return middles;
+}
+
+// Where a body is, of some frames evenly spread: bounds are [least, most], of three numbers each.
+class Framing {
+  constructor(step, bounds) {
+    this.step = step;
+    this.middles = bounds.map(([least, most]) => least.map((value, axis) => (value + most[axis]) / 2));
+    this.size = Math.max(0.5, ...bounds.map(([least, most]) => Math.max(...most.map((value, axis) => value - least[axis]))));
+  }
+
+  middle(frame) {
+    const at = Math.min(frame / this.step, this.middles.length - 1);
+    const before = this.middles[Math.floor(at)];
+    const after = this.middles[Math.ceil(at)];
+    return before.map((value, axis) => value + (at - Math.floor(at)) * (after[axis] - value));
+  }
 }
 
 // A part of the report: one comparison.

@@ -47,6 +47,11 @@ class CycleChart {
       xName: "gait cycle [%]", xs: Array.from({length: kCycleSamples}, (_, i) => i), lines};
   }
 
+  destroy() {
+    if (this.graph) this.graph.destroy();
+    this.graph = null;
+  }
+
   // Once it is in the page.
   draw() {
     if (this.graph) this.graph.destroy();
@@ -87,20 +92,78 @@ class CycleChart {
   }
 }
 
+// Mean and standard deviation of all members of groups: {mean, sd, count}; null where nothing is known.
+function poolGroups(groups) {
+  const known = groups.filter(({mean, count}) => mean !== null && count > 0);
+  const count = known.reduce((sum, one) => sum + one.count, 0);
+  if (count === 0) return {mean: null, sd: null, count};
+  const mean = known.reduce((sum, one) => sum + one.count * one.mean, 0) / count;
+  const squares = known.reduce((sum, one) =>
+    sum + (one.count - 1) * (one.sd || 0) ** 2 + one.count * (one.mean - mean) ** 2, 0);
+  return {mean, sd: count > 1 ? Math.sqrt(squares / (count - 1)) : null, count};
+}
+
+// Strides of several recordings as if they were of one.
+function poolGaits(gaits) {
+  const summary = {};
+  for (const side of ["left", "right"]) {
+    summary[side] = {};
+    for (const name of Object.keys(kStrideFigures)) {
+      const {mean, sd, count} = poolGroups(gaits.map((gait) => gait.summary[side][name])
+        .map((one) => ({mean: one.mean, sd: one.sd, count: one.strides})));
+      summary[side][name] = {mean, sd, strides: count};
+    }
+  }
+  const cycles = new Map();
+  for (const cycle of gaits.flatMap((gait) => gait.cycles)) {
+    const key = `${cycle.joint} ${cycle.what} ${cycle.side}`;
+    if (!cycles.has(key)) cycles.set(key, []);
+    cycles.get(key).push(cycle);
+  }
+  return {summary, left_out: gaits.reduce((sum, gait) => sum + gait.left_out, 0),
+    cycles: Array.from(cycles.values(), (of) => {
+      const samples = Array.from({length: kCycleSamples}, (_, i) =>
+        poolGroups(of.map(({mean, sd, strides}) => ({mean: mean[i], sd: sd[i], count: strides}))));
+      return Object.assign({}, of[0], {mean: samples.map((one) => one.mean), sd: samples.map((one) => one.sd),
+        strides: of.reduce((sum, one) => sum + one.strides, 0)});
+    })};
+}
+
 class GaitPart {
-  constructor() {
+  constructor(view) {
+    this.view = view;
     this.charts = [];
     byId("gait-more").addEventListener("toggle", () => this.refresh());
+    byId("gait-of").addEventListener("change", () => {
+      this.show(this.view.trial);
+      this.refresh();
+    });
+  }
+
+  // Of every recording of the page that has strides.
+  get gaits() {
+    if (!this.found) {
+      for (const section of this.view.sections) section.load();
+      this.found = this.view.sections.flatMap((section) => section.trials)
+        .flatMap((trial) => trial.ground && trial.ground.gait ? [trial.ground.gait] : []);
+    }
+    return this.found;
   }
 
   show(trial) {
-    const gait = trial.ground ? trial.ground.gait : null;
+    const {gaits} = this;
+    const own = trial.ground ? trial.ground.gait : null;
+    byId("gait-choice").hidden = gaits.length < 2;
+    const isOfAll = gaits.length > 1 && (byId("gait-of").value === "all" || !own);
+    const gait = isOfAll ? poolGaits(gaits) : own;
     byId("gait-part").hidden = !gait;
+    for (const chart of this.charts) chart.destroy();
     this.charts = [];
     if (!gait) return;
     const footOff = {left: gait.summary.left.foot_off_percent.mean, right: gait.summary.right.foot_off_percent.mean};
     const count = (side) => gait.summary[side].stride_time_s.strides;
-    byId("gait-caption").textContent = `${plural(count("left"), "stride")} of the left foot and ${count("right")} of the right` +
+    byId("gait-caption").textContent = (isOfAll ? `Of ${gaits.length} recordings: ` : "") +
+      `${plural(count("left"), "stride")} of the left foot and ${count("right")} of the right` +
       (gait.left_out > 0 ? `; ${gait.left_out} are left out, as a leg is hidden in them` : "") +
       ". Mean ± one standard deviation among the strides, and how many tell it.";
     replaceContent(byId("gait-table"), makeStrideTable(gait.summary));

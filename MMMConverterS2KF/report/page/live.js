@@ -12,6 +12,8 @@ class LiveView {
     this.received = new RateCounter();
     this.drawn = new RateCounter();
     this.retry = 250;
+    this.angles = new LiveAngles();
+    this.troubles = [];  // counts as they were some time ago
     this.scene = null;
     if (hasWebGl()) {
       this.scene = new Scene(byId("scene"), () => { this.isNew = true; });
@@ -71,6 +73,7 @@ class LiveView {
     if (!this.trial) return;
     this.posture = message;
     this.trial.take(message);
+    this.angles.take(message);
     this.received.add(performance.now());
     this.isNew = true;
   }
@@ -79,6 +82,7 @@ class LiveView {
     this.body = body;
     this.trial = new LiveTrial(body);
     this.hasPlace = false;
+    this.angles.show(body.anatomy || []);
     this.bars = this.trial.labels.map((label) => {
       const bar = element("i", {class: "distance"});
       const value = element("span", {});
@@ -88,6 +92,7 @@ class LiveView {
     replaceContent(byId("marker-bars"), ...this.bars.map((one) => one.row));
     if (!this.scene) return;
     this.scene.show(this.trial);
+    byId("pale-legend").hidden = !this.scene.figures[0].body.hasPaleLimb;
     this.scene.setShown(() => this.posture !== null && this.posture.tracking);
     this.scene.resetCamera(this.trial.middle());
   }
@@ -135,6 +140,31 @@ class LiveView {
     replaceContent(byId("figures"),
       ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
     this.showBars();
+    this.showWrong(now);
+    this.angles.refresh();
+  }
+
+  // In words, what is not as it should be in this moment, or was not in the last seconds.
+  showWrong(now) {
+    const {posture, trial} = this;
+    const kRecently = 5000;  // [ms]
+    this.troubles.push({now, dropped: posture.dropped, lost: posture.lost});
+    while (this.troubles[0].now < now - kRecently) this.troubles.shift();
+    const before = this.troubles[0];
+    const of = (state) => trial.labels.filter((_, i) => trial.states[i] === state);
+    const named = (labels) => labels.slice(0, 6).join(", ") + (labels.length > 6 ? `, and ${labels.length - 6} more` : "");
+    const wrong = of(kStates.wrong);
+    const hidden = of(kStates.hidden);
+    const mean = this.meanDistance();
+    const texts = [];
+    if (!posture.tracking) texts.push("nobody is tracked");
+    if (wrong.length) texts.push(`${plural(wrong.length, "marker")} not where the label says: ${named(wrong)}`);
+    if (hidden.length) texts.push(`${plural(hidden.length, "marker")} not seen: ${named(hidden)}`);
+    if (mean > (this.body.calibrated ? 0.02 : 0.055)) texts.push(`markers are ${formatMillimetres(mean)} from the model on average: is it this person's?`);
+    if (posture.dropped > before.dropped) texts.push(`${posture.dropped - before.dropped} frames were dropped for newer ones in the last 5 s`);
+    if (posture.lost > before.lost) texts.push(`${posture.lost - before.lost} frames were lost on the way in the last 5 s`);
+    replaceContent(byId("wrong"), ...(texts.length ? texts.map((text) => element("li", {}, text))
+      : [element("li", {class: "fine"}, "nothing")]));
   }
 
   meanDistance() {

@@ -12,6 +12,7 @@ class LiveTrial {
     this.model = body.model;
     this.frames = 1;
     this.truth = null;
+    this.seenMarkers = this.markers;
     this.size = 1.9;
     this.positions = new Float32Array(3 * this.labels.length).fill(NaN);
     this.states = new Uint8Array(this.labels.length);

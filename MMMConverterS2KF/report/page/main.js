@@ -9,7 +9,7 @@ class View {
     this.trial = null;
     this.player = new Player(this);
     this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player),
-      new GaitPart(), new PersonPart(), new ReliabilityPart(this)];
+      new GaitPart(this), new PersonPart(), new ReliabilityPart(this)];
     byId("trial").addEventListener("change", (event) => this.showTrial(Number(event.target.value)));
   }
 
@@ -44,7 +44,7 @@ class View {
   showTrial(index) {
     this.trial = this.section.trials[index];
     byId("trial").value = index;
-    this.frame = 0;
+    this.frame = this.trial.firstSeen;
     this.shown = new Set(this.trial.tracks.map((track) => track.contender));
     this.listConverters();
     replaceContent(byId("thinned"), describeThinning(this.trial, this.recordedFrames));
@@ -143,6 +143,7 @@ function start() {
     },
     get reach() { return view.player.scene ? view.player.scene.reach : null; },
     get playing() { return view.player.playing; },
+    pool: poolGroups,
     play: () => view.player.play(),
     pause: () => view.player.pause(),
     seek: (frame) => view.seek(frame),

@@ -73,6 +73,7 @@ class Player {
     byId("arrangement").hidden = trial.tracks.length < 2;
     if (!this.scene) return;
     this.scene.show(trial);
+    byId("pale-legend").hidden = !this.scene.figures.some((one) => one.body.hasPaleLimb);
     this.followed = trial.middle(this.view.frame);
     this.resetCamera();
   }

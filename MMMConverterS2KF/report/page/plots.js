@@ -2,6 +2,7 @@
 // What is plotted: marker distances, hidden markers, joint angles, times.
 
 const kDegrees = 180 / Math.PI;
+const kLeastDegrees = 30;  // of a chart: what hardly moves is not drawn as if it did
 
 // Which way an angle grows, by the motion's name.
 const kDirections = {
@@ -23,6 +24,7 @@ class Plots {
     this.view = view;
     this.charts = [];
     byId("joint").addEventListener("change", () => this.refreshJoint());
+    this.angleCharts = [];
   }
 
   show(trial) {
@@ -36,8 +38,8 @@ class Plots {
     this.listJoints(trial);
   }
 
-  // Angles by their anatomical names, and the joints that some converter tracks, starting with the
-  // one that moves most.
+  // Joints by their anatomical names, and those of the model that some converter tracks, starting with the one that
+  // moves most: of anatomical ones, the one whose first angle, flexion, does.
   listJoints(trial) {
     const joints = trial.model.joints.map((_, i) => i)
       .filter((joint) => trial.tracks.some((track) => track.motion.joints.includes(joint)));
@@ -49,11 +51,16 @@ class Plots {
       return made;
     };
     const motion = trial.tracks[0].motion;
-    const titles = motion.anatomy ? motion.anatomy.titles : [];
+    const named = motion.anatomy ? motion.anatomy.joints : new Map();
     const ofModel = joints.map((joint) => option(joint, trial.model.joints[joint].name));
-    replaceContent(byId("joint"), ...(titles.length === 0 ? ofModel :
-      [group("Anatomical angles", titles.map((title) => option(title, title))),
+    replaceContent(byId("joint"), ...(named.size === 0 ? ofModel :
+      [group("Anatomical angles", Array.from(named.keys(), (name) => option(name, name))),
         group("Joints of the model", ofModel)]));
+    byId("joint-picker").hidden = named.size === 0;
+    replaceContent(byId("joint-picker"), makeJointPicker(named, (name) => {
+      byId("joint").value = name;
+      this.refreshJoint();
+    }));
     const widest = {range: -1};
     const consider = (value, numbers, column) => {
       const angles = numbers.subarray(column * trial.frames, (column + 1) * trial.frames);
@@ -61,9 +68,10 @@ class Plots {
         angles.reduce((least, angle) => Math.min(least, angle), Infinity);
       if (range > widest.range) Object.assign(widest, {range, value});
     };
-    if (titles.length > 0) {
-      for (const title of titles.filter((one) => !one.startsWith("pelvis"))) {
-        for (const {column} of motion.anatomy.columns.get(title)) consider(title, motion.anatomy.values, column);
+    if (named.size > 0) {
+      for (const [name, titles] of named) {
+        if (!kLimbJoints.includes(name)) continue;
+        for (const {column} of motion.anatomy.columns.get(titles[0])) consider(name, motion.anatomy.values, column);
       }
     } else {
       motion.joints.forEach((joint, column) => consider(joint, motion.angles, column));
@@ -73,17 +81,19 @@ class Plots {
 
   refresh() {
     for (const chart of this.charts) chart.destroy();
+    this.angleCharts = [];
     const tracks = this.view.shownTracks;
     this.charts = [this.distanceChart(tracks)];
     if (!byId("time-part").hidden) this.charts.push(this.timeChart(tracks));
     if (!byId("nis-part").hidden) this.charts.push(this.nisChart(tracks));
     if (this.view.trial.hidesMarkers) this.charts.push(this.hiddenChart());
-    if (!byId("joint-part").hidden) this.charts.push(this.angleChart(tracks));
+    if (!byId("joint-part").hidden) this.showAngles(tracks);
   }
 
   refreshJoint() {
-    this.charts.pop().destroy();
-    this.charts.push(this.angleChart(this.view.shownTracks));
+    for (const chart of this.angleCharts) chart.destroy();
+    this.charts = this.charts.filter((chart) => !this.angleCharts.includes(chart));
+    this.showAngles(this.view.shownTracks);
   }
 
   setFrame(frame) {
@@ -154,14 +164,30 @@ class Plots {
       label: "Normalised innovation squared over its degrees of freedom, logarithmic"});
   }
 
-  angleChart(tracks) {
+  // All angles of an anatomical joint, a chart each, or that of a joint of the model.
+  showAngles(tracks) {
     const chosen = byId("joint").value;
     const {anatomy} = this.view.trial.tracks[0].motion;
-    return anatomy && anatomy.columns.has(chosen) ? this.anatomyChart(chosen, tracks) : this.jointChart(tracks);
+    const titles = anatomy ? anatomy.joints.get(chosen) : undefined;
+    for (const dot of byId("joint-picker").querySelectorAll("[data-joint]")) {
+      dot.classList.toggle("chosen", dot.dataset.joint === chosen);
+    }
+    const host = (kind) => element("div", {class: kind});
+    if (titles) {
+      const hosts = titles.map(() => host("plot low"));
+      replaceContent(byId("joint-plot"), ...titles.flatMap((title, i) => [element("h3", {}, title),
+        element("p", {class: "caption"}, kDirections[title.split(" ").slice(1).join(" ")]), hosts[i]]));
+      this.angleCharts = titles.map((title, i) => this.anatomyChart(title, tracks, hosts[i]));
+    } else {
+      const one = host("plot");
+      replaceContent(byId("joint-plot"), one);
+      this.angleCharts = [this.jointChart(tracks, one)];
+    }
+    this.charts.push(...this.angleCharts);
   }
 
   // Left and right in colours of their own where there is one converter, else the right dashed.
-  anatomyChart(title, tracks) {
+  anatomyChart(title, tracks, host) {
     const trial = this.view.trial;
     const lines = [];
     let hasBand = false;
@@ -185,13 +211,12 @@ class Plots {
       if (tracks.length === 1) add(track.motion.anatomy, (side) => ({colour: kSideColours[side] || own.colour}), "");
       else add(track.motion.anatomy, (side) => ({colour: own.colour, dash: side === "right" ? [6, 3] : own.dash}), track.name);
     }
-    byId("joint-caption").textContent = kDirections[title.split(" ").slice(1).join(" ")] +
-      (hasBand ? " The band is ±2 standard deviations, as the converter states them." : "");
-    return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,
-      range: withMargin(extremes(lines, trial.frames)), label: `${title} over time, degrees`});
+    byId("joint-caption").textContent = hasBand ? "Bands are ±2 standard deviations, as the converter states them." : "";
+    return new Chart(host, this.view, {lines, unit: "°", digits: 1,
+      range: atLeast(kLeastDegrees, withMargin(extremes(lines, trial.frames))), label: `${title} over time, degrees`});
   }
 
-  jointChart(tracks) {
+  jointChart(tracks, host) {
     const trial = this.view.trial;
     const index = Number(byId("joint").value);
     const joint = trial.model.joints[index];
@@ -229,9 +254,15 @@ class Plots {
       (degrees.length > 0 ? `Limits ${degrees.join(" and ")} (dashed)` : "Turns without limits") +
       (hasBand ? "; the band is ±2 standard deviations, as the converter states them" : "") +
       (truth ? "; the broad line is the true angle" : "") + ".";
-    return new Chart(byId("joint-plot"), this.view, {lines, unit: "°", digits: 1,
+    return new Chart(host, this.view, {lines, unit: "°", digits: 1,
       range: withMargin(extremes([...lines, ...reach], trial.frames)), label: `Angle of ${joint.name} over time, degrees`});
   }
+}
+
+// A range as wide as this, about the same middle.
+function atLeast(width, [least, most]) {
+  const more = Math.max(0, width - (most - least)) / 2;
+  return [least - more, most + more];
 }
 
 // The band of a line of which not all frames are drawn; none where all are.

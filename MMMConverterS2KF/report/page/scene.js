@@ -80,7 +80,7 @@ class Figure {
   constructor(track, signs) {
     this.track = track;
     const trial = track.trial;
-    this.body = new Body(trial.model, trial.markers);
+    this.body = new Body(trial.model, trial.markers, trial.seenMarkers);
     this.crosses = Cloud.signs(trial.labels.length, signs.cross, 0.8 * kMarkerSize);
     this.lines = Cloud.lines(trial.labels.length);
     this.group = new THREE.Group();
@@ -151,7 +151,8 @@ class Scene {
     this.seen = Cloud.signs(trial.labels.length, this.signs.disc, kMarkerSize);
     this.unseen = Cloud.signs(trial.labels.length, this.signs.ring, kMarkerSize);
     this.figures = trial.tracks.map((track) => new Figure(track, this.signs));
-    this.truth = trial.truth ? new Body(trial.model, []) : null;
+    this.truth = trial.truth ? new Body(trial.model, [], null) : null;
+    this.frameBodies();
     this.content.add(this.seen.object, this.unseen.object, ...this.figures.map((one) => one.group));
     if (this.truth) this.content.add(this.truth.root);
     this.ground = trial.ground ? new GroundFigure(trial.ground) : null;
@@ -159,6 +160,23 @@ class Scene {
     this.addFloor();
     this.scene.add(this.content);
     this.setLook();
+  }
+
+  // Of a recording the camera follows the body, also where few of its limbs have markers or a marker is far away: that
+  // of the converter that is nearest to the markers.
+  frameBodies() {
+    const {trial} = this;
+    if (trial.frames < 2 || trial.framing || trial.model.segments.length < 2) return;
+    const distance = (figure) => figure.track.mean.reduce((sum, value) => sum + (value || 0), 0);
+    const nearest = this.figures.reduce((best, one) => (distance(one) < distance(best) ? one : best));
+    const step = Math.max(1, trial.frames / 200);
+    const bounds = [];
+    for (let at = 0; Math.round(at) < trial.frames; at += step) {
+      nearest.body.setPose(nearest.track.motion, trial.frames, Math.round(at));
+      const {min, max} = nearest.body.bounds;
+      bounds.push([min.toArray(), max.toArray()]);
+    }
+    if (bounds.flat(2).every(Number.isFinite)) trial.framing = new Framing(step, bounds);
   }
 
   addFloor() {
@@ -210,7 +228,7 @@ class Scene {
   }
 
   // Looks at `middle` from the front right, a little from above, so that a body fits: `size` is that
-  // of its markers, beyond which head and feet reach, and what is near looks larger.
+  // of its joints, beyond which head and feet reach, and what is near looks larger.
   placeCamera(camera, middle, size) {
     const distance = 0.68 * size / Math.tan(kFieldOfView / 2 * Math.PI / 180);
     camera.position.set(middle[0] + 0.80 * distance, middle[1] + 0.55 * distance,
