@@ -102,4 +102,9 @@ void BatchFolder::Remove(const std::string& relative) const {
   fs::remove(Full(relative), failure);
 }
 
+void BatchFolder::SetAside(const std::string& relative) const {
+  std::error_code failure;
+  fs::rename(Full(relative), Full(relative) + kOutdated, failure);
+}
+
 }  // namespace mmm_converter

@@ -19,6 +19,8 @@ std::string ExportPath(const std::string& format, const std::string& id);
 std::string SubjectPath(const std::string& id);
 std::string PagePath(const std::string& id);
 
+inline constexpr const char* kOutdated = ".outdated";
+
 /// The output folder of a batch. For several threads.
 class BatchFolder {
  public:
@@ -42,7 +44,8 @@ class BatchFolder {
   /// Whether all these files are there, as the record says.
   bool IsComplete(const JournalRecord& record, const std::vector<std::string>& relative) const;
 
-  void Remove(const std::string& relative) const;  ///< where it is there
+  void Remove(const std::string& relative) const;    ///< where it is there
+  void SetAside(const std::string& relative) const;  ///< where it is there: as it + kOutdated
 
  private:
   std::string path_;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <thread>
 #include <unordered_map>
@@ -123,7 +124,16 @@ class BatchRunner {
       reason = fmt::format("{}: unexpected: {}", entry.request.input.file, error.what());
     }
     if (IsEnding()) return;  // that is why it failed
+    SetOutputsAside(entry);
     NoteFailed(entry, record.fingerprint, reason, SecondsSince(start));
+  }
+
+  // What was made of the recording before is not what it shows now.
+  void SetOutputsAside(const BatchEntry& entry) const {
+    std::error_code failure;
+    if (!std::filesystem::exists(entry.request.input.file, failure)) return;
+    for (const std::string& output : folder_.OutputsOf(entry)) folder_.SetAside(output);
+    folder_.SetAside(PagePath(entry.id));
   }
 
   JournalRecord Begin(const BatchEntry& entry) {
@@ -178,6 +188,7 @@ class BatchRunner {
     ConversionReport report = ConvertEntry(request, read_before, [this] { return !IsEnding(); });
     folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     WriteConversion(request, &report);
+    for (const std::string& output : outputs) folder_.Remove(output + kOutdated);
     if (options_.reports.all) {
       WritePage(entry, report, &folder_);
       outputs.push_back(PagePath(entry.id));

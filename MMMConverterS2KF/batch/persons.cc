@@ -73,9 +73,9 @@ CalibratedPerson CalibrateOne(const BatchPerson& person, const ConverterChoice& 
 }
 
 std::string DescribePerson(const BatchPerson& person, const CalibratedPerson& done) {
-  return fmt::format("person {}: calibrated by {} recordings, {:.1f} mm, {}{}", person.id,
-                     person.recordings.size(), kMillimetres * done.result.distance_after,
-                     Name(done.verdict.level),
+  return fmt::format("person {}: calibrated by {} recording{}, {:.1f} mm, {}{}", person.id,
+                     person.recordings.size(), person.recordings.size() == 1 ? "" : "s",
+                     kMillimetres * done.result.distance_after, Name(done.verdict.level),
                      done.warnings > 0 ? fmt::format(", {} warnings", done.warnings) : "");
 }
 
@@ -177,7 +177,7 @@ void BatchPersons::Run(const BatchPerson& person, const std::function<bool()>& g
   done.summary["outputs"] = ToJson(tools_.folder->Inspect({file}));
   WriteFileAtomically(tools_.folder->Full(NotePath(person)), FormatJson(done.summary));
   tools_.progress->Say(DescribePerson(person, done));
-  if (done.verdict.level == Verdict::Level::kFailed) {
+  if (done.verdict.level != Verdict::Level::kGood) {
     tools_.progress->Warn(
         fmt::format("person {}: verdict {}", person.id, DescribeVerdict(done.verdict)));
   }

@@ -36,6 +36,8 @@ constexpr Limit kReassembled = {0.1, 0.5};
 constexpr Limit kWrongLabels = {0.01, 0.2};
 // Share of the frames: who lies now and then also stands.
 constexpr Limit kLyingFrames = {0.9, kNever};
+// Of a motion: nothing moves in fewer, so that no label or marker that is wrong shows.
+constexpr int kFewestFrames = 10;
 // Mean distance over an object's radius.
 constexpr Limit kObject = {kMostStray, 0.5};
 
@@ -49,6 +51,7 @@ class Judge {
 
   Verdict Run() {
     JudgeReading(evidence_.recording, &reasons_);
+    JudgeLength();
     if (evidence_.is_object) {
       JudgeObjectsDistance();
       JudgeGaps();
@@ -71,6 +74,13 @@ class Judge {
   }
 
  private:
+  void JudgeLength() {
+    if (markers_.num_frames() >= kFewestFrames) return;
+    reasons_.Add(Level::kCheck,
+                 fmt::format("{} frame{} too few to judge a motion by", markers_.num_frames(),
+                             markers_.num_frames() == 1 ? " is" : "s are"));
+  }
+
   std::string LabelsOf(const std::vector<int>& assignments) const {
     std::vector<std::string> labels;
     labels.reserve(assignments.size());

@@ -239,6 +239,18 @@ TEST(Batch, ResumeTriesAgainWhatFailed) {
   EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 1 failed"));
   fs::copy_file(testing::Handstand(), TestFolder() + "/late.c3d");
   EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 1 unchanged"));
+  // What was made of a recording is not taken for what it shows once it is none any more.
+  const std::string motion = Out() + "/motions/late.xml";
+  EXPECT_TRUE(fs::exists(motion));
+  WriteText(TestFolder() + "/late.c3d", "no recording");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("0 converted, 1 failed, 1 unchanged"));
+  EXPECT_FALSE(fs::exists(motion));
+  EXPECT_TRUE(fs::exists(motion + ".outdated"));
+  fs::remove(TestFolder() + "/late.c3d");
+  fs::copy_file(testing::Handstand(), TestFolder() + "/late.c3d");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 0 failed, 1 unchanged"));
+  EXPECT_TRUE(fs::exists(motion));
+  EXPECT_FALSE(fs::exists(motion + ".outdated"));
 }
 
 TEST(Batch, WithoutResumeAllIsDoneAnew) {
