@@ -198,6 +198,22 @@ class Models(Case):
         waiting.close()
         self.assertLess(len(list(mmmconverter.live(f"replay:{SAMPLE}", loop=True, height=1.8, seconds=0.2))), 675)
 
+    def test_live_tracks_a_rigid_object(self):
+        places = np.array([[0, 0.02, 0], [0.16, -0.01, 0.03], [0.01, 0.09, 0.05], [-0.05, 0, 0.12]])
+        way = np.linspace(0, 1, 40)[:, np.newaxis, np.newaxis] * [0.5, 1, 0.2]
+        box = mmmconverter.Recording.from_arrays(["1", "2", "3", "4"], places + way, 100)
+        box.save(self.folder / "box.c3d")
+        self.run_program("convert", self.folder / "box.c3d", "--object", "--object-models", self.folder / "objects",
+                         "-o", self.folder / "box.xml")
+        converted, = mmmconverter.read_motions(self.folder / "box.xml")
+        source = f"replay:{self.folder / 'box.c3d'}@max"
+        model = self.folder / "objects/box.xml"
+        postures = list(mmmconverter.live(source, model=model))
+        np.testing.assert_allclose([one.root_position for one in postures], converted.root_positions, atol=1e-6)
+        self.assertEqual(postures[0].joint_names, [])
+        with self.assertRaisesRegex(mmmconverter.Error, "tracked as a rigid object; height"):
+            list(mmmconverter.live(source, model=model, height=1.8))
+
     def test_live_says_what_is_wrong(self):
         for source, options, error in ((SAMPLE, {}, "qtm"), ("replay:none.c3d", {}, "no such file"),
                                        (f"replay:{SAMPLE}@max", {"height": 9.0}, "height"),

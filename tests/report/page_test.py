@@ -263,6 +263,15 @@ class ReportPage(ReportCase):
         self.assertNotEqual(self.text("#joint-caption"), before)
         self.assertIn("true angle", self.text("#joint-caption"))
         self.assertGreater(self.run_script(COUNT_DRAWN, "#joint-plot", COLOURS[0]), 30)
+        # On the body: all angles of a joint, also after another converter is shown.
+        self.click("#joint-picker [data-joint=elbow]")
+        angles = ["elbow flexion", "elbow pronation"]
+        self.assertEqual(self.texts("#joint-plot h3"), angles)
+        self.assertEqual(self.run_script("return document.querySelector('#joint').value"), "elbow")
+        self.assertEqual(len(self.texts("#joint-picker .chosen")), 2)
+        self.click("#converters input")
+        self.assertEqual(self.texts("#joint-plot h3"), angles)
+        self.assertEqual(len(self.texts("#joint-plot .plot-area")), 2)
 
     def test_heat_map(self):
         self.open("compare.html")

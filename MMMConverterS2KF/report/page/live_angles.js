@@ -2,6 +2,7 @@
 // Angles of the last seconds, of the joint that is chosen on a small body.
 
 const kShownSeconds = 10;
+const kLongestLine = 0.3;  // [s] between two postures
 const kSideLines = {left: "#c8553d", right: "#2a7f9e", "": "#6a56c8"};
 
 class LiveAngles {
@@ -15,6 +16,7 @@ class LiveAngles {
   show(names) {
     this.names = names;
     this.rows = [];
+    this.last = null;
     byId("angles-part").hidden = names.length === 0;
     const joints = new Map(names.map(({joint}) => [joint, joint]));
     replaceContent(byId("joint-picker"), makeJointPicker(joints, (joint) => this.choose(joint)));
@@ -46,15 +48,18 @@ class LiveAngles {
     }
   }
 
-  // Without the jump by a turn where an angle passes half of one. A posture after a time without any begins anew.
+  // Without the jump by a turn where an angle passes half of one.
   take(posture) {
     if (!posture.tracking || !posture.anatomy) return;
-    const last = this.rows[this.rows.length - 1];
+    const {last} = this;
     if (last && posture.time < last.time) this.rows = [];
+    // No line where nothing was known.
+    else if (last && posture.time > last.time + kLongestLine) this.rows.push({time: last.time, values: last.values.map(() => NaN)});
     const turn = 2 * Math.PI;
     const values = posture.anatomy.map((value, i) =>
       last ? value - turn * Math.round((value - last.values[i]) / turn) : value);
-    this.rows.push({time: posture.time, values});
+    this.last = {time: posture.time, values};
+    this.rows.push(this.last);
     let first = 0;
     while (this.rows[first].time < posture.time - kShownSeconds) ++first;
     if (first > 100) this.rows.splice(0, first);
