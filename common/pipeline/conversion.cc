@@ -163,6 +163,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
                                   !config.subject_file.empty();
   plan.setup =
       MatchLabels(LabelsOf(recording.markers, recording.file), &plan.input, config, warnings);
+  TellPlaces(plan.input, &plan.setup);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
   if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);

@@ -44,6 +44,8 @@ constexpr double kFarAway = 1e3;  // not seen yet [s]
 ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kfSettings& settings)
     : kinematics_(markers.kinematics()),
       place_deviation_(markers.place_deviation()),
+      told_deviation_(markers.told_deviation()),
+      num_own_(static_cast<int>((told_deviation_.array() == 0).count())),
       noise_scale_(markers.noise_scale()),
       settings_(settings.deviations),
       look_variance_(settings.marker_deviation * settings.marker_deviation),
@@ -112,14 +114,15 @@ void ReportedCovariance::Look(const Matrix3Xd& z, const MarkerJacobian& at, doub
     const Eigen::Matrix3d& R_WL = at.R_WL[kinematics_.link_of_marker(static_cast<int>(m))];
     const Vector3d r = R_WL.transpose() * r_W / noise_scale_[m];
     const double step = (r - last).squaredNorm();
+    age_[m] = 0;
+    last = r;
+    if (told_deviation_[m] > 0) continue;
     if (std::isfinite(step)) {
       step_squares += 0.5 * step;
       steps += 3;
     }
     squares += r.squaredNorm();
     seen += 3;
-    age_[m] = 0;
-    last = r;
   }
   ++frames_;
   since_compute_ += dt;
@@ -151,7 +154,8 @@ void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian
     const double hidden_from_residuals =
         std::isnan(place) ? settings_.length_share * slow_ : place * place;
     const double scale = noise_scale_[m] * noise_scale_[m];
-    const double variance = scale * (slow_ + white_share_ * white_) + hidden_from_residuals;
+    const double variance = scale * (slow_ + white_share_ * white_) + hidden_from_residuals +
+                            told_deviation_[m] * told_deviation_[m];
     double age = age_[m];
     if (until_look != nullptr && age > 0) {
       // Known from both sides: the information of the two ways adds.
@@ -160,7 +164,8 @@ void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian
     }
     const double way = settings_.limb_speed * age;
     weights_.view().col(0).segment<3>(3 * m).setConstant(1 / (variance + way * way));
-    variance_ += variance / num_markers;
+    if (told_deviation_[m] > 0) continue;
+    variance_ += variance / num_own_;
   }
   // What draws an estimate that follows its markers is weak; one that follows none is where it was
   // or natural, whichever is known better.

@@ -16,8 +16,9 @@ namespace mmm_converter::s2kf {
 /// that of one look at the markers,
 ///   P = A (J^T C^-1 J + N S N) A,   A = (J^T C^-1 J + N)^-1,
 /// with J the Jacobian at the estimate, C the variance of a marker's place, measured by the
-/// residuals; N what draws the estimate to the natural posture, S how far joints are from that.
-/// Joints are angles in halves of their range, so that a limit is no certainty.
+/// residuals of those whose place no posture told; N what draws the estimate to the natural
+/// posture, S how far joints are from that. Joints are angles in halves of their range, so that a
+/// limit is no certainty.
 ///
 /// Frame by frame: Look, then Compute where it is due. Nothing is allocated after construction.
 class ReportedCovariance {
@@ -64,6 +65,8 @@ class ReportedCovariance {
 
   const MarkerKinematics& kinematics_;
   const Eigen::VectorXd& place_deviation_;
+  const Eigen::VectorXd& told_deviation_;
+  int num_own_;  // markers whose places no posture told
   const Eigen::VectorXd& noise_scale_;
   DeviationSettings settings_;
   double look_variance_;    // that the filter's natural pull is meant for [m^2]

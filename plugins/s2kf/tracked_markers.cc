@@ -18,6 +18,31 @@ namespace {
 // marker that alone shows a joint has no residual.
 constexpr double kLeastShare = 0.2;
 
+// Of a marker's place that is less known than where anybody wears one [m]: the posture told it.
+constexpr double kOfAnybody = 0.028;
+
+Eigen::VectorXd ToldDeviations(const TrackingSetup& setup, const MarkerKinematics& kinematics) {
+  Eigen::VectorXd told = Eigen::VectorXd::Zero(kinematics.num_markers());
+  for (Eigen::Index m = 0; m < told.size(); ++m) {
+    const ModelMarker& marker = setup.model->markers()[kinematics.markers()[m]];
+    const bool is_measured = marker.skin_deviation.has_value();
+    if (!is_measured && marker.deviation.value_or(0) > kOfAnybody) told[m] = *marker.deviation;
+  }
+  if ((told.array() > 0).all()) return Eigen::VectorXd::Zero(told.size());  // there are no others
+  Eigen::VectorXd all = told;
+  for (Eigen::Index m = 0; m < told.size(); ++m) {
+    int together = 0;
+    for (Eigen::Index other = 0; other < told.size(); ++other) {
+      const auto link = [&](Eigen::Index i) {
+        return kinematics.link_of_marker(static_cast<int>(i));
+      };
+      together += told[other] > 0 && link(other) == link(m);
+    }
+    all[m] *= std::sqrt(together);
+  }
+  return all;
+}
+
 }  // namespace
 
 TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
@@ -27,11 +52,12 @@ TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
       pulls_(PullsOf(setup)),
       noise_scale_(NoiseScales(setup.assignments())),
       place_deviation_(noise_scale_.size()),
+      told_deviation_(ToldDeviations(setup, kinematics_)),
       skin_deviation_(noise_scale_.size()),
       worn_deviation_(Eigen::VectorXd::Constant(noise_scale_.size(), kNaN)) {
   for (Eigen::Index m = 0; m < place_deviation_.size(); ++m) {
     const ModelMarker& marker = setup.model->markers()[kinematics_.markers()[m]];
-    place_deviation_[m] = marker.deviation.value_or(kNaN);
+    place_deviation_[m] = told_deviation_[m] > 0 ? kNaN : marker.deviation.value_or(kNaN);
     skin_deviation_[m] = marker.skin_deviation.value_or(kNaN);
   }
 }

@@ -39,6 +39,10 @@ class TrackedMarkers {
   /// Of each coordinate of a marker's place on the person, NaN where that was not estimated [m].
   const Eigen::VectorXd& place_deviation() const { return place_deviation_; }
 
+  /// Of each coordinate of a place that the posture by other markers told [m], 0 for others. Those
+  /// of a link were told together and tell no more than one of them would.
+  const Eigen::VectorXd& told_deviation() const { return told_deviation_; }
+
   /// Of each coordinate about that place, from frame to frame, NaN where that was not measured [m].
   const Eigen::VectorXd& skin_deviation() const { return skin_deviation_; }
 
@@ -62,6 +66,7 @@ class TrackedMarkers {
   std::vector<JointPull> pulls_;
   Eigen::VectorXd noise_scale_;
   Eigen::VectorXd place_deviation_;
+  Eigen::VectorXd told_deviation_;
   Eigen::VectorXd skin_deviation_;  // NaN: not measured
   Eigen::VectorXd worn_deviation_;  // WornPlaces; NaN: not learnt
 };

@@ -95,4 +95,19 @@ TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const Conver
   return std::move(matched.setup);
 }
 
+void TellPlaces(const Input& input, TrackingSetup* setup) {
+  if (input.names == nullptr || input.keeps_usual_places) return;
+  ModelDescription description = DescriptionOf(*setup->model);
+  bool is_any = false;
+  for (const NamedLabel& one : input.names->labels) {
+    const int marker = setup->model->FindMarker(one.marker);
+    if (!one.is_cluster || one.readings.empty() || marker < 0) continue;
+    const auto landmark = static_cast<std::size_t>(one.readings.front().landmark);
+    description.markers[static_cast<std::size_t>(marker)].deviation =
+        ShippedLandmarks().landmarks()[landmark].deviation;
+    is_any = true;
+  }
+  if (is_any) setup->model = std::make_shared<const KinematicModel>(std::move(description));
+}
+
 }  // namespace mmm_converter

@@ -29,4 +29,8 @@ bool AreAllNamed(const MarkerLabels& labels, const Input& input, const Converter
 TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const ConverterConfig& config,
                           Warnings* warnings);
 
+/// Says of clusters whose places the posture by the other markers told how far they are from where
+/// such are usually worn, so that deviations do not take them for measured.
+void TellPlaces(const Input& input, TrackingSetup* setup);
+
 }  // namespace mmm_converter

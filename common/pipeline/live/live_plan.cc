@@ -64,6 +64,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
                                   !config.subject_file.empty();
   plan.setup =
       MatchLabels({recording.markers.labels(), {}, recording.file}, &plan.input, config, warnings);
+  TellPlaces(plan.input, &plan.setup);
   WarnOfFreeJoints(plan.setup, config, warnings);
   CheckDeterminesPose(plan.input, plan.setup.mapping);
   if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);

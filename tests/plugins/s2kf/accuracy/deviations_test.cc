@@ -4,15 +4,20 @@
 // fails where the share of those drawn here misses a target by more than three standard errors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/convert/converter_config.h"
+#include "common/math/statistics.h"
+#include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
 #include "plugins/s2kf/s2kf_converter.h"
@@ -114,7 +119,12 @@ class DeviationsTest : public ::testing::TestWithParam<const char*> {
  protected:
   ConversionResult Convert(const KinematicModel& model, const std::vector<int>& joints,
                            const MarkerSequence& seen) const {
-    S2kfConverter converter(SetupOf(model, joints, AssignAll(model, seen)),
+    return Convert(model, joints, seen, AssignAll(model, seen));
+  }
+  ConversionResult Convert(const KinematicModel& model, const std::vector<int>& joints,
+                           const MarkerSequence& seen,
+                           const std::vector<MarkerAssignment>& assignments) const {
+    S2kfConverter converter(SetupOf(model, joints, assignments),
                             ReadSettings(ReadConverterConfig(testing::SourcePath(
                                 "xml_config/converters/" + std::string(GetParam()) + ".xml"))));
     converter.KeepCovariances();
@@ -148,6 +158,94 @@ TEST_P(UncalibratedDeviationsTest, AreHonest) {
     }
   }
   ExpectHonest(persons, Titled("uncalibrated"));
+}
+
+constexpr double kClusterDeviation = 0.084;  // xml_config/landmarks.xml, thigh [m]
+
+/// Of a plate on a thigh or a shank, [m] from its segment.
+std::vector<ModelMarker> Cluster(const KinematicModel& model, const std::string& segment) {
+  std::vector<ModelMarker> markers;
+  for (const double x : {-0.03, 0.03}) {
+    for (const double z : {0.09, 0.17}) {
+      markers.push_back({"MARKER_" + segment + std::to_string(markers.size()),
+                         model.FindSegment(segment),
+                         {x, 0.04, z}});
+    }
+  }
+  return markers;
+}
+
+KinematicModel With(const KinematicModel& model, const std::vector<ModelMarker>& markers) {
+  ModelDescription description = DescriptionOf(model);
+  description.markers.insert(description.markers.end(), markers.begin(), markers.end());
+  return KinematicModel(std::move(description));
+}
+
+/// Where a marker is on its segment in the postures of `motion`, as names are judged.
+Eigen::Vector3d PlaceBy(const KinematicModel& model, const PoseTrajectory& motion, int segment,
+                        const MarkerSequence& seen, int label) {
+  std::array<std::vector<double>, 3> places;
+  for (int k = 0; k < motion.num_frames(); k += 5) {
+    const auto X_WS = SegmentPoses(model, ModelPosture(model, motion, k));
+    const Eigen::Vector3d p =
+        X_WS[static_cast<std::size_t>(segment)].inverse() * seen.frame(k).col(label);
+    for (int axis = 0; axis < 3; ++axis) places[static_cast<std::size_t>(axis)].push_back(p[axis]);
+  }
+  return {Median(places[0]), Median(places[1]), Median(places[2])};
+}
+
+std::vector<MarkerAssignment> AtBonesOfLegs(const KinematicModel& model,
+                                            const MarkerSequence& seen) {
+  static const std::set<std::string> kBones = {"ASI", "PSI", "THI", "KNE",
+                                               "TIP", "ANK", "HEE", "TOE"};
+  std::vector<MarkerAssignment> assignments = AssignAll(model, seen);
+  std::erase_if(assignments, [&](const MarkerAssignment& one) {
+    const std::string& name = seen.labels()[one.label];
+    return name.size() != 4 || !kBones.contains(name.substr(1));
+  });
+  return assignments;
+}
+
+// Clusters whose places the posture by the few other markers told, as names are judged, tell
+// nothing of how far that posture is off.
+TEST_P(UncalibratedDeviationsTest, AreHonestOfLegsWithClusters) {
+  std::vector<Coverage> persons(kPersons / 2);
+  for (int i = 0; i < kPersons / 2; ++i) {
+    Session session(kFirstPerson + i);
+    std::vector<int> joints = session.joints;
+    std::erase_if(joints, [&](int joint) {
+      const std::string group = GroupOf(session.model.joint(joint).name);
+      return group != "hip" && group != "knee" && group != "ankle" && group != "foot";
+    });
+    std::vector<ModelMarker> clusters;
+    for (const char* segment :
+         {"LKsegment_joint", "RKsegment_joint", "LAsegment_joint", "RAsegment_joint"}) {
+      for (ModelMarker& one : Cluster(session.model, segment)) clusters.push_back(std::move(one));
+    }
+    session.person = With(session.person, clusters);
+    const auto motions = SessionMotions(session.model, kSessionFrames, session.seed);
+    for (const std::size_t m : {0, 2}) {  // walking and a run
+      const NamedMotion& named = motions[m];
+      const MarkerSequence seen = session.Record(named.motion);
+      std::vector<MarkerAssignment> assignments = AtBonesOfLegs(session.model, seen);
+      const PoseTrajectory alone = Convert(session.model, joints, seen, assignments).trajectory;
+      std::vector<ModelMarker> placed = clusters;
+      for (ModelMarker& one : placed) {
+        const auto label = std::find(seen.labels().begin(), seen.labels().end(),
+                                     one.name.substr(std::string("MARKER_").size()));
+        one.deviation = kClusterDeviation;
+        const auto index = static_cast<int>(label - seen.labels().begin());
+        one.p_SM = PlaceBy(session.model, alone, one.segment, seen, index);
+        const auto marker = session.model.markers().size() + (&one - placed.data());
+        assignments.push_back({LabelIx(index), MarkerIx(static_cast<int>(marker)), 1.1});
+      }
+      const KinematicModel model = With(session.model, placed);
+      const ConversionResult result = Convert(model, joints, seen, assignments);
+      persons[i].Add(model, joints, named.motion, result.trajectory, kSettled, seen.num_frames());
+      persons[i].AddTogether(model, joints, named.motion, result, kSettled, seen.num_frames());
+    }
+  }
+  ExpectHonest(persons, Titled("legs with clusters"));
 }
 
 /// The person as calibrated; kept, as both presets want it.
