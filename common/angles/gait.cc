@@ -49,7 +49,8 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   stride.foot_off = contact.end ? (*contact.end - stride.begin) / stride.time() : kNaN;
   const Eigen::Vector3d from = HeelAt(feet, stride.side, stride.begin);
   const Eigen::Vector3d to = HeelAt(feet, stride.side, stride.end);
-  const Eigen::Vector2d way = (to - from).head<2>();
+  const Eigen::Vector3d carried = stride.time() * feet.foot(stride.side).belt;
+  const Eigen::Vector2d way = (to - from - carried).head<2>();
   stride.length = way.norm();
   stride.heading = std::atan2(way.y(), way.x());
   const Side other = stride.side == Side::kLeft ? Side::kRight : Side::kLeft;

@@ -2,7 +2,11 @@
 #include "common/contacts/foot_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
+#include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/low_pass.h"
 #include "common/motion/marker_synthesis.h"
@@ -10,6 +14,15 @@
 
 namespace mmm_converter {
 namespace {
+
+// Of a treadmill.
+constexpr double kSlowestBelt = 0.3;   // [m/s]
+constexpr double kAlike = 0.25;        // [m/s] between velocities of feet that it carries
+constexpr double kCarriedShare = 0.3;  // of a low foot's time; who runs hardly stands longer
+constexpr double kSameWay = 0.9;       // cosine between the velocities below both feet
+constexpr double kMostTravel = 0.2;    // of the belt's speed
+constexpr double kShortestRun = 3;     // [s]
+constexpr double kLowFoot = 0.05;      // [m] above where a foot is in a tenth of the time
 
 constexpr double kCutoff = 12;  // [Hz] a foot is stopped by the ground within some 50 ms
 
@@ -55,18 +68,64 @@ std::array<Eigen::Vector3d, 2> EndsOf(const FootSegments& foot,
           X_WT * Eigen::Vector3d(0, kTipBefore * length, sole - toes)};
 }
 
-Eigen::VectorXd SpeedOf(const Eigen::Matrix3Xd& path, double rate) {
+/// After a low-pass [m/s].
+Eigen::Matrix3Xd VelocityOf(const Eigen::Matrix3Xd& path, double rate) {
   const Eigen::Index frames = path.cols();
   const double cutoff = std::min(kCutoff, LargestCutoff(rate));
   const Eigen::MatrixXd smooth = LowPassed(path.transpose(), rate, cutoff);
-  Eigen::VectorXd speed = Eigen::VectorXd::Zero(frames);
+  Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, frames);
   for (Eigen::Index k = 0; k < frames && frames > 1; ++k) {
     const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0);
     const Eigen::Index after = std::min(k + 1, frames - 1);
-    speed[k] = (smooth.row(after) - smooth.row(before)).norm() * rate /
-               static_cast<double>(after - before);
+    velocity.col(k) = (smooth.row(after) - smooth.row(before)).transpose() * rate /
+                      static_cast<double>(after - before);
   }
-  return speed;
+  return velocity;
+}
+
+/// The horizontal velocity that most of these are near to, and the share of them that is.
+std::pair<Eigen::Vector3d, double> UsualOf(const std::vector<Eigen::Vector3d>& velocities) {
+  constexpr std::size_t kMost = 500;  // compared with each other
+  const std::size_t step = velocities.size() / kMost + 1;
+  std::pair<Eigen::Vector3d, double> usual = {Eigen::Vector3d::Zero(), 0};
+  for (std::size_t i = 0; i < velocities.size(); i += step) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double near = 0, all = 0;
+    for (std::size_t j = 0; j < velocities.size(); j += step) {
+      ++all;
+      if ((velocities[j] - velocities[i]).norm() > kAlike) continue;
+      sum += velocities[j];
+      ++near;
+    }
+    if (near / all > usual.second) usual = {sum / near, near / all};
+  }
+  return usual;
+}
+
+/// The lower end of a foot, while it is low.
+std::vector<Eigen::Vector3d> LowVelocities(const FootPath& foot, const Eigen::Matrix3Xd& heel,
+                                           const Eigen::Matrix3Xd& toe) {
+  const Eigen::VectorXd heights = foot.heel.row(2).cwiseMin(foot.toe.row(2));
+  const double lowest = Percentile({heights.data(), static_cast<std::size_t>(heights.size())}, 10);
+  std::vector<Eigen::Vector3d> velocities;
+  for (Eigen::Index k = 0; k < heights.size(); ++k) {
+    if (!(heights[k] < lowest + kLowFoot)) continue;
+    velocities.emplace_back(foot.heel(2, k) < foot.toe(2, k) ? heel.col(k) : toe.col(k));
+    velocities.back().z() = 0;
+  }
+  return velocities;
+}
+
+/// Of the middle of both feet, from the first to the last second [m/s].
+Eigen::Vector3d TravelOf(const FootMotion& motion) {
+  const auto second = std::max<Eigen::Index>(1, std::lround(motion.rate));
+  const Eigen::Index frames = motion.num_frames();
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  for (const FootPath& foot : motion.feet) {
+    way += foot.heel.rightCols(second).rowwise().mean() / 2;
+    way -= foot.heel.leftCols(second).rowwise().mean() / 2;
+  }
+  return way * motion.rate / static_cast<double>(frames - second);
 }
 
 }  // namespace
@@ -106,11 +165,34 @@ FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion) {
       path.toe.col(k) = toe;
     }
   }
-  for (FootPath& foot : moved.feet) {
-    foot.heel_speed = SpeedOf(foot.heel, motion.rate);
-    foot.toe_speed = SpeedOf(foot.toe, motion.rate);
-  }
+  FindSpeeds(&moved);
   return moved;
+}
+
+void FindSpeeds(FootMotion* motion) {
+  std::array<std::array<Eigen::Matrix3Xd, 2>, 2> velocities;
+  std::array<std::pair<Eigen::Vector3d, double>, 2> usual;
+  for (std::size_t i = 0; i < motion->feet.size(); ++i) {
+    FootPath& foot = motion->feet[i];
+    velocities[i] = {VelocityOf(foot.heel, motion->rate), VelocityOf(foot.toe, motion->rate)};
+    usual[i] = UsualOf(LowVelocities(foot, velocities[i][0], velocities[i][1]));
+    foot.belt.setZero();
+  }
+  const Eigen::Vector3d& left = usual[0].first;
+  const Eigen::Vector3d& right = usual[1].first;
+  const bool move_alike = left.norm() > kSlowestBelt && right.norm() > kSlowestBelt &&
+                          left.dot(right) > kSameWay * left.norm() * right.norm() &&
+                          std::min(usual[0].second, usual[1].second) > kCarriedShare;
+  const bool is_long = motion->num_frames() > kShortestRun * motion->rate;
+  const bool is_treadmill =
+      move_alike && is_long &&
+      TravelOf(*motion).norm() < kMostTravel * std::min(left.norm(), right.norm());
+  for (std::size_t i = 0; i < motion->feet.size(); ++i) {
+    FootPath& foot = motion->feet[i];
+    if (is_treadmill) foot.belt = usual[i].first;
+    foot.heel_speed = (velocities[i][0].colwise() - foot.belt).colwise().norm();
+    foot.toe_speed = (velocities[i][1].colwise() - foot.belt).colwise().norm();
+  }
 }
 
 }  // namespace mmm_converter

@@ -14,11 +14,12 @@ enum class Side { kLeft, kRight };
 inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 const char* Name(Side side);  ///< "left", "right"
 
-/// Where a foot would touch the ground, a column a frame [m], W, and how fast that is, after a
-/// low-pass [m/s].
+/// Where a foot would touch the ground, a column a frame [m], W, and how fast that is against the
+/// ground, after a low-pass [m/s].
 struct FootPath {
   Eigen::Matrix3Xd heel, toe;
   Eigen::VectorXd heel_speed, toe_speed;
+  Eigen::Vector3d belt = Eigen::Vector3d::Zero();  ///< of a treadmill, below this foot [m/s]
 };
 
 /// Both feet of a tracked person.
@@ -36,6 +37,10 @@ struct FootMotion {
 bool HasFeet(const KinematicModel& model);
 /// The segment that the ground pushes, of the sole or the heel. The model HasFeet.
 int FootSegment(const KinematicModel& model, Side side);
+
+/// Speeds and belts from where the feet are. A treadmill: low feet move alike, and the person does
+/// not travel.
+void FindSpeeds(FootMotion* motion);
 
 /// From the postures alone: where markers were on the feet does not matter.
 /// @throws Error where the model has no feet that are known.

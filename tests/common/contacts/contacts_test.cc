@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
@@ -106,6 +108,90 @@ class WalkTest : public ::testing::Test {
   static constexpr double kLeftX = 0.5 + kFoot / 2;
   static constexpr double kRightX = 1 + kFoot / 2;
 };
+
+/// Two feet on two belts, along -y at speeds of their own: on the belt for `kStance` of each cycle,
+/// then lifted by 100 mm and back.
+class TreadmillTest : public WalkTest {
+ protected:
+  static constexpr double kCycle = 1.04;
+  static constexpr double kStance = 0.62;
+
+  static double BeginOf(std::size_t side) { return side == 0 ? 0.23 : 0.23 + kCycle / 2; }
+
+  static FootMotion Treadmill(const std::array<double, 2>& speeds) {
+    FootMotion motion;
+    motion.rate = kRate;
+    for (std::size_t side = 0; side < 2; ++side) {
+      FootPath& foot = motion.feet[side];
+      foot.heel.resize(3, static_cast<Eigen::Index>(kSeconds * kRate));
+      const double way = speeds[side] * kStance * kCycle;
+      for (Eigen::Index k = 0; k < foot.heel.cols(); ++k) {
+        const double cycles = (static_cast<double>(k) / kRate - BeginOf(side)) / kCycle;
+        const double share = cycles - std::floor(cycles);
+        const double swing = std::max(0.0, (share - kStance) / (1 - kStance));
+        const double turn = 2 * std::numbers::pi * swing;
+        const double y = share < kStance ? way * (0.5 - share / kStance)
+                                         : way * (swing - 0.5) - 0.2 * std::sin(turn);
+        foot.heel.col(k) =
+            Eigen::Vector3d(side == 0 ? -0.15 : 0.15, y, 0.05 * (1 - std::cos(turn)));
+      }
+      foot.toe = foot.heel;
+      foot.toe.row(1).array() += kFoot;
+    }
+    FindSpeeds(&motion);
+    return motion;
+  }
+
+  static void ExpectSteps(const Contacts& contacts, double within) {
+    for (const Side side : kSides) {
+      double begin = BeginOf(static_cast<std::size_t>(side));
+      int found = 0;
+      for (const FootContact& one : Of(side, contacts)) {
+        if (!one.begin || !one.end || *one.begin < begin - kCycle / 2) continue;
+        EXPECT_NEAR(*one.begin, begin, within) << Name(side);
+        EXPECT_NEAR(*one.end, begin + kStance * kCycle, within) << Name(side);
+        begin += kCycle;
+        ++found;
+      }
+      EXPECT_GE(found, 2) << Name(side);
+    }
+  }
+};
+
+TEST_F(TreadmillTest, FeetStandWhereTheBeltCarriesThem) {
+  for (const auto& speeds : {std::array{1.3, 1.3}, std::array{0.7, 1.4}, std::array{2.1, 2.1}}) {
+    const FootMotion motion = Treadmill(speeds);
+    for (std::size_t side = 0; side < 2; ++side) {
+      EXPECT_NEAR(motion.feet[side].belt.y(), -speeds[side], 0.03);
+    }
+    ExpectSteps(FindContacts(motion, {}), 0.08);  // a made foot has no heel to stop it
+  }
+  EXPECT_EQ(Walk().feet[0].belt.norm(), 0);
+}
+
+TEST_F(TreadmillTest, EachBeltBearsItsFoot) {
+  const FootMotion motion = Treadmill({1.3, 1.3});
+  std::vector<PlateForces> belts = {Plate(1, -0.15, 0, 0, 5, 5), Plate(2, 0.15, 0, 0, 5, 5)};
+  for (std::size_t side = 0; side < 2; ++side) {
+    PlateForces& belt = belts[side];
+    belt.plate.half_size = {0.14, 0.8};
+    for (Eigen::Index i = 0; i < belt.force.cols(); ++i) {
+      const double t = static_cast<double>(i) / kSampleRate;
+      const double cycles = (t - BeginOf(side)) / kCycle;
+      if (cycles - std::floor(cycles) < kStance) belt.force.col(i) = Eigen::Vector3d(5, 20, 700);
+      const auto k = std::min(static_cast<Eigen::Index>(t * kRate), motion.feet[0].heel.cols() - 1);
+      belt.cop.col(i) = motion.feet[side].heel.col(k) + Eigen::Vector3d(0.01, kFoot / 2, 0);
+      belt.cop(2, i) = 0;
+    }
+    JudgeLoads(kSampleRate, &belt, nullptr);
+  }
+  const Contacts contacts = FindContacts(motion, ForcesOf(belts));
+  ASSERT_GE(contacts.loads.size(), 6U);
+  for (const PlateLoad& load : contacts.loads) {
+    EXPECT_EQ(load.bearer, load.plate == 0 ? Bearer::kLeft : Bearer::kRight);
+  }
+  ExpectSteps(contacts, 0.002);
+}
 
 TEST_F(WalkTest, WithoutPlatesFeetStandWhereTheyAreSlow) {
   const Contacts contacts = FindContacts(Walk(), {});
