@@ -37,7 +37,7 @@ Json GaitPageJson(const ConversionReport& report, const GroundStudy& ground) {
   if (gait.strides.empty()) return nullptr;
   Json cycles = Json::array();
   for (const GaitCycle& one : ForceCyclesOf(report, ground, gait)) {
-    const bool is_force = std::string_view(one.angle.joint) == "ground";
+    const bool is_force = std::string_view(one.angle.motion).ends_with("force");
     cycles.push_back(CycleJson(one, is_force ? "body weights" : "N m/kg", 1, 3));
   }
   for (const GaitCycle& one : gait.cycles) cycles.push_back(CycleJson(one, "°", kDegrees, 2));

@@ -2,11 +2,13 @@
 #include "MMMConverterS2KF/report/ground_json.h"
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/drawn_frames.h"
 #include "MMMConverterS2KF/report/gait_json.h"
 #include "MMMConverterS2KF/report/packed_array.h"
+#include "common/kinetics/joint_forces_table.h"
 #include "common/pipeline/ground_study.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -39,7 +41,8 @@ Json PlateJson(std::size_t index, const GroundStudy& ground, const MarkerSequenc
     if (load.plate != index) continue;
     loads.push_back({{"begin_s", Number(load.begin)},
                      {"end_s", Number(load.end)},
-                     {"foot", Name(load.bearer)}});
+                     {"foot", Name(load.bearer)},
+                     {"part_of_foot", load.is_part_of_foot}});
   }
   Json corners = nullptr;  // of a file of forces alone
   if (one.plate.half_size.minCoeff() > 0 && one.plate.corners.allFinite()) {
@@ -66,7 +69,14 @@ Json PlatesJson(const GroundStudy& ground, const MarkerSequence& markers) {
 
 Json StudyJson(const ConversionReport& report) {
   Warnings warnings;
-  const auto ground = StudyGround(report, &warnings);
+  const auto ground = std::make_shared<GroundStudy>(*StudyGround(report, &warnings));
+  const bool has_masses = report.plan.setup.model->total_mass() > 0;
+  if (!ground->forces->plates.empty() && has_masses) {
+    if (!ground->joint_forces) ground->joint_forces = JointForcesOf(report, *ground, false);
+    const std::string mass = MassSentence(report, *ground);
+    if (!mass.empty()) warnings.Add(mass);
+    warnings.Add(SentenceOf(MeasureResiduals(*ground->joint_forces), *ground->joint_forces));
+  }
   const Json gait = GaitPageJson(report, *ground);
   if (ground->forces->plates.empty() && gait.is_null()) return nullptr;
   const double mass = KnownMass(report, *ground);

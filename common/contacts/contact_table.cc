@@ -26,28 +26,24 @@ std::string Decimal(const std::optional<double>& value, const char* nothing) {
 
 std::string JsonNumber(double value) { return std::isfinite(value) ? Decimal(value) : "null"; }
 
-struct Event {
-  double time = 0;
-  const char* label = "";
-  Side side = Side::kLeft;
-};
-
-std::vector<Event> EventsOf(const Contacts& contacts) {
-  std::vector<Event> events;
-  for (const FootContact& one : contacts.contacts) {
-    if (one.begin) events.push_back({*one.begin, "Foot Strike", one.side});
-    if (one.end) events.push_back({*one.end, "Foot Off", one.side});
-  }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const Event& a, const Event& b) { return a.time < b.time; });
-  return events;
-}
-
 std::string JsonList(const std::vector<std::string>& items) {
   return items.empty() ? "[]" : fmt::format("[\n    {}\n  ]", fmt::join(items, ",\n    "));
 }
 
 }  // namespace
+
+std::vector<ContactEvent> EventsOf(const Contacts& contacts) {
+  std::vector<ContactEvent> events;
+  for (const FootContact& one : contacts.contacts) {
+    if (one.begin) events.push_back({*one.begin, "Foot Strike", one.side});
+    if (one.end) events.push_back({*one.end, "Foot Off", one.side});
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
+  return events;
+}
+
+const char* ContextOf(Side side) { return side == Side::kLeft ? "Left" : "Right"; }
 
 std::string FormatContactsCsv(const Contacts& contacts) {
   std::string text = "foot,begin_s,begin_deviation_s,end_s,end_deviation_s,plates\n";
@@ -70,18 +66,18 @@ std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& f
                     one.end ? Decimal(one.end_deviation) : "null", fmt::join(one.plates, ", ")));
   }
   std::vector<std::string> events;
-  for (const Event& one : EventsOf(contacts)) {
+  for (const ContactEvent& one : EventsOf(contacts)) {
     events.push_back(fmt::format(R"({{"time_s": {}, "label": "{}", "context": "{}"}})",
-                                 Decimal(one.time), one.label,
-                                 one.side == Side::kLeft ? "Left" : "Right"));
+                                 Decimal(one.time), one.label, ContextOf(one.side)));
   }
   std::vector<std::string> loads;
   for (const PlateLoad& one : contacts.loads) {
-    loads.push_back(fmt::format(R"({{"plate": {}, "begin_s": {}, "end_s": {}, "foot": "{}", )"
-                                R"("distance_left_m": {}, "distance_right_m": {}}})",
-                                forces.plates[one.plate].plate.number, Decimal(one.begin),
-                                Decimal(one.end), Name(one.bearer), JsonNumber(one.distances[0]),
-                                JsonNumber(one.distances[1])));
+    loads.push_back(
+        fmt::format(R"({{"plate": {}, "begin_s": {}, "end_s": {}, "foot": "{}", )"
+                    R"("distance_left_m": {}, "distance_right_m": {}, "part_of_foot": {}}})",
+                    forces.plates[one.plate].plate.number, Decimal(one.begin), Decimal(one.end),
+                    Name(one.bearer), JsonNumber(one.distances[0]), JsonNumber(one.distances[1]),
+                    one.is_part_of_foot));
   }
   std::string mass = "null";
   if (const auto found = EstimateMass(contacts, forces)) {

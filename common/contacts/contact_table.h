@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/contacts/contacts.h"
 
@@ -11,8 +12,19 @@ namespace mmm_converter {
 /// ; between them). Empty: not within what was recorded.
 std::string FormatContactsCsv(const Contacts& contacts);
 
-/// The same, with the events as C3D files name them ("Foot Strike", "Foot Off"), who was found on
-/// the plates, and the mass that they tell.
+struct ContactEvent {
+  double time = 0;         ///< [s]
+  const char* label = "";  ///< as C3D files name it: "Foot Strike", "Foot Off"
+  Side side = Side::kLeft;
+};
+
+/// When feet come to the ground and leave it, over time.
+std::vector<ContactEvent> EventsOf(const Contacts& contacts);
+/// "Left", "Right", as C3D files name a side.
+const char* ContextOf(Side side);
+
+/// The same as the CSV, with the events as C3D files name them ("Foot Strike", "Foot Off"), who was
+/// found on the plates, and the mass that they tell.
 std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& forces);
 
 }  // namespace mmm_converter

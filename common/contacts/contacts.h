@@ -26,6 +26,8 @@ struct PlateLoad {
   /// Median horizontal distances of the centre of pressure from the heel-toe lines of the left and
   /// the right foot [m]; NaN: no frame tells them.
   std::array<double, 2> distances = {};
+  /// The bearer stands with heel or toe beside the plate, which then bears a part of it alone.
+  bool is_part_of_foot = false;
 };
 
 /// A foot on the ground.

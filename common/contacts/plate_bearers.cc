@@ -16,6 +16,8 @@ constexpr double kFarthest = 0.2;      // [m] from the line of the foot that bea
 constexpr double kAhead = 0.05;        // [m] so much nearer, at least ...
 constexpr double kTimesNearer = 2;     // ... and so many times
 constexpr double kNearerShare = 0.15;  // of a load's time: the other foot bears it then
+constexpr double kBeside = 0.03;       // [m] beyond a plate's edge: where a foot ends is as unsure
+constexpr double kLow = 0.06;          // [m] above the plate: on the ground
 constexpr double kStandsThere = 0.25;  // of a load's time: the other foot is on the plate too
 
 double DistanceFromLine(const Eigen::Vector3d& heel, const Eigen::Vector3d& toe,
@@ -97,6 +99,30 @@ bool StandsThere(Side side, const LoadedFrames& frames, const SlowFeet& slow,
   return there > kStandsThere * (frames.end - frames.begin);
 }
 
+/// Whether heel or toe of the foot that bears a plate is on the ground beside it, and on no other
+/// plate, for much of the time of its load.
+bool IsPartly(Side side, const LoadedFrames& frames, const RecordedForces& forces,
+              const ForcePlate& plate) {
+  if (!(plate.half_size.minCoeff() > 0)) return false;
+  const bool is_step =
+      std::any_of(forces.plates.begin(), forces.plates.end(),
+                  [&](const auto& one) { return one.plate.p_WP.z() < plate.p_WP.z() - kLow; });
+  if (is_step) return false;  // beside it is nothing to stand on
+  const FootPath& foot = frames.motion.foot(side);
+  const auto is_beside = [&](const Eigen::Vector3d& p) {
+    ForcePlate wide = plate;
+    wide.half_size.array() += kBeside;
+    return p.z() < plate.p_WP.z() + kLow && !IsOver(wide, p) &&
+           std::none_of(forces.plates.begin(), forces.plates.end(),
+                        [&](const PlateForces& one) { return IsOver(one.plate, p); });
+  };
+  int beside = 0;
+  for (int k = frames.begin; k < frames.end; ++k) {
+    beside += is_beside(foot.heel.col(k)) || is_beside(foot.toe.col(k));
+  }
+  return beside > kStandsThere * (frames.end - frames.begin);
+}
+
 /// Of a body that a file of forces names: "calcn_r", "right_foot".
 Bearer BearerOfName(const std::string& name) {
   const std::string text = ToLower(name);
@@ -156,6 +182,10 @@ std::vector<PlateLoad> FindBearers(const FootMotion& motion, const SlowFeet& slo
       load.bearer = BearerOfName(plate.applied_to);
       if (load.bearer == Bearer::kUnknown) {
         load.bearer = Decide(load, distances, frames, slow, plate);
+      }
+      if (load.bearer == Bearer::kLeft || load.bearer == Bearer::kRight) {
+        const Side side = load.bearer == Bearer::kLeft ? Side::kLeft : Side::kRight;
+        load.is_part_of_foot = IsPartly(side, frames, forces, plate.plate);
       }
       loads.push_back(load);
     }

@@ -184,7 +184,8 @@ const std::vector<Exporter>& Exporters() {
        "some 13 a second",
        WriteCovariances, true},
       {"contacts", "export-contacts", "csv", "when which foot is on the ground, as CSV",
-       "when which foot is on the ground and on which force plate: .json with events, else CSV",
+       "when which foot is on the ground and on which force plate: .json with events, .c3d: the "
+       "recording with these events, else CSV",
        WriteContacts},
       {"gait", "export-gait", "csv", "joint angles over the gait cycle, as CSV",
        "joint angles in degrees over the gait cycle, their mean and deviation of each foot's "

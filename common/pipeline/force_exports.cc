@@ -13,13 +13,14 @@
 #include "common/angles/gait_table.h"
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
-#include "common/contacts/person_mass.h"
+#include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces_table.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/ground_study.h"
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 
@@ -50,27 +51,46 @@ std::string LoadsFile(const std::string& table) {
 
 /// Warns where the plates tell another mass than the person's.
 void CompareMass(const GroundStudy& ground, ConversionReport* report) {
-  const auto found = EstimateMass(ground.contacts, *ground.forces);
+  const auto& found = ground.mass;
   const PersonValue& mass = report->plan.person.mass;
   if (!found || !(mass.value > 0)) return;
   const double apart = std::abs(found->mass - mass.value);
   if (apart <= kMostApart * mass.value || apart <= kDeviations * found->deviation) return;
-  if (report->ground->joint_forces && IsAssumed(mass)) {
-    report->warnings.Add(
-        fmt::format("moments are of the {:.1f} +- {:.1f} kg that the force plates bore ({})",
-                    found->mass, found->deviation, OptionText("mass")));
-    return;
-  }
   report->warnings.Add(
-      fmt::format("the force plates bore {:.1f} +- {:.1f} kg; the person's mass is "
-                  "{:.1f} kg ({}; another by {})",
-                  found->mass, found->deviation, mass.value, mass.source, OptionText("mass")));
+      fmt::format("{} (another by {})", MassSentence(*report, ground), OptionText("mass")));
+}
+
+bool IsC3d(const std::string& file) {
+  return ToLower(fs::path(file).extension().string()) == ".c3d";
+}
+
+/// Those of the recording but where and what contacts tell, and these.
+std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
+  const PoseTrajectory& motion = report.result.trajectory;
+  std::vector<C3dEvent> events = ReadC3dEvents(C3dFile(report.plan.input.recording.file), nullptr);
+  std::erase_if(events, [&](const C3dEvent& one) {
+    const std::string label = ToLower(one.label);
+    const bool is_told = label == "foot strike" || label == "foot off";
+    return one.is_in_header || (is_told && one.time >= motion.first_time &&
+                                one.time <= motion.time(motion.num_frames() - 1));
+  });
+  for (const ContactEvent& one : EventsOf(contacts)) {
+    events.push_back(
+        {one.time, one.label, ContextOf(one.side), report.plan.input.recording.subject, false});
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const C3dEvent& a, const C3dEvent& b) { return a.time < b.time; });
+  return events;
 }
 
 }  // namespace
 
 void WriteContacts(const std::string& file, const ConversionReport& report) {
   const auto ground = StudyGround(report);
+  if (IsC3d(file)) {
+    WriteC3dWithEvents(report.plan.input.recording.file, AllEvents(ground->contacts, report), file);
+    return;
+  }
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatContactsJson(ground->contacts, *ground->forces)
                                     : FormatContactsCsv(ground->contacts));
@@ -143,6 +163,13 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
         "{}: contacts, strides and joint forces need the feet of MMM's model, or segments calcn_l, "
         "calcn_r, toes_l and toes_r as OpenSim's persons have; {} lacks them",
         recording.file, plan->input.model_file));
+  }
+  const auto contacts = files.find(kContacts);
+  if (contacts != files.end() && IsC3d(contacts->second) && recording.format != "C3D") {
+    throw Error(
+        fmt::format("{}: events go to a copy of the recording, and {} is no C3D file; "
+                    "give a .json or .csv",
+                    contacts->second, recording.file));
   }
   if (files.count(kJointForces) > 0 && !(plan->setup.model->total_mass() > 0)) {
     throw Error(plan->input.model_file + ": has no masses, hence no dynamics");

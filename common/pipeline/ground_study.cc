@@ -99,12 +99,28 @@ AnatomicalAngles VerticalForces(const ConversionReport& report, const GroundStud
   return rows;
 }
 
+/// What the root would still need, for the strides of each foot.
+AnatomicalAngles ResidualRows(const JointForces& found) {
+  AnatomicalAngles rows;
+  rows.rate = found.rate;
+  rows.first_time = found.first_time;
+  rows.values.resize(4, found.num_frames());
+  for (const Side side : kSides) {
+    rows.angles.push_back({"residual", Name(side), "force"});
+    rows.angles.push_back({"residual", Name(side), "moment"});
+  }
+  for (Eigen::Index i = 0; i < rows.values.rows(); i += 2) {
+    rows.values.row(i) =
+        found.residuals.topRows<3>().colwise().norm() / (found.mass * kStandardGravity);
+    rows.values.row(i + 1) = found.residuals.bottomRows<3>().colwise().norm() / found.mass;
+  }
+  return rows;
+}
+
 /// Of muscles, by mass.
-AnatomicalAngles LegMoments(const ConversionReport& report, const GroundStudy& ground) {
+AnatomicalAngles LegMoments(const ConversionReport& report, const JointForces& found) {
   const KinematicModel& model = *report.plan.setup.model;
   const PoseTrajectory motion = TrackedMotion(report.result);
-  const JointForces found =
-      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
   const AnatomicalAngles angles = ComputeAnatomicalAngles(model, motion);
   const Eigen::MatrixXd moments = AnatomicalMoments(model, motion, ByJoints(model, found));
   AnatomicalAngles rows;
@@ -173,14 +189,24 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, W
   }
   ground.feet = MoveFeet(*report.plan.setup.model, report.result.trajectory);
   ground.contacts = FindContacts(ground.feet, *ground.forces);
+  ground.mass = EstimateMass(ground.contacts, *ground.forces);
   return std::make_shared<const GroundStudy>(std::move(ground));
 }
 
 double KnownMass(const ConversionReport& report, const GroundStudy& ground) {
   const double modelled = report.plan.setup.model->total_mass();
   if (!IsAssumed(report.plan.person.mass)) return modelled;
-  const auto measured = EstimateMass(ground.contacts, *ground.forces);
-  return measured ? measured->mass : modelled;
+  return ground.mass ? ground.mass->mass : modelled;
+}
+
+std::string MassSentence(const ConversionReport& report, const GroundStudy& ground) {
+  if (!ground.mass) return "";
+  const PersonValue& mass = report.plan.person.mass;
+  const std::string borne = fmt::format("the force plates bore {:.1f} +- {:.1f} kg",
+                                        ground.mass->mass, ground.mass->deviation);
+  if (!(mass.value > 0)) return borne;
+  return fmt::format("{}, the person's mass is {:.1f} kg ({}){}", borne, mass.value, mass.source,
+                     IsAssumed(mass) ? "; forces and moments are of what the plates bore" : "");
 }
 
 JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
@@ -207,8 +233,12 @@ std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const Groun
                                      const Gait& gait) {
   if (ground.forces->plates.empty() || !(report.plan.setup.model->total_mass() > 0)) return {};
   std::vector<GaitCycle> cycles = CyclesOf(VerticalForces(report, ground), gait.strides);
-  const std::vector<GaitCycle> moments = CyclesOf(LegMoments(report, ground), gait.strides);
-  cycles.insert(cycles.end(), moments.begin(), moments.end());
+  const JointForces found =
+      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
+  for (const AnatomicalAngles& rows : {LegMoments(report, found), ResidualRows(found)}) {
+    const std::vector<GaitCycle> more = CyclesOf(rows, gait.strides);
+    cycles.insert(cycles.end(), more.begin(), more.end());
+  }
   return cycles;
 }
 

@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/angles/gait.h"
 #include "common/contacts/contacts.h"
+#include "common/contacts/person_mass.h"
 #include "common/kinetics/joint_forces.h"
 
 namespace mmm_converter {
@@ -19,6 +21,7 @@ struct GroundStudy {
   std::shared_ptr<const RecordedForces> forces;
   FootMotion feet;
   Contacts contacts;
+  std::optional<MassByPlates> mass;
   std::optional<JointForces> joint_forces;  ///< where they are exported
   std::optional<Gait> gait;                 ///< where it is exported
 };
@@ -37,6 +40,10 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,
 /// The mass that plates bore where none was given, else the model's [kg].
 double KnownMass(const ConversionReport& report, const GroundStudy& ground);
 
+/// What the plates say of the person's mass beside the one of the person, in a sentence; empty:
+/// nothing.
+std::string MassSentence(const ConversionReport& report, const GroundStudy& ground);
+
 /// Of KnownMass. @throws Error where there are no plates, or the model has no mass.
 JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
                           bool with_deviations);
@@ -46,7 +53,9 @@ Gait GaitOf(const ConversionReport& report, const GroundStudy& ground);
 
 /// What legs bear and exert over the strides of `gait`: of joint "ground" the "vertical force" in
 /// body weights; of hips, knees and ankles the "extension moment" and so on that muscles exert [N
-/// m/kg], each about the axis of its angle. Empty: there are no plates, or the model has no mass.
+/// m/kg], each about the axis of its angle; of joint "residual" what the root would still need,
+/// "force" in body weights and "moment" [N m/kg]. Empty: there are no plates, or the model has no
+/// mass.
 std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
                                      const Gait& gait);
 

@@ -195,6 +195,25 @@ TEST_F(RealForceExports, StairsAreFourStepsOfTwoFeet) {
              {"left", "right", "left", "right"});
 }
 
+TEST_F(RealForceExports, EventsInACopyOfTheRecording) {
+  const std::string walk = testing::SharedData("field/btk_FunctionalWalk.c3d");
+  ASSERT_EQ(RunProgram({"convert", walk, "-o", Out("o.xml"), "--export-contacts", Out("o.c3d")})
+                .exit_code,
+            0);
+  const auto info = [](const std::string& file) {
+    return nlohmann::json::parse(RunProgram({"info", file, "--json"}).out);
+  };
+  const nlohmann::json before = info(walk);
+  const nlohmann::json after = info(Out("o.c3d"));
+  EXPECT_EQ(after["labels"], before["labels"]);
+  const auto contacts = ContactsOf("field/btk_FunctionalWalk.c3d");
+  EXPECT_EQ(after["events"].size(), contacts["events"].size());
+  const auto refused = RunProgram({"convert", testing::SharedData("field/osim_walkfree.trc"), "-o",
+                                   Out("o.xml"), "--export-contacts", Out("o.c3d")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("is no C3D file"));
+}
+
 TEST_F(RealForceExports, EventsAreThoseOfTheFile) {
   const nlohmann::json contacts = ContactsOf("field/btk_FunctionalWalk.c3d");
   ExpectFeet(contacts, {"right", "left", "left"});

@@ -28,7 +28,7 @@ class Ground {
         .map((numbers) => Array.from(numbers.subarray(3 * frame, 3 * frame + 3)));
       if ([...force, ...pressure].some(Number.isNaN)) return [];
       const load = plate.loads.find((one) => one.begin_s <= time && time <= one.end_s);
-      return [{plate, foot: load ? load.foot : "unknown", force, pressure}];
+      return [{plate, foot: load ? load.foot : "unknown", isPart: Boolean(load && load.part_of_foot), force, pressure}];
     });
   }
 
@@ -37,10 +37,11 @@ class Ground {
   }
 
   describe(frame) {
-    return this.loadsAt(frame).map(({plate, foot, force}) => {
+    return this.loadsAt(frame).map(({plate, foot, isPart, force}) => {
       const share = this.weight ? ` (${formatNumber(force[2] / this.weight, 2)} body weights)` : "";
       const feet = {left: ", left foot", right: ", right foot", both: ", both feet"}[foot] || "";
-      return `plate ${plate.number}${feet}: ${formatNumber(force[2], 0)} N${share}`;
+      const part = isPart ? ", partly beside the plate" : "";
+      return `plate ${plate.number}${feet}${part}: ${formatNumber(force[2], 0)} N${share}`;
     }).join(" · ");
   }
 }

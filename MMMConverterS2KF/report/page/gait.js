@@ -12,7 +12,7 @@ const kStrideFigures = {
   step_width_m: ["Step width", "m", 3],
   foot_off_percent: ["Foot off", "% of the cycle", 1],
 };
-const kLegJoints = ["ground", "pelvis", "hip", "knee", "ankle"];
+const kLegJoints = ["ground", "pelvis", "hip", "knee", "ankle", "residual"];
 const kCycleSamples = 101;
 
 function makeStrideTable(summary) {

@@ -21,6 +21,7 @@ namespace {
 
 using FileBytes = std::vector<unsigned char>;
 using Points = std::vector<C3dRelabelledPoint>;
+using Events = std::vector<C3dEvent>;
 
 constexpr std::size_t kLongestLabel = 127;  // so that 255 labels fit behind a 16 bit offset
 
@@ -141,7 +142,8 @@ void LayOutRest(const C3dFile& file, std::size_t num_points, Frame* frame) {
   frame->rest_bytes = file.data_bytes() - padded;
 }
 
-FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
+FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, const Events* events,
+                            Frame* frame) {
   const C3dLayout& layout = file->layout();
   const C3dParameters& parameters = file->parameters();
   const std::uint64_t section_start = file->section_start();
@@ -156,6 +158,7 @@ FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, Frame* frame) {
     section.SetPointTexts("DESCRIPTIONS", NewTexts(*file, points, names, "DESCRIPTIONS",
                                                    HasNamesInDescriptions(parameters)));
   }
+  if (events != nullptr) section.SetEvents(*events);
   if (points.size() != static_cast<std::size_t>(layout.points)) {
     const int count = static_cast<int>(points.size());
     StoreC3dWord(count, layout.processor, header + 2 * (2 - 1));
@@ -240,28 +243,46 @@ void WriteFrames(C3dFile* file, const Points& points, PieceWriter* pieces) {
   });
 }
 
+/// events: null: as they are.
+void WriteChanged(C3dFile* file, const Points& points, const Events* events,
+                  const std::string& output) {
+  CheckLayout(*file);
+  const C3dLayout& layout = file->layout();
+  Frame frame;
+  const std::int64_t more = static_cast<std::int64_t>(points.size()) - layout.points;
+  frame.bytes = layout.frame_bytes + static_cast<std::uint64_t>(more * (layout.floats ? 16 : 8));
+  LayOutRest(*file, points.size(), &frame);
+  frame.before = BytesBeforeFrames(file, points, events, &frame);
+  WriteFileAtomically(output, [&](const TextSink& sink) {
+    PieceWriter pieces(sink);
+    pieces.text()->append(file->leading_zeros(), '\0');
+    pieces.text()->append(frame.before.begin(), frame.before.end());
+    WriteFrames(file, points, &pieces);
+    pieces.text()->append(frame.padding, '\0');
+    CopyRest(file, frame, &pieces);
+    pieces.Flush();
+  });
+}
+
 }  // namespace
 
 void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelledPoint>& points,
                         const std::string& output) {
   CheckPoints(input, points);
   C3dFile file(input);
-  CheckLayout(file);
-  const C3dLayout& layout = file.layout();
-  Frame frame;
-  const std::int64_t more = static_cast<std::int64_t>(points.size()) - layout.points;
-  frame.bytes = layout.frame_bytes + static_cast<std::uint64_t>(more * (layout.floats ? 16 : 8));
-  LayOutRest(file, points.size(), &frame);
-  frame.before = BytesBeforeFrames(&file, points, &frame);
-  WriteFileAtomically(output, [&](const TextSink& sink) {
-    PieceWriter pieces(sink);
-    pieces.text()->append(file.leading_zeros(), '\0');
-    pieces.text()->append(frame.before.begin(), frame.before.end());
-    WriteFrames(&file, points, &pieces);
-    pieces.text()->append(frame.padding, '\0');
-    CopyRest(&file, frame, &pieces);
-    pieces.Flush();
-  });
+  WriteChanged(&file, points, nullptr, output);
+}
+
+void WriteC3dWithEvents(const std::string& input, const std::vector<C3dEvent>& events,
+                        const std::string& output) {
+  C3dFile file(input);
+  const std::vector<std::string> names = C3dPointNames(file, nullptr);
+  Points points;
+  for (int i = 0; i < file.layout().points; ++i) {
+    points.push_back(
+        {names[static_cast<std::size_t>(i)], i, {{0, static_cast<int>(file.layout().frames), i}}});
+  }
+  WriteChanged(&file, points, &events, output);
 }
 
 }  // namespace mmm_converter

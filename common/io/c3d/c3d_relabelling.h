@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/io/c3d/c3d_events.h"
+
 namespace mmm_converter {
 
 /// Frames [begin, end), counted from 0, that are stored for a point of the input.
@@ -30,6 +32,11 @@ struct C3dRelabelledPoint {
 ///         labels of more than 127 bytes, more than 255 blocks of parameters), parameters do
 ///         not stand between header and data, or the output can't be written.
 void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelledPoint>& points,
+                        const std::string& output);
+
+/// The same with all points as they are and these events in the group EVENT, in place of its own;
+/// those of the header stay. @throws Error as WriteRelabelledC3d, and for more than 255 events.
+void WriteC3dWithEvents(const std::string& input, const std::vector<C3dEvent>& events,
                         const std::string& output);
 
 }  // namespace mmm_converter

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -125,6 +128,62 @@ void Distribute(const Texts& texts, const std::string& name, int group,
   }
 }
 
+std::string NumberRecord(const std::string& name, int group, int type, std::vector<int> sizes,
+                         const std::string& data, C3dProcessor processor) {
+  std::string content{static_cast<char>(type), static_cast<char>(sizes.size())};
+  for (const int size : sizes) content += static_cast<char>(size);
+  content += data + '\0';
+  unsigned char offset[2];
+  StoreC3dWord(static_cast<int>(content.size() + 2), processor, offset);
+  return std::string{static_cast<char>(name.size()), static_cast<char>(group)} + name +
+         std::string(offset, offset + 2) + content;
+}
+
+// What each event has; other parameters of the group stay.
+constexpr const char* kOfEvents[] = {"USED",     "TIMES",        "LABELS",  "CONTEXTS",
+                                     "SUBJECTS", "DESCRIPTIONS", "ICON_IDS"};
+
+bool IsOfEvents(std::string name) {
+  while (!name.empty() && name.back() >= '0' && name.back() <= '9') name.pop_back();
+  return std::find(std::begin(kOfEvents), std::end(kOfEvents), name) != std::end(kOfEvents);
+}
+
+std::string EventRecords(const std::vector<C3dEvent>& events, int group, C3dProcessor processor) {
+  constexpr int kStrike = 1, kOff = 2;  // ICON_IDS of Vicon's
+  constexpr double kMinute = 60;
+  const int count = static_cast<int>(events.size());
+  unsigned char word[2];
+  unsigned char number[4];
+  std::string used, times, icons;
+  StoreC3dWord(count, processor, word);
+  used.append(word, word + 2);
+  for (const C3dEvent& event : events) {
+    const double minutes = std::floor(event.time / kMinute);
+    for (const double part : {minutes, event.time - kMinute * minutes}) {
+      StoreC3dFloat(static_cast<float>(part), processor, number);
+      times.append(number, number + 4);
+    }
+    const bool is_foot_off = event.label == "Foot Off";
+    StoreC3dWord(event.label == "Foot Strike" ? kStrike : (is_foot_off ? kOff : 0), processor,
+                 word);
+    icons.append(word, word + 2);
+  }
+  const auto texts = [&](const char* name, std::string C3dEvent::*of) {
+    TextRecord record;
+    record.head =
+        std::string{static_cast<char>(std::strlen(name)), static_cast<char>(group)} + name;
+    for (const C3dEvent& event : events) {
+      record.texts.push_back(event.*of);
+      record.width = std::max(record.width, std::min(kMostTexts, (event.*of).size()));
+    }
+    return Assemble(record, processor);
+  };
+  return NumberRecord("USED", group, 2, {}, used, processor) + texts("LABELS", &C3dEvent::label) +
+         texts("CONTEXTS", &C3dEvent::context) + texts("SUBJECTS", &C3dEvent::subject) +
+         NumberRecord("ICON_IDS", group, 2, {count}, icons, processor) +
+         NumberRecord("TIMES", group, 4, {2, count}, times, processor);
+}
+
 }  // namespace
 
 C3dSectionEdit::C3dSectionEdit(std::vector<unsigned char> section, const C3dParameters& parameters,
@@ -171,7 +230,7 @@ void C3dSectionEdit::SetPointTexts(const std::string& name, const Texts& texts) 
     records.push_back(TakeApart(section_, *one));
     counts.push_back(one->num_texts());
   }
-  const int group = before != nullptr ? section_[before->begin + 1] : GroupOfPoints();
+  const int group = before != nullptr ? section_[before->begin + 1] : GroupOf("POINT");
   Distribute(texts, name, group, counts, &records);
   std::string more;
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -198,26 +257,42 @@ const C3dParameter* C3dSectionEdit::FindOfPoints() const {
   return nullptr;
 }
 
-int C3dSectionEdit::GroupOfPoints() {
+int C3dSectionEdit::GroupOf(const std::string& name) {
   constexpr int kMostGroups = 127;
-  constexpr std::string_view kName = "POINT";
   std::set<int> used;
   for (const C3dParameter& one : parameters_.all()) {
     const int group = section_[one.begin + 1];
-    if (one.group == kName) return group;
+    if (one.group == name) return group;
     used.insert(group);
   }
-  if (new_group_ > 0) return new_group_;
-  new_group_ = kMostGroups;
-  while (used.contains(new_group_)) --new_group_;
-  std::string record{static_cast<char>(kName.size()), static_cast<char>(-new_group_)};
-  record += kName;
+  if (const auto begun = new_groups_.find(name); begun != new_groups_.end()) return begun->second;
+  for (const auto& [other, number] : new_groups_) used.insert(number);
+  int group = kMostGroups;
+  while (used.contains(group)) --group;
+  new_groups_[name] = group;
+  std::string record{static_cast<char>(name.size()), static_cast<char>(-group)};
+  record += name;
   unsigned char offset[2];
   StoreC3dWord(3, processor(), offset);  // two bytes of itself and an empty description
   record.append(offset, offset + 2);
   record += '\0';
   edits_.push_back({kSectionHeader, kSectionHeader, record});
-  return new_group_;
+  return group;
+}
+
+void C3dSectionEdit::SetEvents(const std::vector<C3dEvent>& events) {
+  if (events.size() > kMostTexts) {
+    throw Error(fmt::format("{}: {} events; a C3D file holds at most {}", file_, events.size(),
+                            kMostTexts));
+  }
+  const int group = GroupOf("EVENT");
+  std::size_t at = kSectionHeader;
+  for (const C3dParameter& one : parameters_.all()) {
+    if (one.group != "EVENT" || !IsOfEvents(one.name)) continue;
+    if (at == kSectionHeader) at = one.begin;
+    edits_.push_back({one.begin, one.end, ""});
+  }
+  edits_.push_back({at, at, EventRecords(events, group, processor())});
 }
 
 // Room for records; what stands behind the zeros stays where it is.
@@ -246,8 +321,9 @@ std::size_t C3dSectionEdit::MoreBlocks() const {
   if (after <= before || after - before + kEnd <= ZerosBehindRecords()) return 0;
   const std::size_t more = (after - before + kEnd + kBlock - 1) / kBlock;
   if (section_[2] + more <= kMostBlocks) return more;
-  throw Error(fmt::format("{}: with these labels the parameters need {} blocks; at most {} fit",
-                          file_, section_[2] + more, kMostBlocks));
+  throw Error(
+      fmt::format("{}: with these labels and events the parameters need {} blocks; at most {} fit",
+                  file_, section_[2] + more, kMostBlocks));
 }
 
 std::vector<unsigned char> C3dSectionEdit::Finish() const {

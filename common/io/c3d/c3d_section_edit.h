@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "common/io/c3d/c3d_events.h"
 #include "common/io/c3d/c3d_parameters.h"
 
 namespace mmm_converter {
@@ -29,13 +31,17 @@ class C3dSectionEdit {
   static std::vector<std::string> StoredTexts(const C3dParameters& parameters,
                                               const std::string& name);
 
-  /// Whether a list of texts changes.
+  /// EVENT:USED, TIMES, LABELS, CONTEXTS, SUBJECTS and ICON_IDS of these events, in place of
+  /// what the group has of its own, DESCRIPTIONS too. @throws Error where there are more than 255.
+  void SetEvents(const std::vector<C3dEvent>& events);
+
+  /// Whether a list of texts changes, or the events.
   bool HasNewTexts() const { return !edits_.empty(); }
 
   /// Makes the section say of itself that it has all blocks up to the data.
   void StateSize();
 
-  /// How many blocks longer the section becomes by the lists of texts.
+  /// How many blocks longer the section becomes by these.
   /// @throws Error where it would need more than 255.
   std::size_t MoreBlocks() const;
 
@@ -50,15 +56,15 @@ class C3dSectionEdit {
   C3dProcessor processor() const;
   /// A parameter of POINT that others can follow; null: there is none.
   const C3dParameter* FindOfPoints() const;
-  /// The number of the group POINT, which is begun where there is none.
-  int GroupOfPoints();
+  /// The number of a group, which is begun where there is none.
+  int GroupOf(const std::string& name);
   std::size_t ZerosBehindRecords() const;
 
   std::vector<unsigned char> section_;
   const C3dParameters& parameters_;
   std::string file_;
   std::vector<Edit> edits_;
-  int new_group_ = 0;
+  std::map<std::string, int> new_groups_;
 };
 
 }  // namespace mmm_converter

@@ -127,6 +127,43 @@ TEST(C3dRelabellingRealFiles, PointsOfRealFilesInAnotherOrder) {
   EXPECT_GE(files, 20);
 }
 
+TEST(C3dRelabellingRealFiles, EventsAreWrittenAndTheRestKept) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  int files = 0;
+  for (const std::string& file : RealFiles()) {
+    StrictC3d before;
+    try {
+      before = ReadStrictC3d(ReadFileContent(file));
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+    SCOPED_TRACE(file);
+    ++files;
+    const C3dLayout layout = C3dFile(file).layout();
+    const double first = layout.first_time(layout.rate);
+    const std::vector<C3dEvent> events = {
+        {first, "Foot Strike", "Left", "Anna", false},
+        {first + 0.5 / layout.rate, "Foot Off", "Right", "", false}};
+    WriteC3dWithEvents(file, events, Output());
+    const StrictC3d after = ReadStrictC3d(ReadFileContent(Output()));
+    std::erase_if(before.records, [](const auto& one) { return one.first.starts_with("EVENT:"); });
+    std::erase_if(before.order, [](const auto& one) { return one.starts_with("EVENT:"); });
+    ExpectTheRestKept(before, after);
+    EXPECT_EQ(after.words, before.words);
+    EXPECT_EQ(after.behind, before.behind);
+    std::vector<C3dEvent> read = ReadC3dEvents(C3dFile(Output()), nullptr);
+    std::erase_if(read, [](const C3dEvent& one) { return one.is_in_header; });
+    ASSERT_EQ(read.size(), events.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      EXPECT_NEAR(read[i].time, events[i].time, 1e-5);
+      EXPECT_EQ(read[i].label, events[i].label);
+      EXPECT_EQ(read[i].context, events[i].context);
+      EXPECT_EQ(read[i].subject, events[i].subject);
+    }
+  }
+  EXPECT_GE(files, 20);
+}
+
 // Half of the first point under a name of its own, the other half goes on as the second's, which
 // ends there; the third is left out.
 TEST(C3dRelabellingRealFiles, OtherNumbersOfPointsForEveryProcessor) {
@@ -202,6 +239,16 @@ TEST(C3dRelabelling, TheInputCanBeTheOutput) {
   const StrictC3d after = ReadStrictC3d(ReadFileContent(file));
   EXPECT_EQ(after.words[0][0], ReadStrictC3d(before).words[0][0]);
   EXPECT_THAT(after.labels, ElementsAre("BB", "A"));
+}
+
+TEST(C3dRelabelling, AFileHoldsAsManyEventsAsAByteCounts) {
+  const std::string file = SmallFile(SmallSection());
+  WriteC3dWithEvents(file, std::vector<C3dEvent>(255, {61.5, "Foot Off", "Left", "", false}), file);
+  const std::vector<C3dEvent> events = ReadC3dEvents(C3dFile(file), nullptr);
+  ASSERT_EQ(events.size(), 255);
+  EXPECT_NEAR(events.back().time, 61.5, 1e-5);
+  EXPECT_THROW(WriteC3dWithEvents(file, std::vector<C3dEvent>(256), file), Error);
+  EXPECT_EQ(ReadC3dEvents(C3dFile(file), nullptr).size(), 255);
 }
 
 TEST(C3dRelabelling, LabelsAreAddedWhereThereAreNone) {
