@@ -150,7 +150,7 @@ bool IsOfEvents(std::string name) {
 
 std::string EventRecords(const std::vector<C3dEvent>& events, int group, C3dProcessor processor) {
   constexpr int kStrike = 1, kOff = 2;  // ICON_IDS of Vicon's
-  constexpr double kMinute = 60;
+  constexpr double kSecondsPerMinute = 60;
   const int count = static_cast<int>(events.size());
   unsigned char word[2];
   unsigned char number[4];
@@ -158,8 +158,8 @@ std::string EventRecords(const std::vector<C3dEvent>& events, int group, C3dProc
   StoreC3dWord(count, processor, word);
   used.append(word, word + 2);
   for (const C3dEvent& event : events) {
-    const double minutes = std::floor(event.time / kMinute);
-    for (const double part : {minutes, event.time - kMinute * minutes}) {
+    const double minutes = std::floor(event.time / kSecondsPerMinute);
+    for (const double part : {minutes, event.time - kSecondsPerMinute * minutes}) {
       StoreC3dFloat(static_cast<float>(part), processor, number);
       times.append(number, number + 4);
     }
