@@ -97,11 +97,13 @@ void AddLabels(const TrackingSetup& matched, const MarkerSequence& markers, bool
 std::string AddMarkerSet(const Input& input, ConverterConfig config, const Subject* subject,
                          NameList* names) {
   std::string marker_set;
-  if (config.marker_pairs.empty() && config.marker_set == "auto") {
-    config.marker_set = kUsualMarkerSet;
-  }
   const KinematicModel& model = *input.reference;
-  std::vector<MarkerPair> pairs = ResolveMarkerPairs(config, {}, model, &marker_set);
+  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
+  if (is_free && !model.coordinates()) config.marker_set = kUsualMarkerSet;
+  std::vector<MarkerPair> pairs;
+  if (!is_free || !model.coordinates()) {
+    pairs = ResolveMarkerPairs(config, {}, model, &marker_set);
+  }
   if (pairs.empty()) pairs = OwnMarkerSet(model).pairs;
   std::set<std::string> worn;
   if (subject != nullptr) {
@@ -253,6 +255,7 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
   }
   found.person =
       FindLabelledPerson(request, hints, input, like ? &*like : nullptr, own, config, warnings);
+  UseModelsSubject(input, &found.person, warnings);
   const bool is_of_file = !found.person.subject_file.empty();
   if (is_of_file || names.empty()) {
     const std::string marker_set =
@@ -358,7 +361,9 @@ LabelReport LabelPoints(const LabelRequest& request, const ReadBefore& read_befo
   LabelHints hints = request.hints;
   hints.taken = NamesThatStay(request.output, recording);
   MatchModel(request.input, &report.input, &config);
-  CheckIsNoOsim(report.input, "finding names of points");
+  if (report.input.reference->is_root_fixed()) {
+    CheckIsNoOsim(report.input, "finding names of points");
+  }
   report.found = FindLabels(request.input, hints, report.input, config, progress, warnings);
   return report;
 }
@@ -379,8 +384,9 @@ LabelReport RunLabelling(const LabelRequest& request,
   const Recording& recording = report.input.recording;
   const FoundLabels& found = report.found;
   const bool is_calibrated = found.person.subject != nullptr;
+  const bool has_size = is_calibrated || report.input.reference->coordinates();
   report.fit =
-      FitLabels(found, recording.markers, is_calibrated ? nullptr : report.input.reference.get());
+      FitLabels(found, recording.markers, has_size ? nullptr : report.input.reference.get());
   report.verdict = JudgeLabels(
       {recording, found.labelling, report.fit, is_calibrated, found.person.height.value});
   return report;

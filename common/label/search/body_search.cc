@@ -139,7 +139,7 @@ std::vector<BodySearch::Candidate> BodySearch::TurnedTemplates(const Ref<const M
           continue;
         }
         Candidate candidate;
-        candidate.posture.orientation = Eigen::Quaterniond(turn(yaw));
+        candidate.posture.orientation = Eigen::Quaterniond(turn(yaw)) * start.orientation;
         candidate.posture.position = middle - turn(yaw) * centre;
         candidate.posture.joint_angles = start.joint_angles;
         candidate.cost = costs[yaw];

@@ -8,6 +8,7 @@
 
 #include "common/fit/posture_fit.h"
 #include "common/label/tuning.h"
+#include "common/model/coordinate_map.h"
 
 namespace mmm_converter {
 
@@ -71,10 +72,16 @@ LabelBody::LabelBody(const TrackingSetup& setup)
     }
   }
   FindLimbs();
+  Posture rest;
+  rest.orientation = RestPosture(*setup.model).orientation;
+  rest.joint_angles = natural_angles;
+  if (setup.model->coordinates()) {
+    templates.push_back(std::move(rest));
+    return;
+  }
   for (const Angles& arms : ArmTemplates()) {
     for (const Angles& legs : LegTemplates()) {
-      Posture posture;
-      posture.joint_angles = natural_angles;
+      Posture posture = rest;
       SetAngles(*setup.model, kinematics, arms, &posture);
       SetAngles(*setup.model, kinematics, legs, &posture);
       templates.push_back(std::move(posture));

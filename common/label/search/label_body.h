@@ -32,7 +32,7 @@ struct LabelBody {
   std::vector<Limb> limbs;
   std::vector<int> limb_of_marker;  ///< -1: the trunk
   /// Postures to start from, with the root at the origin and upright: arms and legs in several
-  /// ways.
+  /// ways; of a model of OpenSim the one at rest.
   std::vector<Posture> templates;
 
  private:
