@@ -59,7 +59,7 @@ std::string ChangedSegments(const Subject& subject) {
   return JoinLargest(std::move(changed), "none by more than 1 %");
 }
 
-std::string MovedMarkers(const Subject& subject) {
+std::string LargestOffsets(const Subject& subject) {
   std::vector<Named> moved;
   moved.reserve(subject.offsets.size());
   for (const MarkerOffset& offset : subject.offsets) {
@@ -122,7 +122,7 @@ std::string FormatSubjectSummary(const Subject& subject) {
   return CalibrationLine("segments", ChangedSegments(subject)) +
          CalibrationLine("offsets",
                          fmt::format("mean {:.1f} mm; largest: {}",
-                                     kMillimetres * MeanOffset(subject), MovedMarkers(subject))) +
+                                     kMillimetres * MeanOffset(subject), LargestOffsets(subject))) +
          CalibrationLine("unknown", UndeterminedNames(subject) +
                                         " (half or more of it is what was assumed beforehand)") +
          DoubtsLine(subject);
