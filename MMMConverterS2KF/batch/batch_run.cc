@@ -101,6 +101,7 @@ class BatchRunner {
     JournalRecord record = Begin(entry);
     CrashNote note(options_.output, options_.shard, options_.shards, record);
     std::string reason;
+    bool is_tried = false;
     try {
       if (const JournalRecord* crash = FindCrash(entry, "")) return NoteCrash(*crash);
       persons_.WaitFor(entry);
@@ -112,11 +113,13 @@ class BatchRunner {
       note.Update(record);
       for (const std::string& output : folder_.OutputsOf(entry)) folder_.MakeReady(output);
       if (IsDone(entry, record.fingerprint)) return NoteUnchanged();
+      is_tried = true;
       return Convert(entry, read_before, &record, &note, start);
     } catch (const WriteError& error) {
       if (error.concerns_disk()) return End(error.what());
       reason = error.what();
     } catch (const std::bad_alloc&) {
+      is_tried = false;
       reason = entry.request.input.file + ": there is not enough memory for it; use fewer --jobs";
     } catch (const Error& error) {
       reason = WithManifestAdvice(error);
@@ -124,14 +127,19 @@ class BatchRunner {
       reason = fmt::format("{}: unexpected: {}", entry.request.input.file, error.what());
     }
     if (IsEnding()) return;  // that is why it failed
-    SetOutputsAside(entry);
+    if (is_tried) SetOutputsAside(entry);
     NoteFailed(entry, record.fingerprint, reason, SecondsSince(start));
   }
 
-  // What was made of the recording before is not what it shows now.
+  // What was made of the recording before it changed is not what it shows now.
   void SetOutputsAside(const BatchEntry& entry) const {
     std::error_code failure;
     if (!std::filesystem::exists(entry.request.input.file, failure)) return;
+    const auto found = done_.find(entry.id);
+    if (found != done_.end() && found->second.result.converted() &&
+        IsRecordingUnchanged(entry, found->second)) {
+      return;
+    }
     for (const std::string& output : folder_.OutputsOf(entry)) folder_.SetAside(output);
     folder_.SetAside(PagePath(entry.id));
   }
@@ -189,6 +197,7 @@ class BatchRunner {
     folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     WriteConversion(request, &report);
     for (const std::string& output : outputs) folder_.Remove(output + kOutdated);
+    folder_.Remove(PagePath(entry.id) + kOutdated);
     if (options_.reports.all) {
       WritePage(entry, report, &folder_);
       outputs.push_back(PagePath(entry.id));

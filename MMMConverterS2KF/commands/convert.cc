@@ -16,7 +16,10 @@
 #include "common/pipeline/all_motions.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/exporters.h"
+#include "common/pipeline/motion_output.h"
+#include "common/pipeline/osim_scaling_run.h"
 #include "common/support/atomic_file.h"
+#include "common/support/output_plan.h"
 
 namespace mmm_converter {
 namespace {
@@ -127,13 +130,21 @@ int ConvertSeveral(const Arguments& arguments) {
         "convert: --{} is of one recording, but there are {}; batch has a place for all", option,
         arguments.positionals().size()));
   }
-  std::vector<ConversionReport> reports;
-  int failures = 0;
+  std::vector<ConversionRequest> requests;
+  OutputPlan plan;
   for (const std::string& file : arguments.positionals()) {
-    ConversionRequest request = MakeConversionRequest(arguments, file);
-    if (request.motion_name == kAllMotions) {
+    requests.push_back(MakeConversionRequest(arguments, file));
+    if (requests.back().motion_name == kAllMotions) {
       throw UsageError("convert: --motion all is of one file");
     }
+    plan.Read(file);
+    plan.Write(DefaultOutput(file, IsOsimModel(requests.back().input)));
+  }
+  plan.Write(arguments.Get("report").value_or(""));
+  plan.Check();
+  std::vector<ConversionReport> reports;
+  int failures = 0;
+  for (const ConversionRequest& request : requests) {
     ProgressBar bar("frames");
     const auto progress = [&](int done, int all) {
       bar.Show(done, all);

@@ -23,8 +23,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kDefaultCalibration = 15;  // [s]
-
 const OptionGroup kOutputOptions = {
     "Files",
     {{"output,o", "FILE",
@@ -93,8 +91,8 @@ LiveRequest MakeLiveRequest(const Arguments& arguments) {
   const auto calibration = arguments.GetNumber("calibrate-seconds", "seconds, e.g. 15");
   if (request.self_calibrate) {
     request.calibration_time = calibration.value_or(kDefaultCalibration);
-    if (!(request.calibration_time >= 1)) {
-      throw UsageError("live: --calibrate-seconds is at least 1");
+    if (!IsCalibrationTime(request.calibration_time)) {
+      throw UsageError(fmt::format("live: --calibrate-seconds is {}", DescribeCalibrationTime()));
     }
   } else if (calibration || arguments.Has("subject-out")) {
     throw UsageError("live: --calibrate-seconds and --subject-out need --self-calibrate");

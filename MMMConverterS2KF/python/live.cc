@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Postures while frames come.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -49,6 +50,7 @@ class Live {
   ~Live() {
     const py::gil_scoped_release release;
     End();
+    stream_.reset();
   }
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
@@ -202,8 +204,6 @@ class Live {
   std::unique_ptr<LiveStream> stream_;  // the last: its threads use the others
 };
 
-constexpr double kDefaultCalibration = 15;  // [s]
-
 LiveRequest LiveRequestOf(const py::dict& options, bool loops, double calibrate_seconds,
                           double seconds) {
   LiveRequest request;
@@ -213,7 +213,9 @@ LiveRequest LiveRequestOf(const py::dict& options, bool loops, double calibrate_
   request.longest = seconds;
   if (request.self_calibrate) {
     request.calibration_time = calibrate_seconds > 0 ? calibrate_seconds : kDefaultCalibration;
-    if (request.calibration_time < 1) throw Error("calibrate_seconds: is at least 1");
+    if (!IsCalibrationTime(request.calibration_time)) {
+      throw Error(fmt::format("calibrate_seconds: is {}", DescribeCalibrationTime()));
+    }
   }
   return request;
 }

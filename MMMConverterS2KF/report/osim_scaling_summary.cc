@@ -96,7 +96,6 @@ Json ToJson(const OsimScalingReport& report, const std::string& file) {
     summary["calibration"] = ToJson(*report.result);
     summary["size"] = report.size;
     summary["subject"] = ToJson(report.result->subject);
-    if (report.result->subject.height == 0) summary["subject"]["height_m"] = nullptr;
     for (const BodyFactors& body : FactorsOf(report, report.result->subject)) {
       const Eigen::Vector3d& deviations = body.deviations;
       summary["factor_deviations"][body.name] = {deviations.x(), deviations.y(), deviations.z()};

@@ -60,7 +60,7 @@ Json ToJson(const Subject& subject) {
   }
   Json json = {{"name", subject.name},
                {"model", subject.model},
-               {"height_m", Decimals(subject.height)},
+               {"height_m", subject.height > 0 ? Json(Decimals(subject.height)) : Json(nullptr)},
                {"mass_kg", Decimals(subject.mass)}};
   if (subject.hand_length) json["hand_length_m"] = Decimals(*subject.hand_length);
   json["segments"] = std::move(segments);

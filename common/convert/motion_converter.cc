@@ -157,20 +157,20 @@ ConversionResult MotionConverter::Convert(const MarkerSequence& recording,
       throw Error(fmt::format("cancelled after {} of {} frames", done, frames));
     }
   };
+  for (int k = first.assembled; k < frames; ++k) {
+    const Clock::time_point start = Clock::now();
+    write(k, k == first.assembled ? Assemble(recording.frame(k)) : Track(recording.frame(k), dt),
+          start);
+    show(k + 1);
+  }
   int earliest = first.assembled;
-  if (first.seen < first.assembled) Assemble(recording.frame(first.assembled));
+  if (first.seen < earliest) Assemble(recording.frame(earliest));
   for (; earliest > first.seen; --earliest) {
     const Clock::time_point start = Clock::now();
     const FrameEstimate& estimate = Track(recording.frame(earliest - 1), dt);
     if (!IsTracked(estimate)) break;
     write(earliest - 1, estimate, start);
     show(0);
-  }
-  for (int k = first.assembled; k < frames; ++k) {
-    const Clock::time_point start = Clock::now();
-    write(k, k == first.assembled ? Assemble(recording.frame(k)) : Track(recording.frame(k), dt),
-          start);
-    show(k + 1);
   }
   writer.WriteEarlier(earliest);
   return writer.Finish();

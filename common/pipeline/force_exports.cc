@@ -67,16 +67,17 @@ bool IsC3d(const std::string& file) {
 /// Those of the recording but where and what contacts tell, and these.
 std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
   const PoseTrajectory& motion = report.result.trajectory;
+  const std::string& person = report.plan.input.recording.subject;
   std::vector<C3dEvent> events = ReadC3dEvents(C3dFile(report.plan.input.recording.file), nullptr);
   std::erase_if(events, [&](const C3dEvent& one) {
     const std::string label = ToLower(one.label);
     const bool is_told = label == "foot strike" || label == "foot off";
-    return one.is_in_header || (is_told && one.time >= motion.first_time &&
+    const bool is_of_person = one.subject.empty() || person.empty() || one.subject == person;
+    return one.is_in_header || (is_told && is_of_person && one.time >= motion.first_time &&
                                 one.time <= motion.time(motion.num_frames() - 1));
   });
   for (const ContactEvent& one : EventsOf(contacts)) {
-    events.push_back(
-        {one.time, one.label, ContextOf(one.side), report.plan.input.recording.subject, false});
+    events.push_back({one.time, one.label, ContextOf(one.side), person, false});
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const C3dEvent& a, const C3dEvent& b) { return a.time < b.time; });

@@ -206,7 +206,9 @@ std::string MassSentence(const ConversionReport& report, const GroundStudy& grou
                                         ground.mass->mass, ground.mass->deviation);
   if (!(mass.value > 0)) return borne;
   return fmt::format("{}, the person's mass is {:.1f} kg ({}){}", borne, mass.value, mass.source,
-                     IsAssumed(mass) ? "; forces and moments are of what the plates bore" : "");
+                     IsAssumed(mass) && ground.joint_forces
+                         ? "; forces and moments are of what the plates bore"
+                         : "");
 }
 
 JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,

@@ -69,10 +69,6 @@ TextPieces Format(const ConversionRequest& request, const std::vector<Conversion
   return first.plan.output_format == "1.0" ? FormatMmmMotion1(output) : FormatMmmMotion2(output);
 }
 
-std::string DefaultOutput(const fs::path& input, bool is_osim) {
-  return (input.parent_path() / (input.stem().string() + (is_osim ? ".mot" : "_mmm.xml"))).string();
-}
-
 bool IsNamedAsOfOpenSim(const fs::path& output) {
   return output.extension() == ".mot" || output.extension() == ".sto";
 }
@@ -89,6 +85,11 @@ std::string NameOf(const Recording& recording) {
 }
 
 }  // namespace
+
+std::string DefaultOutput(const std::string& file, bool is_osim) {
+  const fs::path input = file;
+  return (input.parent_path() / (input.stem().string() + (is_osim ? ".mot" : "_mmm.xml"))).string();
+}
 
 bool IsOsimMotion(const ConversionPlan& plan) {
   return plan.setup.model && WritesCoordinates(*plan.setup.model, plan.output);

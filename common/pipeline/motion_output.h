@@ -9,6 +9,9 @@
 
 namespace mmm_converter {
 
+/// Where the motion of a recording goes if nobody says: beside it.
+std::string DefaultOutput(const std::string& file, bool is_osim);
+
 /// Where the motion goes (as asked for, else the input's stem + "_mmm.xml" beside it, with a model
 /// of OpenSim ".mot"), in which format, and what it is called (as asked for, else as in the
 /// recording, else as the file; of several motions of a file each as it is).

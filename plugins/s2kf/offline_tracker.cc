@@ -180,6 +180,10 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
   for (int k = 0; k < first; ++k) {
     Write(k, estimate, result);
     result->residuals.col(k).setConstant(kNaN);  // the posture is not of this frame
+    FrameDiagnostic unknown;
+    unknown.markers_seen = result->frames[k].markers_seen;
+    unknown.seconds = result->frames[k].seconds;
+    result->frames[k] = unknown;
   }
 }
 

@@ -60,7 +60,7 @@ std::string Renamed(int first, int end, int hidden = 0, double lower = 0) {
       renamed.frame(k).setConstant(kNaN);
     } else {
       renamed.frame(k) = sample.frame(k)(Eigen::all, columns);
-      renamed.frame(k)(2, renamed.FindLabel("TV10")) -= lower;
+      if (lower > 0) renamed.frame(k)(2, renamed.FindLabel("TV10")) -= lower;
     }
   }
   std::string file = TestFolder() + "/cast.c3d";

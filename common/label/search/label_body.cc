@@ -73,7 +73,7 @@ LabelBody::LabelBody(const TrackingSetup& setup)
   }
   FindLimbs();
   Posture rest;
-  rest.orientation = RestPosture(*setup.model).orientation;
+  if (setup.model->coordinates()) rest.orientation = RestPosture(*setup.model).orientation;
   rest.joint_angles = natural_angles;
   if (setup.model->coordinates()) {
     templates.push_back(std::move(rest));

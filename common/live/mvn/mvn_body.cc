@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
@@ -112,8 +113,9 @@ MvnPoses MvnBody::Poses(const KinematicModel& model, const Posture& posture) con
 MvnPoses MvnBody::TPose(const KinematicModel& model) const {
   Posture posture = ZeroPosture(model);
   posture.joint_angles.setZero();
-  posture.joint_angles[model.FindJoint("LSy_joint")] = M_PI / 2;
-  posture.joint_angles[model.FindJoint("RSy_joint")] = -M_PI / 2;
+  for (const auto& [name, angle] : {std::pair("LSy_joint", M_PI / 2), {"RSy_joint", -M_PI / 2}}) {
+    if (const int j = model.FindJoint(name); j >= 0) posture.joint_angles[j] = angle;
+  }
   MvnPoses poses = Poses(model, posture);
   const Quaterniond to_x = AxesAtZero(Side::kMiddle).conjugate();
   const Vector3d pelvis = poses.front().translation();

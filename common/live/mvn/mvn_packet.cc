@@ -105,7 +105,12 @@ std::string FormatMvnPoses(const MvnMoment& moment, const MvnPoses& poses) {
 }
 
 std::string FormatMvnName(const MvnMoment& moment, const std::string& name) {
-  std::string line = name.substr(0, kLongestName);
+  std::size_t end = std::min(name.size(), kLongestName);
+  const auto is_within_character = [&](std::size_t i) {
+    return (name[i] & 0xC0) == 0x80;
+  };  // UTF-8
+  while (end > 0 && end < name.size() && is_within_character(end)) --end;
+  std::string line = name.substr(0, end);
   std::replace_if(
       line.begin(), line.end(), [](unsigned char c) { return c < ' '; }, ' ');
   return Datagram("12", moment, 1, "name:" + line + "\n");

@@ -78,6 +78,9 @@ class MvnSink : public PoseSink {
       }
       kinds.push_back(kind);
     }
+    if (kinds.empty()) {
+      throw Error(fmt::format("{}: kinds are {}", address, fmt::join(kKinds, ", ")));
+    }
     return kinds;
   }
 

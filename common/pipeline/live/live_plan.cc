@@ -70,6 +70,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
   const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
   plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
+  if (!plan.object) UseModelsSubject(plan.input, &plan.person, warnings);
   ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
   if (request.calibration_time > 0 && config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");

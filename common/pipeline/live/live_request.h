@@ -8,6 +8,14 @@
 
 namespace mmm_converter {
 
+constexpr double kDefaultCalibration = 15;   ///< [s]
+constexpr double kLongestCalibration = 120;  ///< [s] frames are kept for so long
+
+inline bool IsCalibrationTime(double seconds) {
+  return seconds >= 1 && seconds <= kLongestCalibration;
+}
+inline const char* DescribeCalibrationTime() { return "1 to 120 seconds"; }
+
 /// What the user asked for. input.file: the address of the source; label: points are named by the
 /// body, whatever the source calls them. Empty: a default.
 struct LiveRequest : ConversionRequest {

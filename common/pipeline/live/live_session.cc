@@ -16,10 +16,9 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kMeasuredTime = 3;        // [s] of frames that tell the height and the names
-constexpr Eigen::Index kFewestSeen = 10;   // markers
-constexpr double kLongestGathering = 120;  // [s]
-constexpr double kUsualRate = 100;         // [Hz] of a source that states none
+constexpr double kMeasuredTime = 3;       // [s] of frames that tell the height and the names
+constexpr Eigen::Index kFewestSeen = 10;  // markers
+constexpr double kUsualRate = 100;        // [Hz] of a source that states none
 
 // Enough to tell a height.
 bool ShowsPerson(const StreamFrame& frame) {
@@ -183,7 +182,7 @@ void LiveSession::TakeCalibration() {
     Use(std::move(calibrated.person.setup), true, std::move(calibrated.converter));
   } catch (const Error& error) {
     calibration_time_ *= 2;
-    const bool goes_on = calibration_time_ <= kLongestGathering;
+    const bool goes_on = calibration_time_ <= kLongestCalibration;
     Say(fmt::format("calibration: {}{}", error.what(),
                     goes_on ? "; once more, with more movement" : "; it is given up"));
     if (goes_on) {
