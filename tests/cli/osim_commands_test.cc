@@ -119,7 +119,7 @@ TEST(OsimCommands, ThePersonIsCalibratedByRecordings) {
                   OutFile("standing.osim"), "--summary", OutFile("standing.json"), "--report",
                   OutFile("standing.html"), "--name", "A--na"});
   ASSERT_EQ(standing.exit_code, 0) << standing.err;
-  EXPECT_THAT(ReadText(OutFile("standing.html")), HasSubstr("The person \"A--na\""));
+  EXPECT_THAT(ReadText(OutFile("standing.html")), HasSubstr("<h1>Calibration of A--na</h1>"));
   EXPECT_THAT(standing.out, HasSubstr("verdict    good"));
   const Json summary = Json::parse(ReadText(OutFile("standing.json")));
   EXPECT_EQ(summary["verdict"]["level"], "good");

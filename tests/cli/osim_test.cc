@@ -239,7 +239,7 @@ TEST(Osim, WhatCannotBeDoneWithItIsSaidBeforeTheWork) {
                        out + ".mot", "--export-bvh", out + ".bvh"}),
               HasSubstr("joints that turn only"));
   EXPECT_THAT(
-      refusal({"label", floating.recording, "--model", floating.model_file, "-o", out + ".c3d"}),
+      refusal({"label", grounded.recording, "--model", grounded.model_file, "-o", out + ".c3d"}),
       HasSubstr("can't be done with a model of OpenSim"));
   EXPECT_THAT(refusal({"convert", floating.recording, "--marker-file", floating.model_file, "-o",
                        out + ".xml"}),

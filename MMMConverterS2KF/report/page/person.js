@@ -69,7 +69,8 @@ class PersonPart {
     if (!subject) return;
     const sources = subject.sources.map((one) => `${one.recording} (${plural(one.frames, "frame")})`);
     byId("person-caption").textContent =
-      `${subject.name || "The person"}, ${formatNumber(subject.height_m, 3)} m, ` +
+      `${subject.name || "The person"}, ` +
+      (subject.height_m === null ? "" : `${formatNumber(subject.height_m, 3)} m, `) +
       `${formatNumber(subject.mass_kg, 1)} kg` +
       (sources.length ? `, calibrated on ${sources.join(", ")}.` : ".");
     replaceContent(byId("person-segments"), makeSegmentTable(subject.segments));
