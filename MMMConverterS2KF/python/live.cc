@@ -48,9 +48,12 @@ class Live {
   Live(LiveRequest request, const py::object& tell)
       : request_(std::move(request)), tell_(tell), stream_(MakeStream()) {}
   ~Live() {
-    const py::gil_scoped_release release;
-    End();
-    stream_.reset();
+    try {
+      const py::gil_scoped_release release;
+      End();
+      stream_.reset();
+    } catch (const std::exception&) {  // nobody is there to hear of it
+    }
   }
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
