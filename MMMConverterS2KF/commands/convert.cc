@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/request_options.h"
@@ -132,7 +134,11 @@ int ConvertSeveral(const Arguments& arguments) {
   }
   std::vector<ConversionRequest> requests;
   OutputPlan plan;
+  std::set<std::filesystem::path> named;
   for (const std::string& file : arguments.positionals()) {
+    if (!named.insert(std::filesystem::weakly_canonical(file)).second) {
+      throw UsageError(fmt::format("convert: {} is named twice", file));
+    }
     requests.push_back(MakeConversionRequest(arguments, file));
     if (requests.back().motion_name == kAllMotions) {
       throw UsageError("convert: --motion all is of one file");

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <utility>
@@ -60,6 +61,10 @@ ReadRecordingResult FromArrays(const std::vector<std::string>& labels, const Num
     if (known.insert(label).second) continue;
     throw Error(
         fmt::format("labels: {} is there twice; each marker needs a name of its own", label));
+  }
+  const double* begin = positions.data();
+  if (std::any_of(begin, begin + positions.size(), [](double x) { return std::isinf(x); })) {
+    throw Error("markers: infinite; a marker that is not seen is NaN");
   }
   auto recording = std::make_shared<Recording>();
   recording->file = name;

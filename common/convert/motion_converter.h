@@ -81,9 +81,8 @@ class MotionConverter {
   /// A whole recording, whose labels are those of the setup: Assemble on the first frame that shows
   /// a third of the assigned markers (where none of a second does, on that with most), Track on the
   /// next ones and then backward from there while it finds three. Earlier frames take the first
-  /// posture, not converged; those of a smoothed motion take it up to the first that is assembled.
-  /// progress(k): frames done, 0 while tracking goes backward; may be empty; returning false
-  /// cancels (an Error is thrown).
+  /// posture, not converged. progress(k): frames done, 0 while tracking goes backward; may be
+  /// empty; returning false cancels (an Error is thrown).
   /// @throws Error where no frame shows three assigned markers.
   virtual ConversionResult Convert(const MarkerSequence& recording,
                                    const std::function<bool(int)>& progress);

@@ -129,6 +129,24 @@ ReadBefore LabelFirst(const ConversionRequest& request, ReadBefore read_before,
   return read_before;
 }
 
+void PlanBody(const ConversionRequest& request, const MarkerLabels& labels, ConversionPlan* plan) {
+  const ConverterConfig& config = plan->converter.config;
+  Warnings* warnings = &plan->warnings;
+  plan->input.keeps_usual_places = request.self_calibrate ||
+                                   !request.input.person.subject_file.empty() ||
+                                   !config.subject_file.empty();
+  plan->setup = MatchLabels(labels, &plan->input, config, warnings);
+  TellPlaces(plan->input, &plan->setup);
+  WarnOfFreeJoints(plan->setup, config, warnings);
+  CheckDeterminesPose(plan->input, plan->setup.mapping);
+  if (plan->object) TrustMarkersOfObject(&plan->setup.mapping);
+  const PersonRequest person = plan->object ? PersonRequest() : request.input.person;
+  plan->person = FindPerson(person, plan->setup, plan->input.recording, config, warnings,
+                            plan->input.names.get());
+  if (!plan->object) UseModelsSubject(plan->input, &plan->person, warnings);
+  ScaleToPerson(ScalingOf(plan->person, config), &plan->setup);
+}
+
 ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
   ConversionPlan plan;
   Warnings* warnings = &plan.warnings;
@@ -158,19 +176,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
     config = ConfigOfObject(plan.input, config);
   }
 
-  plan.input.keeps_usual_places = request.self_calibrate ||
-                                  !request.input.person.subject_file.empty() ||
-                                  !config.subject_file.empty();
-  plan.setup =
-      MatchLabels(LabelsOf(recording.markers, recording.file), &plan.input, config, warnings);
-  TellPlaces(plan.input, &plan.setup);
-  WarnOfFreeJoints(plan.setup, config, warnings);
-  CheckDeterminesPose(plan.input, plan.setup.mapping);
-  if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
-  const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
-  plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
-  if (!plan.object) UseModelsSubject(plan.input, &plan.person, warnings);
-  ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
+  PlanBody(request, LabelsOf(recording.markers, recording.file), &plan);
   CheckHasSubject(request, plan);
   CheckExports(request.exports, *plan.setup.model);
   plan.subject_output = request.subject_output;

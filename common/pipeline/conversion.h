@@ -83,6 +83,11 @@ const std::string& LabelOf(const ConversionPlan& plan, int assignment);
 ReadBefore LabelFirst(const ConversionRequest& request, ReadBefore read_before,
                       const std::function<bool(int, int)>& progress);
 
+/// Matches labels to markers, finds the person of the input's recording and scales the model: the
+/// plan's setup and person, of its input, configuration and object.
+/// @throws Error
+void PlanBody(const ConversionRequest& request, const MarkerLabels& labels, ConversionPlan* plan);
+
 /// Reads the recording, the model and the configuration, matches the markers, finds the person or
 /// the object, and what is written where.
 /// @throws Error

@@ -139,7 +139,8 @@ AnatomicalAngles LegMoments(const ConversionReport& report, const JointForces& f
   return rows;
 }
 
-/// Where a leg shows what the verdict asks of it; without limbs, where the body is seen.
+/// Where a leg shows what the verdict asks of it; without limbs, where the body is seen. By frame
+/// of TrackedMotion.
 KnownLegs FindKnownLegs(const ConversionReport& report) {
   const MarkerSequence& markers = report.plan.input.recording.markers;
   const Eigen::MatrixXd& residuals = report.result.residuals;
@@ -150,7 +151,7 @@ KnownLegs FindKnownLegs(const ConversionReport& report) {
     const auto limb =
         std::find_if(limbs.begin(), limbs.end(), [&](const Limb& one) { return one.name == name; });
     std::vector<bool>& leg = known[static_cast<std::size_t>(side)];
-    for (int k = 0; k < markers.num_frames(); ++k) {
+    for (int k = FramesBeforeFirstSeen(residuals); k < markers.num_frames(); ++k) {
       bool is_known = residuals.col(k).array().isFinite().any();
       if (is_known && limb != limbs.end()) {
         const auto seen = std::count_if(limb->labels.begin(), limb->labels.end(), [&](int label) {
@@ -187,7 +188,7 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, W
     ground.forces =
         std::make_shared<const RecordedForces>(GroundForces(report.plan.input, warnings));
   }
-  ground.feet = MoveFeet(*report.plan.setup.model, report.result.trajectory);
+  ground.feet = MoveFeet(*report.plan.setup.model, TrackedMotion(report.result));
   ground.contacts = FindContacts(ground.feet, *ground.forces);
   ground.mass = EstimateMass(ground.contacts, *ground.forces);
   return std::make_shared<const GroundStudy>(std::move(ground));

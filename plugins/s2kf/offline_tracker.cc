@@ -177,13 +177,12 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
     }
   }
   const int first = checkpoints_.front().frame;
-  for (int k = 0; k < first; ++k) {
+  int begin = first;
+  for (const Belief& earlier : earlier_) Write(--begin, earlier, result);
+  if (!earlier_.empty()) estimate = earlier_.back();
+  for (int k = 0; k < begin; ++k) {
     Write(k, estimate, result);
     result->residuals.col(k).setConstant(kNaN);  // the posture is not of this frame
-    FrameDiagnostic unknown;
-    unknown.markers_seen = result->frames[k].markers_seen;
-    unknown.seconds = result->frames[k].seconds;
-    result->frames[k] = unknown;
   }
 }
 

@@ -30,9 +30,12 @@ class OfflineTracker {
   /// state, frame: after frame k; from the first tracked frame on, in order.
   void Keep(int k, const TrackState& state, const TrackedFrame& frame);
 
+  /// After a frame before the first of Keep, tracked backward from there, the last one first.
+  void KeepEarlier(const TrackState& state) { earlier_.push_back(state.belief); }
+
   /// result: of the tracker, all frames; its postures, standard deviations and residuals are
-  /// replaced by the smoothed ones, its times grow. Frames before the first tracked one take that
-  /// one's posture.
+  /// replaced by the smoothed ones, its times grow. Frames of KeepEarlier have the filter's; those
+  /// before them take the first one's posture.
   void Smooth(bool keeps_covariances, ConversionResult* result);
 
  private:
@@ -73,6 +76,7 @@ class OfflineTracker {
   double clip_;  // a farther marker is a wrong one [m]
   double dt_;    // [s]
   std::vector<Checkpoint> checkpoints_;
+  std::vector<Belief> earlier_;
   /// Of the gate, markers x frames (GateState::verdicts).
   Eigen::Matrix<std::int16_t, Eigen::Dynamic, Eigen::Dynamic> verdicts_;
   std::vector<double> distances_;  // of all markers in each frame [m]

@@ -159,7 +159,11 @@ ConversionResult S2kfConverter::Smooth(const MarkerSequence& recording,
   S2kfConverter filter(setup(), settings_, worn_, Deviations::kLater);
   OfflineTracker offline(recording, settings_, markers_, &filter.tracker_);
   ConversionResult result = filter.MotionConverter::Convert(recording, [&](int done) {
-    if (done > 0) offline.Keep(done - 1, filter.track_, filter.frame_);
+    if (done > 0) {
+      offline.Keep(done - 1, filter.track_, filter.frame_);
+    } else {
+      offline.KeepEarlier(filter.track_);
+    }
     return !progress || progress(done);
   });
   offline.Smooth(keeps_covariances_, &result);

@@ -195,6 +195,14 @@ TEST_F(RealForceExports, StairsAreFourStepsOfTwoFeet) {
              {"left", "right", "left", "right"});
 }
 
+// The right foot swings when the person is seen first, in frame 134; before, nobody knows.
+TEST_F(RealForceExports, NothingIsSaidOfFeetBeforeTheyAreSeen) {
+  const auto events = ContactsOf("field/osim_test_walking.c3d")["events"];
+  ASSERT_FALSE(events.empty());
+  EXPECT_NEAR(events[0]["time_s"].get<double>(), 0.687, 0.03) << events[0];
+  EXPECT_EQ(events[0]["label"], "Foot Strike");
+}
+
 TEST_F(RealForceExports, EventsInACopyOfTheRecording) {
   const std::string walk = testing::SharedData("field/btk_FunctionalWalk.c3d");
   ASSERT_EQ(RunProgram({"convert", walk, "-o", Out("o.xml"), "--export-contacts", Out("o.c3d")})

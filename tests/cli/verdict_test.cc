@@ -322,11 +322,14 @@ TEST(Verdict, WhoComesLateIsNotFarFromTheModel) {
 
 // Who comes in little by little is tracked backward from where most of the body is there.
 TEST(Verdict, WhoComesInPartIsTrackedFromThreeMarkersOn) {
-  const Judged judged = ConvertMarkers(Changed([](int k, int i, Point p) {
+  const MarkerSequence markers = Changed([](int k, int i, Point p) {
     if (k < 60 && i > 8) p.setConstant(kNaN);
-  }));
-  EXPECT_THAT(judged.reasons, Not(HasSubstr("too few markers to begin")));
-  EXPECT_THAT(judged.reasons, Not(HasSubstr("from the model")));
+  });
+  for (const char* preset : {"s2kf_default", "s2kf_offline"}) {
+    const Judged judged = ConvertMarkers(markers, {"--height", "1.8", "-c", preset});
+    EXPECT_THAT(judged.reasons, Not(HasSubstr("too few markers to begin"))) << preset;
+    EXPECT_THAT(judged.reasons, Not(HasSubstr("from the model"))) << preset;
+  }
 }
 
 TEST(Verdict, AMarkerThatIsFarForAMoment) {

@@ -20,7 +20,7 @@ import mmmconverter
 from support import ROOT
 
 MODULES = ("mmmconverter", "mmmconverter._angles", "mmmconverter._recordings", "mmmconverter._models",
-           "mmmconverter._conversions", "mmmconverter._studies", "mmmconverter._live")
+           "mmmconverter._conversions", "mmmconverter._studies", "mmmconverter._robots", "mmmconverter._live")
 
 # Runs the cells of its standard input, one after the other.
 NOTEBOOK = """

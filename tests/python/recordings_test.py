@@ -64,6 +64,8 @@ class Recordings(Case):
             from_arrays(["a"], np.zeros((5, 1, 3)), 0)
         with self.assertRaisesRegex(mmmconverter.Error, "there are none"):
             from_arrays([], np.zeros((5, 0, 3)), 100)
+        with self.assertRaisesRegex(mmmconverter.Error, "markers: infinite"):
+            from_arrays(["a"], np.full((5, 1, 3), np.inf), 100)
         with self.assertRaisesRegex(mmmconverter.Error, "labels: a is there twice"):
             from_arrays(["a", "b", "a"], np.zeros((5, 3, 3)), 100)
 

@@ -21,8 +21,9 @@ from ._live import Live, LiveBody, LivePosture, live
 from ._mmmconverter import Error, version_text as _version_text
 from ._models import Estimate, Model, Poses, Tracker, read_model
 from ._recordings import Motion, Recording, Subject, read, read_motion, read_motions, read_subject
-from ._studies import (Calibration, Comparison, Dynamics, LabelledRecording, LearnedMarkers, Retargeted,
-                       calibrate, check_dynamics, compare, label, learn_markers, retarget)
+from ._robots import Retargeted, retarget
+from ._studies import (Calibration, Comparison, Dynamics, LabelledRecording, LearnedMarkers, calibrate,
+                       check_dynamics, compare, label, learn_markers)
 
 Error.__module__ = __name__
 

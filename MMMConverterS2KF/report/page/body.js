@@ -3,6 +3,7 @@
 // its children, so that a posture is the root's pose and an angle for each joint.
 
 const kShortestBone = 0.012;  // [m]
+const kLargestHead = 0.14;  // [m], of markers around it from their middle
 
 // A spindle along +y from 0 to 1.
 function makeBoneGeometry() {
@@ -60,9 +61,8 @@ class Body {
     const joints = new THREE.SphereBufferGeometry(1, 12, 8);
     segments.forEach((segment, i) => {
       const node = i === 0 ? this.root : new THREE.Object3D();
-      node.position.fromArray(segment.position);
-      node.quaternion.fromArray(segment.orientation);
       this.nodes.push(node);
+      this.moveJoint(i, segment.rest || 0);
       if (i === 0) return;
       const parent = this.nodes[segment.parent];
       parent.add(node);
@@ -111,11 +111,11 @@ class Body {
     for (const [segment, points] of places) {
       const middle = points.reduce((sum, point) => sum.add(point), new THREE.Vector3())
         .divideScalar(points.length);
-      if (points.length < 3) {
+      const spread = points.reduce((sum, point) => sum + point.distanceTo(middle), 0) / points.length;
+      if (points.length < 3 || spread > kLargestHead) {
         this.addBone(this.nodes[segment], middle, Body.bone, this.material);
       } else {
-        const spread = points.reduce((sum, point) => sum + point.distanceTo(middle), 0);
-        this.addBall(this.nodes[segment], middle, spread / points.length);
+        this.addBall(this.nodes[segment], middle, spread);
       }
     }
   }
@@ -129,27 +129,29 @@ class Body {
     this.bones.push(ball);
   }
 
+  // angle: of the joint, or the shift of one that slides.
+  moveJoint(i, angle) {
+    const segment = this.model.segments[i];
+    const node = this.nodes[i];
+    node.position.fromArray(segment.position);
+    node.quaternion.fromArray(segment.orientation);
+    if (segment.joint < 0) return;
+    const value = valueOf(segment.function, angle);
+    const axis = new THREE.Vector3().fromArray(segment.axis);
+    if (segment.slides) {
+      node.position.addScaledVector(axis.applyQuaternion(node.quaternion), value);
+    } else {
+      node.quaternion.multiply(new THREE.Quaternion().setFromAxisAngle(axis, value));
+    }
+  }
+
   // The posture of frame k.
   setPose(motion, frames, k) {
     this.root.position.fromArray(motion.position, 3 * k);
     this.root.quaternion.fromArray(motion.orientation, 4 * k).normalize();
-    const turn = new THREE.Quaternion();
-    const axis = new THREE.Vector3();
     this.model.segments.forEach((segment, i) => {
-      if (segment.joint < 0) return;
       const column = motion.joints.indexOf(segment.joint);
-      if (column < 0 && !segment.rest && !segment.function) return;
-      const angle = column < 0 ? segment.rest || 0 : motion.angles[column * frames + k];
-      const value = valueOf(segment.function, angle);
-      const node = this.nodes[i];
-      node.quaternion.fromArray(segment.orientation);
-      if (segment.slides) {
-        axis.fromArray(segment.axis).applyQuaternion(node.quaternion);
-        node.position.fromArray(segment.position).addScaledVector(axis, value);
-      } else {
-        turn.setFromAxisAngle(axis.fromArray(segment.axis), value);
-        node.quaternion.multiply(turn);
-      }
+      if (segment.joint >= 0 && column >= 0) this.moveJoint(i, motion.angles[column * frames + k]);
     });
     this.root.updateMatrixWorld(true);
   }

@@ -12,6 +12,13 @@ namespace mmm_converter {
 
 using Eigen::Vector3d;
 
+namespace {
+
+// Of SI units: no body has more, and squares of it are numbers.
+constexpr double kMostOfNumbers = 1e9;
+
+}  // namespace
+
 std::string OsimName(const XmlElement& object) {
   const std::string* name = object.FindAttribute("name");
   return name == nullptr ? "" : std::string(Trim(*name));
@@ -33,18 +40,15 @@ std::vector<std::string> Words(std::string_view text) {
   return words;
 }
 
-// Of SI units: no body has more, and squares of it are numbers.
-constexpr double kMost = 1e9;
-
 std::vector<double> ReadOsimNumbers(const XmlElement& object, std::string_view property,
                                     std::size_t count, const std::vector<double>& otherwise,
                                     Diagnostics* diagnostics) {
   const XmlElement* element = object.FindChild(property);
   if (element == nullptr || element->text.empty()) return otherwise;
   std::vector<double> numbers;
-  const bool are_numbers =
-      AppendDoubles(element->text, &numbers) &&
-      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::abs(x) <= kMost; });
+  const bool are_numbers = AppendDoubles(element->text, &numbers) &&
+                           std::all_of(numbers.begin(), numbers.end(),
+                                       [](double x) { return std::abs(x) <= kMostOfNumbers; });
   if (are_numbers && (count == 0 || numbers.size() == count)) return numbers;
   diagnostics->AddError(element->line,
                         fmt::format("<{}>: \"{:.60}\" is not {}", element->name, element->text,

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "common/pipeline/input/matched_labels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "common/convert/marker_set.h"
 #include "common/convert/understood_labels.h"
 #include "common/model/coordinate_map.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -48,6 +52,10 @@ std::shared_ptr<const NamedMarkers> PairNames(const MarkerLabels& labels, const 
 
 MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
                           const ConverterConfig& config, Warnings* warnings) {
+  if (input.reference->coordinates() && input.reference->markers().empty()) {
+    throw Error(fmt::format("{}: has no markers; name a file that has them with {}",
+                            input.model_file, OptionText("marker-file")));
+  }
   MatchedLabels matched;
   matched.names = FindNames(labels, input, config);
   if (!matched.names) matched.names = PairNames(labels, input, config);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/motion_output.h"
 #include "common/pipeline/object.h"
 #include "common/support/advice.h"
@@ -59,19 +58,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
     plan.input.recording.markers =
         MarkerSequence(plan.labels->labelling.names, 1, head.markers.rate(), 0);
   }
-  plan.input.keeps_usual_places = request.calibration_time > 0 ||
-                                  !request.input.person.subject_file.empty() ||
-                                  !config.subject_file.empty();
-  plan.setup =
-      MatchLabels({recording.markers.labels(), {}, recording.file}, &plan.input, config, warnings);
-  TellPlaces(plan.input, &plan.setup);
-  WarnOfFreeJoints(plan.setup, config, warnings);
-  CheckDeterminesPose(plan.input, plan.setup.mapping);
-  if (plan.object) TrustMarkersOfObject(&plan.setup.mapping);
-  const PersonRequest person = plan.object ? PersonRequest() : request.input.person;
-  plan.person = FindPerson(person, plan.setup, recording, config, warnings, plan.input.names.get());
-  if (!plan.object) UseModelsSubject(plan.input, &plan.person, warnings);
-  ScaleToPerson(ScalingOf(plan.person, config), &plan.setup);
+  PlanBody(request, {recording.markers.labels(), {}, recording.file}, &plan);
   if (request.calibration_time > 0 && config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }
