@@ -149,7 +149,7 @@ int ConvertSeveral(const Arguments& arguments) {
   plan.Write(arguments.Get("report").value_or(""));
   plan.Check();
   std::vector<ConversionReport> reports;
-  int failures = 0;
+  std::vector<std::string> failures;
   for (const ConversionRequest& request : requests) {
     ProgressBar bar("frames");
     const auto progress = [&](int done, int all) {
@@ -166,15 +166,15 @@ int ConvertSeveral(const Arguments& arguments) {
     } catch (const Error& error) {
       bar.Clear();
       LogError(WithAdvice(error));
-      ++failures;
+      failures.push_back(error.what());
     }
   }
   if (const auto file = arguments.Get("report"); file && !reports.empty()) {
     std::vector<const ConversionReport*> all;
     for (const ConversionReport& report : reports) all.push_back(&report);
-    WriteFileAtomically(*file, FormatConversionPage(all));
+    WriteFileAtomically(*file, FormatConversionPage(all, failures));
   }
-  return failures == 0 ? 0 : 1;
+  return failures.empty() ? 0 : 1;
 }
 
 int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& request) {
@@ -187,20 +187,21 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   bar.Clear();
   WriteAllMotions(request, &all);
   LogWarningsOf(all);
+  std::vector<std::string> failures;
+  for (const MotionOutcome& one : all.motions) {
+    if (!one.failure.empty())
+      failures.push_back(fmt::format("motion {}: {}", one.name, one.failure));
+  }
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(all)));
   }
-  if (const auto file = arguments.Get("report")) {
-    WriteFileAtomically(*file, FormatConversionPage(ReportsOf(all)));
+  const auto reports = ReportsOf(all);
+  if (const auto file = arguments.Get("report"); file && !reports.empty()) {
+    WriteFileAtomically(*file, FormatConversionPage(reports, failures));
   }
   std::cout << FormatAllMotions(all);
-  int failures = 0;
-  for (const MotionOutcome& outcome : all.motions) {
-    if (outcome.failure.empty()) continue;
-    LogError(fmt::format("motion {}: {}", outcome.name, outcome.failure));
-    ++failures;
-  }
-  return failures == 0 ? 0 : 1;
+  for (const std::string& failure : failures) LogError(failure);
+  return failures.empty() ? 0 : 1;
 }
 
 }  // namespace

@@ -16,4 +16,6 @@ for task in _mmmconverter.tasks():
     name = "".join(word.capitalize() for word in task.split("_"))
     print(f"\nclass {name}Options(TypedDict, total=False):")
     for keyword, _, annotation, _ in _mmmconverter.options(task):
+        if (task, keyword) == ("read_model", "model"):  # its first argument
+            continue
         print(f"    {keyword}: Optional[{annotation}]")

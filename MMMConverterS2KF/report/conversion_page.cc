@@ -44,21 +44,45 @@ Comparison MakeComparison(const ConversionReport& report) {
                          {{plan.setup.mapping, report.warnings, report.result}});
 }
 
+// Estimated heights of one person are not so far apart.
+constexpr double kSamePerson = 0.05;  // [m]
+
+// Where recordings of several persons seem to be on one page.
+std::string DescribePersons(const std::vector<const ConversionReport*>& reports) {
+  if (reports.front()->plan.person.subject) return "";
+  const auto height = [](const auto* one) { return one->plan.person.height.value; };
+  const auto [least, most] = std::minmax_element(
+      reports.begin(), reports.end(), [&](auto* a, auto* b) { return height(a) < height(b); });
+  if (height(*most) - height(*least) < kSamePerson) return "";
+  return fmt::format(
+      "\n\nThe persons of these recordings are {:.2f} to {:.2f} m tall: strides of all together "
+      "are "
+      "of several persons, if these heights are right.",
+      height(*least), height(*most));
+}
+
 // The motion; of several those of a file, or the person of several files.
-std::string TitleOf(const std::vector<const ConversionReport*>& reports) {
+std::string TitleOf(const std::vector<const ConversionReport*>& reports, std::size_t failed) {
   const ConversionPlan& first = reports.front()->plan;
-  if (reports.size() == 1) return first.motion_name;
+  if (reports.size() + failed == 1) return first.motion_name;
   const bool is_one_file = std::all_of(reports.begin(), reports.end(), [&](const auto* one) {
     return one->plan.input.recording.file == first.input.recording.file;
   });
-  if (is_one_file) return std::filesystem::path(first.input.recording.file).filename().string();
-  const std::string count = fmt::format("{} recordings", reports.size());
+  if (is_one_file && failed == 0)
+    return std::filesystem::path(first.input.recording.file).filename().string();
+  const std::string count =
+      failed == 0 ? fmt::format("{} recordings", reports.size())
+                  : fmt::format("{} of {} recordings", reports.size(), reports.size() + failed);
   return first.person.subject ? fmt::format("{}: {}", first.person.subject->name, count) : count;
 }
 
 }  // namespace
 
-std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports) {
+std::string FormatConversionPage(const std::vector<const ConversionReport*>& reports,
+                                 const std::vector<std::string>& failures) {
+  std::string of_all;
+  for (const std::string& failure : failures) of_all += "\n\nNot converted: " + failure;
+  if (reports.size() > 1) of_all += DescribePersons(reports);
   std::vector<Comparison> comparisons;
   std::vector<Json> grounds;
   std::vector<ReportSection> sections;
@@ -68,10 +92,10 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
   for (const ConversionReport* report : reports) {
     comparisons.push_back(MakeComparison(*report));
     grounds.push_back(GroundJson(*report));
-    sections.push_back(
-        {report->plan.motion_name, DescribeForPage(*report), &comparisons.back(), &grounds.back()});
+    sections.push_back({report->plan.motion_name, DescribeForPage(*report) + of_all,
+                        &comparisons.back(), &grounds.back(), Name(report->verdict.level)});
   }
-  return FormatReport(TitleOf(reports), sections);
+  return FormatReport(TitleOf(reports, failures.size()), sections);
 }
 
 }  // namespace mmm_converter

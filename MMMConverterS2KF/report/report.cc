@@ -14,8 +14,9 @@ namespace {
 std::string FormatData(const std::vector<ReportSection>& sections) {
   std::string blocks;
   for (const ReportSection& section : sections) {
-    blocks +=
-        DataBlock("heading", FormatJsonLine({{"title", section.title}, {"text", section.text}}));
+    blocks += DataBlock("heading", FormatJsonLine({{"title", section.title},
+                                                   {"text", section.text},
+                                                   {"verdict", section.verdict}}));
     blocks += DataBlock("figures", FormatJson(ToJson(*section.comparison)));
     Json tracks = TracksJson(*section.comparison);
     if (section.ground != nullptr && !section.ground->is_null()) {

@@ -15,6 +15,7 @@ struct ReportSection {
   std::string text;  ///< paragraphs, separated by empty lines; may be empty
   const Comparison* comparison = nullptr;
   const Json* ground = nullptr;  ///< GroundJson of its one trial; null, or of null: not drawn
+  std::string verdict = {};      ///< of a conversion, in a word; empty: there is none
 };
 
 /// One self-contained HTML page: tables, a player, plots. A single conversion is a comparison of

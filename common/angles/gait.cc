@@ -68,11 +68,7 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
 
 bool IsKnown(const FootContact& contact, const FootContact& next, const FootMotion& feet,
              const KnownLegs& known) {
-  const auto frame = [&](double time) {
-    return std::clamp<long>(std::lround((time - feet.first_time) * feet.rate), 0,
-                            feet.num_frames() - 1);
-  };
-  const long begin = frame(*contact.begin), end = frame(*next.begin);
+  const int begin = feet.frame(*contact.begin), end = feet.frame(*next.begin);
   return std::all_of(known.begin(), known.end(), [&](const std::vector<bool>& leg) {
     return std::find(leg.begin() + begin, leg.begin() + end + 1, false) == leg.begin() + end + 1;
   });

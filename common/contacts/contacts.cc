@@ -119,8 +119,7 @@ std::vector<int> SharedPlates(const Standing& standing, const FootPath& foot,
                               const RecordedForces& forces) {
   std::vector<int> plates;
   const double middle = (standing.begin + standing.end) / 2;
-  const auto k = static_cast<Eigen::Index>(
-      std::clamp((middle - motion.first_time) * motion.rate, 0.0, motion.num_frames() - 1.0));
+  const int k = motion.frame(middle);
   const Eigen::Vector3d heel = foot.heel.col(k);
   const Eigen::Vector3d toe = foot.toe.col(k);
   for (const PlateLoad& load : loads) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "common/model/kinematic_model.h"
@@ -31,6 +33,11 @@ struct FootMotion {
   const FootPath& foot(Side side) const { return feet[static_cast<std::size_t>(side)]; }
   int num_frames() const { return static_cast<int>(feet[0].heel.cols()); }
   double time(double frame) const { return first_time + frame / rate; }
+  /// The nearest one.
+  int frame(double time) const {
+    const double nearest = std::round((time - first_time) * rate);
+    return static_cast<int>(std::clamp(nearest, 0.0, num_frames() - 1.0));
+  }
 };
 
 /// Whether a model has the feet of MMM's reference model, or calcn and toes as OpenSim's have.

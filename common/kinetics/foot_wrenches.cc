@@ -99,7 +99,8 @@ FootWrenches WrenchesOnFeet(const Contacts& contacts, const RecordedForces& forc
       continue;
     }
     const std::size_t foot = load.bearer == Bearer::kLeft ? 0 : 1;
-    if (!AddLoad(load, forces, times, &feet[foot])) unknown.Mark(foot, load.begin, load.end);
+    const bool is_known = AddLoad(load, forces, times, &feet[foot]);
+    if (!is_known || load.is_part_of_foot) unknown.Mark(foot, load.begin, load.end);
   }
   if (!(cutoff > 0)) return feet;
   for (FootWrench& foot : feet) {

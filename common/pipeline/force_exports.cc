@@ -88,13 +88,14 @@ std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport
 
 void WriteContacts(const std::string& file, const ConversionReport& report) {
   const auto ground = StudyGround(report);
+  const Contacts contacts = SeenContacts(report, *ground);
   if (IsC3d(file)) {
-    WriteC3dWithEvents(report.plan.input.recording.file, AllEvents(ground->contacts, report), file);
+    WriteC3dWithEvents(report.plan.input.recording.file, AllEvents(contacts, report), file);
     return;
   }
   const bool is_json = fs::path(file).extension() == ".json";
-  WriteFileAtomically(file, is_json ? FormatContactsJson(ground->contacts, *ground->forces)
-                                    : FormatContactsCsv(ground->contacts));
+  WriteFileAtomically(
+      file, is_json ? FormatContactsJson(contacts, *ground->forces) : FormatContactsCsv(contacts));
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {

@@ -165,6 +165,16 @@ KnownLegs FindKnownLegs(const ConversionReport& report) {
   return known;
 }
 
+/// Whether it is told by plates, or by a leg that is seen for most of it.
+bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs& known) {
+  const std::vector<bool>& leg = known[static_cast<std::size_t>(contact.side)];
+  const int last = feet.num_frames() - 1;
+  const int from = contact.begin ? feet.frame(*contact.begin) : 0;
+  const int to = contact.end ? feet.frame(*contact.end) : last;
+  if (!contact.plates.empty() || to < from) return !contact.plates.empty();
+  return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
+}
+
 }  // namespace
 
 RecordedForces GroundForces(const Input& input, Warnings* warnings) {
@@ -192,6 +202,23 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, W
   ground.contacts = FindContacts(ground.feet, *ground.forces);
   ground.mass = EstimateMass(ground.contacts, *ground.forces);
   return std::make_shared<const GroundStudy>(std::move(ground));
+}
+
+Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground) {
+  const FootMotion& feet = ground.feet;
+  const KnownLegs known = FindKnownLegs(report);
+  Contacts seen = ground.contacts;
+  std::erase_if(seen.contacts, [&](const FootContact& one) { return !IsTold(one, feet, known); });
+  for (FootContact& one : seen.contacts) {
+    if (!one.plates.empty()) continue;
+    const std::vector<bool>& leg = known[static_cast<std::size_t>(one.side)];
+    const auto is_seen = [&](double time) {
+      return leg[static_cast<std::size_t>(feet.frame(time))];
+    };
+    if (one.begin && !is_seen(*one.begin)) one.begin.reset();
+    if (one.end && !is_seen(*one.end)) one.end.reset();
+  }
+  return seen;
 }
 
 double KnownMass(const ConversionReport& report, const GroundStudy& ground) {

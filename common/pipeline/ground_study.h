@@ -37,6 +37,10 @@ void CheckHasPlates(const RecordedForces& forces, const Input& input);
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,
                                                Warnings* warnings = nullptr);
 
+/// Those that plates tell, and of a foot off the plates those that its leg shows: what begins or
+/// ends while that is hidden has no begin or end.
+Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground);
+
 /// The mass that plates bore where none was given, else the model's [kg].
 double KnownMass(const ConversionReport& report, const GroundStudy& ground);
 

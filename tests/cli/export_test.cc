@@ -237,6 +237,22 @@ TEST(Export, NothingThatIsReadOrWrittenIsOverwritten) {
   EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/x"));
 }
 
+TEST(Export, APageOfSeveralRecordingsNamesThoseThatAreNotThere) {
+  const std::string walk = TestFolder() + "/walk.c3d";
+  const std::string wrong = TestFolder() + "/wrong.c3d";
+  const std::string page = TestFolder() + "/page.html";
+  std::filesystem::copy_file(Handstand(), walk);
+  WriteText(wrong, "no recording");
+  const auto run = RunProgram(WithTestConverter(
+      {"convert", walk, wrong, "--height", "1.8", "--frames", ":10", "--report", page}));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr(wrong));
+  const std::string text = ReadText(page);
+  EXPECT_THAT(text, HasSubstr("1 of 2 recordings"));
+  EXPECT_THAT(text, HasSubstr("Not converted: " + wrong));
+  EXPECT_THAT(text, HasSubstr(R"("verdict":")"));
+}
+
 TEST(Export, WhatCantBeWrittenIsNamedBeforeAnythingIsWritten) {
   for (const std::string option :
        {"--export-csv", "--export-trc", "--export-mot", "--summary", "--report"}) {

@@ -4,6 +4,7 @@ import ast
 import doctest
 import functools
 import importlib
+import importlib.util
 import inspect
 import json
 import os
@@ -21,6 +22,19 @@ from support import ROOT
 
 MODULES = ("mmmconverter", "mmmconverter._angles", "mmmconverter._recordings", "mmmconverter._models",
            "mmmconverter._conversions", "mmmconverter._studies", "mmmconverter._robots", "mmmconverter._live")
+
+# A user's script as mypy reads it.
+TYPED = """
+import mmmconverter
+result = mmmconverter.convert("walk.c3d", height=1.8, frames=(0, 50))
+angle: float = result.joints[0, 0]
+for posture in mmmconverter.live("replay:walk.c3d@max", height=1.8):
+    print(posture.time + posture.delay)
+mmmconverter.convert("walk.c3d", heigth=1.8)  # wrong
+mmmconverter.live("replay:walk.c3d", height="tall")  # wrong
+mmmconverter.read("walk.c3d").lables  # wrong
+"""
+TYPES_OF = {**os.environ, "MYPYPATH": str(pathlib.Path(mmmconverter.__file__).parent.parent)}
 
 # Runs the cells of its standard input, one after the other.
 NOTEBOOK = """
@@ -148,11 +162,26 @@ class Documentation(unittest.TestCase):
             function = getattr(mmmconverter, task)
             keywords = [row[0] for row in compiled.options(task)]
             self.assertTrue(keywords, task)
-            self.assertEqual(stub[task.title().replace("_", "") + "Options"], keywords)
+            arguments = ["model"] if task == "read_model" else []
+            self.assertEqual(stub[task.title().replace("_", "") + "Options"],
+                             [keyword for keyword in keywords if keyword not in arguments])
             for keyword in keywords:
                 self.assertIn(keyword, inspect.signature(function).parameters)
                 self.assertTrue(re.search(rf"\b{keyword}\b.* : ", inspect.getdoc(function)), keyword)
         self.assertIn("and_subjects", inspect.signature(mmmconverter.convert).parameters)
+
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "there is no mypy")
+    def test_types(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = pathlib.Path(folder, "script.py")
+            script.write_text(TYPED)
+            run = subprocess.run(
+                [sys.executable, "-m", "mypy", "--enable-incomplete-feature=Unpack", "--ignore-missing-imports",
+                 f"--cache-dir={folder}", script.name],
+                cwd=folder, text=True, capture_output=True, check=False, env=TYPES_OF)
+        wrong = [line.split(":")[:2] for line in run.stdout.splitlines() if " error: " in line]
+        self.assertEqual(wrong, [[script.name, str(number)] for number, line in enumerate(TYPED.splitlines(), 1)
+                                 if "# wrong" in line], run.stdout + run.stderr)
 
     def test_import(self):
         code = ("import time, numpy; began = time.perf_counter(); import mmmconverter; "

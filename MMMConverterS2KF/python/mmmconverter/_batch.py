@@ -92,8 +92,8 @@ def batch(manifest, output, *, resume: bool = False, retry_crashed: bool = False
     import signal
     import subprocess
     words = [_find_program(), "batch", input_text(manifest), "-o", path_text(output)]
-    for name, value in (("resume", resume), ("retry-crashed", retry_crashed), ("fail-fast", fail_fast)):
-        words += [f"--{name}"] if value else []
+    for name, is_asked in (("resume", resume), ("retry-crashed", retry_crashed), ("fail-fast", fail_fast)):
+        words += [f"--{name}"] if is_asked else []
     for name, value in (("jobs", jobs), ("memory", memory), ("reports", reports)):
         words += [f"--{name}={value}"] if value is not None else []
     with shown(progress, "recordings") as callback, subprocess.Popen(
@@ -101,7 +101,7 @@ def batch(manifest, output, *, resume: bool = False, retry_crashed: bool = False
             errors="replace") as run:
         try:
             error = _watch(run.stderr, callback)
-            said = run.stdout.read()
+            said = run.stdout.read() if run.stdout else ""
         except BaseException:
             run.send_signal(signal.SIGINT)
             run.communicate()

@@ -189,14 +189,14 @@ def convert(recording, *, progress: Union[Callable[[int, int], None], bool, None
     ((60, 3), (60, 50))
     """
     source = recording.file if isinstance(recording, Recording) else input_text(recording)
-    options = keywords(options, file=source)
+    request = keywords(options, file=source)
     raw = recording._raw if isinstance(recording, Recording) else None
     if raw is not None:
         was_read = recording._options or {}
         for name, *_ in _mmmconverter.options("read"):
-            if name in options and options[name] != was_read.get(name):
+            if name in request and request[name] != was_read.get(name):
                 raise WrongValue(f"{name}: the recording was read without it; give it to read()")
     if raw is not None and recording._options is not None:
-        options = {**recording._options, **options}
+        request = {**recording._options, **request}
     with shown(progress, "frames") as callback:
-        return Conversion(_mmmconverter.convert(dict(options, recording=raw), callback), source)
+        return Conversion(_mmmconverter.convert(dict(request, recording=raw), callback), source)

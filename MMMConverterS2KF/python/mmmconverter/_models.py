@@ -200,10 +200,10 @@ def read_model(model=None, **options: Unpack[ReadModelOptions]) -> Model:
     >>> read_model(height=1.75)
     <Model MMM: height 1.75 m, segments 129, joints 92, markers 53>
     """
-    options = keywords(options, model=model)
-    if "height" in options and not {"mass", "person", "subject"} & set(options):
-        options["mass"] = 70.0
-    return Model(_mmmconverter.read_model(options))
+    request = keywords(options, model=model)
+    if "height" in request and not {"mass", "person", "subject"} & set(request):
+        request["mass"] = 70.0
+    return Model(_mmmconverter.read_model(request))
 
 
 @dataclasses.dataclass(repr=False, eq=False)

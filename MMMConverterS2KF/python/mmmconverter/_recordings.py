@@ -224,8 +224,9 @@ class Motion(Postures, Presented):
         >>> Motion.from_arrays(["LKx_joint"], np.zeros((5, 3)), upright, np.zeros((5, 1)), 100, height=1.8)
         <Motion motion: frames 5, joints 1, rate 100 Hz>
         """
-        return cls(name, "mmm", "", height, mass, None, rate, first_time, list(joint_names),
-                   *(np.asarray(one, dtype=float) for one in (root_positions, root_quaternions, joints)))
+        positions, quaternions, values = (np.asarray(one, dtype=float)
+                                          for one in (root_positions, root_quaternions, joints))
+        return cls(name, "mmm", "", height, mass, None, rate, first_time, list(joint_names), positions, quaternions, values)
 
     @functools.cached_property
     def angles(self) -> Angles:

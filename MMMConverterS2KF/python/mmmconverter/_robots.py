@@ -112,10 +112,10 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
     (50, 21)
     """
     raw, source = finished(recording) or (None, None)
-    options = keywords(options)
-    if isinstance(recording, Conversion) and options:
-        raise WrongValue(f"{next(iter(options))}: a conversion is taken as it is; give it to convert()")
-    options.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot))
+    request = keywords(options)
+    if isinstance(recording, Conversion) and request:
+        raise WrongValue(f"{next(iter(request))}: a conversion is taken as it is; give it to convert()")
+    request.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot))
     with shown(progress, "frames") as callback:
-        return Retargeted(_mmmconverter.retarget(raw, options, path_text(map) if map is not None else "",
+        return Retargeted(_mmmconverter.retarget(raw, request, path_text(map) if map is not None else "",
                                                  sole_height, callback))

@@ -105,17 +105,18 @@ def calibrate(recordings, *, name: Optional[str] = None, progress: Progress = No
     >>> calibration.subject
     <Subject anna: height 1.800 m, mass 70.0 kg>
     """
-    options = keywords(options)
-    inputs = [{**input_options(one), **options} for one in _several(recordings)]
-    options = given(**options, name=name)
+    request = keywords(options)
+    inputs = [{**input_options(one), **request} for one in _several(recordings)]
     with shown(progress, "recordings read") as callback:
-        return Calibration(_mmmconverter.calibrate(inputs, options, callback))
+        return Calibration(_mmmconverter.calibrate(inputs, given(**request, name=name), callback))
 
 
 class Comparison(_Study):
     """What `compare` measured: summary (a dict), text (a table)."""
 
-    warnings = property(lambda self: [])
+    @property
+    def warnings(self) -> list:
+        return []
 
     def report(self, file) -> None:
         """Writes the page of ``compare --report``."""
@@ -150,14 +151,14 @@ def compare(recordings, configs: Sequence = ("s2kf_default", "jacobian_gradient"
     >>> comparison
     <Comparison 1 configurations: recordings 1>
     """
-    options = keywords(options)
-    inputs = [{**input_options(one), **options} for one in _several(recordings)]
+    request = keywords(options)
+    inputs = [{**input_options(one), **request} for one in _several(recordings)]
     truths = ["" if one is None else path_text(one) for one in truths or [None] * len(inputs)]
     if len(truths) != len(inputs):
         raise _mmmconverter.Error(f"truths: {len(truths)} for {len(inputs)} recordings")
     configs = [path_text(one) for one in configs]
     with shown(progress, "runs") as callback:
-        return Comparison(_mmmconverter.compare(inputs, configs, truths, options, callback))
+        return Comparison(_mmmconverter.compare(inputs, configs, truths, request, callback))
 
 
 class LabelledRecording(_Study):
@@ -192,9 +193,9 @@ def label(recording, *, progress: Progress = None,
         As of `convert`.
     **options
     """
-    options = {**input_options(recording), **keywords(options)}
+    request = {**input_options(recording), **keywords(options)}
     with shown(progress, "frames") as callback:
-        return LabelledRecording(_mmmconverter.label(options, callback))
+        return LabelledRecording(_mmmconverter.label(request, callback))
 
 
 class LearnedMarkers(Filed, _Study):
@@ -293,6 +294,6 @@ def check_dynamics(file, *, progress: Progress = None,
     'plausible'
     """
     raw, source = finished(file) or (None, input_text(file))
-    options = keywords(options, file=source)
+    request = keywords(options, file=source)
     with shown(progress, "frames") as callback:
-        return Dynamics(_mmmconverter.check_dynamics(raw, options, callback))
+        return Dynamics(_mmmconverter.check_dynamics(raw, request, callback))

@@ -230,7 +230,7 @@ class Framing {
 // A part of the report: one comparison.
 class Section {
   constructor(heading, figures, tracks) {
-    Object.assign(this, heading);  // title, text
+    Object.assign(this, heading);  // title, text, verdict
     this.figures = figures;        // as --json says it
     this.tracksText = tracks;
   }

@@ -115,7 +115,8 @@ function listSections(view) {
   if (view.sections.length < 2) return;
   replaceContent(byId("sections"), ...view.sections.map((section, i) => {
     const button = element("button", {type: "button", "aria-pressed": "false"},
-      element("strong", {}, section.title), element("span", {}, verdictOf(section.figures)));
+      element("strong", {}, section.title), element("span", {},
+        (section.verdict ? `${section.verdict}. ` : "") + verdictOf(section.figures)));
     button.addEventListener("click", () => view.showSection(i));
     return button;
   }));

@@ -130,6 +130,13 @@ TEST_F(JointForcesTest, BothFeetOnAPlateTellNeither) {
   EXPECT_TRUE(Of(found, "hip_r").array().isNaN().all());
 }
 
+TEST_F(JointForcesTest, AFootPartlyBesideItsPlateTellsNotItsLeg) {
+  contacts_.loads[1].is_part_of_foot = true;
+  const JointForces found = Compute();
+  EXPECT_TRUE(std::isfinite(Of(found, "hip_l")[kMiddle]));
+  EXPECT_TRUE(Of(found, "hip_r").array().isNaN().all());
+}
+
 TEST_F(JointForcesTest, ASampleWithoutANumberIsNoNumber) {
   forces_.plates[0].force(2, 1000) = kNaN;
   const JointForces found = Compute();
