@@ -6,6 +6,7 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/request_options.h"
+#include "MMMConverterS2KF/report/retarget_page.h"
 #include "MMMConverterS2KF/report/retarget_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
@@ -21,7 +22,11 @@ const std::vector<OptionGroup> kRetargetOptions = {
     {"Files",
      {{"output,o", "FILE",
        "the robot's motion, MMM 2.0; default: INPUT without its ending + _robot.xml", ""},
-      {"summary", "FILE", "write all figures as JSON", ""}}},
+      {"summary", "FILE", "write all figures as JSON", ""},
+      {"report", "FILE",
+       "write a page (HTML) with both bodies side by side, contacts, joints and limits; without "
+       "INPUT of a made motion, which shows the map",
+       ""}}},
     {"Robot",
      {{"robot", "FILE", "the robot: URDF or MJCF", ""},
       {"map", "FILE", "which joints are its limbs (XML), instead of what its structure tells", ""},
@@ -92,7 +97,7 @@ last="JOINT"/> for left and right legs and arms; limbs that it leaves out are no
   MMMConverterS2KF retarget jump_mmm.xml --robot h1.xml --sole-height 0.07 --summary jump.json
   MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf --export-lafan1 walk.csv --export-rate 50
   MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf --export-beyondmimic w.npz --order isaac
-  MMMConverterS2KF retarget --robot g1.urdf --print-map
+  MMMConverterS2KF retarget --robot g1.urdf --print-map --report g1.html
 )";
 
 RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
@@ -107,7 +112,9 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
         "retarget: which robot? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
         "g1.urdf");
   }
-  if (const auto file = arguments.Get("summary")) request.conversion.more_outputs.push_back(*file);
+  for (const char* output : {"summary", "report"}) {
+    if (const auto file = arguments.Get(output)) request.conversion.more_outputs.push_back(*file);
+  }
   for (const RobotExporter& format : RobotExporters()) {
     const auto file = arguments.Get(format.option);
     if (!file) continue;
@@ -116,6 +123,19 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
     }
   }
   return request;
+}
+
+/// Without a motion.
+void ShowMap(RetargetRequest request, const std::optional<std::string>& page) {
+  Warnings warnings;
+  const LoadedRobot robot = ReadRobot(request, &warnings);
+  if (page) {
+    request.conversion.output.clear();
+    request.conversion.more_outputs = {*page};
+    WriteFileAtomically(*page, FormatRetargetPage(RunRetargeting(request, {})));
+  }
+  LogWarnings(warnings);
+  std::cout << FormatBodyMap(robot.robot.model, robot.body.map);
 }
 
 }  // namespace
@@ -130,15 +150,13 @@ int RunRetarget(const Arguments& arguments) {
   RobotExportOptions options;
   const std::vector<RobotExport> exports = ExportsOf(arguments, &options);
   if (!arguments.positional()) {
-    if (!arguments.Has("print-map")) {
+    const auto page = arguments.Get("report");
+    if (!arguments.Has("print-map") && !page) {
       throw UsageError(
           "retarget: which motion? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
           "g1.urdf");
     }
-    Warnings warnings;
-    const LoadedRobot robot = ReadRobot(request, &warnings);
-    LogWarnings(warnings);
-    std::cout << FormatBodyMap(robot.robot.model, robot.body.map);
+    ShowMap(request, page);
     return 0;
   }
   ProgressBar bar("frames");
@@ -158,6 +176,9 @@ int RunRetarget(const Arguments& arguments) {
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report)));
+  }
+  if (const auto file = arguments.Get("report")) {
+    WriteFileAtomically(*file, FormatRetargetPage(report));
   }
   if (arguments.Has("print-map")) {
     std::cout << FormatBodyMap(report.robot.model, report.body.map);

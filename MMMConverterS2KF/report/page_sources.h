@@ -37,6 +37,12 @@ std::string_view LabelContent();
 std::string_view LabelScript();
 std::string_view LabelScriptSha256();
 
+// Of a motion on a robot.
+std::string_view RobotContent();
+std::string_view RobotStyles();
+std::string_view RobotScript();
+std::string_view RobotScriptSha256();
+
 // Of a live view; the rest of its styles is a report's.
 std::string_view LiveContent();
 std::string_view LiveStyles();

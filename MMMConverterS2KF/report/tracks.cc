@@ -38,40 +38,6 @@ Json AnatomyJson(const KinematicModel& model, const PoseTrajectory& trajectory) 
   return out;
 }
 
-Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
-  const int frames = trajectory.num_frames();
-  const DrawnFrames drawn(frames);
-  const auto num_joints = static_cast<Eigen::Index>(trajectory.joint_names.size());
-  MatrixXd position(3, drawn.count());
-  MatrixXd orientation(4, drawn.count());
-  for (int i = 0; i < drawn.count(); ++i) {
-    const Posture& posture = trajectory.postures[drawn.frame(i)];
-    position.col(i) = posture.position;
-    orientation.col(i) = posture.orientation.coeffs();
-  }
-  MatrixXd angles(frames, num_joints);
-  for (int k = 0; k < frames; ++k) {
-    angles.row(k) = trajectory.postures[k].joint_angles.transpose();
-  }
-  Json joints = Json::array();
-  for (const std::string& name : trajectory.joint_names) joints.push_back(model.FindJoint(name));
-  // Position and orientation: a frame's components beside each other.
-  Json motion = {{"joints", joints},
-                 {"position", Quantised(position)},
-                 {"orientation", Quantised(orientation)},
-                 {"angles", Quantised(drawn.Of(angles))}};
-  if (!drawn.are_all()) {
-    motion["angles_least"] = Quantised(drawn.LeastOf(angles));
-    motion["angles_most"] = Quantised(drawn.MostOf(angles));
-  }
-  const MatrixXd& deviations = trajectory.standard_deviations;
-  if (deviations.cols() == frames && deviations.rows() == 6 + num_joints) {
-    motion["deviations"] = Quantised(drawn.Of(deviations.bottomRows(num_joints).transpose()));
-  }
-  if (HasAnatomy(model)) motion["anatomy"] = AnatomyJson(model, trajectory);
-  return motion;
-}
-
 Json TrialJson(const Trial& trial, const CommonGround& ground) {
   Json out = {{"name", trial.name}, {"failure", trial.failure}};
   if (!trial.model || ground.labels.empty()) return out;
@@ -184,6 +150,40 @@ Json RowJson(const Trial& trial, const ComparisonRow& row) {
 }
 
 }  // namespace
+
+Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
+  const int frames = trajectory.num_frames();
+  const DrawnFrames drawn(frames);
+  const auto num_joints = static_cast<Eigen::Index>(trajectory.joint_names.size());
+  MatrixXd position(3, drawn.count());
+  MatrixXd orientation(4, drawn.count());
+  for (int i = 0; i < drawn.count(); ++i) {
+    const Posture& posture = trajectory.postures[drawn.frame(i)];
+    position.col(i) = posture.position;
+    orientation.col(i) = posture.orientation.coeffs();
+  }
+  MatrixXd angles(frames, num_joints);
+  for (int k = 0; k < frames; ++k) {
+    angles.row(k) = trajectory.postures[k].joint_angles.transpose();
+  }
+  Json joints = Json::array();
+  for (const std::string& name : trajectory.joint_names) joints.push_back(model.FindJoint(name));
+  // Position and orientation: a frame's components beside each other.
+  Json motion = {{"joints", joints},
+                 {"position", Quantised(position)},
+                 {"orientation", Quantised(orientation)},
+                 {"angles", Quantised(drawn.Of(angles))}};
+  if (!drawn.are_all()) {
+    motion["angles_least"] = Quantised(drawn.LeastOf(angles));
+    motion["angles_most"] = Quantised(drawn.MostOf(angles));
+  }
+  const MatrixXd& deviations = trajectory.standard_deviations;
+  if (deviations.cols() == frames && deviations.rows() == 6 + num_joints) {
+    motion["deviations"] = Quantised(drawn.Of(deviations.bottomRows(num_joints).transpose()));
+  }
+  if (HasAnatomy(model)) motion["anatomy"] = AnatomyJson(model, trajectory);
+  return motion;
+}
 
 Json TracksJson(const Comparison& comparison) {
   Json trials = Json::array();

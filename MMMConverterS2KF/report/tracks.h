@@ -11,4 +11,7 @@ namespace mmm_converter {
 /// otherwise.
 Json TracksJson(const Comparison& comparison);
 
+/// Postures of a model over time, of the DrawnFrames: what data.js calls a Motion.
+Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory);
+
 }  // namespace mmm_converter

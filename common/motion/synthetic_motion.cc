@@ -324,4 +324,17 @@ PoseTrajectory MakeCartwheel(const KinematicModel& model) {
   return Choreography(model, script).Play();
 }
 
+PoseTrajectory MakeRaisedKnee(const KinematicModel& model) {
+  Script script;
+  script.num_frames = 200;
+  script.times = {0, 0.8, 1.2, 2};
+  script.keyframes = {
+      {"LSx_joint", {0, 1.4, 1.4, 0}},       {"REx_joint", {.2, 1.6, 1.6, .2}},
+      {"RHx_joint", {0, 1.2, 1.2, 0}},       {"RKx_joint", {-.1, -1.4, -1.4, -.1}},
+      {"RSy_joint", {-.15, -.4, -.4, -.15}},
+  };
+  script.contacts = {{0, kLeftFoot, Support::kToes}};
+  return Choreography(model, script).Play();
+}
+
 }  // namespace mmm_converter

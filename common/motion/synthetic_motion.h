@@ -25,4 +25,8 @@ PoseTrajectory MakeKickedHandstand(const KinematicModel& model);
 /// 400 frames: a cartwheel to the right (root pitch from 0 through 90 to 360 degrees).
 PoseTrajectory MakeCartwheel(const KinematicModel& model);
 
+/// 200 frames: from standing on the left leg, right knee up, left arm ahead, right elbow bent, and
+/// back: no side and no direction looks like another.
+PoseTrajectory MakeRaisedKnee(const KinematicModel& model);
+
 }  // namespace mmm_converter

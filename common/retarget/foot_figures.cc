@@ -87,7 +87,10 @@ void MeasureFeet(const Retargeted& retargeted, const RobotBody& body, const Pose
   for (std::size_t i = 0; i < 2; ++i) {
     const RobotFoot& foot = (*body.feet)[i];
     const std::vector<bool> contact = ContactsOf(retargeted, i);
-    Eigen::VectorXd lowest(frames);
+    Eigen::VectorXd& lowest = figures->feet[i].height;
+    Eigen::VectorXd& speed = figures->feet[i].speed;
+    lowest.resize(frames);
+    speed.setConstant(frames, NAN);
     Eigen::Matrix3Xd toe(3, frames);
     for (int k = 0; k < frames; ++k) {
       const Eigen::Isometry3d& X = X_WS[k][foot.segment];
@@ -100,7 +103,8 @@ void MeasureFeet(const Retargeted& retargeted, const RobotBody& body, const Pose
       }
       if (k == 0 || !contact[k] || !contact[k - 1]) continue;
       ++counts.pairs;
-      if (WayOf(foot, X_WS[k - 1][foot.segment], X) * rate > kSlides) ++counts.slides;
+      speed[k] = WayOf(foot, X_WS[k - 1][foot.segment], X) * rate;
+      if (speed[k] > kSlides) ++counts.slides;
     }
     CountFloating(contact, lowest, rate, &counts);
     CountOthersRule(retargeted.human.toes[i], toe, rate, &counts);

@@ -40,12 +40,6 @@ int Find(const KinematicModel& model, std::initializer_list<const char*> names, 
                   model.name(), *names.begin()));
 }
 
-Posture Standing(const KinematicModel& model) {
-  if (!model.coordinates()) return ZeroPosture(model);
-  const auto count = static_cast<Eigen::Index>(model.coordinates()->coordinates().size());
-  return PostureOf(model, Eigen::VectorXd::Zero(count));
-}
-
 Eigen::Matrix3d StandingAxes(const KinematicModel& model) {
   Eigen::Matrix3d axes;
   if (model.coordinates()) {
@@ -102,8 +96,14 @@ void FindFeet(const KinematicModel& model, const std::vector<Eigen::Isometry3d>&
 
 }  // namespace
 
+Posture StandingPosture(const KinematicModel& model) {
+  if (!model.coordinates()) return ZeroPosture(model);
+  const auto count = static_cast<Eigen::Index>(model.coordinates()->coordinates().size());
+  return PostureOf(model, Eigen::VectorXd::Zero(count));
+}
+
 HumanBody FindHumanBody(const KinematicModel& model) {
-  const Posture posture = Standing(model);
+  const Posture posture = StandingPosture(model);
   const auto X_WS = SegmentPoses(model, posture);
   HumanBody body;
   BodyMap& map = body.map;

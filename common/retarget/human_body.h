@@ -27,6 +27,9 @@ struct HumanBody {
   double arm_length() const { return map.arms[0]->upper.length + map.arms[0]->lower.length; }
 };
 
+/// In which the map is found: all angles are 0.
+Posture StandingPosture(const KinematicModel& model);
+
 /// @throws Error where the model's legs and arms are not known.
 HumanBody FindHumanBody(const KinematicModel& model);
 

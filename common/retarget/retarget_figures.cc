@@ -94,7 +94,7 @@ class DirectionMeasure {
       const Directions person = DirectionsOf(map, retargeted.human.bodies[k], by_chest);
       const Directions robot = DirectionsOf(map, PostureOfBody(body.map, X_WS[k]), by_chest);
       if (!person.is_known || !robot.is_known) continue;
-      times_.push_back(retargeted.motion.time(k));
+      frames_.push_back(k);
       turned_ += std::abs(std::remainder(robot.heading - person.heading, 2 * std::numbers::pi));
       AddFrame(person.limbs, robot.limbs);
     }
@@ -103,11 +103,12 @@ class DirectionMeasure {
 
   void Conclude(RetargetFigures* figures) const {
     std::vector<double> all;
-    for (std::size_t n = 0; n < names_.size() && !times_.empty(); ++n) {
+    for (std::size_t n = 0; n < names_.size() && !frames_.empty(); ++n) {
       const std::vector<double>& errors = errors_[n];
       const auto most = std::max_element(errors.begin(), errors.end());
+      const int at = frames_[static_cast<std::size_t>(most - errors.begin())];
       figures->limbs.push_back({names_[n], Mean(errors), Percentile(errors, 95), *most,
-                                times_[static_cast<std::size_t>(most - errors.begin())]});
+                                retargeted_.motion.time(at), InAllFrames(errors)});
       all.insert(all.end(), errors.begin(), errors.end());
     }
     if (all.empty()) return;
@@ -118,7 +119,7 @@ class DirectionMeasure {
     figures->is_mirrored = other < kBetterShare * figures->direction &&
                            other < figures->direction - kBetterAngle * kDegree;
     figures->is_backwards =
-        !is_fixed_ && turned_ / static_cast<double>(times_.size()) > std::numbers::pi / 2;
+        !is_fixed_ && turned_ / static_cast<double>(frames_.size()) > std::numbers::pi / 2;
   }
 
  private:
@@ -126,6 +127,12 @@ class DirectionMeasure {
     double sum = 0;
     for (const double value : values) sum += value;
     return sum / static_cast<double>(values.size());
+  }
+
+  std::vector<double> InAllFrames(const std::vector<double>& errors) const {
+    std::vector<double> all(retargeted_.motion.postures.size(), NAN);
+    for (std::size_t i = 0; i < frames_.size(); ++i) all[frames_[i]] = errors[i];
+    return all;
   }
 
   void AddFrame(const std::vector<Vector3d>& person, const std::vector<Vector3d>& robot) {
@@ -141,7 +148,7 @@ class DirectionMeasure {
   const Retargeted& retargeted_;
   std::vector<std::string> names_;
   std::vector<std::vector<double>> errors_;
-  std::vector<double> times_;
+  std::vector<int> frames_;  // whose directions are known
   double exchanged_ = 0, reflected_ = 0, turned_ = 0;
   bool is_fixed_ = false;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,13 @@ struct LimbFigures {
   std::string name;  ///< "left thigh"
   double mean = 0, percentile95 = 0;
   double most = 0, most_time = 0;  ///< [s]
+  std::vector<double> errors;      ///< in each frame; NaN: not known
+};
+
+/// A robot's foot in each frame.
+struct FootFigures {
+  Eigen::VectorXd height;  ///< of its lowest point [m]
+  Eigen::VectorXd speed;   ///< of what bears, from the frame before [m/s]; NaN: not in contact
 };
 
 /// A joint that stands at its limits.
@@ -32,6 +41,7 @@ struct RetargetFigures {
   double penetration = 0;    ///< deepest [m]
   double penetration_time = 0;
   double floating = 0;  ///< mean height in contact [m]
+  std::array<FootFigures, 2> feet;
   int position_breaks = 0, velocity_breaks = 0;
   bool keeps_limits = true;  ///< Retargeted::keeps_limits
   double acceleration = 0;   ///< rms of the joints that move [rad/s^2]

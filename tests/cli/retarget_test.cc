@@ -52,9 +52,9 @@ std::vector<std::vector<double>> ReadNumbers(const std::string& text) {
 }
 
 TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
-  const auto run =
-      RunProgram(Words({"-o", File("o.xml"), "--summary", File("o.json"), "--export-lafan1",
-                        File("o.csv"), "--export-beyondmimic", File("o.npz"), "--order", "isaac"}));
+  const auto run = RunProgram(Words(
+      {"-o", File("o.xml"), "--summary", File("o.json"), "--export-lafan1", File("o.csv"),
+       "--export-beyondmimic", File("o.npz"), "--order", "isaac", "--report", File("o.html")}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("verdict"), HasSubstr(File("o.csv.names.json"))));
   const auto summary = nlohmann::json::parse(ReadText(File("o.json")));
@@ -68,6 +68,7 @@ TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
   }
   EXPECT_THAT(ReadText(File("o.npz")), HasSubstr("body_quat_w.npy"));
   EXPECT_THAT(ReadText(File("o.csv.names.json")), HasSubstr("\"left_hip_pitch\""));
+  EXPECT_THAT(ReadText(File("o.html")), AllOf(HasSubstr("on biped</title>"), HasSubstr("player")));
 }
 
 TEST_F(RetargetCommand, ConvertsARecordingFirst) {
@@ -84,9 +85,11 @@ TEST_F(RetargetCommand, ConvertsARecordingFirst) {
 }
 
 TEST_F(RetargetCommand, PrintsWhichJointsAreTheLimbs) {
-  const auto run = RunProgram({"retarget", "--robot", robot_, "--print-map"});
+  const auto run =
+      RunProgram({"retarget", "--robot", robot_, "--print-map", "--report", File("map.html")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("left_knee"), HasSubstr("right_elbow")));
+  EXPECT_THAT(ReadText(File("map.html")), HasSubstr("a raised knee on biped</title>"));
 }
 
 TEST_F(RetargetCommand, RefusesBeforeTheWork) {
@@ -108,6 +111,8 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
                       1),
               HasSubstr("two outputs"));
   EXPECT_THAT(refusal(Words({"-o", robot_}), 1), HasSubstr(robot_));
+  EXPECT_THAT(refusal(Words({"-o", out, "--report", robot_}), 1), HasSubstr(robot_));
+  EXPECT_THAT(refusal({"retarget", "--robot", robot_, "--report", robot_}, 1), HasSubstr(robot_));
   testing::BipedShape mirrored;
   mirrored.sides = {"right_", "left_"};
   WriteText(File("mirrored.urdf"), testing::BipedText(mirrored));

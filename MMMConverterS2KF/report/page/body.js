@@ -34,6 +34,10 @@ function segmentsWithMarkers(model, markers) {
   return known;
 }
 
+// Of limbs and feet, where a model says which segments these are (`parts`).
+const kPartColours = {"left leg": "#c8553d", "left foot": "#c8553d", "left arm": "#de9672",
+  "right leg": "#2a7f9e", "right foot": "#2a7f9e", "right arm": "#6fb1c8"};
+
 class Body {
   // markers: which model marker belongs to which label, as trial.markers. measured: those of them that are seen at
   // all; bones that none of them moves are drawn pale. Null: nothing is.
@@ -42,6 +46,8 @@ class Body {
     this.material = new THREE.MeshLambertMaterial({transparent: true});
     this.pale = new THREE.MeshLambertMaterial({transparent: true, depthWrite: false});
     this.known = measured ? segmentsWithMarkers(model, measured) : null;
+    this.shell = new THREE.MeshLambertMaterial({transparent: true, depthWrite: false});
+    this.parts = new Map();  // materials
     this.nodes = [];
     this.bones = [];
     this.root = new THREE.Group();
@@ -54,6 +60,10 @@ class Body {
       return node;
     });
     this.addEnds(model, markers);
+    for (const {segment, position} of model.ends || []) {
+      this.addBone(this.nodes[segment], new THREE.Vector3().fromArray(position), Body.bone, this.materialOf(segment));
+    }
+    for (const shape of model.shapes || []) this.addShape(shape);
   }
 
   addSegments(segments) {
@@ -72,6 +82,9 @@ class Body {
   }
 
   materialOf(segment) {
+    const part = this.model.parts ? this.model.parts[segment] : "";
+    if (part && !this.parts.has(part)) this.parts.set(part, new THREE.MeshLambertMaterial({transparent: true}));
+    if (part) return this.parts.get(part);
     return !this.known || this.known.has(segment) ? this.material : this.pale;
   }
 
@@ -113,7 +126,7 @@ class Body {
         .divideScalar(points.length);
       const spread = points.reduce((sum, point) => sum + point.distanceTo(middle), 0) / points.length;
       if (points.length < 3 || spread > kLargestHead) {
-        this.addBone(this.nodes[segment], middle, Body.bone, this.material);
+        this.addBone(this.nodes[segment], middle, Body.bone, this.model.parts ? this.materialOf(segment) : this.material);
       } else {
         this.addBall(this.nodes[segment], middle, spread);
       }
@@ -127,6 +140,41 @@ class Body {
     ball.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), node.position.clone().normalize());
     node.add(ball);
     this.bones.push(ball);
+  }
+
+  // A shape with which a robot touches; its axis is z.
+  addShape({kind, segment, position, orientation, half, radius, half_length: length}) {
+    const group = new THREE.Group();
+    group.position.fromArray(position);
+    group.quaternion.fromArray(orientation);
+    this.nodes[segment].add(group);
+    const part = this.model.parts ? this.model.parts[segment] : "";
+    const material = /foot/.test(part) ? this.materialOf(segment) : this.shell;
+    const add = (geometry, place) => {
+      const mesh = new THREE.Mesh(geometry, material);
+      place(mesh);
+      group.add(mesh);
+      this.bones.push(mesh);
+    };
+    const ball = (size, z) => add(new THREE.SphereBufferGeometry(1, 16, 10), (mesh) => {
+      mesh.scale.fromArray(size);
+      mesh.position.z = z;
+    });
+    if (kind === "box") add(new THREE.BoxBufferGeometry(...half.map((size) => 2 * size)), () => {});
+    if (kind === "sphere") ball([radius, radius, radius], 0);
+    if (kind === "ellipsoid") ball(half, 0);
+    if (kind === "capsule") for (const z of [-length, length]) ball([radius, radius, radius], z);
+    if (kind === "capsule" || kind === "cylinder") {
+      add(new THREE.CylinderBufferGeometry(radius, radius, 2 * length, 16), (mesh) => { mesh.rotation.x = Math.PI / 2; });
+    }
+  }
+
+  // Whether a foot ("left") is on the ground: its colour.
+  setStanding(stands) {
+    for (const side of ["left", "right"]) {
+      const material = this.parts.get(`${side} foot`);
+      if (material) material.color.set(stands(side) ? themeColour("best") : kPartColours[`${side} foot`]);
+    }
   }
 
   // angle: of the joint, or the shift of one that slides.
@@ -173,6 +221,12 @@ class Body {
     this.material.opacity = opacity;
     this.pale.color.set(themeColour("muted"));
     this.pale.opacity = 0.28;
+    this.shell.color.set(themeColour("muted"));
+    this.shell.opacity = 0.2;
+    for (const [part, material] of this.parts) {
+      material.color.set(kPartColours[part]);
+      material.opacity = opacity;
+    }
     for (const bone of this.bones) bone.visible = showBones;
   }
 }

@@ -143,3 +143,11 @@ function withMargin([least, most]) {
   const margin = 0.06 * (most - least) || 1;
   return [least - margin, most + margin];
 }
+
+function coloured(index, name, values) {
+  return {name, colour: converterColour(index), dash: converterDash(index), values};
+}
+
+function level(value) {
+  return {name: null, colour: themeColour("muted"), dash: [8, 4], width: 1, values: () => value};
+}

@@ -35,15 +35,6 @@ class DynamicsView {
   }
 }
 
-function makeTable(kind, label, heads, rows) {
-  const table = element("table", {class: `figures ${kind}`},
-    element("caption", {class: "unseen"}, label),
-    element("thead", {}, element("tr", {}, ...heads.map((head) => element("th", {scope: "col"}, head)))),
-    element("tbody", {}, ...rows.map(([head, ...cells]) => element("tr", {},
-      element("th", {scope: "row"}, head), ...cells))));
-  return element("div", {class: "wide", tabindex: "0", role: "region", "aria-label": label}, table);
-}
-
 function makeChecks(checks) {
   return makeTable("checks", "Checks", ["Check", "measured", "expected", "verdict"], checks.map((check) => [
     check.check, element("td", {}, check.measured), element("td", {}, check.expected),

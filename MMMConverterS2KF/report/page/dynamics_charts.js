@@ -29,14 +29,6 @@ class Series {
 
 const kAxes = ["x", "y", "z"];
 
-function coloured(index, name, values) {
-  return {name, colour: converterColour(index), dash: converterDash(index), values};
-}
-
-function level(value) {
-  return {name: null, colour: themeColour("muted"), dash: [8, 4], width: 1, values: () => value};
-}
-
 // [host, options of a chart] of each chart.
 function describeCharts(series) {
   const charts = [

@@ -85,6 +85,13 @@ class View {
     for (const part of this.parts) part.setFrame(this.frame);
   }
 
+  describe(frame) {
+    const {trial} = this;
+    const hidden = trial.labels.filter((_, label) => trial.isHidden(label, frame)).length;
+    return [trial.hidesMarkers ? `${plural(hidden, "marker")} hidden` : "",
+      this.section.figures.options.runs > 1 ? "the first run" : "", trial.ground ? trial.ground.describe(frame) : ""];
+  }
+
   // A part was zoomed to a range of time; the others follow.
   zoom(source, range) {
     if (this.zooming) return;

@@ -2,7 +2,8 @@
 // The player: time, its controls and keys, and the scene.
 
 class Player {
-  // view: what is shown; it calls setFrame() of all parts when a frame is asked for.
+  // view: what is shown; it calls setFrame() of all parts when a frame is asked for, and says more of a frame by
+  // describe().
   constructor(view) {
     this.view = view;
     this.playing = false;
@@ -69,6 +70,7 @@ class Player {
     byId("scrub").max = trial.frames - 1;
     byId("hidden-legend").hidden = !trial.hidesMarkers;
     byId("truth-option").hidden = !trial.truth;
+    byId("residuals-option").hidden = byId("marker-legend").hidden = trial.labels.length === 0;
     showGround(trial.ground);
     byId("arrangement").hidden = trial.tracks.length < 2;
     if (!this.scene) return;
@@ -106,11 +108,8 @@ class Player {
     const time = `${formatNumber(trial.time(frame), 2)} s`;
     const recorded = trial.recorded(frame);
     byId("scrub").setAttribute("aria-valuetext", `frame ${recorded}, ${time}`);
-    const hidden = trial.labels.filter((_, label) => trial.isHidden(label, frame)).length;
-    byId("now").textContent = `${time} · frame ${recorded} of ${this.view.recordedFrames}` +
-      (trial.hidesMarkers ? ` · ${plural(hidden, "marker")} hidden` : "") +
-      (this.view.section.figures.options.runs > 1 ? " · the first run" : "") +
-      (trial.ground ? ["", ...[trial.ground.describe(frame)].filter(Boolean)].join(" · ") : "");
+    byId("now").textContent = [time, `frame ${recorded} of ${this.view.recordedFrames}`,
+      ...this.view.describe(frame)].filter(Boolean).join(" · ");
     if (this.scene && byId("follow").checked) {
       const middle = trial.middle(frame);
       this.scene.moveCamera(middle.map((value, axis) => value - this.followed[axis]));

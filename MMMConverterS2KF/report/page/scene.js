@@ -75,21 +75,29 @@ class Cloud {
   }
 }
 
-// What one converter says: body, model markers, residual lines.
+// What one converter says: body, model markers, residual lines. A track may have a body of its own ({model, markers}),
+// a place of it ({position, yaw, scale}), and feet that stand at times (stands(side, frame)).
 class Figure {
   constructor(track, signs) {
     this.track = track;
     const trial = track.trial;
-    this.body = new Body(trial.model, trial.markers, trial.seenMarkers);
+    this.body = track.body ? new Body(track.body.model, track.body.markers, null)
+      : new Body(trial.model, trial.markers, trial.seenMarkers);
     this.crosses = Cloud.signs(trial.labels.length, signs.cross, 0.8 * kMarkerSize);
     this.lines = Cloud.lines(trial.labels.length);
     this.group = new THREE.Group();
     this.group.add(this.body.root, this.crosses.object, this.lines.object);
+    if (!track.place) return;
+    this.group.position.fromArray(track.place.position);
+    this.group.rotation.z = track.place.yaw;
+    this.group.scale.setScalar(track.place.scale);
+    this.group.updateMatrixWorld();
   }
 
   setFrame(k, measured) {
     const trial = this.track.trial;
     this.body.setPose(this.track.motion, trial.frames, k);
+    if (this.track.stands) this.body.setStanding((side) => this.track.stands(side, k));
     this.crosses.clear();
     this.lines.clear();
     const place = new THREE.Vector3();
@@ -166,8 +174,8 @@ class Scene {
   // of the converter that is nearest to the markers.
   frameBodies() {
     const {trial} = this;
-    if (trial.frames < 2 || trial.framing || trial.model.segments.length < 2) return;
-    const distance = (figure) => figure.track.mean.reduce((sum, value) => sum + (value || 0), 0);
+    if (trial.frames < 2 || trial.framing || this.figures[0].body.nodes.length < 2) return;
+    const distance = (figure) => (figure.track.mean || []).reduce((sum, value) => sum + (value || 0), 0);
     const nearest = this.figures.reduce((best, one) => (distance(one) < distance(best) ? one : best));
     const step = Math.max(1, trial.frames / 200);
     const bounds = [];

@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/io/model_file.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/io/robot_file.h"
 #include "common/judge/coverage.h"
+#include "common/model/model_scaling.h"
 #include "common/motion/marker_residuals.h"
+#include "common/motion/synthetic_motion.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
 
@@ -49,14 +52,41 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
   return all;
 }
 
+void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
+                    RetargetReport* report) {
+  report->retargeted = RetargetMotion(*model, motion, report->robot, report->body);
+  report->person_model = std::move(model);
+  report->person = std::move(motion);
+}
+
 void RetargetConversion(const ConversionReport& converted, RetargetReport* report,
                         Warnings* warnings) {
   warnings->Append(converted.warnings);
   report->motion_name = converted.plan.motion_name;
   report->conversion_verdict = converted.verdict;
   report->unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
-  report->retargeted = RetargetMotion(
-      *converted.plan.setup.model, TrackedFrames(converted, warnings), report->robot, report->body);
+  RetargetPerson(converted.plan.setup.model, TrackedFrames(converted, warnings), report);
+}
+
+void RetargetFinished(CheckedMotion checked, RetargetReport* report, Warnings* warnings) {
+  warnings->Append(checked.warnings);
+  report->motion_name = checked.name;
+  RetargetPerson(std::make_shared<const KinematicModel>(std::move(checked.model)),
+                 FramesOf(checked.trajectory, checked.begin, checked.end), report);
+}
+
+void RetargetRaisedKnee(RetargetReport* report, Warnings* warnings) {
+  constexpr WinterScaling kPerson = {1.75, 70, {}};
+  const LoadedModel reference = ReadModelFile(ModelFile(InputRequest{}), warnings);
+  auto model = std::make_shared<const KinematicModel>(ScaleWinter(reference.model, kPerson));
+  PoseTrajectory motion = MakeRaisedKnee(*model);
+  report->motion_name = "a raised knee";
+  RetargetPerson(std::move(model), std::move(motion), report);
+}
+
+bool HasMotion(const RetargetRequest& request) {
+  return !request.conversion.input.file.empty() || request.motion || request.converted != nullptr ||
+         request.conversion.input.recording.value != nullptr;
 }
 
 std::string DefaultOutput(const std::string& input) {
@@ -91,8 +121,8 @@ LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings) {
 RetargetReport RunRetargeting(const RetargetRequest& request,
                               const std::function<bool(int, int)>& progress) {
   const std::string& file = request.conversion.input.file;
-  const std::string output =
-      request.conversion.output.empty() ? DefaultOutput(file) : request.conversion.output;
+  std::string output = request.conversion.output;
+  if (output.empty() && HasMotion(request)) output = DefaultOutput(file);
   CheckFiles(request, output);
   Warnings warnings;
   LoadedRobot robot = ReadRobot(request, &warnings);
@@ -107,18 +137,15 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                            {},
                            {},
                            {}};
-  if (request.converted != nullptr) {
+  if (!HasMotion(request)) {
+    RetargetRaisedKnee(&report, &warnings);
+  } else if (request.converted != nullptr) {
     RetargetConversion(*request.converted, &report, &warnings);
   } else if (request.motion ||
              (request.conversion.input.recording.value == nullptr && IsFinishedMotion(file))) {
-    const CheckedMotion checked = request.motion
-                                      ? CheckedMotionOf(*request.motion, request.conversion.input)
-                                      : ReadCheckedMotion(request.conversion.input);
-    warnings.Append(checked.warnings);
-    report.motion_name = checked.name;
-    report.retargeted =
-        RetargetMotion(checked.model, FramesOf(checked.trajectory, checked.begin, checked.end),
-                       report.robot, report.body);
+    RetargetFinished(request.motion ? CheckedMotionOf(*request.motion, request.conversion.input)
+                                    : ReadCheckedMotion(request.conversion.input),
+                     &report, &warnings);
   } else {
     ConversionRequest conversion = request.conversion;
     conversion.output = output;

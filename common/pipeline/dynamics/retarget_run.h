@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,7 +16,8 @@ namespace mmm_converter {
 
 /// What the user asked for. Empty: a default.
 struct RetargetRequest {
-  /// The recording, which is converted first, or the finished motion; output is the robot's.
+  /// The recording, which is converted first, or the finished motion; output is the robot's. No
+  /// file and nothing below: MakeRaisedKnee of the shipped model, which shows the map.
   ConversionRequest conversion;
   std::string robot_file;
   std::string map_file;               ///< see ReadBodyMapChoice
@@ -37,6 +39,8 @@ struct RetargetReport {
   Warnings warnings;
   std::string unshown = {};               ///< of the person, in words; empty: nothing
   std::vector<std::string> written = {};  ///< files
+  std::shared_ptr<const KinematicModel> person_model = nullptr;
+  PoseTrajectory person = {};  ///< as many frames as the robot's
 };
 
 struct LoadedRobot {

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "MMMConverterS2KF/report/retarget_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "MMMConverterS2KF/report/drawn_frames.h"
+#include "MMMConverterS2KF/report/html.h"
+#include "MMMConverterS2KF/report/packed_array.h"
+#include "MMMConverterS2KF/report/page_sources.h"
+#include "MMMConverterS2KF/report/retarget_summary.h"
+#include "MMMConverterS2KF/report/robot_json.h"
+#include "MMMConverterS2KF/report/tracks.h"
+#include "common/model/forward_kinematics.h"
+#include "common/retarget/body_posture.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+/// Where the person is drawn: as tall as the robot, so that both go the same way.
+struct Place {
+  Vector3d position = Vector3d::Zero();  ///< [m]
+  double yaw = 0, scale = 1;
+};
+
+Vector3d Middle(const std::array<LimbPosture, 2>& arms) {
+  return 0.5 * (arms[0].proximal + arms[1].proximal);
+}
+
+Place PlaceOfPerson(const RetargetReport& report) {
+  Place place;
+  place.scale = report.retargeted.scale;
+  if (report.body.feet) return place;
+  // A robot that goes nowhere: shoulder to shoulder.
+  const auto X_WS = SegmentPoses(report.robot.model, report.retargeted.motion.postures.front());
+  const BodyPosture robot = PostureOfBody(report.body.map, X_WS);
+  const BodyPosture& person = report.retargeted.human.bodies.front();
+  const Vector3d left = robot.R_chest.col(1), from = person.R_chest.col(1);
+  place.yaw = std::atan2(left.y(), left.x()) - std::atan2(from.y(), from.x());
+  const Eigen::AngleAxisd turn(place.yaw, Vector3d::UnitZ());
+  place.position = Middle(robot.arms) - place.scale * (turn * Middle(person.arms));
+  return place;
+}
+
+Json MoverJson(const KinematicModel& model, PoseTrajectory motion) {
+  motion.standard_deviations.resize(0, 0);
+  Json json = {{"motion", MotionJson(model, motion)}};
+  json["motion"].erase("anatomy");
+  return json;
+}
+
+Json PersonJson(const KinematicModel& model, const PoseTrajectory& motion, const Place& place) {
+  Json json = MoverJson(model, motion);
+  json["place"] = {{"position", {place.position.x(), place.position.y(), place.position.z()}},
+                   {"yaw", place.yaw},
+                   {"scale", place.scale}};
+  return json;
+}
+
+Json BitsOf(const std::vector<bool>& on, const DrawnFrames& drawn) {
+  Eigen::Matrix<bool, Eigen::Dynamic, 1> bits(drawn.count());
+  for (int i = 0; i < drawn.count(); ++i) bits[i] = on[drawn.frame(i)];
+  return ToJson(PackBits(bits));
+}
+
+Json FeetJson(const RetargetReport& report, const DrawnFrames& drawn) {
+  Json feet = Json::array();
+  for (std::size_t i = 0; report.body.feet && i < 2; ++i) {
+    const FootContacts& contacts = report.retargeted.contacts[i];
+    const FootFigures& foot = report.figures.feet[i];
+    feet.push_back({{"side", Name(kSides[i])},
+                    {"heel", BitsOf(contacts.heel, drawn)},
+                    {"toe", BitsOf(contacts.toe, drawn)},
+                    {"height", ToJson(PackFloats(drawn.LeastOf(foot.height)))},
+                    {"speed", ToJson(PackFloats(drawn.MostOf(foot.speed)))}});
+  }
+  return feet;
+}
+
+Json LimbsJson(const RetargetFigures& figures, const DrawnFrames& drawn) {
+  Json limbs = Json::array();
+  for (const LimbFigures& limb : figures.limbs) {
+    const auto size = static_cast<Eigen::Index>(limb.errors.size());
+    const MatrixXd errors = Eigen::Map<const Eigen::VectorXd>(limb.errors.data(), size);
+    limbs.push_back({{"name", limb.name}, {"errors", ToJson(PackFloats(drawn.MostOf(errors)))}});
+  }
+  return limbs;
+}
+
+Json TimesJson(const std::string& name, const PoseTrajectory& motion) {
+  const DrawnFrames drawn(motion.num_frames());
+  return {{"name", name},       {"frames", drawn.count()}, {"every", drawn.every()},
+          {"optimum_every", 1}, {"rate", motion.rate},     {"first_time", motion.first_time}};
+}
+
+Json MotionOfBoth(const RetargetReport& report) {
+  const DrawnFrames drawn(report.person.num_frames());
+  Json json = TimesJson(report.motion_name.empty() ? "motion" : report.motion_name, report.person);
+  json["person"] = PersonJson(*report.person_model, report.person, PlaceOfPerson(report));
+  json["robot"] = MoverJson(report.robot.model, report.retargeted.motion);
+  json["feet"] = FeetJson(report, drawn);
+  json["limbs"] = LimbsJson(report.figures, drawn);
+  return json;
+}
+
+PoseTrajectory Still(const KinematicModel& model, const Posture& posture) {
+  PoseTrajectory still;
+  still.rate = 1;
+  for (int j = 0; j < model.num_joints(); ++j) still.joint_names.push_back(model.joint(j).name);
+  still.postures = {posture, posture};  // a player wants a span of time
+  return still;
+}
+
+/// The posture at zero, looking along x, and as high as `lowest` of its segments says.
+template <typename Lowest>
+PoseTrajectory AtZero(const KinematicModel& model, Posture zero, const BodyMap& map,
+                      const Lowest& lowest) {
+  zero.orientation = Eigen::Quaterniond(map.R_WA.transpose()) * zero.orientation;
+  zero.position.setZero();
+  zero.position.z() = -lowest(SegmentPoses(model, zero));
+  return Still(model, zero);
+}
+
+Json ZeroPoses(const RetargetReport& report) {
+  const KinematicModel& model = *report.person_model;
+  const HumanBody person = FindHumanBody(model);
+  const PoseTrajectory persons =
+      AtZero(model, StandingPosture(model), person.map, [&](const auto& X_WS) {
+        return (X_WS[person.heels[0].segment] * person.heels[0].p_S).z() - person.heel_heights[0];
+      });
+  const PoseTrajectory robots = AtZero(
+      report.robot.model, ZeroPosture(report.robot.model), report.body.map, [&](const auto& X_WS) {
+        double lowest = INFINITY;
+        for (const auto& X : X_WS) lowest = std::min(lowest, X.translation().z());
+        if (!report.body.feet) return lowest;
+        for (const RobotFoot& foot : *report.body.feet) {
+          lowest = std::min(lowest, LowestOf(foot, X_WS[foot.segment]));
+        }
+        return lowest;
+      });
+  Json json = TimesJson("both at their zero poses", persons);
+  json["person"] = PersonJson(model, persons, {Vector3d::Zero(), 0, report.retargeted.scale});
+  json["robot"] = MoverJson(report.robot.model, robots);
+  json["feet"] = json["limbs"] = Json::array();
+  return json;
+}
+
+Json BodiesJson(const RetargetReport& report) {
+  const HumanBody person = FindHumanBody(*report.person_model);
+  return {{"person",
+           {{"name", "person"}, {"model", MappedModelJson(*report.person_model, person.map)}}},
+          {"robot",
+           {{"name", report.robot.model.name()}, {"model", RobotJson(report.robot, report.body)}}},
+          {"trials", {MotionOfBoth(report), ZeroPoses(report)}}};
+}
+
+std::string DescribeMotion(const RetargetReport& report) {
+  const RetargetFigures& figures = report.figures;
+  std::string text =
+      fmt::format("{}: {}, {} frames at {:g} Hz, on {} ({}).",
+                  report.file.empty() ? "A made motion" : report.file, report.motion_name,
+                  figures.num_frames, figures.rate, report.robot.model.name(), report.robot_file);
+  if (report.body.feet) text += fmt::format(" Sole: {}.", (*report.body.feet)[0].said);
+  if (!report.unshown.empty()) {
+    text += fmt::format(" Not shown: {}: the robot's are as a person's at rest.", report.unshown);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string FormatRetargetPage(const RetargetReport& report) {
+  Json figures = ToJson(report);
+  figures["program"] = fmt::format("MMMConverterS2KF {}", MMM_CONVERTER_VERSION);
+  figures["sentence"] = fmt::format("Verdict: {}.", DescribeVerdict(report.verdict));
+  figures["about"] = DescribeMotion(report);
+  const std::string file = std::filesystem::path(report.file).filename().string();
+  return FormatPage(
+      {.title = fmt::format("{} on {}", file.empty() ? report.motion_name : file,
+                            report.robot.model.name()),
+       .styles = RobotStyles(),
+       .content = RobotContent(),
+       .data = DataBlock("figures", FormatJson(figures)) +
+               DataBlock("bodies", FormatJsonLine(BodiesJson(report))),
+       .libraries = {{PlotLibrary(), PlotLibrarySha256()}, {SceneLibrary(), SceneLibrarySha256()}},
+       .script = {RobotScript(), RobotScriptSha256()}});
+}
+
+}  // namespace mmm_converter
