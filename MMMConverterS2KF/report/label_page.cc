@@ -64,12 +64,13 @@ std::string FormatLabelPage(const LabelReport& report) {
       "Labels of " + std::filesystem::path(report.input.recording.file).filename().string();
   const std::string data = DataBlock("figures", FormatJson(figures)) +
                            DataBlock("tracks", FormatJsonLine(TracksOfNames(report)));
-  return FormatPage({.title = title,
-                     .styles = DynamicsStyles(),
-                     .content = LabelContent(),
-                     .data = data,
-                     .libraries = {{PlotLibrary(), PlotLibrarySha256()}},
-                     .script = {LabelScript(), LabelScriptSha256()}});
+  return FormatPage(
+      {.title = title,
+       .styles = DynamicsStyles(),
+       .content = LabelContent(),
+       .data = data,
+       .libraries = {{SceneLibrary(), SceneLibrarySha256()}, {PlotLibrary(), PlotLibrarySha256()}},
+       .script = {LabelScript(), LabelScriptSha256()}});
 }
 
 }  // namespace mmm_converter

@@ -23,7 +23,16 @@ class LabelPage(PageCase):
         self.assertEqual(self.run_script("return mmmReport.name"), last["to"])
         self.assertEqual(self.run_script("return mmmReport.frame"), last["first_frame"])
         self.assertIn("now", self.text("#x-plot .readout"))
+        self.check_sticks(len(names))
         self.check_nothing_was_loaded()
+
+    # Between all names; crosses where the last change begins.
+    def check_sticks(self, names):
+        self.assertIn("changed: ", self.text("#now"))
+        for drawn in self.run_script("return mmmReport.drawn"):
+            self.assertGreater(drawn["crosses"], 0, drawn)
+            self.assertGreater(drawn["ends"], 0, drawn)
+            self.assertLessEqual(drawn["ends"], 2 * (names - 1), drawn)
 
     def test_it_fits(self):
         self.check_fits(("label.html", "hostile_label.html"))

@@ -1,46 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The page of a recording's labels: what was changed, and the track of a marker before and after.
+// The page of a recording's labels: what was changed, the points under their names and the track of a marker, before
+// and after.
 
 const kMostRows = 500;
 
-class Tracks {
-  constructor(json) {
-    this.frames = json.frames;
-    this.every = json.every;
-    this.firstFrame = json.first_frame;
-    this.rate = json.rate;
-    this.firstTime = json.first_time;
-    this.names = json.names.map((one) => {
-      const track = {name: one.name, hasBefore: one.before !== null};
-      lazily(track, "before", one.before);
-      lazily(track, "after", one.after);
-      return track;
-    });
-  }
-
-  time(frame) {
-    return this.firstTime + frame * this.every / this.rate;
-  }
-
-  frameAt(time) {
-    return Math.min(Math.max(Math.round((time - this.firstTime) * this.rate / this.every), 0), this.frames - 1);
-  }
-
-  // Of a frame of the file.
-  drawn(frame) {
-    return Math.floor((frame - this.firstFrame) / this.every);
-  }
-}
-
 class LabelView {
-  constructor(figures, tracks) {
+  constructor(figures, trial) {
     this.figures = figures;
-    this.trial = tracks;
+    this.trial = trial;
     this.frame = 0;
     this.charts = [];
-    this.name = figures.changes.map((change) => change.to).find((to) => to !== null) || null;
-    if (this.track() === undefined && tracks.names.length > 0) this.name = tracks.names[0].name;
+    this.shown = new Set(trial.tracks.map((track) => track.contender));
+    const change = figures.changes.find(({to}) => trial.names.some((one) => one.name === to));
+    this.name = change ? change.to : trial.names.length > 0 ? trial.names[0].name : null;
+    if (change) this.frame = trial.drawn(change.first_frame);
+    byId("player-part").hidden = trial.names.length === 0;
+    if (trial.names.length > 0) {
+      this.player = new Player(this);
+      this.player.show(trial);
+      byId("residuals-option").hidden = byId("marker-legend").hidden = true;
+    }
     this.refresh();
+  }
+
+  get recordedFrames() {
+    return this.figures.frames;
+  }
+
+  describe(frame) {
+    const changed = this.trial.names.filter((_, label) => this.trial.isChanged(label, frame)).map((one) => one.name);
+    return [changed.length > 0 ? `changed: ${changed.join(", ")}` : ""];
   }
 
   track() {
@@ -60,6 +49,8 @@ class LabelView {
     this.charts = [];
     const track = this.track();
     if (track === undefined) return;
+    this.trial.chosen = track.name;
+    this.player.refresh();
     const shades = this.figures.changes.filter((change) => change.to === track.name)
       .map((change) => [this.trial.drawn(change.first_frame), this.trial.drawn(change.last_frame)]);
     this.charts = ["x", "y", "z"].map((axis, i) => {
@@ -71,10 +62,12 @@ class LabelView {
       return new Chart(byId(`${axis}-plot`), this, {lines, shades, unit: "m", digits: 3,
         range: withMargin(extremes(lines, this.trial.frames)), label: `${axis} over time, metres`});
     });
+    this.seek(this.frame);
   }
 
   seek(frame) {
     this.frame = Math.min(Math.max(Math.round(frame), 0), this.trial.frames - 1);
+    if (this.player) this.player.setFrame(this.frame);
     for (const chart of this.charts) chart.setFrame(this.frame);
   }
 
@@ -118,7 +111,7 @@ function start() {
   byId("about").textContent = `${figures.input.file}: ${plural(figures.frames, "frame")} at ` +
     `${formatNumber(figures.rate_hz, 0)} Hz, ${plural(figures.input.points, "point")}. ` +
     (figures.output === null ? "Nothing was written." : `Written to ${figures.output}.`);
-  const view = new LabelView(figures, new Tracks(block("tracks")));
+  const view = new LabelView(figures, new LabelTrial(block("tracks")));
   replaceContent(byId("name"), ...view.trial.names.map((one) => option(one.name, one.name)));
   byId("name").value = view.name;
   byId("name").addEventListener("change", (event) => view.show(event.target.value, view.frame));
@@ -134,6 +127,14 @@ function start() {
     figures,
     get name() { return view.name; },
     get frame() { return view.frame; },
+    // Crosses of what was changed in this frame, and ends of sticks: of now, and of what was.
+    get drawn() {
+      return view.trial.tracks.map((track) => {
+        const one = track.makeFigure(makeSigns());
+        one.setFrame(view.frame);
+        return {name: one.track.name, crosses: one.crosses.count, ends: one.lines.count};
+      });
+    },
     seek: (frame) => view.seek(frame),
   };
   requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));

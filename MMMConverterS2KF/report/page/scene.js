@@ -158,7 +158,8 @@ class Scene {
     this.content = new THREE.Group();
     this.seen = Cloud.signs(trial.labels.length, this.signs.disc, kMarkerSize);
     this.unseen = Cloud.signs(trial.labels.length, this.signs.ring, kMarkerSize);
-    this.figures = trial.tracks.map((track) => new Figure(track, this.signs));
+    this.figures = trial.tracks.map((track) =>
+      (track.makeFigure ? track.makeFigure(this.signs) : new Figure(track, this.signs)));
     this.truth = trial.truth ? new Body(trial.model, [], null) : null;
     this.frameBodies();
     this.content.add(this.seen.object, this.unseen.object, ...this.figures.map((one) => one.group));
