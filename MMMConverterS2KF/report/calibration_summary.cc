@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
@@ -108,14 +107,6 @@ double MeanOffset(const Subject& subject) {
   return subject.offsets.empty() ? 0 : sum / static_cast<double>(subject.offsets.size());
 }
 
-int FramesTaken(const Subject& subject, const std::string& file) {
-  const std::string name = std::filesystem::path(file).filename().string();
-  for (const SubjectSource& source : subject.sources) {
-    if (source.recording == name) return source.frames;
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::string FormatSubjectSummary(const Subject& subject) {
@@ -128,18 +119,24 @@ std::string FormatSubjectSummary(const Subject& subject) {
          DoubtsLine(subject);
 }
 
-std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file) {
-  const CalibrationResult& result = report.result;
+std::string FormatTakenFrames(const std::vector<CalibrationInput>& recordings,
+                              const Subject& subject) {
   std::string text;
-  for (const CalibrationInput& one : report.recordings) {
-    const MarkerSequence& markers = one.input.recording.markers;
-    const int used = FramesTaken(result.subject, one.input.recording.file);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const CalibrationInput& one = recordings[r];
     text += CalibrationLine(
         "recording",
-        fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file, used,
-                    markers.num_frames(), one.setup.assignments().size(),
+        fmt::format("{}: {} of {} frames taken, {} markers{}", one.input.recording.file,
+                    subject.sources[r].frames, one.input.recording.markers.num_frames(),
+                    one.setup.assignments().size(),
                     one.setup.marker_set.empty() ? "" : ", marker set " + one.setup.marker_set));
   }
+  return text;
+}
+
+std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file) {
+  const CalibrationResult& result = report.result;
+  std::string text = FormatTakenFrames(report.recordings, result.subject);
   text += CalibrationLine("person",
                           fmt::format("\"{}\", {:.3g} m ({}), {:.4g} kg ({})", result.subject.name,
                                       report.person.height.value, report.person.height.source,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "MMMConverterS2KF/report/json.h"
 #include "common/pipeline/person_calibration.h"
@@ -10,6 +11,10 @@ namespace mmm_converter {
 
 /// What a subject has changed and how well it is determined, in a few lines, for people.
 std::string FormatSubjectSummary(const Subject& subject);
+
+/// A line for each recording: how many frames of it the person was estimated from.
+std::string FormatTakenFrames(const std::vector<CalibrationInput>& recordings,
+                              const Subject& subject);
 
 /// A calibration in a dozen lines; the last is a sentence. file: the subject's.
 std::string FormatCalibrationSummary(const CalibrationReport& report, const std::string& file);

@@ -37,7 +37,8 @@ std::vector<BodyFactors> FactorsOf(const OsimScalingReport& report, const Subjec
 
 std::string FormatOsimCalibration(const OsimScalingReport& report, const CalibrationResult& result,
                                   const std::string& file) {
-  std::string text = fmt::format("{:24} {}\n", "along", "x               y               z");
+  std::string text = FormatTakenFrames(report.recordings, result.subject);
+  text += fmt::format("{:24} {}\n", "along", "x               y               z");
   for (const BodyFactors& body : FactorsOf(report, result.subject)) {
     text += fmt::format("{:24}", body.name);
     for (int axis = 0; axis < 3; ++axis) {
@@ -51,9 +52,7 @@ std::string FormatOsimCalibration(const OsimScalingReport& report, const Calibra
       "the model\n",
       "markers", report.scaled.placed_markers, kMillimetres * result.distance_after,
       kMillimetres * result.distance_before);
-  return text +
-         fmt::format("Calibrated on {} frames of {} recordings: wrote {}\n", result.frames,
-                     result.subject.sources.size(), file) +
+  return text + fmt::format("Calibrated on {} frames: wrote {}\n", result.frames, file) +
          FormatVerdict(*report.verdict);
 }
 

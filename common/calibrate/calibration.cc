@@ -73,7 +73,8 @@ VectorXd JointRanges(const std::vector<CalibrationFrame>& frames) {
   return ranges;
 }
 
-void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
+/// Whether the person moves at all.
+bool CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
                    const std::vector<CalibrationFrame>& frames, bool may_stand,
                    Warnings* warnings) {
   const VectorXd ranges = JointRanges(frames);
@@ -84,7 +85,7 @@ void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
            "the person only stands: joint angles of this posture are the model's by its markers, "
            "and "
            "where joints turn is the model's, too; a recording with movement tells more");
-      return;
+      return false;
     }
     throw Error(fmt::format(
         "too still to calibrate on: the joint that moves most, {}, does so by {:.0f} degrees, at "
@@ -99,6 +100,7 @@ void CheckMovement(const KinematicModel& model, const std::vector<int>& joints,
                                "model's",
                                still, ranges.size(), kDegrees * kLeastRange));
   }
+  return true;
 }
 
 VectorXd NoiseScales(const std::vector<CalibrationRecording>& recordings,
@@ -239,7 +241,7 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   CalibrationResult result;
   const OffsetsInTurns first =
       FitOffsetsInTurns(model, joints, markers, &frames, options.between_steps);
-  CheckMovement(model, joints, frames, options.may_stand, warnings);
+  result.stands = !CheckMovement(model, joints, frames, options.may_stand, warnings);
   body.offsets = first.offsets;
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const BodyFitResult fit =

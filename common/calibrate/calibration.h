@@ -51,6 +51,7 @@ struct CalibrationResult {
   double distance_after = 0;   ///< the same for the subject's model [m]
   int frames = 0;
   int iterations = 0;
+  bool stands = false;  ///< all the time: nothing tells where joints turn
   std::vector<MovedMarkers> moved;
 };
 

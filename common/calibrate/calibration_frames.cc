@@ -23,7 +23,7 @@ constexpr double kInterval = 0.1;  // of candidate frames [s]
 constexpr int kRounds = 5;
 constexpr int kSearchAttempts = 4;
 constexpr double kRobustDistance = 0.1;  // [m]
-// A frame that fits this many times worse than the median one is not taken.
+// A frame that fits this many times worse than the median one of its recording is not taken.
 constexpr double kBadFactor = 2.5;
 
 KinematicModel WithOffsets(const KinematicModel& model, const std::vector<MarkerIx>& markers,
@@ -59,6 +59,21 @@ void ForEachResidual(const KinematicModel& model, const std::vector<int>& joints
       take(m, Vector3d(X_WS[marker.segment].inverse() * p_WM - marker.p_SM));
     }
   }
+}
+
+/// By recording, the distance beyond which a frame of it is bad. Each has its own: one in which the
+/// person stands fits better than any movement.
+std::vector<double> BoundsOfRecordings(const std::vector<CalibrationFrame>& frames,
+                                       const VectorXd& distance) {
+  std::vector<std::vector<double>> distances(frames.empty() ? 0 : frames.back().recording + 1);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    distances[frames[k].recording].push_back(distance[static_cast<Eigen::Index>(k)]);
+  }
+  std::vector<double> bounds(distances.size(), 0.0);
+  for (std::size_t r = 0; r < bounds.size(); ++r) {
+    if (!distances[r].empty()) bounds[r] = kBadFactor * Median(distances[r]);
+  }
+  return bounds;
 }
 
 }  // namespace
@@ -182,10 +197,11 @@ OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<
 
 std::vector<CalibrationFrame> ChooseFrames(std::vector<CalibrationFrame> frames,
                                            const VectorXd& distance, int count) {
-  const double bound = kBadFactor * Median({distance.data(), frames.size()});
+  const std::vector<double> bounds = BoundsOfRecordings(frames, distance);
   std::vector<CalibrationFrame> good;
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    if (distance[static_cast<Eigen::Index>(k)] <= bound) good.push_back(std::move(frames[k]));
+    const bool is_good = distance[static_cast<Eigen::Index>(k)] <= bounds[frames[k].recording];
+    if (is_good) good.push_back(std::move(frames[k]));
   }
   if (static_cast<int>(good.size()) <= count) return good;
   std::vector<double> gap(good.size(), std::numeric_limits<double>::infinity());

@@ -61,7 +61,8 @@ OffsetsInTurns FitOffsetsInTurns(const KinematicModel& model, const std::vector<
                                  const std::function<void()>& between_steps);
 
 /// At most `count` of the frames, each as far in joint angles from those chosen before as can be
-/// (Gonzalez 1985), leaving out those that fit much worse than the others.
+/// (Gonzalez 1985), leaving out those that fit much worse than others of their
+/// recording.
 std::vector<CalibrationFrame> ChooseFrames(std::vector<CalibrationFrame> frames,
                                            const Eigen::VectorXd& distance, int count);
 

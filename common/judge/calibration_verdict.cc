@@ -12,8 +12,14 @@
 namespace mmm_converter {
 namespace {
 
-// Whether the recordings are of one person who wears the same.
+// Whether the recordings are of one person who moves and wears the same.
 void JudgeSources(const CalibrationResult& result, VerdictReasons* reasons) {
+  if (result.stands) {
+    reasons->Add(Verdict::Level::kCheck,
+                 "the person only stands, which does not tell where joints are: angles may be off "
+                 "by what their deviations say, the same in all frames; add a recording with "
+                 "movement");
+  }
   for (const SubjectSource& source : result.subject.sources) {
     if (source.frames > 0) continue;
     reasons->Add(Verdict::Level::kCheck,

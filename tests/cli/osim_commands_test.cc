@@ -18,6 +18,7 @@ namespace mmm_converter {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using testing::ReadStrictMot;
 using testing::ReadText;
@@ -105,7 +106,7 @@ TEST(OsimCommands, ThePersonIsCalibratedByRecordings) {
   const auto run = RunProgram(words);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("femur_r "), HasSubstr(" +- "), HasSubstr("70.500 kg"),
-                             HasSubstr("25 moved"), HasSubstr("of 2 recordings: wrote ")));
+                             HasSubstr("25 moved"), ContainsRegex("walk.trc: [1-9][0-9]* of ")));
   const std::string text = ReadText(OutFile("person.osim"));
   EXPECT_NEAR(ParseOsimModel(text, "person.osim").total_mass(), 70.5, 1e-9);
   EXPECT_THAT(text, HasSubstr("<!-- A made model of trunk and legs, with round numbers. -->"));
@@ -120,9 +121,9 @@ TEST(OsimCommands, ThePersonIsCalibratedByRecordings) {
                   OutFile("standing.html"), "--name", "A--na"});
   ASSERT_EQ(standing.exit_code, 0) << standing.err;
   EXPECT_THAT(ReadText(OutFile("standing.html")), HasSubstr("<h1>Calibration of A--na</h1>"));
-  EXPECT_THAT(standing.out, HasSubstr("verdict    good"));
+  EXPECT_THAT(standing.out, HasSubstr("verdict    check"));
   const Json summary = Json::parse(ReadText(OutFile("standing.json")));
-  EXPECT_EQ(summary["verdict"]["level"], "good");
+  EXPECT_THAT(summary["verdict"]["reasons"].dump(), HasSubstr("the person only stands"));
   EXPECT_EQ(summary["subject"]["name"], "A--na");
   const Json& deviations = summary["factor_deviations"]["femur_r"];
   EXPECT_LT(deviations[1], deviations[0]);  // nothing shows the thickness of a thigh
