@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/calibrate/frame_equations.h"
-#include "common/calibrate/robust_cost.h"
+#include "common/calibrate/offset_prior.h"
 #include "common/math/dense.h"
 #include "common/math/square.h"
 #include "common/support/parallel.h"
@@ -20,12 +20,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Of a marker's offset, in marker_deviations, where it begins to count less: some are worn far
-// from the model's place.
-constexpr double kOffsetScale = 2;
-// Of a marker on one side of a joint, as a share of marker_deviation across the line to that on the
-// other: both are palpated, and the joint is between them (Della Croce et al. 2005).
-constexpr double kPairShare = 0.5;
 constexpr double kLeastScale = 0.5;
 constexpr double kMostScale = 2;
 constexpr int kMostIterations = 150;
@@ -99,14 +93,6 @@ VectorXd OwnShares(const std::vector<CalibrationFrame>& frames, double skin_time
   return repeated.cwiseInverse();
 }
 
-/// What a pair's line adds to the information about a marker's offset, in marker_deviation^-2: 1
-/// across it.
-Eigen::Matrix3d AcrossLine(const Eigen::Matrix3Xd& lines, Eigen::Index m) {
-  if (m >= lines.cols() || lines.col(m).isZero(0)) return Eigen::Matrix3d::Zero();
-  const double more = 1 / Square(kPairShare) - 1;
-  return more * (Eigen::Matrix3d::Identity() - lines.col(m) * lines.col(m).transpose());
-}
-
 class BodyFit {
  public:
   BodyFit(BodyKinematics* kinematics, const CalibrationOptions& options,
@@ -116,6 +102,7 @@ class BodyFit {
         frames_(*frames),
         body_(*body),
         trial_body_(*body),
+        offset_prior_(*kinematics, options),
         scale_prior_(ScalePrior(kinematics->lengths(), options)),
         trial_(frames->size()),
         costs_(static_cast<Eigen::Index>(frames->size())),
@@ -143,7 +130,6 @@ class BodyFit {
   }
 
   double Cost(const Body& body, const std::vector<Posture>& postures);
-  double OffsetSquare(const Body& body, Eigen::Index m) const;
   double PriorCost(const Body& body) const;
   void Linearize();
   void AddPrior();
@@ -156,6 +142,7 @@ class BodyFit {
   std::vector<CalibrationFrame>& frames_;
   Body& body_;
   Body trial_body_;
+  OffsetPrior offset_prior_;
   MatrixXd scale_prior_;
   std::vector<Posture> trial_;
   VectorXd costs_;
@@ -175,35 +162,15 @@ double BodyFit::Cost(const Body& body, const std::vector<Posture>& postures) {
   return costs_.sum() + PriorCost(body);
 }
 
-double BodyFit::OffsetSquare(const Body& body, Eigen::Index m) const {
-  const auto offset = body.offsets.col(m);
-  return offset.squaredNorm() + offset.dot(AcrossLine(kinematics_.lines(), m) * offset);
-}
-
 double BodyFit::PriorCost(const Body& body) const {
-  double cost = 0;
-  const double sigma = options_.marker_deviation;
-  for (Eigen::Index m = 0; m < body.offsets.cols(); ++m) {
-    cost += CauchyCost(OffsetSquare(body, m) / (sigma * sigma), kOffsetScale);
-  }
   const VectorXd d = body.scales.array() - 1;
-  return cost + d.dot(scale_prior_ * d);
+  return offset_prior_.Cost(body.offsets) + d.dot(scale_prior_ * d);
 }
 
 void BodyFit::AddPrior() {
-  auto H = total_.H.view();
-  const double offset = 1 / (options_.marker_deviation * options_.marker_deviation);
-  for (Eigen::Index m = 0; m < body_.offsets.cols(); ++m) {
-    const double square = OffsetSquare(body_, m) * offset;
-    const double w = offset * CauchyWeight(square, kOffsetScale);
-    H.diagonal().segment<3>(3 * m).array() += w;
-    total_.g.segment<3>(3 * m) -= w * body_.offsets.col(m);
-    const Eigen::Matrix3d across = AcrossLine(kinematics_.lines(), m);
-    H.block<3, 3>(3 * m, 3 * m) += w * across;
-    total_.g.segment<3>(3 * m) -= w * (across * body_.offsets.col(m));
-  }
+  offset_prior_.Add(body_.offsets, &total_);
   const Eigen::Index scales = body_.scales.size();
-  H.bottomRightCorner(scales, scales) += scale_prior_;
+  total_.H.view().bottomRightCorner(scales, scales) += scale_prior_;
   total_.g.tail(scales) -= scale_prior_ * (body_.scales.array() - 1).matrix();
 }
 
@@ -266,6 +233,7 @@ Body BodyFit::Deviations(BodyFitResult* result) {
                             static_cast<double>(equations_.size());
   }
   result->covariance = P;
+  result->side_correlation = offset_prior_.LikelyCorrelation(body_.offsets, P);
   const VectorXd deviations = P.diagonal().cwiseMax(0).cwiseSqrt();
   return {deviations.tail(body_.scales.size()),
           deviations.head(body_.offsets.size()).reshaped(3, Eigen::AutoSize)};

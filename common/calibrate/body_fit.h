@@ -18,6 +18,7 @@ struct BodyFitResult {
   /// The body's covariance, as BodyEquations order it, and how the joints' angles follow the body
   /// on average over the frames, joints x body.
   Eigen::MatrixXd covariance, joint_slopes;
+  double side_correlation = 0;             ///< OffsetPrior::LikelyCorrelation
   Eigen::VectorXd prior_scale_deviations;  ///< of the scales before any recording
   /// What all scales have in common beyond 1, and its standard deviation, where the height is a
   /// guess; else 0.

@@ -34,6 +34,7 @@ BodyKinematics::BodyKinematics(const KinematicModel& model, std::vector<int> joi
       markers_(std::move(markers)),
       lengths_(std::move(sizes.lengths)),
       lines_(std::move(sizes.lines)),
+      mirrors_(std::move(sizes.mirrors)),
       rescale_(std::move(sizes.rescale)) {
   const auto num_scales = static_cast<Eigen::Index>(lengths_.segments.size());
   sized_.emplace_back(model_, joints_, markers_);

@@ -28,6 +28,12 @@ struct BodyJacobian {
   Eigen::Matrix3Xd of_model;          // scratch
 };
 
+/// Two used markers that are at the same place of both sides of the body.
+struct MirroredPlaces {
+  int a, b;
+  Eigen::Matrix3d R_ba;  ///< makes a vector in axes of a's segment its mirror image in those of b's
+};
+
 /// Sizes of a model that are not lengths of single segments.
 struct BodySizes {
   SegmentLengths lengths;  ///< its segments stand for what has a size, and name it
@@ -36,6 +42,7 @@ struct BodySizes {
   /// By used marker: the line to the one on the other side of a joint, a unit vector in axes of the
   /// segment; 0: none. Empty: of none.
   Eigen::Matrix3Xd lines;
+  std::vector<MirroredPlaces> mirrors = {};  ///< each marker once at most
 };
 
 /// Marker kinematics of a body that changes. Compute may be called by several threads.
@@ -53,6 +60,7 @@ class BodyKinematics {
   const std::vector<MarkerIx>& markers() const { return markers_; }
   const SegmentLengths& lengths() const { return lengths_; }
   const Eigen::Matrix3Xd& lines() const { return lines_; }  ///< of BodySizes
+  const std::vector<MirroredPlaces>& mirrors() const { return mirrors_; }
   /// Of the body set last; the model's at first.
   const MarkerKinematics& kinematics() const { return *kinematics_; }
   const KinematicModel& fitted() const { return *fitted_; }
@@ -74,6 +82,7 @@ class BodyKinematics {
   std::vector<MarkerIx> markers_;
   SegmentLengths lengths_;
   Eigen::Matrix3Xd lines_;
+  std::vector<MirroredPlaces> mirrors_;
   std::function<KinematicModel(const Eigen::VectorXd&)> rescale_;  // empty: FitToSubject
   std::vector<MarkerKinematics> sized_;  // with rescale_: the model, then each scale larger by 1
   /// lengths_ x markers_: true where the marker is below the segment, or on it.

@@ -271,6 +271,7 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   result.moved = FindMoved(fitted, joints, markers, recordings, frames);
   result.frames = static_cast<int>(chosen.size());
   result.iterations = fit.iterations;
+  result.side_correlation = fit.side_correlation;
   return result;
 }
 

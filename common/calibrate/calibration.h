@@ -27,6 +27,7 @@ struct CalibrationRecording {
 struct CalibrationOptions {
   int frames = 120;                ///< at most, chosen over all recordings
   double marker_deviation = 0.03;  ///< of a marker from the model's place, each coordinate [m]
+  double side_correlation = 0;     ///< of markers at the same place of both sides
   double scale_deviation = 0.06;   ///< of a segment's scale
   double axis_deviation = 0.04;    ///< of a body's scale along an axis from its others' mean
   double side_deviation = 0.01;    ///< of left against right scale
@@ -51,7 +52,8 @@ struct CalibrationResult {
   double distance_after = 0;   ///< the same for the subject's model [m]
   int frames = 0;
   int iterations = 0;
-  bool stands = false;  ///< all the time: nothing tells where joints turn
+  double side_correlation = 0;  ///< that the offsets make likely
+  bool stands = false;          ///< all the time: nothing tells where joints turn
   std::vector<MovedMarkers> moved;
 };
 

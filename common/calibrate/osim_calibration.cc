@@ -63,6 +63,7 @@ class OsimCalibration {
  private:
   std::vector<bool> BodiesWithMarkers() const;
   Eigen::Matrix3Xd PairLines() const;
+  std::vector<MirroredPlaces> Mirrors() const;
   const OsimMarker* SourceOf(MarkerIx marker) const;
 
   const OsimDocument& document_;
@@ -119,6 +120,7 @@ BodySizes OsimCalibration::Sizes(double size) const {
     for (int i = 0; i < 3; ++i) sizes.lengths.mirror.emplace_back(3 * left + i, 3 * right + i);
   }
   sizes.lines = PairLines();
+  sizes.mirrors = Mirrors();
   sizes.rescale = [this, size](const VectorXd& scales) { return Scaled(size, scales); };
   return sizes;
 }
@@ -163,6 +165,33 @@ Eigen::Matrix3Xd OsimCalibration::PairLines() const {
   return lines;
 }
 
+/// Markers with the name of the other side, mirrored at the plane that is halfway between them.
+std::vector<MirroredPlaces> OsimCalibration::Mirrors() const {
+  const Posture rest = RestPosture(reference_);
+  const std::vector<Eigen::Isometry3d> X_WS = SegmentPoses(reference_, rest);
+  const Eigen::Matrix3Xd p_WM = MarkerPositions(reference_, rest);
+  std::vector<MirroredPlaces> mirrors;
+  Vector3d across = Vector3d::Zero();
+  for (int a = 0; a < static_cast<int>(markers_.size()); ++a) {
+    const int other =
+        reference_.FindMarker(MirroredOsimName(reference_.markers()[markers_[a]].name));
+    const auto found = std::find(markers_.begin() + a + 1, markers_.end(), MarkerIx(other));
+    if (other < 0 || found == markers_.end()) continue;
+    mirrors.push_back({a, static_cast<int>(found - markers_.begin()), Eigen::Matrix3d::Zero()});
+    const Vector3d apart = p_WM.col(markers_[a]) - p_WM.col(other);
+    across += across.dot(apart) < 0 ? Vector3d(-apart) : apart;
+  }
+  across.normalize();
+  const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * across * across.transpose();
+  for (MirroredPlaces& pair : mirrors) {
+    const auto R_WS = [&](int m) {
+      return X_WS[reference_.markers()[markers_[m]].segment].linear();
+    };
+    pair.R_ba = R_WS(pair.b).transpose() * mirror * R_WS(pair.a);
+  }
+  return mirrors;
+}
+
 double OsimCalibration::FindSize(const std::vector<CalibrationRecording>& recordings,
                                  const CalibrationOptions& options) const {
   const int least_seen = std::max(3, static_cast<int>(markers_.size()) / 2);
@@ -199,7 +228,8 @@ double OsimCalibration::FindSize(const std::vector<CalibrationRecording>& record
 
 CalibrationOptions OsimCalibrationOptions() {
   CalibrationOptions options;
-  options.marker_deviation = 0.02;  // to begin with
+  options.marker_deviation = 0.02;  // to begin with, as the next
+  options.side_correlation = 0.5;
   options.height_deviation = 0.1;
   options.may_stand = true;
   return options;
@@ -261,7 +291,9 @@ CalibratedOsim CalibrateOsim(const NamedText& model, const OsimDocument& documen
   };
   CalibrationOptions assumed = options;
   for (int i = 0; i < kSpreadSteps; ++i) {
-    assumed.marker_deviation = MarkerSpread(calibrate(assumed, nullptr).subject);
+    const CalibrationResult found = calibrate(assumed, nullptr);
+    assumed.marker_deviation = MarkerSpread(found.subject);
+    assumed.side_correlation = found.side_correlation;
   }
   calibrated.result = calibrate(assumed, warnings);
 

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "common/calibrate/body_kinematics.h"
+#include "common/calibrate/offset_prior.h"
 #include "common/calibrate/osim_sizes.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_model_reader.h"
@@ -175,6 +176,42 @@ TEST(OsimCalibration, SlopesBySizesAreThoseOfDifferences) {
     EXPECT_LT((slope - at.J_scales.col(i)).cwiseAbs().maxCoeff(), 1e-10) << i;
   }
   EXPECT_GT(at.J_scales.cwiseAbs().maxCoeff(), 0.1);
+}
+
+// Central differences: 1e-16 / 1e-6 of a cost of some tens.
+TEST(OsimCalibration, OffsetsOfBothSidesAreAssumedAlike) {
+  const KinematicModel model = ParseOsimModel(testing::OsimOfAllKinds(), "m.osim");
+  BodySizes sizes;
+  sizes.lengths.segments.assign(3, 0);
+  sizes.rescale = [&](const Eigen::VectorXd& /*scales*/) {
+    return KinematicModel(DescriptionOf(model));
+  };
+  const Eigen::Vector3d across(0, 0, 1);
+  sizes.lines = across.replicate(1, 1);
+  sizes.mirrors = {{0, 1, Eigen::Matrix3d::Identity() - 2 * across * across.transpose()}};
+  const BodyKinematics kinematics(model, AllJoints(model),
+                                  testing::AllIndices<MarkerIx>(model.markers().size()), sizes);
+  CalibrationOptions options;
+  options.side_correlation = 0.5;
+  const OffsetPrior prior(kinematics, options);
+  Eigen::Matrix3Xd offsets = 0.05 * Eigen::Matrix3Xd::Random(3, model.markers().size());
+  BodyEquations body(kinematics);
+  body.SetZero();
+  prior.Add(offsets, &body);
+  for (Eigen::Index i = 0; i < offsets.size(); ++i) {
+    Eigen::Matrix3Xd more = offsets, less = offsets;
+    more.reshaped()[i] += 1e-6;
+    less.reshaped()[i] -= 1e-6;
+    EXPECT_NEAR(body.g[i], -(prior.Cost(more) - prior.Cost(less)) / 4e-6, 1e-6) << i;
+  }
+  const Eigen::MatrixXd known = Eigen::MatrixXd::Zero(body.size(), body.size());
+  offsets.col(0) << 0.03, -0.02, 0.04;
+  offsets.col(1) = sizes.mirrors.front().R_ba * offsets.col(0);
+  const double alike = prior.Cost(offsets);
+  EXPECT_GT(prior.LikelyCorrelation(offsets, known), options.side_correlation);
+  offsets.col(1) = -offsets.col(1);
+  EXPECT_GT(prior.Cost(offsets), alike);
+  EXPECT_LT(prior.LikelyCorrelation(offsets, known), options.side_correlation);
 }
 
 // ------------------------------------------------------------------------- a person who is known
