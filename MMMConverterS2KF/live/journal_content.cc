@@ -185,16 +185,20 @@ void Interpolate(int begin, int end, PoseTrajectory* trajectory) {
 
 void FillResult(const std::vector<JournalFrame>& frames, const std::vector<int>& grid,
                 JournalContent* content) {
+  const auto first = std::find_if(frames.begin(), frames.end(),
+                                  [](const JournalFrame& one) { return one.is_tracking; });
+  content->first_tracked = grid[static_cast<std::size_t>(first - frames.begin())];
   const int count = grid.back() + 1;
-  const auto assignments = frames.front().residuals.size();
+  const auto assignments = first->residuals.size();
   ConversionResult& result = content->result;
   PoseTrajectory& trajectory = result.trajectory;
   trajectory.joint_names = content->header.joints;
   trajectory.postures.resize(static_cast<std::size_t>(count));
-  trajectory.standard_deviations.setConstant(frames.front().deviations.size(), count, kNaN);
+  trajectory.standard_deviations.setConstant(first->deviations.size(), count, kNaN);
   result.residuals.setConstant(assignments, count, kNaN);
   result.frames.resize(static_cast<std::size_t>(count));
-  Eigen::MatrixXi verdicts = Eigen::MatrixXi::Constant(assignments, count, kAsLabelled);
+  Eigen::MatrixXi& verdicts = content->verdicts;
+  verdicts.setConstant(assignments, count, kAsLabelled);
   int last = -1;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const int k = grid[i];
@@ -211,6 +215,10 @@ void FillResult(const std::vector<JournalFrame>& frames, const std::vector<int>&
       verdicts.col(k) = frame.verdicts.cwiseMax(kAsLabelled).cwiseMin(assignments).cast<int>();
     }
     result.frames[k] = frame.diagnostic;
+  }
+  for (int k = 0; k < content->first_tracked; ++k) {
+    trajectory.postures[k] = first->posture;
+    trajectory.standard_deviations.col(k) = first->deviations;
   }
   result.incidents =
       FindIncidents(verdicts, static_cast<int>(std::lround(kBridgedSeconds * trajectory.rate)));
@@ -275,17 +283,16 @@ JournalContent ReadJournal(const std::string& file, Warnings* warnings) {
     }
     JournalFrame frame;
     if (!ParseFrame(line, content.header, &frame)) return;
-    if (frames.empty() && !frame.is_tracking) return;
     frames.push_back(std::move(frame));
   });
   while (!frames.empty() && !frames.back().is_tracking) frames.pop_back();
   if (frames.empty()) return content;
   content.frames = static_cast<int>(frames.size());
   double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
-  const JournalFrame& first = frames.front();
+  const JournalFrame& last = frames.back();
   const double numbers_per_frame =
-      static_cast<double>(first.points.size() + 7 + first.posture.joint_angles.size() +
-                          first.deviations.size() + 2 * first.residuals.size());
+      static_cast<double>(last.points.size() + 7 + last.posture.joint_angles.size() +
+                          last.deviations.size() + 2 * last.residuals.size());
   const double numbers =
       kMoreNumbers + kNumbersPerByte * static_cast<double>(std::filesystem::file_size(file));
   const double most_frames = std::floor(numbers / numbers_per_frame);

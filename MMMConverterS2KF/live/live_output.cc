@@ -7,11 +7,35 @@
 #include <utility>
 
 #include "MMMConverterS2KF/live/motion_journal.h"
+#include "common/convert/tracking_start.h"
 #include "common/live/source_address.h"
+#include "common/model/posture.h"
+#include "common/pipeline/live/live_plan.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {
+namespace {
+
+// What came before the first posture is tracked backward, as by MotionConverter::Convert.
+void TrackEarlier(const ConversionPlan& plan, JournalContent* content) {
+  const int first = content->first_tracked;
+  const auto is_seen = [&](int k) {
+    return CountSeen(content->markers.frame(k), plan.setup) >= kFewestMarkers;
+  };
+  if (first == 0 || !is_seen(first)) return;
+  int earliest = 0;
+  while (!is_seen(earliest)) ++earliest;
+  const auto converter = MakeConverter(plan, plan.setup);
+  ResultWriter writer(content->markers, plan.setup, &content->verdicts, &content->result);
+  writer.WriteEarlier(TrackBackward(content->markers, first, earliest, converter.get(),
+                                    [&](int k, const FrameEstimate& estimate, double seconds) {
+                                      writer.Write(k, estimate, seconds);
+                                    }));
+  writer.FindIncidents();
+}
+
+}  // namespace
 
 LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
   OutputPlan outputs;
@@ -57,7 +81,8 @@ std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const Li
   for (const int joint : body.setup.joints) {
     header.joints.push_back(body.setup.model->joint(joint).name);
   }
-  return std::make_unique<MotionJournal>(header);
+  const bool is_recording = !FileOfSource(request_.input.file).empty();
+  return std::make_unique<MotionJournal>(header, is_recording);
 }
 
 std::vector<ConversionReport> LiveOutput::Finish(
@@ -71,6 +96,7 @@ std::vector<ConversionReport> LiveOutput::Finish(
       ConversionReport report;
       report.plan = std::move(plans_[i]);
       report.plan.output = FileOf(i);
+      if (!calibration) TrackEarlier(report.plan, &content);
       report.plan.input.recording.markers = std::move(content.markers);
       report.result = std::move(content.result);
       report.warnings = std::move(warnings);

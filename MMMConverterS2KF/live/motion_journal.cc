@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "MMMConverterS2KF/live/journal_lines.h"
+#include "common/convert/tracking_start.h"
+#include "common/model/posture.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -29,14 +31,18 @@ void AppendNumbers(const Vector& values, std::string* line) {
 
 std::string JournalOf(const std::string& output) { return output + ".live"; }
 
-MotionJournal::MotionJournal(const JournalHeader& header)
-    : header_(header), file_(JournalOf(header.output)), flushed_(std::chrono::steady_clock::now()) {
+MotionJournal::MotionJournal(const JournalHeader& header, bool keeps_all)
+    : header_(header),
+      file_(JournalOf(header.output)),
+      flushed_(std::chrono::steady_clock::now()),
+      keeps_all_(keeps_all) {
   file_.Append(FormatJournalHeader(header));
 }
 
 void MotionJournal::Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) {
-  if (!frame.is_tracking && !has_begun_) return;
-  has_begun_ = true;
+  has_begun_ = has_begun_ || keeps_all_ || frame.is_tracking ||
+               CountSeen(frame.points, body->setup) >= kFewestMarkers;
+  if (!has_begun_) return;
   const FrameEstimate& estimate = frame.estimate;
   const std::vector<int>& joints = body->setup.joints;
   const auto assignments = static_cast<Eigen::Index>(body->setup.assignments().size());

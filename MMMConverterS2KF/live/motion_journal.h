@@ -32,11 +32,11 @@ std::string JournalOf(const std::string& output);
 /// Writes frames into a journal, at least twice a second.
 class MotionJournal : public PoseSink {
  public:
-  /// @throws Error as LineFile.
-  explicit MotionJournal(const JournalHeader& header);
+  /// keeps_all: frames before anybody is seen, too, as of a recording. @throws Error as LineFile.
+  MotionJournal(const JournalHeader& header, bool keeps_all);
 
   std::string name() const override { return header_.output; }
-  /// Frames from the first posture on. @throws WriteError
+  /// Frames from the first one on that shows three markers. @throws WriteError
   void Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) override;
   void End() override;
   bool needs_every_frame() const override { return true; }
@@ -48,15 +48,17 @@ class MotionJournal : public PoseSink {
   LineFile file_;
   std::string lines_;
   SteadyTime flushed_;
-  bool has_begun_ = false, is_calibrated_ = false;
+  bool keeps_all_, has_begun_ = false, is_calibrated_ = false;
 };
 
 /// What a journal has, on an even grid of time: frames that did not come have no markers and
-/// postures between those around them.
+/// postures between those around them, those before the first posture take it.
 struct JournalContent {
   JournalHeader header;
   MarkerSequence markers;
   ConversionResult result;
+  Eigen::MatrixXi verdicts;  ///< assignments x frames
+  int first_tracked = 0;     ///< frame
   std::int64_t first_number = 0;
   int frames = 0;  ///< that came
 };

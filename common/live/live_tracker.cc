@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/live/live_tracker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -15,24 +12,13 @@ constexpr double kRounding = 1e-4;  // of a step
 }  // namespace
 
 LiveTracker::LiveTracker(std::unique_ptr<MotionConverter> converter, double rate)
-    : converter_(std::move(converter)),
-      rate_(rate),
-      // Somebody who just comes in shows a few markers, from which a posture would be a guess.
-      fewest_to_start_(
-          std::max(kFewestMarkers, static_cast<int>(setup().assignments().size()) / 3)) {}
+    : converter_(std::move(converter)), rate_(rate), start_(setup()) {}
 
 double LiveTracker::StepTo(double time) const {
   const double dt = time - time_;
   if (rate_ <= 0) return dt;
   const double steps = std::round(dt * rate_);
   return std::abs(dt * rate_ - steps) < kRounding ? steps / rate_ : dt;
-}
-
-int LiveTracker::CountSeen(const StreamFrame& frame) const {
-  const auto& assignments = setup().assignments();
-  return static_cast<int>(std::count_if(
-      assignments.begin(), assignments.end(),
-      [&](const MarkerAssignment& one) { return IsSeen(frame.points.col(one.label)); }));
 }
 
 bool LiveTracker::IsOver(double time, int seen) {
@@ -46,12 +32,12 @@ void LiveTracker::Prepare() {
 }
 
 const FrameEstimate* LiveTracker::Track(const StreamFrame& frame) {
-  const int seen = CountSeen(frame);
+  const int seen = CountSeen(frame.points, setup());
   if (is_tracking_ && IsOver(frame.time, seen)) is_tracking_ = false;
   const double dt = StepTo(frame.time);
   time_ = frame.time;
   if (is_tracking_) return &converter_->Track(frame.points, dt);
-  if (seen < fewest_to_start_) return nullptr;
+  if (!start_.IsAt(frame.time, seen)) return nullptr;
   const FrameEstimate& estimate = converter_->Assemble(frame.points);
   is_tracking_ = true;
   seen_time_ = frame.time;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/convert/motion_converter.h"
+#include "common/convert/tracking_start.h"
 #include "common/live/frame_source.h"
 
 namespace mmm_converter {
@@ -11,10 +12,10 @@ namespace mmm_converter {
 /// Longest time without a frame, or without three seen markers, that is predicted through [s].
 inline constexpr double kLongestGap = 2;
 
-/// A converter that follows a stream: it waits until a person is seen, predicts through short gaps,
-/// and starts anew after long ones and where the source's time runs back. On the frames of a
-/// recording without long gaps it gives what MotionConverter::Convert gives from its first
-/// assembled frame on.
+/// A converter that follows a stream: it waits until a person is seen (TrackingStart), predicts
+/// through short gaps, and starts anew after long ones and where the source's time runs back. On
+/// the frames of a recording without long gaps it gives what MotionConverter::Convert gives from
+/// its first assembled frame on.
 class LiveTracker {
  public:
   /// rate: of the source [Hz]; steps of time that are its multiples but for rounding are taken as
@@ -39,12 +40,11 @@ class LiveTracker {
 
  private:
   double StepTo(double time) const;
-  int CountSeen(const StreamFrame& frame) const;
   bool IsOver(double time, int seen);
 
   std::unique_ptr<MotionConverter> converter_;
   double rate_;
-  int fewest_to_start_;
+  TrackingStart start_;
   bool is_tracking_ = false;
   double time_ = 0;       // of the last frame
   double seen_time_ = 0;  // of the last frame that showed enough markers

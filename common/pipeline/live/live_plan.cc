@@ -58,7 +58,13 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
     plan.input.recording.markers =
         MarkerSequence(plan.labels->labelling.names, 1, head.markers.rate(), 0);
   }
-  PlanBody(request, {recording.markers.labels(), {}, recording.file}, &plan);
+  // Of a stream any label may be seen later.
+  const bool is_whole = head.format == "replay" && !request.label;
+  const std::vector<std::string>& labels = recording.markers.labels();
+  PlanBody(request,
+           is_whole ? LabelsOf(recording.markers, recording.file)
+                    : MarkerLabels{labels, {}, recording.file},
+           &plan);
   if (request.calibration_time > 0 && config.model_processor == "None") {
     throw Error(WhyUnscaled(config) + ", but a subject is relative to the scaled one");
   }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "common/convert/tracking_start.h"
 #include "common/support/error.h"
 #include "tests/support/stick_model.h"
 
@@ -103,6 +104,20 @@ TEST_F(MotionConverterTest, FramesBeforeTheFirstPostureTakeItUnconverged) {
   }
   EXPECT_TRUE(result.frames[2].converged);
   EXPECT_EQ(result.trajectory.postures[3].position.y(), 0.01);
+}
+
+TEST(TrackingStartTest, IsWhereAThirdIsSeenOrASecondShowsNoMore) {
+  TrackingSetup setup;
+  setup.mapping.assignments.resize(30);
+  TrackingStart start(setup);
+  EXPECT_FALSE(start.IsAt(0, 2));
+  EXPECT_FALSE(start.IsAt(1, 4));
+  EXPECT_FALSE(start.IsAt(1.5, 6));
+  EXPECT_FALSE(start.IsAt(2, 5));  // six were seen
+  EXPECT_FALSE(start.IsAt(2.1, 2));
+  EXPECT_TRUE(start.IsAt(2.2, 6));
+  EXPECT_FALSE(start.IsAt(3.5, 6));  // who was away comes anew
+  EXPECT_TRUE(start.IsAt(3.6, 10));
 }
 
 TEST_F(MotionConverterTest, NeedsThreeMarkersInSomeFrame) {

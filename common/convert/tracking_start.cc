@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "common/convert/tracking_start.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "common/convert/marker_incidents.h"
+#include "common/model/posture.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kPatience = 1;     // [s]
+constexpr double kRounding = 1e-6;  // [s]
+
+// Whether three markers are where the posture has them.
+bool IsTracked(const FrameEstimate& estimate) {
+  return estimate.converged && !estimate.reassembled &&
+         estimate.markers_seen - estimate.markers_wrong >= kFewestMarkers;
+}
+
+}  // namespace
+
+int CountSeen(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const TrackingSetup& setup) {
+  const std::vector<MarkerAssignment>& assignments = setup.assignments();
+  return static_cast<int>(
+      std::count_if(assignments.begin(), assignments.end(),
+                    [&](const MarkerAssignment& one) { return IsSeen(frame.col(one.label)); }));
+}
+
+TrackingStart::TrackingStart(const TrackingSetup& setup)
+    : enough_(std::max(kFewestMarkers, static_cast<int>(setup.assignments().size()) / 3)) {}
+
+bool TrackingStart::IsAt(double time, int seen) {
+  if (seen >= enough_) return true;
+  if (seen < kFewestMarkers) return false;
+  std::erase_if(last_second_, [&](const auto& one) {
+    return one.first > time || one.first < time - kPatience - kRounding;
+  });
+  if (last_second_.empty()) since_ = time;
+  const bool shows_most = std::none_of(last_second_.begin(), last_second_.end(),
+                                       [&](const auto& one) { return one.second > seen; });
+  last_second_.emplace_back(time, seen);
+  return shows_most && time - since_ > kPatience - kRounding;
+}
+
+int TrackBackward(const MarkerSequence& recording, int first, int earliest,
+                  MotionConverter* converter,
+                  const std::function<void(int, const FrameEstimate&, double)>& write) {
+  using Clock = std::chrono::steady_clock;
+  if (earliest < first) converter->Assemble(recording.frame(first));
+  for (; first > earliest; --first) {
+    const Clock::time_point start = Clock::now();
+    const FrameEstimate& estimate =
+        converter->Track(recording.frame(first - 1), 1 / recording.rate());
+    if (!IsTracked(estimate)) break;
+    write(first - 1, estimate, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  return first;
+}
+
+ResultWriter::ResultWriter(const MarkerSequence& recording, const TrackingSetup& setup,
+                           Eigen::MatrixXi* verdicts, ConversionResult* result)
+    : recording_(recording), setup_(setup), verdicts_(*verdicts), result_(*result) {}
+
+void ResultWriter::Clear() {
+  const int frames = recording_.num_frames();
+  const auto assignments = static_cast<Eigen::Index>(setup_.assignments().size());
+  PoseTrajectory& trajectory = result_.trajectory;
+  trajectory.rate = recording_.rate();
+  trajectory.first_time = recording_.first_time();
+  for (const int joint : setup_.joints) {
+    trajectory.joint_names.push_back(setup_.model->joint(joint).name);
+  }
+  trajectory.postures.resize(static_cast<std::size_t>(frames));
+  trajectory.standard_deviations.setConstant(6 + static_cast<Eigen::Index>(setup_.joints.size()),
+                                             frames, kNaN);
+  result_.residuals.setConstant(assignments, frames, kNaN);
+  result_.frames.resize(static_cast<std::size_t>(frames));
+  verdicts_.setConstant(assignments, frames, kAsLabelled);
+}
+
+void ResultWriter::WritePosture(int k, const FrameEstimate& estimate) {
+  Posture& posture = result_.trajectory.postures[static_cast<std::size_t>(k)];
+  posture.position = estimate.posture.position;
+  posture.orientation = estimate.posture.orientation;
+  posture.joint_angles = estimate.posture.joint_angles(setup_.joints);
+  if (estimate.standard_deviations.size() == 0) return;
+  auto deviations = result_.trajectory.standard_deviations.col(k);
+  deviations.head<6>() = estimate.standard_deviations.head<6>();
+  const auto of_joints = estimate.standard_deviations.tail(estimate.standard_deviations.size() - 6);
+  deviations.tail(static_cast<Eigen::Index>(setup_.joints.size())) = of_joints(setup_.joints);
+}
+
+void ResultWriter::Write(int k, const FrameEstimate& estimate, double seconds) {
+  WritePosture(k, estimate);
+  result_.residuals.col(k) = estimate.residuals;
+  result_.frames[static_cast<std::size_t>(k)] = {estimate.markers_seen,
+                                                 estimate.markers_downweighted,
+                                                 estimate.markers_wrong,
+                                                 estimate.nis,
+                                                 estimate.reassembled,
+                                                 estimate.converged,
+                                                 seconds};
+  if (estimate.verdicts.size() > 0) verdicts_.col(k) = estimate.verdicts;
+}
+
+void ResultWriter::WriteEarlier(int first) {
+  PoseTrajectory& trajectory = result_.trajectory;
+  for (int k = 0; k < first; ++k) {
+    trajectory.postures[static_cast<std::size_t>(k)] =
+        trajectory.postures[static_cast<std::size_t>(first)];
+    trajectory.standard_deviations.col(k) = trajectory.standard_deviations.col(first);
+    result_.frames[static_cast<std::size_t>(k)].markers_seen =
+        CountSeen(recording_.frame(k), setup_);
+  }
+}
+
+void ResultWriter::FindIncidents() {
+  result_.incidents = mmm_converter::FindIncidents(verdicts_, BridgedFrames(recording_.rate()));
+}
+
+}  // namespace mmm_converter
