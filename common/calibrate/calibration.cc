@@ -62,13 +62,25 @@ std::vector<CalibrationFrame> FramesOf(const std::vector<CalibrationRecording>& 
   return frames;
 }
 
-/// How far each joint moves in the middle 90 % of the frames [rad].
+/// How far each joint moves in the middle 90 % of the frames, of one recording or all together, the
+/// most [rad]: a short movement counts beside long standing, and so do several postures.
 VectorXd JointRanges(const std::vector<CalibrationFrame>& frames) {
-  VectorXd ranges(frames.front().posture.joint_angles.size());
-  std::vector<double> angles(frames.size());
-  for (Eigen::Index j = 0; j < ranges.size(); ++j) {
-    for (std::size_t k = 0; k < frames.size(); ++k) angles[k] = frames[k].posture.joint_angles[j];
-    ranges[j] = Percentile(angles, 95) - Percentile(angles, 5);
+  VectorXd ranges = VectorXd::Zero(frames.front().posture.joint_angles.size());
+  std::vector<double> angles;
+  const auto extend = [&](auto begin, auto end) {
+    angles.resize(end - begin);
+    for (Eigen::Index j = 0; j < ranges.size(); ++j) {
+      std::transform(begin, end, angles.begin(),
+                     [&](const auto& one) { return one.posture.joint_angles[j]; });
+      ranges[j] = std::max(ranges[j], Percentile(angles, 95) - Percentile(angles, 5));
+    }
+  };
+  extend(frames.begin(), frames.end());
+  for (auto begin = frames.begin(); begin != frames.end();) {
+    const auto end = std::find_if(
+        begin, frames.end(), [&](const auto& one) { return one.recording != begin->recording; });
+    extend(begin, end);
+    begin = end;
   }
   return ranges;
 }
