@@ -23,8 +23,8 @@ void JudgeSources(const CalibrationResult& result, VerdictReasons* reasons) {
   for (const SubjectSource& source : result.subject.sources) {
     if (source.frames > 0) continue;
     reasons->Add(Verdict::Level::kCheck,
-                 fmt::format("no frame of {} is taken: it shows too few markers, or is far from "
-                             "what the others have; are they of one person and session?",
+                 fmt::format("no frame of {} is taken: it shows too few of the markers, or no "
+                             "posture that the others do not have",
                              source.recording));
   }
   for (const MovedMarkers& one : result.moved) {
