@@ -341,6 +341,19 @@ TEST(Verdict, AMarkerThatIsFarForAMoment) {
   EXPECT_THAT(judged.reasons, HasSubstr("farthest is " + Sample().labels()[5] + " in frame 10"));
 }
 
+// The foot turns to the heel, so that the heel's own distance is what right ones have, too.
+TEST(Verdict, ALabelThatIsWornElsewhere) {
+  for (const char* label : {"LHEE", "LASI"}) {
+    const int moved = Sample().FindLabel(label);
+    const Judged judged = ConvertMarkers(Changed([&](int, int i, Point p) {
+      if (i == moved) p.z() -= 0.16;
+    }));
+    EXPECT_EQ(judged.level, "check");
+    EXPECT_THAT(judged.reasons,
+                HasSubstr(std::string("far from where their names say: ") + label + " (1"));
+  }
+}
+
 TEST(Verdict, IsInThePageToo) {
   const std::string page = TestFolder() + "/page.html";
   const std::string file = TestFolder() + "/made.c3d";

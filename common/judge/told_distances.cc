@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "common/judge/told_distances.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/math/statistics.h"
+#include "common/model/marker_kinematics.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+constexpr int kFrames = 24;
+constexpr double kDeviation = 0.028;   // of each coordinate of a label's place [m]: noise scale 1
+constexpr double kJointDeviation = 1;  // that a joint is expected to have [rad]
+constexpr double kRootDeviation = 10;  // [m], [rad]: anywhere
+constexpr double kAtLimit = 0.01;      // of a joint that follows no label beyond [rad]
+
+/// The frames' fits, linear about the postures.
+class LinearFit {
+ public:
+  LinearFit(const TrackingSetup& setup, const MarkerSequence& markers)
+      : setup_(setup),
+        markers_(markers),
+        kinematics_(*setup.model, setup.joints, MarkersOf(setup)),
+        at_(kinematics_.MakeJacobian()) {}
+
+  /// Adds the distance of each label that the frame shows.
+  void AddFrame(int k, const Posture& posture, std::vector<std::vector<double>>* distances) {
+    kinematics_.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
+                               posture.joint_angles, &at_);
+    kinematics_.ComputeJacobian(&at_);
+    const auto all = at_.J_transposed.view();
+    MatrixXd information = PriorInformation(posture).asDiagonal();
+    const auto& assignments = setup_.assignments();
+    const auto count = static_cast<Eigen::Index>(assignments.size());
+    MatrixXd J_transposed = MatrixXd::Zero(kinematics_.num_dofs(), 3 * count);  // over sigma
+    const auto frame = markers_.frame(k);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const MarkerAssignment& one = assignments[static_cast<std::size_t>(i)];
+      if (!IsSeen(frame.col(one.label))) continue;
+      J_transposed.middleCols<3>(3 * i) = all.middleCols(3 * i, 3) / Sigma(one);
+    }
+    information += J_transposed * J_transposed.transpose();
+    const MatrixXd gain = information.llt().solve(J_transposed);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const MarkerAssignment& one = assignments[static_cast<std::size_t>(i)];
+      if (!IsSeen(frame.col(one.label))) continue;
+      const Vector3d r = (frame.col(one.label) - at_.p_WM.col(i)) / Sigma(one);
+      const Matrix3d left = Matrix3d::Identity() - J_transposed.middleCols<3>(3 * i).transpose() *
+                                                       gain.middleCols<3>(3 * i);
+      (*distances)[static_cast<std::size_t>(i)].push_back(kDeviation *
+                                                          std::sqrt(r.dot(left.llt().solve(r))));
+    }
+  }
+
+ private:
+  static std::vector<MarkerIx> MarkersOf(const TrackingSetup& setup) {
+    std::vector<MarkerIx> markers;
+    for (const MarkerAssignment& one : setup.assignments()) markers.push_back(one.marker);
+    return markers;
+  }
+
+  static double Sigma(const MarkerAssignment& one) { return kDeviation * one.noise_scale; }
+
+  /// A joint at a limit follows no label beyond it.
+  Eigen::VectorXd PriorInformation(const Posture& posture) const {
+    Eigen::VectorXd information(kinematics_.num_dofs());
+    information.head<6>().setConstant(1 / (kRootDeviation * kRootDeviation));
+    for (int j = 0; j < kinematics_.num_joints(); ++j) {
+      const double angle = posture.joint_angles[j];
+      const bool is_at_limit =
+          angle < kinematics_.lower()[j] + kAtLimit || angle > kinematics_.upper()[j] - kAtLimit;
+      const double deviation = is_at_limit ? kAtLimit : kJointDeviation;
+      information[6 + j] = 1 / (deviation * deviation);
+    }
+    return information;
+  }
+
+  const TrackingSetup& setup_;
+  const MarkerSequence& markers_;
+  MarkerKinematics kinematics_;
+  MarkerJacobian at_;
+};
+
+}  // namespace
+
+Eigen::VectorXd ToldDistances(const TrackingSetup& setup, const MarkerSequence& markers,
+                              const PoseTrajectory& trajectory) {
+  LinearFit fit(setup, markers);
+  std::vector<std::vector<double>> distances(setup.assignments().size());
+  const long frames = markers.num_frames();
+  const auto looks = std::min<long>(frames, kFrames);
+  for (long i = 0; i < looks; ++i) {
+    const auto k = static_cast<int>((2 * i + 1) * frames / (2 * looks));
+    fit.AddFrame(k, trajectory.postures[static_cast<std::size_t>(k)], &distances);
+  }
+  Eigen::VectorXd medians(static_cast<Eigen::Index>(distances.size()));
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    medians[static_cast<Eigen::Index>(i)] = distances[i].empty() ? kNaN : Median(distances[i]);
+  }
+  return medians;
+}
+
+}  // namespace mmm_converter
