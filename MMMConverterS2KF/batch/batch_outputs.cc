@@ -7,6 +7,7 @@
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_xml.h"
+#include "common/io/robot/robot_exports.h"
 #include "common/pipeline/exporters.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
@@ -41,9 +42,13 @@ std::string ExportPath(const std::string& format, const std::string& id) {
   for (const Exporter& exporter : Exporters()) {
     if (format == exporter.name) ending = exporter.ending;
   }
+  for (const RobotExporter& exporter : RobotExporters()) {
+    if (format == exporter.name) ending = exporter.ending;
+  }
   return format + "/" + id + "." + ending;
 }
 std::string SubjectPath(const std::string& id) { return "subjects/" + id + ".xml"; }
+std::string RobotPath(const std::string& id) { return "robots/" + id + ".xml"; }
 std::string PagePath(const std::string& id) { return "reports/" + id + ".html"; }
 
 BatchFolder::BatchFolder(const std::string& path) : path_(path) {
@@ -65,6 +70,12 @@ std::vector<std::string> BatchFolder::OutputsOf(const BatchEntry& entry) {
   for (const std::string& format : entry.exports) {
     outputs.push_back(ExportPath(format, entry.id));
   }
+  for (const RobotExporter& exporter : RobotExporters()) {
+    if (entry.exports.count(exporter.name) == 0) continue;
+    const std::vector<std::string> files = FilesOf(exporter, ExportPath(exporter.name, entry.id));
+    outputs.insert(outputs.end(), files.begin() + 1, files.end());
+  }
+  if (!entry.request.robot.file.empty()) outputs.push_back(RobotPath(entry.id));
   if (entry.request.self_calibrate) outputs.push_back(SubjectPath(entry.id));
   return outputs;
 }

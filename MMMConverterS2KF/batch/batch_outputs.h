@@ -17,6 +17,7 @@ namespace mmm_converter {
 std::string MotionPath(const BatchEntry& entry);
 std::string ExportPath(const std::string& format, const std::string& id);
 std::string SubjectPath(const std::string& id);
+std::string RobotPath(const std::string& id);  ///< the robot's motion
 std::string PagePath(const std::string& id);
 
 inline constexpr const char* kOutdated = ".outdated";

@@ -21,6 +21,7 @@
 #include "MMMConverterS2KF/batch/memory_budget.h"
 #include "MMMConverterS2KF/batch/persons.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -33,8 +34,11 @@ double SecondsSince(Clock::time_point start) {
 
 std::string DescribeShortly(const EntryResult& result) {
   const std::size_t warnings = result.figures->warnings.size();
-  return fmt::format("{} frames, {:.1f} mm, {:.2f} s, {}{}", result.figures->frames,
-                     result.figures->mean_mm, result.seconds, Name(result.figures->verdict.level),
+  const auto& robot = result.figures->robot;
+  return fmt::format("{} frames, {:.1f} mm, {}{:.2f} s, {}{}", result.figures->frames,
+                     result.figures->mean_mm,
+                     robot ? fmt::format("feet slide {:.1f} %, ", kPercent * robot->slide) : "",
+                     result.seconds, Name(result.figures->verdict.level),
                      warnings > 0 ? fmt::format(", {} warnings", warnings) : "");
 }
 
@@ -189,22 +193,24 @@ class BatchRunner {
     const std::string& file = request.input.file;
     record->recording = InspectFile(file);
     note->Update(*record);
-    const std::uint64_t bytes =
-        ConversionMemory(file, record->recording.bytes, options_.reports.all);
+    const std::uint64_t bytes = ConversionMemory(
+        file, record->recording.bytes, options_.reports.all || !entry.request.robot.file.empty());
     const auto part = memory_.Take(file, bytes);
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     ConversionReport report = ConvertEntry(request, read_before, [this] { return !IsEnding(); });
+    std::optional<RetargetReport> robot = RetargetEntry(entry, folder_, report);
     folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     WriteConversion(request, &report);
+    if (robot) WriteRobotOutputs(entry, folder_, &*robot);
     for (const std::string& output : outputs) folder_.Remove(output + kOutdated);
     folder_.Remove(PagePath(entry.id) + kOutdated);
     if (options_.reports.all) {
-      WritePage(entry, report, &folder_);
+      WritePage(entry, report, robot, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
     record->models = InspectNamedModels(report);
     record->outputs = folder_.Inspect(outputs);
-    record->result = Converted(report, SecondsSince(start));
+    record->result = Converted(report, robot ? &*robot : nullptr, SecondsSince(start));
     NoteConverted(*record);
   }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "MMMConverterS2KF/report/conversion_page.h"
+#include "MMMConverterS2KF/report/retarget_page.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -15,8 +16,9 @@ namespace fs = std::filesystem;
 ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder) {
   ConversionRequest request = entry.request;
   request.output = folder.Full(MotionPath(entry));
-  for (const std::string& format : entry.exports) {
-    request.exports[format] = folder.Full(ExportPath(format, entry.id));
+  for (const Exporter& exporter : Exporters()) {
+    if (entry.exports.count(exporter.name) == 0) continue;
+    request.exports[exporter.name] = folder.Full(ExportPath(exporter.name, entry.id));
   }
   if (request.self_calibrate) request.subject_output = folder.Full(SubjectPath(entry.id));
   request.builds_models = false;  // several recordings of an object need the same one
@@ -27,6 +29,27 @@ ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore
                               const std::function<bool()>& goes_on) {
   const auto progress = [&](int, int) { return goes_on(); };
   return RunConversion(request, LabelFirst(request, read_before, progress), progress);
+}
+
+std::optional<RetargetReport> RetargetEntry(const BatchEntry& entry, const BatchFolder& folder,
+                                            const ConversionReport& report) {
+  if (entry.request.robot.file.empty()) return std::nullopt;
+  if (report.plan.object) {
+    throw Error(entry.request.input.file +
+                ": shows an object, whose motion is not brought to a robot (robot=\"\")");
+  }
+  RetargetRequest request = RequestFor(entry.request, report);
+  request.conversion.output = folder.Full(RobotPath(entry.id));
+  return RunRetargeting(request, {});
+}
+
+void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, RetargetReport* robot) {
+  WriteRobotMotion(robot);
+  for (const RobotExporter& exporter : RobotExporters()) {
+    if (entry.exports.count(exporter.name) == 0) continue;
+    WriteRobotExport(exporter, folder.Full(ExportPath(exporter.name, entry.id)),
+                     entry.request.robot, robot);
+  }
 }
 
 std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {
@@ -49,9 +72,11 @@ bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record) {
   }
 }
 
-void WritePage(const BatchEntry& entry, const ConversionReport& report, BatchFolder* folder) {
+void WritePage(const BatchEntry& entry, const ConversionReport& report,
+               const std::optional<RetargetReport>& robot, BatchFolder* folder) {
   folder->MakeReady(PagePath(entry.id));
-  WriteFileAtomically(folder->Full(PagePath(entry.id)), FormatConversionPage({&report}));
+  WriteFileAtomically(folder->Full(PagePath(entry.id)),
+                      robot ? FormatRetargetPage(*robot) : FormatConversionPage({&report}));
 }
 
 }  // namespace mmm_converter

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
 #include "MMMConverterS2KF/batch/manifest.h"
 #include "MMMConverterS2KF/batch/shared_inputs.h"
+#include "common/pipeline/dynamics/retarget_run.h"
 
 namespace mmm_converter {
 
@@ -20,6 +22,14 @@ ConversionReport ConvertEntry(const ConversionRequest& request, const ReadBefore
 /// An entry's request with its outputs.
 ConversionRequest RequestOf(const BatchEntry& entry, const BatchFolder& folder);
 
+/// Brings what was converted to the entry's robot; nothing: it has none. Writes nothing.
+/// @throws Error
+std::optional<RetargetReport> RetargetEntry(const BatchEntry& entry, const BatchFolder& folder,
+                                            const ConversionReport& report);
+
+/// Writes the robot's motion and its exports. @throws WriteError
+void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, RetargetReport* robot);
+
 /// The model that the recording of an object names, by path relative to the recording's folder:
 /// what a fingerprint does not have, as only reading the recording tells. None: it names none.
 /// @throws Error where it can't be read.
@@ -28,7 +38,9 @@ std::map<std::string, FileState> InspectNamedModels(const ConversionReport& repo
 /// Whether these are as they were; one that is gone is not.
 bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record);
 
-/// Writes the page of a conversion. @throws WriteError
-void WritePage(const BatchEntry& entry, const ConversionReport& report, BatchFolder* folder);
+/// Writes the page of a conversion, or of the robot's motion where there is one.
+/// @throws WriteError
+void WritePage(const BatchEntry& entry, const ConversionReport& report,
+               const std::optional<RetargetReport>& robot, BatchFolder* folder);
 
 }  // namespace mmm_converter

@@ -31,21 +31,34 @@ void Parse(const Json& json, std::string* value) {
 }
 
 // A figure of an entry: beside its member, the only place that names it.
-struct Field {
+template <typename Report, typename Figures>
+struct FieldOfReport {
   Json::json_pointer place;  // in a journal's line; with . between, the column of tables
   std::function<void(const Report&, Figures*)> take;
   std::function<Json(const Figures&)> write;
   std::function<void(const Json&, Figures*)> read;
 };
+using Field = FieldOfReport<Report, Figures>;
+using RobotField = FieldOfReport<RetargetReport, RobotFigures>;
 
-template <typename Value, typename Of>
-Field FieldOf(const char* place, Value Figures::*member, Of of) {
+template <typename Report, typename Figures, typename Value, typename Of>
+FieldOfReport<Report, Figures> MakeField(const char* place, Value Figures::*member, Of of) {
   return {Json::json_pointer(place),
           [member, of](const Report& report, Figures* figures) {
             figures->*member = static_cast<Value>(of(report));
           },
           [member](const Figures& figures) { return ValueOf(figures.*member); },
           [member](const Json& json, Figures* figures) { Parse(json, &(figures->*member)); }};
+}
+
+template <typename Value, typename Of>
+Field FieldOf(const char* place, Value Figures::*member, Of of) {
+  return MakeField<Report, Figures>(place, member, of);
+}
+
+template <typename Value, typename Of>
+RobotField RobotFieldOf(const char* place, Value RobotFigures::*member, Of of) {
+  return MakeField<RetargetReport, RobotFigures>(place, member, of);
 }
 
 double WorstDistance(const Report& report) {
@@ -108,13 +121,41 @@ const std::vector<Field>& Fields() {
   return fields;
 }
 
+const std::vector<RobotField>& RobotFields() {
+  using R = const RetargetReport&;
+  using F = RobotFigures;
+  static const std::vector<RobotField> fields = {
+      RobotFieldOf("/name", &F::name, [](R r) { return r.robot.model.name(); }),
+      RobotFieldOf("/slide", &F::slide, [](R r) { return r.figures.slide; }),
+      RobotFieldOf("/toe_slide_30_hz", &F::toe_slide, [](R r) { return r.figures.toe_slide; }),
+      RobotFieldOf("/penetration_mm", &F::penetration_mm,
+                   [](R r) { return kMillimetres * r.figures.penetration; }),
+      RobotFieldOf("/floating_mm", &F::floating_mm,
+                   [](R r) { return kMillimetres * r.figures.floating; }),
+      RobotFieldOf("/direction_deg", &F::direction_deg,
+                   [](R r) { return kDegrees * r.figures.direction; }),
+      RobotFieldOf("/direction_p95_deg", &F::direction_p95_deg,
+                   [](R r) { return kDegrees * r.figures.direction95; }),
+      RobotFieldOf("/position_limits_broken", &F::position_breaks,
+                   [](R r) { return r.figures.position_breaks; }),
+      RobotFieldOf("/velocity_limits_broken", &F::velocity_breaks,
+                   [](R r) { return r.figures.velocity_breaks; }),
+      RobotFieldOf("/acceleration_rad_s2", &F::acceleration,
+                   [](R r) { return r.figures.acceleration; })};
+  return fields;
+}
+
 }  // namespace
 
-EntryResult Converted(const ConversionReport& report, double seconds) {
+EntryResult Converted(const ConversionReport& report, const RetargetReport* robot, double seconds) {
   EntryFigures figures;
-  figures.verdict = report.verdict;
+  figures.verdict = robot != nullptr ? robot->verdict : report.verdict;
   for (const Field& field : Fields()) field.take(report, &figures);
-  figures.warnings = report.warnings.texts();
+  figures.warnings = (robot != nullptr ? robot->warnings : report.warnings).texts();
+  if (robot != nullptr) {
+    figures.robot.emplace();
+    for (const RobotField& field : RobotFields()) field.take(*robot, &*figures.robot);
+  }
   return {std::move(figures), "", seconds};
 }
 
@@ -131,6 +172,9 @@ Json ToJson(const EntryResult& result) {
       {"state", "converted"}, {"reason", nullptr}, {"verdict", ToJson(result.figures->verdict)}};
   for (const Field& field : Fields()) json[field.place] = field.write(*result.figures);
   json["rate_hz"] = result.figures->rate;  // as the recording has it
+  if (const auto& robot = result.figures->robot) {
+    for (const RobotField& field : RobotFields()) json["robot"][field.place] = field.write(*robot);
+  }
   json["seconds"] = seconds;
   json["warnings"] = result.figures->warnings;
   return json;
@@ -146,6 +190,12 @@ EntryResult ParseEntryResult(const Json& json) {
   figures.verdict.level = ParseVerdictLevel(verdict.at("level").get<std::string>());
   verdict.at("reasons").get_to(figures.verdict.reasons);
   for (const Field& field : Fields()) field.read(json.at(field.place), &figures);
+  if (const auto robot = json.find("robot"); robot != json.end()) {
+    figures.robot.emplace();
+    for (const RobotField& field : RobotFields()) {
+      field.read(robot->at(field.place), &*figures.robot);
+    }
+  }
   json.at("warnings").get_to(figures.warnings);
   result.figures = std::move(figures);
   return result;

@@ -6,10 +6,20 @@
 #include <vector>
 
 #include "MMMConverterS2KF/report/json.h"
-#include "common/pipeline/conversion.h"
+#include "common/pipeline/dynamics/retarget_run.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
+
+/// Of an entry that was brought to a robot. NaN: there is none, as of feet without contact.
+struct RobotFigures {
+  std::string name;
+  double slide = kNaN, toe_slide = kNaN;  ///< shares
+  double penetration_mm = kNaN, floating_mm = kNaN;
+  double direction_deg = kNaN, direction_p95_deg = kNaN;
+  int position_breaks = 0, velocity_breaks = 0;
+  double acceleration = kNaN;  ///< rms [rad/s^2]
+};
 
 /// Figures of a converted entry. NaN or an empty text: there is none, as of the height of an
 /// object. A figure is a member here and a row of the table in entry_result.cc; journal, results
@@ -33,6 +43,7 @@ struct EntryFigures {
   double process_noise_scale = kNaN;
   double nis = kNaN;  ///< over its degrees of freedom
   double median_ms = kNaN, p99_ms = kNaN;
+  std::optional<RobotFigures> robot;  ///< the verdict is then of its motion, too
   std::vector<std::string> warnings;
 };
 
@@ -45,7 +56,8 @@ struct EntryResult {
   bool converted() const { return figures.has_value(); }
 };
 
-EntryResult Converted(const ConversionReport& report, double seconds);
+/// robot: null: it was brought to none.
+EntryResult Converted(const ConversionReport& report, const RetargetReport* robot, double seconds);
 EntryResult Failed(const std::string& reason, double seconds);
 
 /// As journals and results have it; batch/README.md says what is in it.

@@ -12,6 +12,7 @@
 #include "MMMConverterS2KF/batch/manifest_attributes.h"
 #include "MMMConverterS2KF/batch/manifest_memory.h"
 #include "common/io/bytes/file_content.h"
+#include "common/io/robot/robot_exports.h"
 #include "common/io/xml/xml_document.h"
 #include "common/support/diagnostics.h"
 #include "common/support/suggestion.h"
@@ -153,12 +154,26 @@ class ManifestReader {
       diagnostics_.AddError(element.line, "<Recording> needs file=\"...\"");
       return;
     }
+    CheckRobotExports(element, entry);
     entry.line = element.line;
     entry.request.input.file = (recordings_ / *file).lexically_normal().string();
     const std::string* id = element.FindAttribute("id");
     entry.id = id != nullptr ? *id : DefaultId(*file);
     CheckId(element.line, entry.id, "recording", &lines_);
     manifest_.entries.push_back(std::move(entry));
+  }
+
+  void CheckRobotExports(const XmlElement& element, const BatchEntry& entry) {
+    const RobotRequest& robot = entry.request.robot;
+    for (const RobotExporter& exporter : RobotExporters()) {
+      if (entry.exports.count(exporter.name) == 0) continue;
+      const char* const lacks = robot.file.empty()                            ? "robot=\"FILE\""
+                                : exporter.needs_order && robot.order.empty() ? "robotOrder"
+                                                                              : nullptr;
+      if (lacks == nullptr) continue;
+      diagnostics_.AddError(element.line,
+                            fmt::format("<Recording>: {}=\"true\" needs {}", exporter.name, lacks));
+    }
   }
 
   // The file without its ending; without its folders too where these are not below the manifest's.

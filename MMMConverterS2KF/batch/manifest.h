@@ -18,7 +18,7 @@ struct BatchEntry {
   ConversionRequest request;  ///< without outputs
   std::string person;         ///< id of the BatchPerson whom it shows; empty: none
   std::map<std::string, std::string> settings;  ///< the attributes that the request is made of
-  std::set<std::string> exports;                ///< "csv", "mot", "trc": written too
+  std::set<std::string> exports;                ///< "csv", "mot", "trc", "lafan1": written too
   std::map<std::string, std::string> metadata;  ///< passed on to the results
 };
 

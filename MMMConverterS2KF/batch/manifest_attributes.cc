@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "common/io/robot/robot_exports.h"
 #include "common/pipeline/conversion_options.h"
 #include "common/support/text.h"
 
@@ -135,6 +136,12 @@ std::vector<Option> AttributesOf(BatchEntry* entry) {
       return SetExport(name, value, entry);
     };
     attributes.push_back(Row({"", exporter.name, ""}, {}, exporter.what, "", task::kConvert, set));
+  }
+  for (const RobotExporter& exporter : RobotExporters()) {
+    const auto set = [entry, name = exporter.name](const std::string& value) {
+      return SetExport(name, value, entry);
+    };
+    attributes.push_back(Row({"", exporter.name, ""}, {}, exporter.help, "", task::kRetarget, set));
   }
   return attributes;
 }

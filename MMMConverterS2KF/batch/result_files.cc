@@ -72,7 +72,9 @@ class ResultsWriter {
     if (record == nullptr) return {&entry, std::nullopt, "", ""};
     if (!record->result.converted()) return {&entry, record->result, "", ""};
     const std::string page = PagePath(entry.id);
-    return {&entry, record->result, MotionPath(entry), folder_.Has(page) ? page : ""};
+    const bool has_robot = !entry.request.robot.file.empty();
+    return {&entry, record->result, MotionPath(entry), folder_.Has(page) ? page : "",
+            has_robot ? RobotPath(entry.id) : ""};
   }
 
   // By verdict, then those with the largest mean distance first.
@@ -117,7 +119,8 @@ class ResultsWriter {
       const std::uint64_t bytes = ConversionMemory(file, FileSize(file), true);
       const auto part = memory_.Take(file, bytes);
       const auto goes_on = [] { return InterruptionWatch::Signal() == 0; };
-      WritePage(entry, ConvertEntry(request, read_before, goes_on), &folder_);
+      const ConversionReport report = ConvertEntry(request, read_before, goes_on);
+      WritePage(entry, report, RetargetEntry(entry, folder_, report), &folder_);
     } catch (const WriteError&) {
       throw;
     } catch (const Error& error) {
@@ -153,6 +156,7 @@ Json ToJson(const ResultRow& row) {
                {"metadata", row.entry->metadata},
                {"motion", TextOrNull(row.motion)},
                {"report", TextOrNull(row.report)}};
+  if (!row.robot_motion.empty()) line["robot_motion"] = row.robot_motion;
   line.update(result);
   return line;
 }

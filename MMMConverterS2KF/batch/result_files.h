@@ -31,6 +31,7 @@ struct ResultRow {
   const BatchEntry* entry = nullptr;
   std::optional<EntryResult> result;  ///< empty: was not converted yet
   std::string motion, report;
+  std::string robot_motion = {};
 };
 
 /// What needs a look first: what was not converted, then by verdict, the worst first; else as they

@@ -57,7 +57,8 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
   std::vector<std::string> files = FilesOf(request.label_hints);
   files.insert(files.end(),
                {request.input.person.processor_file, request.input.person.subject_file,
-                config.subject_file, own_set, request.input.marker_set, request.input.marker_file});
+                config.subject_file, own_set, request.input.marker_set, request.input.marker_file,
+                request.robot.file, request.robot.map_file});
   for (const std::string& file : files) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");

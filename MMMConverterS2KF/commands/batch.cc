@@ -61,8 +61,8 @@ Converts the recordings of a manifest, an XML file ("print-config batch" prints 
 recording that cannot be converted does not stop the others. --resume continues a run that was
 interrupted.
 
-{}FOLDER contains motions/ID.xml, optionally reports/, csv/ and subjects/; persons/ID.xml of each
-<Person>, who is calibrated once; journal.jsonl with a line for each finished recording;
+{}FOLDER contains motions/ID.xml, optionally reports/, csv/, robots/ and subjects/; persons/ID.xml
+of each <Person>, who is calibrated once; journal.jsonl with a line for each finished recording;
 results.jsonl and results.csv; index.html, sorted by quality, the worst first. The exit code is 1
 if a recording failed, and 128 + N if signal N interrupted the run.
 

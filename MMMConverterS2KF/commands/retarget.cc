@@ -28,11 +28,7 @@ const std::vector<OptionGroup> kRetargetOptions = {
        "INPUT of a made motion, which shows the map",
        ""}}},
     {"Robot",
-     {{"robot", "FILE", "the robot: URDF or MJCF", ""},
-      {"map", "FILE", "which joints are its limbs (XML), instead of what its structure tells", ""},
-      {"sole-height", "METRES",
-       "of the origin of the last ankle link above the sole, where the file does not tell it", ""},
-      {"print-map", "", "print which joints are the limbs; without INPUT nothing else is done",
+     {{"print-map", "", "print which joints are the limbs; without INPUT nothing else is done",
        ""}}}};
 
 std::vector<OptionGroup> RetargetOptions() {
@@ -41,11 +37,6 @@ std::vector<OptionGroup> RetargetOptions() {
   for (const RobotExporter& format : RobotExporters()) {
     exports.options.push_back({format.option, "FILE", format.help, ""});
   }
-  exports.options.push_back(
-      {"export-rate", "HZ", "of these files; default: what their readers expect", ""});
-  exports.options.push_back(
-      {"order", "ORDER",
-       "of joints where no file tells it: isaac (breadth first) or mujoco (depth first)", ""});
   groups.push_back(std::move(exports));
   return groups;
 }
@@ -55,19 +46,12 @@ struct RobotExport {
   std::string file;
 };
 
-std::vector<RobotExport> ExportsOf(const Arguments& arguments, RobotExportOptions* options) {
-  options->rate = arguments.GetNumber("export-rate", "hertz");
-  if (options->rate && !IsExportRate(*options->rate)) {
-    throw UsageError("--export-rate has to be above 0 and at most 1000 Hz");
-  }
-  if (arguments.Get("order")) {
-    options->order = ParseRobotOrder(arguments.GetChoice("order", {"isaac", "mujoco"}, ""));
-  }
+std::vector<RobotExport> ExportsOf(const Arguments& arguments, const RobotRequest& robot) {
   std::vector<RobotExport> exports;
   for (const RobotExporter& format : RobotExporters()) {
     const auto file = arguments.Get(format.option);
     if (!file) continue;
-    if (format.needs_order && !options->order) {
+    if (format.needs_order && robot.order.empty()) {
       throw UsageError(fmt::format(
           "--{} needs --order isaac or --order mujoco: no reader of the file can tell which it is",
           format.option));
@@ -104,9 +88,10 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
   RetargetRequest request;
   request.conversion = MakeRequest(task::kRetarget, arguments, arguments.positional().value_or(""));
   request.conversion.output = arguments.Get("output").value_or("");
-  request.robot_file = arguments.Get("robot").value_or("");
-  request.map_file = arguments.Get("map").value_or("");
-  request.sole_height = arguments.GetNumber("sole-height", "metres");
+  const RobotRequest& robot = request.conversion.robot;
+  request.robot_file = robot.file;
+  request.map_file = robot.map_file;
+  request.sole_height = robot.sole_height;
   if (request.robot_file.empty()) {
     throw UsageError(
         "retarget: which robot? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
@@ -147,8 +132,8 @@ Manual RetargetManual() {
 int RunRetarget(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const RetargetRequest request = MakeRetargetRequest(arguments);
-  RobotExportOptions options;
-  const std::vector<RobotExport> exports = ExportsOf(arguments, &options);
+  const RobotRequest& robot = request.conversion.robot;
+  const std::vector<RobotExport> exports = ExportsOf(arguments, robot);
   if (!arguments.positional()) {
     const auto page = arguments.Get("report");
     if (!arguments.Has("print-map") && !page) {
@@ -166,13 +151,7 @@ int RunRetarget(const Arguments& arguments) {
   });
   bar.Clear();
   WriteRobotMotion(&report);
-  options.motion_name = report.motion_name;
-  for (const RobotExport& one : exports) {
-    one.format->write(one.file, report.robot, report.retargeted.motion, options);
-    for (std::string& file : FilesOf(*one.format, one.file)) {
-      report.written.push_back(std::move(file));
-    }
-  }
+  for (const RobotExport& one : exports) WriteRobotExport(*one.format, one.file, robot, &report);
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report)));

@@ -20,6 +20,7 @@
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/learn_summary.h"
 #include "MMMConverterS2KF/report/report.h"
+#include "MMMConverterS2KF/report/retarget_page.h"
 #include "MMMConverterS2KF/report/retarget_summary.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/mmm_motion.h"
@@ -282,6 +283,12 @@ void ExportRobotMotion(const RetargetedMotion& motion, const std::string& format
   exporter.write(file, motion.report.robot, motion.report.retargeted.motion, options);
 }
 
+void WriteRobotPage(const RetargetedMotion& motion, const std::string& file) {
+  const py::gil_scoped_release release;
+  CheckOutputs(motion, {file});
+  WriteFileAtomically(file, FormatRetargetPage(motion.report));
+}
+
 }  // namespace
 
 void BindStudies(py::module_* module) {
@@ -362,7 +369,8 @@ void BindStudies(py::module_* module) {
                                                     static_cast<int>(motion.joint_names.size()));
                              })
       .def("save", &SaveRobotMotion)
-      .def("export", &ExportRobotMotion);
+      .def("export", &ExportRobotMotion)
+      .def("report", &WriteRobotPage);
   module->def("retarget", &Retarget);
   module->def("calibrate", &Calibrate);
   module->def("learn_markers", &Learn);

@@ -53,7 +53,7 @@ void AddEntry(const Json& result, std::size_t entry, Columns* columns) {
   const auto id = result.find("id");
   const std::string id_text = id != result.end() && id->is_string() ? id->get<std::string>() : "";
   for (const auto& [name, value] : result.items()) {
-    if (name == "recording" || name == "motion" || name == "report") {
+    if (name == "recording" || name == "motion" || name == "robot_motion" || name == "report") {
       columns->Set(name, entry, WithoutId(value, id_text));
     } else if (name == "metadata" && value.is_object()) {
       // Names of users: in a column of their own, as each entry may have others.

@@ -24,6 +24,15 @@ namespace mmm_converter {
 struct GroundStudy;
 struct RecordedForces;
 
+/// To which robot a motion is brought. No file: to none.
+struct RobotRequest {
+  std::string file;                   ///< URDF or MJCF
+  std::string map_file;               ///< see ReadBodyMapChoice
+  std::optional<double> sole_height;  ///< of the last ankle joint above the sole [m]
+  std::optional<double> export_rate;  ///< [Hz]
+  std::string order;                  ///< see ParseRobotOrder; empty: none is given
+};
+
 /// What the user asked for. Empty: a default.
 struct ConversionRequest {
   InputRequest input;
@@ -44,6 +53,7 @@ struct ConversionRequest {
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
   bool builds_models = true;  ///< of objects that have none
+  RobotRequest robot;         ///< for who brings the motion to one: retarget and batch
 };
 
 /// All that is decided before the first frame is tracked.

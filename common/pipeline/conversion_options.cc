@@ -190,6 +190,31 @@ std::vector<Option> MotionOptions(ConversionRequest* request) {
           task::kConvert, &request->keeps_covariances, {.absent = "elsewhere they are exported"})};
 }
 
+std::vector<Option> RobotOptions(RobotRequest* robot) {
+  constexpr const char* kInPython = "retarget() has an argument for it";
+  return {
+      Row({"robot", "robot", ""}, kFile, "the robot to which the motion is brought: URDF or MJCF",
+          "", task::kRetarget, &robot->file, {.absent = kInPython}),
+      Row({"map", "robotMap", ""}, kFile,
+          "which joints are its limbs (XML), instead of what its structure tells", "",
+          task::kRetarget, &robot->map_file, {.absent = kInPython}),
+      Row({"sole-height", "soleHeight_mm", ""}, {OptionKind::kNumber, "METRES", "metres"},
+          "of the origin of the robot's last ankle link above the sole, where its file does not "
+          "tell it",
+          "", task::kRetarget, &robot->sole_height, {.absent = kInPython})};
+}
+
+std::vector<Option> RobotLearningOptions(RobotRequest* robot) {
+  constexpr const char* kInPython = "export() of a robot's motion has an argument for it";
+  return {Row({"export-rate", "robotRate_hz", ""}, {OptionKind::kNumber, "HZ", "hertz", 1e-3, 1e3},
+              "of the files for robot learning", "what their readers expect", task::kRetarget,
+              &robot->export_rate, {.absent = kInPython}),
+          Row({"order", "robotOrder", ""}, {OptionKind::kChoice, "isaac|mujoco"},
+              "of joints where no file for robot learning tells it: isaac (breadth first) or "
+              "mujoco (depth first)",
+              "", task::kRetarget, &robot->order, {.absent = kInPython})};
+}
+
 }  // namespace
 
 std::vector<Option> Options(ConversionRequest* request) {
@@ -210,6 +235,8 @@ std::vector<Option> Options(ConversionRequest* request) {
            "the recording shows a rigid object, not a person; MMM motions state this themselves",
            "", task::kConvert, &request->is_object)},
       &options);
+  Add("Robot", RobotOptions(&request->robot), &options);
+  Add("Robot learning", RobotLearningOptions(&request->robot), &options);
   return options;
 }
 

@@ -44,7 +44,15 @@ ConversionReport Report() {
 }
 
 TEST(EntryResult, AJournalGivesBackWhatWasWritten) {
-  for (const char* text : {kConverted, R"({"state":"failed","reason":"why","seconds":0.25})"}) {
+  std::string on_robot = kConverted;
+  on_robot.insert(
+      on_robot.find("\"seconds\""),
+      R"("robot":{"name":"g1","slide":0.01,"toe_slide_30_hz":null,"penetration_mm":0.5,)"
+      R"("floating_mm":0.25,"direction_deg":2.5,"direction_p95_deg":7.0,)"
+      R"("position_limits_broken":0,"velocity_limits_broken":1,"acceleration_rad_s2":8.5},)");
+  for (const std::string& text :
+       {std::string(kConverted), on_robot,
+        std::string(R"({"state":"failed","reason":"why","seconds":0.25})")}) {
     EXPECT_EQ(FormatJsonLine(ToJson(ParseEntryResult(Json::parse(text)))), text);
   }
   EXPECT_THROW(ParseEntryResult(Json::parse(R"({"state":"converted"})")),
@@ -52,7 +60,7 @@ TEST(EntryResult, AJournalGivesBackWhatWasWritten) {
 }
 
 TEST(EntryResult, TheWorstMarkerIsTheOneFarthestOff) {
-  const EntryResult result = Converted(Report(), 0.25);
+  const EntryResult result = Converted(Report(), nullptr, 0.25);
   ASSERT_TRUE(result.converted());
   EXPECT_EQ(result.figures->worst_marker, "B");
   EXPECT_DOUBLE_EQ(result.figures->worst_marker_mm, 2);
@@ -62,7 +70,7 @@ TEST(EntryResult, TheWorstMarkerIsTheOneFarthestOff) {
 TEST(EntryResult, AnObjectHasNoHeight) {
   ConversionReport report = Report();
   report.plan.object = ObjectModel();
-  const Json json = ToJson(Converted(report, 0));
+  const Json json = ToJson(Converted(report, nullptr, 0));
   for (const char* key : {"height_m", "height_source", "mass_kg", "mass_source", "subject"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;
   }
@@ -73,7 +81,7 @@ TEST(EntryResult, NothingSeenHasNoDistance) {
   ConversionReport report = Report();
   report.result.residuals.setConstant(kNaN);
   report.figures = MeasureConversion(report.result);
-  const Json json = ToJson(Converted(report, 0));
+  const Json json = ToJson(Converted(report, nullptr, 0));
   EXPECT_TRUE(json.at("worst_marker").is_null());
   EXPECT_TRUE(json.at("distance_mm").at("mean").is_null());
   EXPECT_EQ(ToJson(ParseEntryResult(json)), json);

@@ -136,6 +136,10 @@ TEST(Manifest, SaysAllThatIsWrongWithItsLine) {
             HasSubstr(":5: id=\"a\" is that of the recording in line 2 too"),
             HasSubstr(":6: <Recording>: up=\"w\" is not allowed")));
   EXPECT_THAT(ErrorOf("<Batch/>"), HasSubstr("has no <Recording"));
+  EXPECT_THAT(ErrorOf("<Batch lafan1='true'>\n<Recording file='a.c3d'/>\n"
+                      "<Recording file='b.c3d' robot='g1.urdf' beyondmimic='true'/>\n</Batch>"),
+              AllOf(HasSubstr(":2: <Recording>: lafan1=\"true\" needs robot=\"FILE\""),
+                    HasSubstr(":3: <Recording>: beyondmimic=\"true\" needs robotOrder")));
   EXPECT_THAT(ErrorOf("<ConverterConfig type='S2KFConverter'/>"),
               HasSubstr("a manifest starts with <Batch>"));
   EXPECT_THAT(ErrorOf("<Batch><Recording file='a' selfCalibrate='true' subjectFile='b'/></Batch>"),

@@ -16,6 +16,7 @@
 
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
+#include "tests/common/retarget/biped.h"
 #include "tests/support/test_plugins.h"
 
 namespace mmm_converter {
@@ -53,7 +54,15 @@ long LinesOf(const std::string& file) {
 }
 
 TEST(BatchSurvival, KilledTenTimesTheOutputsAreThoseOfAnUndisturbedRun) {
-  const std::string manifest = WriteManifest(kEntries, "mass_kg='75' csv='true'");
+  WriteText(TestFolder() + "/biped.urdf", testing::BipedText({}));
+  constexpr int kOnRobots = 12;  // the first ones, among which it is killed
+  std::string others = "<Group robot='' lafan1='false'>";
+  for (int i = kOnRobots; i < kEntries; ++i) {
+    others += fmt::format("<Recording file='handstand.c3d' id='{}' frames='{}:{}'/>", i, 5 * i,
+                          5 * i + 40);
+  }
+  const std::string manifest = WriteManifest(
+      kOnRobots, "mass_kg='75' csv='true' robot='biped.urdf' lafan1='true'", others + "</Group>");
   ASSERT_EQ(RunProgram(Words(manifest, SurvivalOut("undisturbed"))).exit_code, 0);
   std::mt19937 random(6);
   for (int kill = 0; kill < 10; ++kill) {
@@ -72,7 +81,10 @@ TEST(BatchSurvival, KilledTenTimesTheOutputsAreThoseOfAnUndisturbedRun) {
   EXPECT_THAT(run.out, HasSubstr("unchanged"));
   EXPECT_EQ(Contents(SurvivalOut() + "/motions"),
             Contents(SurvivalOut("undisturbed") + "/motions"));
-  EXPECT_EQ(Contents(SurvivalOut() + "/csv"), Contents(SurvivalOut("undisturbed") + "/csv"));
+  for (const char* folder : {"/csv", "/robots", "/lafan1"}) {
+    EXPECT_EQ(Contents(SurvivalOut() + folder), Contents(SurvivalOut("undisturbed") + folder));
+    EXPECT_GE(Contents(SurvivalOut() + folder).size(), static_cast<std::size_t>(kOnRobots));
+  }
   EXPECT_EQ(LinesOf(Journal()), kEntries);
 }
 

@@ -14,6 +14,7 @@
 #include "common/motion/occlusion.h"
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
+#include "tests/common/retarget/biped.h"
 
 namespace mmm_converter {
 namespace {
@@ -266,6 +267,41 @@ TEST(Batch, MemoryIsBounded) {
   const auto run = RunProgram({"batch", manifest, "-o", Out(), "--memory", "1M"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("more than the 1 MiB allowed"));
+}
+
+TEST(Batch, MotionsAreBroughtToARobot) {
+  const std::string robot = TestFolder() + "/biped.urdf";
+  WriteText(robot, testing::BipedText({}));
+  WriteText(TestFolder() + "/none.urdf", "<robot name='none'><link name='base'/></robot>");
+  const std::string manifest =
+      WriteManifest(1, "robot='biped.urdf' lafan1='true' beyondmimic='true' robotOrder='isaac'",
+                    "<Recording file='handstand.c3d' id='none' robot='none.urdf' frames=':40'/>"
+                    "<Recording file='handstand.c3d' id='person' robot='' lafan1='false' "
+                    "beyondmimic='false' frames=':40'/>");
+  const auto run = RunProgram({"batch", manifest, "-o", Out(), "--reports", "all"});
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("3 recordings, 2 converted, 1 failed"));
+  EXPECT_FALSE(fs::exists(Out() + "/motions/none.xml"));
+  ASSERT_EQ(RunProgram({"retarget", TestFolder() + "/handstand.c3d", "--height", "1.8", "--frames",
+                        "0:40", "--robot", robot, "-o", Out() + "/robots/single.xml",
+                        "--export-lafan1", TestFolder() + "/single.csv"})
+                .exit_code,
+            0);
+  EXPECT_EQ(ReadText(Out() + "/robots/0.xml"), ReadText(Out() + "/robots/single.xml"));
+  EXPECT_EQ(ReadText(Out() + "/lafan1/0.csv"), ReadText(TestFolder() + "/single.csv"));
+  EXPECT_THAT(ReadText(Out() + "/reports/0.html"), HasSubstr("handstand.c3d on biped</title>"));
+  for (const Json& line : Results(Out())) {
+    EXPECT_EQ(line.contains("robot_motion"), line["id"] == "0");
+    EXPECT_EQ(line.contains("robot"), line["id"] == "0");
+    if (line["id"] == "0") EXPECT_LT(line["robot"]["slide"], 0.02);
+  }
+  EXPECT_THAT(ReadText(Out() + "/results.csv"), HasSubstr(",robot.slide,"));
+  EXPECT_THAT(Resumed(manifest), HasSubstr("0 converted, 1 failed, 2 unchanged"));
+  fs::remove(Out() + "/lafan1/0.csv.names.json");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 1 failed, 1 unchanged"));
+  EXPECT_TRUE(fs::exists(Out() + "/lafan1/0.csv.names.json"));
+  WriteText(robot, ReadText(robot) + "<!-- another -->");
+  EXPECT_THAT(Resumed(manifest), HasSubstr("1 converted, 1 failed, 1 unchanged"));
 }
 
 TEST(Batch, SelfCalibrationLeavesTheSubject) {

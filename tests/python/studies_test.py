@@ -190,9 +190,12 @@ class Studies(Case):
     def test_retarget(self):
         robot = ROOT / "examples/robot/biped.urdf"
         self.run_program("retarget", MOTION, "--robot", robot, "--frames", ":60", "-o", self.folder / "p.xml",
-                         "--summary", self.folder / "p.json", "--export-lafan1", self.folder / "p.csv")
+                         "--summary", self.folder / "p.json", "--export-lafan1", self.folder / "p.csv",
+                         "--report", self.folder / "p.html")
         moved = mmmconverter.retarget(MOTION, robot, frames=(None, 60))
         moved.save(self.folder / "p.xml")
+        moved.report(self.folder / "o.html")
+        self.assert_same_files(self.folder / "p.html", self.folder / "o.html")
         moved.export("lafan1", self.folder / "o.csv")
         self.assert_same_files(self.folder / "p.csv", self.folder / "o.csv")
         self.assertEqual(moved.summary["limbs"], self.summary("p.json")["limbs"])
@@ -206,7 +209,7 @@ class Studies(Case):
         self.assertIn("biped", repr(moved))
         with self.assertRaisesRegex(mmmconverter.Error, "lafan1"):
             moved.export("lafan2", self.folder / "o.csv")
-        for save in (moved.save, lambda file: moved.export("lafan1", file)):
+        for save in (moved.save, moved.report, lambda file: moved.export("lafan1", file)):
             with self.assertRaises(mmmconverter.Error):
                 save(MOTION)
         with self.assertRaisesRegex(ValueError, "export"):

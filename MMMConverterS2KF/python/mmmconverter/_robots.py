@@ -82,6 +82,10 @@ class Retargeted(Postures, Judged):
         """
         self._raw.export(format, path_text(file), rate, order)
 
+    def report(self, file) -> None:
+        """Writes the page of ``retarget --report``."""
+        self._raw.report(path_text(file))
+
     def _facts(self):
         return [("robot", self.summary["robot"]), ("frames", len(self.joints)), ("verdict", self.verdict)]
 

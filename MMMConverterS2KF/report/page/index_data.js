@@ -17,7 +17,7 @@ class Column {
 }
 
 const kNoColumn = new Column(null);
-const kPaths = ["recording", "motion", "report"];
+const kPaths = ["recording", "motion", "robot_motion", "report"];
 
 function asText(value) {
   if (value === null) return null;

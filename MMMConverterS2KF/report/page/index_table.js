@@ -12,6 +12,10 @@ const kColumns = [
   {key: "distance_mm.p95", name: "95\u00a0%, mm", digits: 1, says: "95th percentile of the same distances."},
   {key: "distance_mm.max", name: "max, mm", digits: 1, says: "Largest of the same distances."},
   {key: "worst_marker_mm", name: "worst marker, mm", digits: 1, with: "worst_marker", says: "The marker whose mean distance is largest."},
+  {key: "robot.slide", name: "feet slide, %", digits: 1, says: "Share of the frames in contact in which a foot of the robot slides.",
+    numbers: (entries) => entries.numbers("robot.slide").map((share) => 100 * share)},
+  {key: "robot.penetration_mm", name: "in the floor, mm", digits: 1, says: "The deepest point of the robot's feet."},
+  {key: "robot.direction_deg", name: "limbs, °", digits: 1, says: "How far the robot's limbs point elsewhere than the person's, on average."},
   {key: "frames", name: "frames", digits: 0},
   {key: "not-converged", name: "not converged, %", digits: 1, numbers: shareNotConverged, says: "Share of the frames that are not converged."},
   {key: "markers_absent", name: "absent markers", digits: 0, says: "Markers of the model that the recording does not have."},
@@ -154,9 +158,9 @@ class EntryTable {
 
   links(entry) {
     const cell = element("td", {class: "links"});
-    for (const name of ["report", "motion"]) {
+    for (const name of ["report", "motion", "robot_motion"]) {
       const link = relativeLink(this.entries.text(name, entry));
-      if (link) cell.append(element("a", {href: link}, name), " ");
+      if (link) cell.append(element("a", {href: link}, name.split("_")[0]), " ");
     }
     return cell;
   }

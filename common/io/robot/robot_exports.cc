@@ -263,24 +263,24 @@ void WritePhc(const std::string& file, const Robot& robot, const PoseTrajectory&
 
 const std::vector<RobotExporter>& RobotExporters() {
   static const std::vector<RobotExporter> exporters = {
-      {"lafan1", "export-lafan1",
+      {"lafan1", "export-lafan1", "csv",
        "root and joints as Unitree's LAFAN1 files have them (CSV without a header; x y z, qx qy qz "
        "qw, joints), 30 Hz; names beside it",
        false, true, WriteLafan},
-      {"gmr", "export-gmr", "root, joints and bodies as GMR and TWIST have them (pickle)", false,
-       false, WriteGmr},
-      {"mujoco", "export-mujoco",
+      {"gmr", "export-gmr", "pkl", "root, joints and bodies as GMR and TWIST have them (pickle)",
+       false, false, WriteGmr},
+      {"mujoco", "export-mujoco", "npz",
        "qpos and qvel of MuJoCo (NumPy; holosoma reads it as a retargeted motion)", false, false,
        WriteMujoco},
-      {"locomujoco", "export-locomujoco", "a trajectory of LocoMuJoCo (NumPy)", false, false,
+      {"locomujoco", "export-locomujoco", "npz", "a trajectory of LocoMuJoCo (NumPy)", false, false,
        WriteLocoMujoco},
-      {"beyondmimic", "export-beyondmimic",
+      {"beyondmimic", "export-beyondmimic", "npz",
        "joints and bodies that move, with velocities, as BeyondMimic has them (NumPy), 50 Hz; "
        "needs the order",
        true, false, WriteBeyondMimic},
-      {"mjlab", "export-mjlab", "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz",
-       false, false, WriteMjlab},
-      {"phc", "export-phc",
+      {"mjlab", "export-mjlab", "npz",
+       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", false, false, WriteMjlab},
+      {"phc", "export-phc", "pkl",
        "root, joints and their rotation vectors as PHC and ASAP have them (a pickle that joblib "
        "reads), 30 Hz; names beside it",
        false, true, WritePhc}};

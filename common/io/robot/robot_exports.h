@@ -23,6 +23,7 @@ struct RobotExportOptions {
 struct RobotExporter {
   const char* name = "";    ///< "lafan1"
   const char* option = "";  ///< "export-lafan1"
+  const char* ending = "";  ///< of its files in a batch
   const char* help = "";    ///< of the option
   /// There are readers of both orders, which no file tells: without one it is an error.
   bool needs_order = false;

@@ -160,6 +160,26 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
   return report;
 }
 
+RetargetRequest RequestFor(const ConversionRequest& conversion, const ConversionReport& converted) {
+  RetargetRequest request;
+  request.conversion = conversion;
+  request.robot_file = conversion.robot.file;
+  request.map_file = conversion.robot.map_file;
+  request.sole_height = conversion.robot.sole_height;
+  request.converted = &converted;
+  return request;
+}
+
+void WriteRobotExport(const RobotExporter& format, const std::string& file,
+                      const RobotRequest& robot, RetargetReport* report) {
+  RobotExportOptions options;
+  options.rate = robot.export_rate;
+  options.motion_name = report->motion_name;
+  if (!robot.order.empty()) options.order = ParseRobotOrder(robot.order);
+  format.write(file, report->robot, report->retargeted.motion, options);
+  for (std::string& one : FilesOf(format, file)) report->written.push_back(std::move(one));
+}
+
 void WriteRobotMotion(RetargetReport* report) {
   MmmMotionOutput output;
   output.recording_name = fs::path(report->file).stem().string();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/io/mmm/mmm_motion.h"
+#include "common/io/robot/robot_exports.h"
 #include "common/judge/retarget_verdict.h"
 #include "common/pipeline/conversion.h"
 #include "common/retarget/retarget_figures.h"
@@ -59,6 +60,13 @@ LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings);
 /// @throws Error
 RetargetReport RunRetargeting(const RetargetRequest& request,
                               const std::function<bool(int, int)>& progress);
+
+/// The request for what was converted.
+RetargetRequest RequestFor(const ConversionRequest& conversion, const ConversionReport& converted);
+
+/// Writes `file`, as the conversion's request says of the robot. @throws Error
+void WriteRobotExport(const RobotExporter& format, const std::string& file,
+                      const RobotRequest& robot, RetargetReport* report);
 
 /// An MMM motion with the robot's model. @throws Error; the file is then as it was before.
 void WriteRobotMotion(RetargetReport* report);
