@@ -14,7 +14,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kLimbsShown = 3;
+constexpr std::size_t kLimbsShown = 3, kTouchesShown = 3;
 
 std::string RetargetLine(const std::string& name, const std::string& text) {
   return fmt::format("{:<12}{}\n", name, text);
@@ -40,9 +40,42 @@ std::string DescribeFeet(const RetargetReport& report) {
     }
     text += RetargetLine("feet", feet);
   }
-  return text + RetargetLine("floor", fmt::format("feet at most {:.1f} mm below it, at {:.2f} s",
-                                                  kMillimetres * figures.penetration,
-                                                  figures.penetration_time));
+  std::string floor = fmt::format("feet at most {:.1f} mm below it, at {:.2f} s",
+                                  kMillimetres * figures.penetration, figures.penetration_time);
+  if (figures.body_depth > 0) {
+    floor += fmt::format("; {} {:.1f} mm at {:.2f} s", figures.deepest_body,
+                         kMillimetres * figures.body_depth, figures.body_depth_time);
+  }
+  return text + RetargetLine("floor", floor);
+}
+
+std::string DescribeTouches(const RetargetReport& report) {
+  const RobotCapsules& capsules = report.body.capsules;
+  const std::vector<TouchFigures>& touches = report.figures.touches;
+  std::string text = fmt::format("{} pairs of bodies are watched", capsules.pairs.size());
+  text += touches.empty() ? ", and none touch" : fmt::format(", {} touch", touches.size());
+  for (std::size_t i = 0; i < std::min(touches.size(), kTouchesShown); ++i) {
+    const TouchFigures& one = touches[i];
+    text += fmt::format("; {} {:.1f} mm in {}{} at {:.2f} s", one.first, Millimetres(one.depth),
+                        one.second, one.is_by_mass ? " (by their inertia)" : "", one.time);
+  }
+  if (!capsules.unknown.empty()) {
+    text += "; of what size these are is not known: " + JoinNames(capsules.unknown, ", ");
+  }
+  return text;
+}
+
+Json TouchesJson(const RetargetFigures& figures) {
+  Json touches = Json::array();
+  for (const TouchFigures& touch : figures.touches) {
+    touches.push_back({{"first", touch.first},
+                       {"second", touch.second},
+                       {"depth_m", Number(touch.depth, 6)},
+                       {"at_s", Number(touch.time)},
+                       {"frames", Number(touch.share)},
+                       {"by_inertia", touch.is_by_mass}});
+  }
+  return touches;
 }
 
 std::vector<LimbFigures> FarthestLimbs(const RetargetFigures& figures) {
@@ -109,6 +142,7 @@ std::string FormatRetargetSummary(const RetargetReport& report) {
                                              "position broken {} times, of velocity {} times",
                                              figures.acceleration, figures.jerk,
                                              figures.position_breaks, figures.velocity_breaks));
+  text += RetargetLine("itself", DescribeTouches(report));
   if (!std::isnan(figures.path)) {
     text += RetargetLine("path", fmt::format("{:.3f} of what the legs allow", figures.path));
   }
@@ -133,6 +167,9 @@ Json ToJson(const RetargetReport& report) {
                {"toe_slide_30_hz", Number(figures.toe_slide)},
                {"penetration_m", Number(figures.penetration, 6)},
                {"penetration_at_s", Number(figures.penetration_time)},
+               {"body_penetration_m", Number(figures.body_depth, 6)},
+               {"body_penetration_at_s", Number(figures.body_depth_time)},
+               {"deepest_body", TextOrNull(figures.deepest_body)},
                {"floating_m", Number(figures.floating, 6)},
                {"position_limits_broken", figures.position_breaks},
                {"velocity_limits_broken", figures.velocity_breaks},
@@ -145,7 +182,10 @@ Json ToJson(const RetargetReport& report) {
                {"backwards", figures.is_backwards},
                {"path", Number(figures.path)},
                {"limbs", LimbsJson(figures)},
-               {"joints_at_limits", JointsJson(figures)}};
+               {"joints_at_limits", JointsJson(figures)},
+               {"self_contact", TouchesJson(figures)},
+               {"pairs_watched", report.body.capsules.pairs.size()},
+               {"size_not_known", report.body.capsules.unknown}};
   json["conversion_verdict"] =
       report.conversion_verdict ? ToJson(*report.conversion_verdict) : Json();
   json["verdict"] = ToJson(report.verdict);

@@ -23,9 +23,10 @@ constexpr Limit kDirection = {6, 25};          // [deg] on average
 constexpr Limit kLimb = {12, 45};              // [deg] of one half of a limb, on average
 constexpr double kLeastContact = 0.1;          // share of the frames of both feet
 constexpr Limit kPath = {0.05, 0.3};           // from 1
+constexpr Limit kTouch = {0.01, kNever};       // [m]: capsules are no closer to the bodies
 constexpr Limit kAtLimit = {0.1, kNever};      // share of the frames
 constexpr Limit kJump = {0.5, 1.5};            // [rad] from frame to frame
-constexpr std::size_t kMostJointsNamed = 4;
+constexpr std::size_t kMostJointsNamed = 4, kMostTouchesNamed = 3;
 
 void JudgeJoints(const RetargetFigures& figures, VerdictReasons* reasons) {
   std::size_t named = 0;
@@ -39,6 +40,17 @@ void JudgeJoints(const RetargetFigures& figures, VerdictReasons* reasons) {
                              kPercent * most))
                  ? 1
                  : 0;
+  }
+}
+
+void JudgeTouches(const RetargetFigures& figures, VerdictReasons* reasons) {
+  const std::size_t count = std::min(figures.touches.size(), kMostTouchesNamed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const TouchFigures& touch = figures.touches[i];
+    reasons->AddBeyond(
+        kTouch, touch.depth,
+        fmt::format("{} goes {:.0f} mm into {} at {:.2f} s, {:.0f} % of the frames", touch.first,
+                    kMillimetres * touch.depth, touch.second, touch.time, kPercent * touch.share));
   }
 }
 
@@ -87,6 +99,9 @@ Verdict JudgeRetargeting(const RetargetFigures& figures, const Verdict* of_conve
   reasons.AddBeyond(kPenetration, figures.penetration,
                     fmt::format("a foot is {:.1f} mm below the floor at {:.2f} s",
                                 kMillimetres * figures.penetration, figures.penetration_time));
+  reasons.AddBeyond(kPenetration, figures.body_depth,
+                    fmt::format("{} is {:.1f} mm below the floor at {:.2f} s", figures.deepest_body,
+                                kMillimetres * figures.body_depth, figures.body_depth_time));
   reasons.AddBeyond(kDirection, figures.direction * kDegrees,
                     fmt::format("limbs point {:.1f} degrees elsewhere than the person's on average",
                                 figures.direction * kDegrees));
@@ -100,6 +115,7 @@ Verdict JudgeRetargeting(const RetargetFigures& figures, const Verdict* of_conve
                     "{:.0f}",
                     limb.name, limb.mean * kDegrees, limb.most_time, limb.most * kDegrees));
   }
+  JudgeTouches(figures, &reasons);
   JudgeJoints(figures, &reasons);
   reasons.AddBeyond(kJump, figures.largest_jump,
                     fmt::format("a joint jumps by {:.0f} degrees from a frame to the next",

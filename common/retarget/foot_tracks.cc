@@ -5,6 +5,7 @@
 
 #include "common/math/rotation.h"
 #include "common/math/statistics.h"
+#include "common/retarget/foot_turns.h"
 #include "common/retarget/retarget_targets.h"
 
 namespace mmm_converter {
@@ -15,10 +16,6 @@ using Eigen::Vector3d;
 constexpr double kPitchSmoothing = 0.025;  // [s]
 constexpr double kLongestDraw = 0.5;       // [s] in which a swing leaves or reaches a place
 constexpr double kSoftness = 0.04;         // [rad] of feet in the first pass
-
-double YawOf(const Vector3d& forward) { return std::atan2(forward.y(), forward.x()); }
-/// > 0: heel up.
-double PitchOf(const Vector3d& forward) { return -std::asin(std::clamp(forward.z(), -1.0, 1.0)); }
 
 /// Below the ankle, W.
 Vector3d HumanSole(const HumanMotion& human, double ankle_height, std::size_t foot, int k) {
@@ -32,14 +29,6 @@ double SoleLevel(const Retargeted& retargeted, double ankle_height, std::size_t 
     if (retargeted.contacts[foot].heel[k]) standing.push_back(all.back());
   }
   return standing.empty() ? Percentile(all, 5) : Median(standing);
-}
-
-/// Only the end of the foot that the person lifts goes up.
-double GatedPitch(const FootContacts& contacts, int k, double pitch) {
-  if (contacts.heel[k] && contacts.toe[k]) return 0;
-  if (contacts.toe[k]) return std::max(0.0, pitch);
-  if (contacts.heel[k]) return std::min(0.0, pitch);
-  return pitch;
 }
 
 /// What of an angle is more than a fit's softness: the robot's joints do not allow a flat foot.
@@ -63,29 +52,15 @@ std::vector<double> Smoothed(const std::vector<double>& values, double sigma) {
   return smooth;
 }
 
-/// From value and slope at 0 to neither at 1, without acceleration at both: a quintic.
-double Fading(double value, double slope, double t) {
-  const double u = 1 - t;
-  return u * u * u * (value * (1 + 3 * t + 6 * t * t) + slope * t * (1 + 3 * t));
-}
-
-/// A small motion from one pose to another: place, then turn (W).
-Eigen::Matrix<double, 6, 1> Difference(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  Eigen::Matrix<double, 6, 1> difference;
-  difference.head<3>() = to.translation() - from.translation();
-  difference.tail<3>() = Log(Eigen::Quaterniond(to.linear() * from.linear().transpose()));
-  return difference;
-}
-
 /// Adds to frames from an end of a stance on, away from it, what is missing there, fading.
 /// step: +1 behind the stance, -1 before it; others: where the next stance ends that way.
 void DrawSwing(const FootTrack& pass, const FootTrack& anchored, int edge, int step, int limit,
-               double rate, std::vector<Eigen::Matrix<double, 6, 1>>* draws) {
+               double rate, std::vector<FootDifference>* draws) {
   const int length = std::min(std::abs(limit - edge), static_cast<int>(kLongestDraw * rate));
   if (length < 2) return;
   const auto missing = [&](int k) { return Difference(pass.X_WF[k], anchored.X_WF[k]); };
-  const Eigen::Matrix<double, 6, 1> value = missing(edge);
-  Eigen::Matrix<double, 6, 1> slope = Eigen::Matrix<double, 6, 1>::Zero();
+  const FootDifference value = missing(edge);
+  FootDifference slope = FootDifference::Zero();
   const int inside = edge - step;
   if (inside >= 0 && inside < static_cast<int>(pass.stands.size()) && anchored.stands[inside]) {
     slope = (value - missing(inside)) * length;
@@ -120,16 +95,34 @@ void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<doub
 
 }  // namespace
 
+Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::size_t i) {
+  const RobotFoot& foot = (*body.feet)[i];
+  const BodyPosture& person = *of.person;
+  Vector3d place = person.legs[i].distal - of.ankle_height * of.R_foot.col(2);
+  place.z() -= of.level;
+  Vector3d left = person.R_pelvis.col(1);
+  left.z() = 0;
+  const double hip_width = (person.legs[0].proximal - person.legs[1].proximal).norm();
+  const double wider = 0.5 * (body.hip_width - of.scale * hip_width);
+  place = of.scale * place + (i == 0 ? wider : -wider) * left.normalized();
+  Eigen::Matrix3d R_WA = of.R_foot;
+  if (of.pitch) {
+    R_WA = Eigen::AngleAxisd(YawOf(R_WA.col(0)), Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(*of.pitch, Vector3d::UnitY());
+  }
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = R_WA * foot.R_FA.transpose();
+  X.translation() = place - X.linear() * foot.sole;
+  const double lowest = LowestOf(foot, X);
+  if (of.pitch || lowest < 0) X.translation().z() -= lowest;
+  return X;
+}
+
 FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
   FootTracks tracks;
   if (!body.feet) return tracks;
   const HumanMotion& human = retargeted.human;
-  const auto hip_width = [](const BodyPosture& one) {
-    return (one.legs[0].proximal - one.legs[1].proximal).norm();
-  };
-  const double s = retargeted.scale;
   for (std::size_t i = 0; i < 2; ++i) {
-    const RobotFoot& foot = (*body.feet)[i];
     const double level = SoleLevel(retargeted, retargeted.ankle_height, i);
     tracks[i].stands.assign(human.num_frames(), false);
     for (const Stance& stance : retargeted.contacts[i].stances) {
@@ -137,26 +130,14 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
                 true);
     }
     for (int k = 0; k < human.num_frames(); ++k) {
-      const BodyPosture& person = human.bodies[k];
-      Vector3d place = HumanSole(human, retargeted.ankle_height, i, k);
-      place.z() -= level;
-      Vector3d left = person.R_pelvis.col(1);
-      left.z() = 0;
-      const double wider = 0.5 * (body.hip_width - s * hip_width(person));
-      place = s * place + (i == 0 ? wider : -wider) * left.normalized();
-      Eigen::Matrix3d R_WA = human.R_feet[i][k];
+      ScaledFoot of = {&human.bodies[k],        human.R_feet[i][k],
+                       retargeted.ankle_height, level,
+                       retargeted.scale,        {}};
       if (tracks[i].stands[k]) {
-        const Vector3d forward = R_WA.col(0);
-        const double pitch = GatedPitch(retargeted.contacts[i], k, PitchOf(forward));
-        R_WA = Eigen::AngleAxisd(YawOf(forward), Vector3d::UnitZ()) *
-               Eigen::AngleAxisd(pitch, Vector3d::UnitY());
+        const FootContacts& contacts = retargeted.contacts[i];
+        of.pitch = GatedPitch(contacts.heel[k], contacts.toe[k], PitchOf(of.R_foot.col(0)));
       }
-      Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-      X.linear() = R_WA * foot.R_FA.transpose();
-      X.translation() = place - X.linear() * foot.sole;
-      const double lowest = LowestOf(foot, X);
-      if (tracks[i].stands[k] || lowest < 0) X.translation().z() -= lowest;
-      tracks[i].X_WF.push_back(X);
+      tracks[i].X_WF.push_back(PlaceFoot(of, body, i));
     }
   }
   return tracks;
@@ -174,7 +155,8 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
     std::vector<double> pitch, roll;
     for (int k = 0; k < frames; ++k) {
       const Vector3d forward = pass.X_WF[k].linear() * foot.R_FA.col(0);
-      const double gated = GatedPitch(retargeted.contacts[i], k, PitchOf(forward));
+      const double gated = GatedPitch(retargeted.contacts[i].heel[k], retargeted.contacts[i].toe[k],
+                                      PitchOf(forward));
       pitch.push_back(gated + Unavoidable(PitchOf(forward) - gated));
       // A robot without such a joint rolls its feet as its legs lean.
       const Vector3d left = pass.X_WF[k].linear() * foot.R_FA.col(1);
@@ -185,7 +167,7 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
     pitch = Smoothed(pitch, kPitchSmoothing * rate);
     const std::vector<Stance>& stances = retargeted.contacts[i].stances;
     for (const Stance& stance : stances) Anchor(foot, pass, pitch, roll, stance, &track);
-    std::vector<Eigen::Matrix<double, 6, 1>> draws(frames, Eigen::Matrix<double, 6, 1>::Zero());
+    std::vector<FootDifference> draws(frames, FootDifference::Zero());
     for (std::size_t n = 0; n < stances.size(); ++n) {
       const int next = n + 1 < stances.size() ? stances[n + 1].begin : frames;
       const int last = n > 0 ? stances[n - 1].end - 1 : -1;

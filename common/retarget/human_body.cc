@@ -88,7 +88,9 @@ void FindFeet(const KinematicModel& model, const std::vector<Eigen::Isometry3d>&
     body->heels[i] = place("HEE", standing.feet[i].heel);
     body->toes[i] = place("TOE", standing.feet[i].toe);
     const Vector3d heel = X_WS[body->heels[i].segment] * body->heels[i].p_S;
+    const Vector3d toe = X_WS[body->toes[i].segment] * body->toes[i].p_S;
     body->heel_heights[i] = heel.z() - standing.feet[i].heel(2, 0);
+    body->toe_heights[i] = toe.z() - standing.feet[i].heel(2, 0);
   }
   const Vector3d ankle = X_WS[body->map.legs[0]->distal.segment] * body->map.legs[0]->distal.p_S;
   body->ankle_height = ankle.z() - standing.feet[0].heel(2, 0);

@@ -18,6 +18,7 @@ struct HumanBody {
   std::array<Eigen::Matrix3d, 2> R_FA;
   double ankle_height = 0;                  ///< above the sole [m]
   std::array<double, 2> heel_heights = {};  ///< of `heels` above the sole [m]
+  std::array<double, 2> toe_heights = {};   ///< of `toes`
 
   /// Thigh, shank and ankle height [m].
   double leg_length() const {

@@ -29,12 +29,8 @@ FootTracks FeetOf(const KinematicModel& model, const RobotBody& body,
 
 }  // namespace
 
-Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
+Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body) {
-  if (motion.num_frames() < kFewestFrames) {
-    throw Error(fmt::format("a motion of {} frames; at least {} are brought to a robot",
-                            motion.num_frames(), kFewestFrames));
-  }
   const HumanBody person = FindHumanBody(human_model);
   Retargeted result;
   result.human = MoveHuman(human_model, person, motion);
@@ -43,9 +39,25 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
   result.ankle_height = person.ankle_height;
   result.heel_heights = person.heel_heights;
   result.scale = body.size / (body.feet ? person.leg_length() : person.arm_length());
+  result.motion.rate = motion.rate;
+  result.motion.first_time = motion.first_time;
+  for (int j = 0; j < robot.model.num_joints(); ++j) {
+    result.motion.joint_names.push_back(robot.model.joint(j).name);
+  }
+  return result;
+}
+
+Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
+                          const Robot& robot, const RobotBody& body) {
+  if (motion.num_frames() < kFewestFrames) {
+    throw Error(fmt::format("a motion of {} frames; at least {} are brought to a robot",
+                            motion.num_frames(), kFewestFrames));
+  }
+  Retargeted result = DescribePerson(human_model, motion, robot, body);
   FootTracks feet = ScaledFeet(result, body);
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
-  std::vector<Posture> start = StartTrajectory(problem, FirstPosture(result, robot, body));
+  std::vector<Posture> start = StartTrajectory(
+      problem, FirstPosture(result.human.bodies.front(), result.scale, robot, body));
   FitResult fit = FitTrajectory(problem, std::move(start), kFirstIterations, body.feet ? 0 : kMore);
   if (body.feet) {
     feet = AnchoredFeet(result, body, FeetOf(robot.model, body, fit.postures, feet));
@@ -54,11 +66,6 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
   }
   result.iterations = fit.iterations;
   result.keeps_limits = fit.has_converged;
-  result.motion.rate = motion.rate;
-  result.motion.first_time = motion.first_time;
-  for (int j = 0; j < robot.model.num_joints(); ++j) {
-    result.motion.joint_names.push_back(robot.model.joint(j).name);
-  }
   result.motion.postures = std::move(fit.postures);
   return result;
 }

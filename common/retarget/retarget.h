@@ -24,6 +24,10 @@ struct Retargeted {
   bool keeps_limits = false;                ///< FitResult::has_converged
 };
 
+/// What is known of the person: all but the robot's postures.
+Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
+                          const Robot& robot, const RobotBody& body);
+
 /// README.md has the algorithm. human_model: a person's, of MMM or OpenSim.
 /// @throws Error where the person's model is not known, or the motion has fewer than three frames.
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,

@@ -9,6 +9,7 @@
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/foot_figures.h"
+#include "common/retarget/self_contact.h"
 
 namespace mmm_converter {
 namespace {
@@ -232,8 +233,10 @@ RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& ro
   figures.direction = figures.direction95 = NAN;
   if (body.feet) {
     MeasureFeet(retargeted, body, X_WS, &figures);
+    MeasureBodyDepth(retargeted.motion, body, X_WS, &figures);
     figures.path = PathOf(retargeted, body.map, X_WS);
   }
+  MeasureSelfContact(retargeted.motion, body.capsules, X_WS, &figures);
   MeasureLimits(retargeted.motion, robot, &figures);
   MeasureSmoothness(retargeted.motion, &figures);
   DirectionMeasure(retargeted, body, X_WS).Conclude(&figures);

@@ -31,6 +31,14 @@ struct JointFigures {
   double share_at_speed = 0;  ///< of velocity
 };
 
+/// Two bodies of the robot that go into each other.
+struct TouchFigures {
+  std::string first, second;   ///< links
+  double depth = 0, time = 0;  ///< the deepest [m], [s]
+  double share = 0;            ///< of the frames
+  bool is_by_mass = false;     ///< the size of one is known by its inertia only
+};
+
 /// A robot's motion in numbers; what each counts is in README.md.
 struct RetargetFigures {
   double rate = 0;  ///< [Hz]
@@ -44,9 +52,13 @@ struct RetargetFigures {
   std::array<FootFigures, 2> feet;
   int position_breaks = 0, velocity_breaks = 0;
   bool keeps_limits = true;  ///< Retargeted::keeps_limits
-  double acceleration = 0;   ///< rms of the joints that move [rad/s^2]
-  double jerk = 0;           ///< [rad/s^3]
-  double largest_jump = 0;   ///< of a joint, from frame to frame [rad]
+  double body_depth = 0;     ///< of arms, trunk or knees in the floor [m]
+  double body_depth_time = 0;
+  std::string deepest_body;           ///< link
+  std::vector<TouchFigures> touches;  ///< the deepest first
+  double acceleration = 0;            ///< rms of the joints that move [rad/s^2]
+  double jerk = 0;                    ///< [rad/s^3]
+  double largest_jump = 0;            ///< of a joint, from frame to frame [rad]
   double direction = 0, direction95 = 0;
   std::vector<LimbFigures> limbs;
   std::vector<JointFigures> joints;  ///< that are at a limit for a while, the longest first

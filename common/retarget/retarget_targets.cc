@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/retarget/retarget_targets.h"
 
-#include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "common/model/forward_kinematics.h"
 
@@ -22,20 +23,15 @@ constexpr double kHandTurn = 0.3;
 constexpr double kHeld = 1e-4;    // of a root without legs
 constexpr double kLeaning = 0.1;  // of a foot that no joint rolls
 
-/// Collects aims frame by frame of a motion.
-class AimsOf {
- public:
-  AimsOf(const Retargeted& retargeted, const RobotBody& body, std::vector<Aim>* aims)
-      : retargeted_(retargeted), body_(body), aims_(*aims) {}
+using Target = std::function<Vector3d(const BodyPosture&, double)>;
 
-  /// value(k): what it is to be in frame k.
-  template <typename Value>
-  void Add(int segment, bool is_direction, const Vector3d& local, double deviation, Value value) {
-    const int frames = retargeted_.human.num_frames();
-    Aim aim{segment, is_direction, local, Eigen::Matrix3Xd(3, frames),
-            Eigen::Matrix3Xd::Constant(3, frames, 1 / deviation)};
-    for (int k = 0; k < frames; ++k) aim.target.col(k) = value(k);
-    aims_.push_back(std::move(aim));
+/// Collects what follows the person.
+class PersonAims {
+ public:
+  explicit PersonAims(const RobotBody& body) : has_feet_(body.feet), R_WA_(body.map.R_WA) {}
+
+  void Add(int segment, bool is_direction, const Vector3d& local, double deviation, Target target) {
+    aims_.push_back({segment, is_direction, local, deviation, std::move(target)});
   }
 
   /// Directions of a segment's axes R_SX that are those of the person's. rotation(posture) has
@@ -43,24 +39,25 @@ class AimsOf {
   template <typename Rotation>
   void Turn(int segment, const Eigen::Matrix3d& R_SX, int column, double deviation,
             Rotation rotation) {
-    Add(segment, true, R_SX.col(column), deviation, [&](int k) -> Vector3d {
-      return Facing(k) * rotation(retargeted_.human.bodies[k]).col(column);
-    });
+    const auto of_person = [=](const BodyPosture& person, double) -> Vector3d {
+      return rotation(person).col(column);
+    };
+    // A robot that stands still: the person's chest faces as its own.
+    const auto facing = [=, R_WA = R_WA_](const BodyPosture& person, double) -> Vector3d {
+      return R_WA * person.R_chest.transpose() * rotation(person).col(column);
+    };
+    Add(segment, true, R_SX.col(column), deviation, has_feet_ ? Target(of_person) : Target(facing));
   }
 
-  /// What brings the person's directions to a robot that stands still: its chest faces forward.
-  Eigen::Matrix3d Facing(int k) const {
-    if (body_.feet) return Eigen::Matrix3d::Identity();
-    return body_.map.R_WA * retargeted_.human.bodies[k].R_chest.transpose();
-  }
+  std::vector<PersonAim> Take() { return std::move(aims_); }
 
  private:
-  const Retargeted& retargeted_;
-  const RobotBody& body_;
-  std::vector<Aim>& aims_;
+  bool has_feet_;
+  Eigen::Matrix3d R_WA_;
+  std::vector<PersonAim> aims_;
 };
 
-void AddArms(const BodyMap& map, AimsOf* aims) {
+void AddArms(const BodyMap& map, PersonAims* aims) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!map.arms[i]) continue;
     const LimbMap& arm = *map.arms[i];
@@ -76,7 +73,7 @@ void AddArms(const BodyMap& map, AimsOf* aims) {
   }
 }
 
-void AddLegs(const BodyMap& map, AimsOf* aims) {
+void AddLegs(const BodyMap& map, PersonAims* aims) {
   for (std::size_t i = 0; i < 2; ++i) {
     const LimbMap& leg = *map.legs[i];
     const auto upper = [i](const BodyPosture& p) { return p.legs[i].R_upper; };
@@ -87,32 +84,16 @@ void AddLegs(const BodyMap& map, AimsOf* aims) {
   }
 }
 
-void AddFoot(const RobotFoot& foot, const FootTrack& track, const FootDeviations& deviations,
-             AimsOf* aims, std::vector<Aim>* list) {
-  const auto weigh = [&](double stance, double swing) {
-    for (Eigen::Index k = 0; k < list->back().weight.cols(); ++k) {
-      list->back().weight.col(k).setConstant(1 / (track.stands[k] ? stance : swing));
-    }
-  };
-  aims->Add(foot.segment, false, foot.sole, 1,
-            [&](int k) -> Vector3d { return track.X_WF[k] * foot.sole; });
-  weigh(deviations.stance_place, deviations.swing_place);
-  for (const int column : {0, 1}) {
-    const Vector3d axis = foot.R_FA.col(column);
-    aims->Add(foot.segment, true, axis, 1,
-              [&](int k) -> Vector3d { return track.X_WF[k].linear() * axis; });
-    const bool is_free = column == 1 && !foot.rolls;
-    weigh(is_free ? kLeaning : deviations.stance_turn, is_free ? kLeaning : deviations.swing_turn);
-  }
-}
-
 /// Of a robot without legs, wherever it is mounted.
-void HoldRoot(const KinematicModel& model, AimsOf* aims) {
+void HoldRoot(const KinematicModel& model, PersonAims* aims) {
   const Posture zero = ZeroPosture(model);
-  aims->Add(0, false, Vector3d::Zero(), kHeld, [&](int) { return zero.position; });
+  aims->Add(0, false, Vector3d::Zero(), kHeld,
+            [p = zero.position](const BodyPosture&, double) { return p; });
   for (const int axis : {0, 2}) {
     aims->Add(0, true, Vector3d::Unit(axis), kHeld,
-              [&](int) -> Vector3d { return zero.orientation * Vector3d::Unit(axis); });
+              [d = Vector3d(zero.orientation * Vector3d::Unit(axis))](const BodyPosture&, double) {
+                return d;
+              });
   }
 }
 
@@ -132,17 +113,9 @@ double FloorOf(const Retargeted& retargeted) {
 
 }  // namespace
 
-TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
-                              const RobotBody& body, const FootTracks& feet,
-                              const FootDeviations& deviations) {
-  TrajectoryProblem problem;
-  problem.model = &robot.model;
-  problem.rate = retargeted.human.rate;
-  problem.num_frames = retargeted.human.num_frames();
-  problem.velocity_limits = robot.velocity_limits;
-  problem.rest = ZeroPosture(robot.model).joint_angles;
+std::vector<PersonAim> AimsAtPerson(const Robot& robot, const RobotBody& body, double scale) {
   const BodyMap& map = body.map;
-  AimsOf aims(retargeted, body, &problem.aims);
+  PersonAims aims(body);
   for (const int column : {0, 2}) {
     aims.Turn(map.chest, map.R_CA, column, kChestTurn,
               [](const BodyPosture& p) { return p.R_chest; });
@@ -150,35 +123,93 @@ TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
   AddArms(map, &aims);
   if (!body.feet) {
     HoldRoot(robot.model, &aims);
-    return problem;
+    return aims.Take();
   }
   for (const int column : {0, 2}) {
     aims.Turn(map.pelvis, map.R_PA, column, kPelvisTurn,
               [](const BodyPosture& p) { return p.R_pelvis; });
   }
-  const double floor = FloorOf(retargeted);
-  aims.Add(map.pelvis, false, MidHip(robot.model, map), kPelvisPlace, [&](int k) -> Vector3d {
-    return retargeted.scale * (retargeted.human.bodies[k].mid_hip - floor * Vector3d::UnitZ());
-  });
+  aims.Add(map.pelvis, false, MidHip(robot.model, map), kPelvisPlace,
+           [scale](const BodyPosture& person, double floor) -> Vector3d {
+             return scale * (person.mid_hip - floor * Vector3d::UnitZ());
+           });
   AddLegs(map, &aims);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const RobotFoot& foot = (*body.feet)[i];
-    AddFoot(foot, feet[i], deviations, &aims, &problem.aims);
+  return aims.Take();
+}
+
+Aim MakeAim(const PersonAim& of, int frames) {
+  return {of.segment, of.is_direction, of.local, Eigen::Matrix3Xd::Zero(3, frames),
+          Eigen::Matrix3Xd::Constant(3, frames, 1 / of.deviation)};
+}
+
+std::array<Aim, 3> MakeFootAims(const RobotFoot& foot, int frames) {
+  const Eigen::Matrix3Xd nothing = Eigen::Matrix3Xd::Zero(3, frames);
+  return {{{foot.segment, false, foot.sole, nothing, nothing},
+           {foot.segment, true, foot.R_FA.col(0), nothing, nothing},
+           {foot.segment, true, foot.R_FA.col(1), nothing, nothing}}};
+}
+
+void SetFootAims(const RobotFoot& foot, const Eigen::Isometry3d& X_WF, bool stands,
+                 const FootDeviations& deviations, int frame, Aim* aims) {
+  const double place = stands ? deviations.stance_place : deviations.swing_place;
+  const double turn = stands ? deviations.stance_turn : deviations.swing_turn;
+  for (int i = 0; i < 3; ++i) {
+    aims[i].target.col(frame) = i == 0 ? X_WF * aims[i].local : X_WF.linear() * aims[i].local;
+    aims[i].weight.col(frame).setConstant(1 / (i == 0                  ? place
+                                               : i == 2 && !foot.rolls ? kLeaning
+                                                                       : turn));
+  }
+}
+
+TrajectoryProblem EmptyProblem(const Robot& robot, const RobotBody& body, double rate, int frames) {
+  TrajectoryProblem problem;
+  problem.model = &robot.model;
+  problem.rate = rate;
+  problem.num_frames = frames;
+  problem.velocity_limits = robot.velocity_limits;
+  problem.rest = ZeroPosture(robot.model).joint_angles;
+  problem.capsules = &body.capsules;
+  if (!body.feet) return problem;
+  for (const RobotFoot& foot : *body.feet) {
     problem.balls.insert(problem.balls.end(), foot.balls.begin(), foot.balls.end());
+  }
+  problem.balls.insert(problem.balls.end(), body.balls.begin(), body.balls.end());
+  return problem;
+}
+
+TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
+                              const RobotBody& body, const FootTracks& feet,
+                              const FootDeviations& deviations) {
+  const int frames = retargeted.human.num_frames();
+  TrajectoryProblem problem = EmptyProblem(robot, body, retargeted.human.rate, frames);
+  const double floor = FloorOf(retargeted);
+  for (const PersonAim& one : AimsAtPerson(robot, body, retargeted.scale)) {
+    Aim& aim = problem.aims.emplace_back(MakeAim(one, frames));
+    for (int k = 0; k < frames; ++k) {
+      aim.target.col(k) = one.target(retargeted.human.bodies[k], floor);
+    }
+  }
+  for (std::size_t i = 0; i < feet.size() && body.feet; ++i) {
+    const RobotFoot& foot = (*body.feet)[i];
+    auto aims = MakeFootAims(foot, frames);
+    for (int k = 0; k < frames; ++k) {
+      SetFootAims(foot, feet[i].X_WF[k], feet[i].stands[k], deviations, k, aims.data());
+    }
+    problem.aims.insert(problem.aims.end(), aims.begin(), aims.end());
   }
   return problem;
 }
 
-Posture FirstPosture(const Retargeted& retargeted, const Robot& robot, const RobotBody& body) {
+Posture FirstPosture(const BodyPosture& person, double scale, const Robot& robot,
+                     const RobotBody& body) {
   Posture posture = ZeroPosture(robot.model);
   if (robot.model.is_root_fixed()) return posture;
-  const BodyPosture& person = retargeted.human.bodies.front();
   const Vector3d forward = person.R_pelvis.col(0);
   const Vector3d zero = body.map.R_WA.col(0);
   const double yaw = std::atan2(forward.y(), forward.x()) - std::atan2(zero.y(), zero.x());
   posture.orientation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * posture.orientation;
   const auto X_WS = SegmentPoses(robot.model, posture);
-  posture.position += retargeted.scale * person.mid_hip - PostureOfBody(body.map, X_WS).mid_hip;
+  posture.position += scale * person.mid_hip - PostureOfBody(body.map, X_WS).mid_hip;
   return posture;
 }
 

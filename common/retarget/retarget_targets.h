@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/retarget/retarget.h"
@@ -26,17 +28,50 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body);
 FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
                         const FootTracks& first_pass);
 
+/// What a place or direction of the robot follows of a person in one frame, but for feet.
+struct PersonAim {
+  int segment = 0;
+  bool is_direction = false;
+  Eigen::Vector3d local;
+  double deviation = 1;  ///< [m], [rad]
+  /// floor: height of the person's [m].
+  std::function<Eigen::Vector3d(const BodyPosture& person, double floor)> target;
+};
+std::vector<PersonAim> AimsAtPerson(const Robot& robot, const RobotBody& body, double scale);
+/// Without its targets.
+Aim MakeAim(const PersonAim& of, int frames);
+
+/// Where a person's foot puts the robot's.
+struct ScaledFoot {
+  const BodyPosture* person = nullptr;
+  Eigen::Matrix3d R_foot;   ///< HumanMotion::R_feet
+  double ankle_height = 0;  ///< of the person [m]
+  double level = 0;         ///< of the person's sole where it stands [m]
+  double scale = 1;
+  std::optional<double> pitch;  ///< of a foot that stands; nothing: it swings
+};
+Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::size_t foot);
+
 /// How closely feet are followed.
 struct FootDeviations {
   double stance_place, stance_turn, swing_place, swing_turn;  ///< [m], [rad]
 };
+
+/// Sole, toes' and left direction of a foot.
+std::array<Aim, 3> MakeFootAims(const RobotFoot& foot, int frames);
+void SetFootAims(const RobotFoot& foot, const Eigen::Isometry3d& X_WF, bool stands,
+                 const FootDeviations& deviations, int frame, Aim* aims);
+
+/// Without aims.
+TrajectoryProblem EmptyProblem(const Robot& robot, const RobotBody& body, double rate, int frames);
 
 /// The whole problem. feet: empty tracks for a robot without legs.
 TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
                               const RobotBody& body, const FootTracks& feet,
                               const FootDeviations& deviations);
 
-/// The root above which the person's pelvis is, upright, in the first frame.
-Posture FirstPosture(const Retargeted& retargeted, const Robot& robot, const RobotBody& body);
+/// The root above which the person's pelvis is, upright.
+Posture FirstPosture(const BodyPosture& person, double scale, const Robot& robot,
+                     const RobotBody& body);
 
 }  // namespace mmm_converter

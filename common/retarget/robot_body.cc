@@ -9,6 +9,7 @@
 
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/body_posture.h"
+#include "common/retarget/self_contact.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -146,6 +147,8 @@ RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
   } else {
     body.size = body.map.arms[0]->upper.length + body.map.arms[0]->lower.length;
   }
+  body.capsules = FindCapsules(robot, body.map);
+  WatchContacts(robot, &body);
   return body;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/model/robot.h"
 #include "common/retarget/body_map.h"
+#include "common/retarget/robot_capsules.h"
 #include "common/retarget/trajectory_fit.h"
 
 namespace mmm_converter {
@@ -41,6 +42,8 @@ struct RobotBody {
   /// Thigh, shank and ankle height; without legs upper arm and forearm [m].
   double size = 0;
   double hip_width = 0;  ///< [m]
+  RobotCapsules capsules;
+  std::vector<FloorBall> balls;  ///< of arms, trunk and knees: with them, too, it stays above z = 0
 };
 
 /// sole_height: of the last segment's origin above the sole, where the file does not tell it [m].

@@ -6,6 +6,15 @@
 #include "common/math/rotation.h"
 
 namespace mmm_converter {
+namespace {
+
+void Begin(std::size_t columns, SegmentJacobian::Rows* rows) {
+  const auto count = static_cast<Eigen::Index>(columns);
+  if (rows->cols() < count) rows->resize(3, count);
+  rows->leftCols(count).setZero();
+}
+
+}  // namespace
 
 SegmentJacobian::SegmentJacobian(const KinematicModel& model) : model_(model) {
   const auto& segments = model.segments();
@@ -55,7 +64,7 @@ void SegmentJacobian::Compute(const Posture& posture) {
 }
 
 void SegmentJacobian::OfPoint(int segment, const Eigen::Vector3d& p_W, Rows* rows) const {
-  rows->setZero(3, static_cast<Eigen::Index>(columns_[segment].size()));
+  Begin(columns_[segment].size(), rows);
   if (!model_.is_root_fixed()) {
     const Eigen::Isometry3d& root = X_WS_[0];
     rows->leftCols<3>().setIdentity();
@@ -73,7 +82,7 @@ void SegmentJacobian::OfPoint(int segment, const Eigen::Vector3d& p_W, Rows* row
 }
 
 void SegmentJacobian::OfDirection(int segment, const Eigen::Vector3d& d_W, Rows* rows) const {
-  rows->setZero(3, static_cast<Eigen::Index>(columns_[segment].size()));
+  Begin(columns_[segment].size(), rows);
   if (!model_.is_root_fixed()) rows->middleCols<3>(3) = -Skew(d_W) * X_WS_[0].linear();
   for (const Mover& mover : movers_[segment]) {
     if (model_.segments()[mover.segment].type == JointType::kSliding) continue;

@@ -21,9 +21,11 @@ class SegmentJacobian {
   void Compute(const Posture& posture);
 
   const Eigen::Isometry3d& X_WS(int segment) const { return X_WS_[segment]; }
+  const std::vector<Eigen::Isometry3d>& poses() const { return X_WS_; }
   /// The elements of the tangent vector that move a segment, ascending.
   const std::vector<int>& columns(int segment) const { return columns_[segment]; }
-  /// Derivatives of a place fixed to the segment, a column for each of columns(segment).
+  /// Derivatives of a place fixed to the segment, a column for each of columns(segment); rows grow
+  /// to as many and keep what they have beyond.
   void OfPoint(int segment, const Eigen::Vector3d& p_W, Rows* rows) const;
   /// Of a direction fixed to the segment.
   void OfDirection(int segment, const Eigen::Vector3d& d_W, Rows* rows) const;

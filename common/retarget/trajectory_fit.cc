@@ -102,7 +102,7 @@ class FrameFit {
 
  private:
   const TrajectoryProblem& problem_;
-  FrameEquations equations_;
+  AimEquations equations_;
   Eigen::MatrixXd H_;
   Eigen::VectorXd b_;
 };

@@ -6,6 +6,7 @@
 
 #include "common/model/kinematic_model.h"
 #include "common/model/posture.h"
+#include "common/retarget/robot_capsules.h"
 
 namespace mmm_converter {
 
@@ -34,12 +35,13 @@ struct TrajectoryProblem {
   int num_frames = 0;
   std::vector<Aim> aims;
   std::vector<FloorBall> balls;
-  Eigen::VectorXd velocity_limits;  ///< of joints [rad/s, m/s]; infinity: none
-  Eigen::VectorXd rest;             ///< of joints, where nothing moves them
-  double joint_acceleration = 45;   ///< standard deviation [rad/s^2]
-  double root_acceleration = 40;    ///< [m/s^2]
-  double root_turning = 100;        ///< [rad/s^2]
-  double rest_deviation = 4;        ///< [rad]
+  const RobotCapsules* capsules = nullptr;  ///< whose pairs are kept apart
+  Eigen::VectorXd velocity_limits;          ///< of joints [rad/s, m/s]; infinity: none
+  Eigen::VectorXd rest;                     ///< of joints, where nothing moves them
+  double joint_acceleration = 45;           ///< standard deviation [rad/s^2]
+  double root_acceleration = 40;            ///< [m/s^2]
+  double root_turning = 100;                ///< [rad/s^2]
+  double rest_deviation = 4;                ///< [rad]
 };
 
 /// Frame by frame, each from the one before, without regard of speeds: where a fit begins. first:

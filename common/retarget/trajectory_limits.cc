@@ -43,7 +43,7 @@ double CorrectJoints(const TrajectoryProblem& problem, std::vector<Posture>* pos
 
 double LiftAboveFloor(const TrajectoryProblem& problem, std::vector<Posture>* postures) {
   if (problem.balls.empty() || problem.model->is_root_fixed()) return 0;
-  FrameEquations equations(problem);
+  AimEquations equations(problem);
   const int frames = static_cast<int>(postures->size());
   const int reach = static_cast<int>(std::ceil(kLiftTime * problem.rate));
   // The most within reach, averaged over as many frames: nowhere less than what is needed.

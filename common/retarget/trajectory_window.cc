@@ -25,7 +25,9 @@ constexpr double kLeastDamping = 10;
 constexpr double kWorse = 1.5;        // of the cost of aims as it was or as a step foretells it
 constexpr int kHalvings = 4;          // of a step that makes it worse
 constexpr double kLongestStep = 0.7;  // [rad]
-constexpr double kUnmoved = 1.0;      // weight of what nothing moves
+constexpr double kApart = 0.003;      // [m] between bodies that are kept apart
+constexpr double kTouchDeviation = 0.002;  // [m]
+constexpr double kUnmoved = 1.0;           // weight of what nothing moves
 
 /// How far a value is beyond its limits; within them 0.
 double Excess(double value, double lower, double upper) {
@@ -34,12 +36,12 @@ double Excess(double value, double lower, double upper) {
 
 }  // namespace
 
-FrameEquations::FrameEquations(const TrajectoryProblem& problem)
+AimEquations::AimEquations(const TrajectoryProblem& problem)
     : problem_(problem), jacobian_(*problem.model) {}
 
-void FrameEquations::AddRows(int segment, const Eigen::Vector3d& weight,
-                             const Eigen::Vector3d& residual, Eigen::MatrixXd* H,
-                             Eigen::VectorXd* b) const {
+void AimEquations::AddRows(int segment, const Eigen::Vector3d& weight,
+                           const Eigen::Vector3d& residual, Eigen::MatrixXd* H,
+                           Eigen::VectorXd* b) const {
   const std::vector<int>& columns = jacobian_.columns(segment);
   const Eigen::Vector3d squared = weight.cwiseAbs2();
   const Eigen::Vector3d pull = squared.cwiseProduct(residual);
@@ -53,8 +55,50 @@ void FrameEquations::AddRows(int segment, const Eigen::Vector3d& weight,
   }
 }
 
-double FrameEquations::AddAims(int frame, const Posture& posture, Eigen::MatrixXd* H,
-                               Eigen::VectorXd* b) {
+template <typename Each>
+double AimEquations::CostOfTouches(Each each) {
+  double cost = 0;
+  if (problem_.capsules == nullptr) return cost;
+  const RobotCapsules& capsules = *problem_.capsules;
+  PlaceCapsules(capsules, jacobian_.poses(), &placed_);
+  for (const std::pair<int, int>& pair : capsules.pairs) {
+    const Touch touch = FindTouch(capsules, placed_, pair, kApart);
+    const double missing = touch.depth + kApart;
+    if (missing <= 0) continue;
+    cost += Square(missing / kTouchDeviation);
+    each(capsules.bodies[pair.first], capsules.bodies[pair.second], touch, missing);
+  }
+  return cost;
+}
+
+double AimEquations::AddTouches(Eigen::MatrixXd* H, Eigen::VectorXd* b) {
+  return CostOfTouches(
+      [&](const CapsuleBody& first, const CapsuleBody& second, const Touch& touch, double missing) {
+        const Eigen::Vector3d between = touch.p_first - touch.p_second;
+        if (between.isZero()) return;
+        const Eigen::Vector3d apart = between.normalized();
+        touch_row_.setZero(b->size());
+        const auto add = [&](const CapsuleBody& body, const Eigen::Vector3d& p, double sign) {
+          jacobian_.OfPoint(body.segment, p, &rows_);
+          const std::vector<int>& columns = jacobian_.columns(body.segment);
+          for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (columns[i] < 6) continue;  // the root moves both
+            touch_row_[columns[i]] += sign * apart.dot(rows_.col(static_cast<Eigen::Index>(i)));
+          }
+        };
+        add(first, touch.p_first, 1);
+        add(second, touch.p_second, -1);
+        const double weight = 1 / Square(kTouchDeviation);
+        for (Eigen::Index i = 6; i < touch_row_.size(); ++i) {
+          if (touch_row_[i] == 0) continue;
+          (*b)[i] += weight * missing * touch_row_[i];
+          H->row(i).head(i + 1) += weight * touch_row_[i] * touch_row_.head(i + 1).transpose();
+        }
+      });
+}
+
+double AimEquations::AddAims(int frame, const Posture& posture, Eigen::MatrixXd* H,
+                             Eigen::VectorXd* b) {
   jacobian_.Compute(posture);
   double cost = 0;
   for (const Aim& aim : problem_.aims) {
@@ -68,6 +112,7 @@ double FrameEquations::AddAims(int frame, const Posture& posture, Eigen::MatrixX
     cost += weight.cwiseProduct(residual).squaredNorm();
     AddRows(aim.segment, weight, residual, H, b);
   }
+  cost += AddTouches(H, b);
   const double rest = 1 / Square(problem_.rest_deviation);
   const Eigen::Index joints = posture.joint_angles.size();
   H->diagonal().tail(joints).array() += rest;
@@ -76,7 +121,7 @@ double FrameEquations::AddAims(int frame, const Posture& posture, Eigen::MatrixX
   return cost;
 }
 
-double FrameEquations::CostOf(int frame, const Posture& posture) {
+double AimEquations::CostOf(int frame, const Posture& posture) {
   jacobian_.Compute(posture);
   double cost = 0;
   for (const Aim& aim : problem_.aims) {
@@ -84,10 +129,10 @@ double FrameEquations::CostOf(int frame, const Posture& posture) {
     const Eigen::Vector3d now = aim.is_direction ? X.linear() * aim.local : X * aim.local;
     cost += aim.weight.col(frame).cwiseProduct(aim.target.col(frame) - now).squaredNorm();
   }
-  return cost + CostOfFloor();
+  return cost + CostOfFloor() + CostOfTouches([](const auto&...) {});
 }
 
-double FrameEquations::CostOfFloor() const {
+double AimEquations::CostOfFloor() const {
   double cost = 0;
   for (const FloorBall& ball : problem_.balls) {
     const double height = (jacobian_.X_WS(ball.segment) * ball.p_S).z() - ball.radius;
@@ -96,8 +141,8 @@ double FrameEquations::CostOfFloor() const {
   return cost;
 }
 
-void FrameEquations::AddFloor(double stiffness, std::vector<FloorContact>* contacts,
-                              Eigen::MatrixXd* H, Eigen::VectorXd* b) {
+void AimEquations::AddFloor(double stiffness, std::vector<FloorContact>* contacts,
+                            Eigen::MatrixXd* H, Eigen::VectorXd* b) {
   contacts->resize(problem_.balls.size());
   for (std::size_t i = 0; i < problem_.balls.size(); ++i) {
     const FloorBall& ball = problem_.balls[i];
@@ -107,13 +152,14 @@ void FrameEquations::AddFloor(double stiffness, std::vector<FloorContact>* conta
     contact.is_on = contact.missing > (contact.force > 0 ? -kFloorReach : 0);
     if (!contact.is_on) continue;
     jacobian_.OfPoint(ball.segment, p, &rows_);
-    contact.row = rows_.row(2);
+    contact.row =
+        rows_.row(2).head(static_cast<Eigen::Index>(jacobian_.columns(ball.segment).size()));
     AddRows(ball.segment, {0, 0, std::sqrt(stiffness)}, {0, 0, contact.missing}, H, b);
   }
 }
 
-void FrameEquations::FindForces(const Eigen::VectorXd& step,
-                                std::vector<FloorContact>* contacts) const {
+void AimEquations::FindForces(const Eigen::VectorXd& step,
+                              std::vector<FloorContact>* contacts) const {
   for (std::size_t i = 0; i < problem_.balls.size(); ++i) {
     FloorContact& contact = (*contacts)[i];
     contact.force = 0;
@@ -123,7 +169,7 @@ void FrameEquations::FindForces(const Eigen::VectorXd& step,
   }
 }
 
-double FrameEquations::DepthOf(const Posture& posture) {
+double AimEquations::DepthOf(const Posture& posture) {
   jacobian_.Compute(posture);
   double deepest = -std::numeric_limits<double>::infinity();
   for (const FloorBall& ball : problem_.balls) {

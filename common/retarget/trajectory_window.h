@@ -19,9 +19,9 @@ struct FloorContact {
 };
 
 /// The part of a problem's normal equations that concerns one frame alone.
-class FrameEquations {
+class AimEquations {
  public:
-  explicit FrameEquations(const TrajectoryProblem& problem);
+  explicit AimEquations(const TrajectoryProblem& problem);
 
   /// Adds the aims of a frame at a posture to H (its lower half) and b, H step = b; returns the
   /// cost, the sum of squares. What nothing moves is held.
@@ -40,12 +40,18 @@ class FrameEquations {
   double DepthOf(const Posture& posture);
 
  private:
+  double AddTouches(Eigen::MatrixXd* H, Eigen::VectorXd* b);
+  /// Of the pairs that are too near; each(first, second, touch, missing [m]).
+  template <typename Each>
+  double CostOfTouches(Each each);
   void AddRows(int segment, const Eigen::Vector3d& weight, const Eigen::Vector3d& residual,
                Eigen::MatrixXd* H, Eigen::VectorXd* b) const;
 
   const TrajectoryProblem& problem_;
   SegmentJacobian jacobian_;
   SegmentJacobian::Rows rows_;
+  PlacedCapsules placed_;
+  Eigen::VectorXd touch_row_;
 };
 
 /// Frames of a trajectory that are solved at once, behind two that stay.
@@ -76,7 +82,7 @@ class TrajectoryWindow {
   bool Try(double part, std::vector<Posture>* postures);
 
   const TrajectoryProblem& problem_;
-  FrameEquations equations_;
+  AimEquations equations_;
   int begin_ = 0, end_ = 0;
   bool is_solved_ = false;
   BlockBand band_;
