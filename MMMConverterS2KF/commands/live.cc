@@ -37,6 +37,16 @@ const OptionGroup kOutputOptions = {
      {"summary", "FILE", "write a summary as JSON", ""}}};
 
 const std::vector<OptionGroup> kOtherOptions = {
+    {"Robot",
+     {{"robot", "FILE",
+       "a robot, URDF or MJCF, that follows the person at once: all that is sent, shown and "
+       "written "
+       "is its",
+       ""},
+      {"map", "FILE", "which joints are its limbs (XML); see retarget", ""},
+      {"sole-height", "METRES",
+       "of the origin of the last ankle link above the sole, where the file does not tell it",
+       ""}}},
     {"Calibration",
      {{"calibrate-seconds", "S", "how long to gather movement for it; default: 15", ""},
       {"subject-out", "FILE", "with --self-calibrate: also write the person", ""}}},
@@ -55,6 +65,7 @@ Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is 
   MMMConverterS2KF live qtm://192.168.0.10 --subject-file anna.xml -o walk_mmm.xml --view
   MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1
   MMMConverterS2KF live qtm://192.168.0.10 --label --subject-file anna.xml --view
+  MMMConverterS2KF live qtm://192.168.0.10 --height 1.75 --robot g1.urdf --to zmq://127.0.0.1
   MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
 )";
 
@@ -74,6 +85,34 @@ void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
       throw UsageError(
           fmt::format("live: --{} is of a motion that is written; give -o too", option));
     }
+  }
+}
+
+void CheckRobot(const Arguments& arguments, LiveRequest* request) {
+  RobotChoice& robot = request->robot;
+  robot.file = arguments.Get("robot").value_or("");
+  robot.map_file = arguments.Get("map").value_or("");
+  robot.sole_height = arguments.GetNumber("sole-height", "metres");
+  if (robot.file.empty()) {
+    for (const char* option : {"map", "sole-height"}) {
+      if (!arguments.Has(option)) continue;
+      throw UsageError(fmt::format("live: --{} is of a robot; give --robot too", option));
+    }
+    return;
+  }
+  std::vector<std::string> options = {"report", "format", "model-path"};
+  for (const Exporter& exporter : LiveExporters()) options.emplace_back(exporter.option);
+  for (const std::string& option : options) {
+    if (!arguments.Has(option)) continue;
+    throw UsageError(fmt::format(
+        "live: --{} is of the person's motion, and --robot gives the robot's; retarget has what "
+        "robots' motions are exported to",
+        option));
+  }
+  for (const std::string& address : request->sinks) {
+    if (!address.starts_with("mvn:")) continue;
+    throw UsageError(fmt::format(
+        "live: {} takes persons only; send a robot's postures to zmq:// or ws://", address));
   }
 }
 
@@ -110,6 +149,7 @@ LiveRequest MakeLiveRequest(const Arguments& arguments) {
   request.realtime = arguments.Has("realtime");
   request.processor = arguments.GetInteger("processor", 0, 1023).value_or(-1);
   CheckNeedsOutput(arguments, request);
+  CheckRobot(arguments, &request);
   return request;
 }
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "MMMConverterS2KF/live/motion_journal.h"
 #include "common/convert/tracking_start.h"
 #include "common/live/source_address.h"
 #include "common/model/posture.h"
 #include "common/pipeline/live/live_plan.h"
 #include "common/pipeline/motion_output.h"
+#include "common/support/atomic_file.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {
@@ -42,6 +42,8 @@ LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
   InputRequest inputs = request.input;
   inputs.file = FileOfSource(request.input.file);
   NameInputs(inputs, &outputs);
+  outputs.Read(request.robot.file);
+  outputs.Read(request.robot.map_file);
   outputs.Write(request.output);
   if (!request.output.empty()) outputs.Write(JournalOf(request.output));
   outputs.Write(request.subject_output);
@@ -76,6 +78,13 @@ std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const Li
   header.output = FileOf(motion);
   header.format = plan.output_format;
   header.motion = DescribeMotion(RequestOf(motion), plans_.back());
+  if (!request_.robot.file.empty()) {
+    header.format = "2.0";
+    header.motion = {};
+    header.motion.recording_name = plans_.back().motion_name;
+    header.motion.motion_name = plans_.back().motion_name;
+    header.motion.model_path = ModelPathFor(request_.robot.file, header.output);
+  }
   header.rate = body.rate;
   header.labels = body.labels;
   for (const int joint : body.setup.joints) {
@@ -85,6 +94,13 @@ std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const Li
   return std::make_unique<MotionJournal>(header, is_recording);
 }
 
+void LiveOutput::WriteRobotMotion(std::size_t motion, const JournalContent& content) {
+  MmmMotionOutput output = content.header.motion;
+  output.trajectory = &content.result.trajectory;
+  WriteFileAtomically(FileOf(motion), FormatMmmMotion2(output));
+  robot_motions_.push_back(FileOf(motion));
+}
+
 std::vector<ConversionReport> LiveOutput::Finish(
     const std::optional<CalibrationResult>& calibration) {
   std::vector<ConversionReport> reports;
@@ -92,7 +108,9 @@ std::vector<ConversionReport> LiveOutput::Finish(
     const std::string journal = JournalOf(FileOf(i));
     Warnings warnings;
     JournalContent content = ReadJournal(journal, &warnings);
-    if (content.frames > 0) {
+    if (content.frames > 0 && !request_.robot.file.empty()) {
+      WriteRobotMotion(i, content);
+    } else if (content.frames > 0) {
       ConversionReport report;
       report.plan = std::move(plans_[i]);
       report.plan.output = FileOf(i);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "MMMConverterS2KF/live/motion_journal.h"
 #include "common/live/sink_runner.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/live/live_request.h"
@@ -24,8 +25,11 @@ class LiveOutput {
   std::unique_ptr<PoseSink> Begin(const ConversionPlan& plan, const LiveBody& body);
 
   /// Writes all motions, the first with the request's exports; then the journals are removed.
-  /// plans: the last of each body. @throws Error; journals that were not written stay.
+  /// plans: the last of each body. Those of a robot are written without exports and reports.
+  /// @throws Error; journals that were not written stay.
   std::vector<ConversionReport> Finish(const std::optional<CalibrationResult>& calibration);
+
+  const std::vector<std::string>& robot_motions() const { return robot_motions_; }
 
   /// Of the motion that is being written: its plan has changed.
   void Update(const ConversionPlan& plan) { plans_.back() = plan; }
@@ -34,7 +38,10 @@ class LiveOutput {
   ConversionRequest RequestOf(std::size_t motion) const;
   std::string FileOf(std::size_t motion) const;
 
+  void WriteRobotMotion(std::size_t motion, const JournalContent& content);
+
   LiveRequest request_;
+  std::vector<std::string> robot_motions_;
   std::vector<ConversionPlan> plans_;
 };
 

@@ -56,7 +56,8 @@ class LiveRun {
         observer_(observer),
         output_(request),
         stream_(
-            request, Open(request, observer), [this](const auto&, const auto& pose) { Give(pose); },
+            request, Open(request, observer),
+            [this](const auto& body, const auto& pose) { Give(body, pose); },
             [this](bool is_warning, std::string text) { news_.Add(is_warning, std::move(text)); }) {
     {
       // Threads of sinks begin with it.
@@ -111,8 +112,7 @@ class LiveRun {
         }));
   }
 
-  void Give(const PoseFrame& pose) {
-    const auto& body = stream_.session().body();
+  void Give(const std::shared_ptr<const LiveBody>& body, const PoseFrame& pose) {
     if (body != body_) TakeBody(body);
     if (pose.is_tracking) {
       ++report_.tracked;
@@ -153,6 +153,7 @@ class LiveRun {
     report_.dropped = stream_.status().dropped;
     report_.starts = stream_.session().starts();
     report_.motions = output_.Finish(stream_.session().calibration());
+    report_.robot_motions = output_.robot_motions();
     if (stream_.failure()) std::rethrow_exception(stream_.failure());
   }
 

@@ -36,7 +36,8 @@ struct LiveReport {
   LatencyHistogram waits;   ///< from received to taken by the tracking thread, of those tracked
   LatencyHistogram delays;  ///< from received to tracked
   std::vector<SinkReport> sinks;
-  std::vector<ConversionReport> motions;  ///< that were written
+  std::vector<ConversionReport> motions;   ///< that were written
+  std::vector<std::string> robot_motions;  ///< files
 };
 
 /// How a caller hears of a run; all on its own thread.

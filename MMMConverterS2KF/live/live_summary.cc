@@ -44,6 +44,9 @@ std::string FormatSummary(const LiveReport& report) {
                         sink.failure.empty() ? "" : "; failed: " + sink.failure);
   }
   for (const ConversionReport& motion : report.motions) text += FormatSummary(motion);
+  for (const std::string& file : report.robot_motions) {
+    text += fmt::format("written    {}, the robot's motion\n", file);
+  }
   return text;
 }
 
@@ -70,7 +73,8 @@ Json ToJson(const LiveReport& report) {
           {"received_to_taken", DelaysJson(report.waits)},
           {"received_to_tracked", DelaysJson(report.delays)},
           {"sinks", sinks},
-          {"motions", motions}};
+          {"motions", motions},
+          {"robot_motions", report.robot_motions}};
 }
 
 }  // namespace mmm_converter

@@ -154,6 +154,11 @@ class Live {
     model->loaded = plan.input.model;
     model->scaling = ScalingOf(plan.person, plan.converter.config);
     model->model = body->setup.model;
+    if (!request_.robot.file.empty()) {
+      model->file = request_.robot.file;
+      model->loaded = std::make_shared<LoadedModel>(LoadedModel{*body->setup.model, false, {}});
+      model->scaling = {};
+    }
     return std::make_shared<const TrackedBody>(TrackedBody{body, std::move(model)});
   }
 
@@ -208,10 +213,11 @@ class Live {
 };
 
 LiveRequest LiveRequestOf(const py::dict& options, bool loops, double calibrate_seconds,
-                          double seconds) {
+                          double seconds, std::optional<double> sole_height) {
   LiveRequest request;
   static_cast<ConversionRequest&>(request) = RequestOf(options);
   if (const std::string wrong = Contradiction(request); !wrong.empty()) throw Error(wrong);
+  request.robot = {TextOf(options, "robot"), TextOf(options, "map"), sole_height};
   request.loops = loops;
   request.longest = seconds;
   if (request.self_calibrate) {
@@ -238,9 +244,9 @@ void BindLive(py::module_* module) {
       .def_property_readonly("model", [](const TrackedBody& b) { return *b.model; });
   py::class_<Live>(*module, "Live")
       .def(py::init([](const py::dict& options, bool loops, double calibrate_seconds,
-                       double seconds, const py::object& tell) {
-        return std::make_unique<Live>(LiveRequestOf(options, loops, calibrate_seconds, seconds),
-                                      tell);
+                       double seconds, std::optional<double> sole_height, const py::object& tell) {
+        return std::make_unique<Live>(
+            LiveRequestOf(options, loops, calibrate_seconds, seconds, sole_height), tell);
       }))
       .def("next", &Live::Next)
       .def("close", &Live::Close)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Figures of robots' motions, a line for each robot and motion, and the time of a frame:
 //   retarget_benchmark ROBOT... -- MOTION...
+//   retarget_benchmark live ROBOT... -- MOTION...   (frame by frame, as a stream's)
 // Motions are finished ones (MMM); recordings are converted first, by convert.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <numbers>
@@ -16,38 +17,43 @@
 #include "common/io/robot_file.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/retarget/retarget_figures.h"
+#include "common/retarget/robot_follower.h"
 
 namespace mmm_converter {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-void PrintLine(const std::string& robot_file, const CheckedMotion& motion) {
+void PrintLine(const std::string& robot_file, const CheckedMotion& motion, bool is_live) {
   const Robot robot = ReadRobotFile(robot_file);
   const RobotBody body = FindRobotBody(robot, {}, {});
-  const auto begin = std::chrono::steady_clock::now();
-  const Retargeted made = RetargetMotion(motion.model, motion.trajectory, robot, body);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+  const std::clock_t begin = std::clock();  // of the processor: others may use it, too
+  const Retargeted made =
+      (is_live ? FollowMotion : RetargetMotion)(motion.model, motion.trajectory, robot, body);
+  const double time = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   const RetargetFigures of = MeasureRetargeting(made, robot, body);
   fmt::print(
       "{:<12.12} {:<24.24} {:5} {:5.1f} {:5.1f} {:6.2f} {:6.2f} {:4} {:4} {:6.1f} {:7.0f} "
-      "{:5.2f} {:5.1f} {:5.1f} {:6.3f} {:5.2f}{}\n",
+      "{:5.2f} {:5.1f} {:5.1f} {:6.3f} {:5.2f} {:5.1f} {:5.1f}{}\n",
       robot.model.name(), std::filesystem::path(motion.file).stem().string(), of.num_frames,
       100 * of.slide, 100 * of.toe_slide, 1e3 * of.penetration, 1e3 * of.floating,
       of.position_breaks, of.velocity_breaks, of.acceleration, of.jerk, of.largest_jump,
-      of.direction * kDegrees, of.direction95 * kDegrees, of.path,
-      1e3 * time.count() / of.num_frames, of.is_mirrored || of.is_backwards ? " WRONG SIDES" : "");
+      of.direction * kDegrees, of.direction95 * kDegrees, of.path, 1e3 * time / of.num_frames,
+      1e3 * of.body_depth, of.touches.empty() ? 0 : 1e3 * of.touches.front().depth,
+      of.is_mirrored || of.is_backwards ? " WRONG SIDES" : "");
 }
 
-void Run(const std::vector<std::string>& robots, const std::vector<std::string>& motions) {
+void Run(std::vector<std::string> robots, const std::vector<std::string>& motions) {
   fmt::print(
       "robot        motion                      n slide   toe  below floats  pos  vel    acc  "
-      "  jerk  jump   dir   p95   path    ms\n");
+      "  jerk  jump   dir   p95   path    ms  body touch\n");
+  const bool is_live = !robots.empty() && robots.front() == "live";
+  if (is_live) robots.erase(robots.begin());
   for (const std::string& file : motions) {
     InputRequest request;
     request.file = file;
     const CheckedMotion motion = ReadCheckedMotion(request);
-    for (const std::string& robot : robots) PrintLine(robot, motion);
+    for (const std::string& robot : robots) PrintLine(robot, motion, is_live);
   }
 }
 

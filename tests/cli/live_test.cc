@@ -74,6 +74,27 @@ TEST(LiveRealFiles, RealReplaysGiveWhatConversionsGive) {
   }
 }
 
+TEST(Live, ARobotFollowsThePerson) {
+  const std::string robot = testing::SourcePath("examples/robot/biped.urdf");
+  const std::string& folder = TestFolder();
+  const std::vector<std::string> words = {
+      "live", "replay:" + Handstand() + "@max", "--height", "1.8", "--robot", robot};
+  std::vector<std::string> writes = words;
+  writes.insert(writes.end(), {"-o", folder + "/robot.xml"});
+  const auto run = RunProgram(writes);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(folder + "/robot.xml"));
+  const MmmMotionFile file = ReadMmmMotionFile(folder + "/robot.xml");
+  const PoseTrajectory& motion = file.motions.front().trajectory;
+  EXPECT_EQ(motion.num_frames(), 675);
+  EXPECT_THAT(motion.joint_names, ::testing::Contains("left_hip_pitch"));
+  std::vector<std::string> sends = words;
+  sends.insert(sends.end(), {"--to", "mvn://127.0.0.1"});
+  const auto refused = RunProgram(sends);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("takes persons only"));
+}
+
 TEST(Live, ExportsAndPagesAreThoseOfAConversion) {
   const std::string& folder = TestFolder();
   const auto run = RunProgram({"live", "replay:" + Handstand() + "@max", "--height", "1.8", "-o",

@@ -12,7 +12,7 @@ import numpy as np
 from . import _mmmconverter
 from ._models import Estimate, Model
 from ._options import with_options
-from ._present import Presented, WrongValue, of_raw
+from ._present import Presented, WrongValue, of_raw, path_text
 from ._recordings import keywords
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ class Live(Presented):
         Taken of the source until now, and those of them that a newer one took the place of.
     """
 
-    def __init__(self, source, options, loop, calibrate_seconds, seconds):
+    def __init__(self, source, options, loop, calibrate_seconds, seconds, sole_height):
         self.source = source
         self.messages: List[str] = []
         self._bodies: tuple = (None, None)
@@ -105,7 +105,7 @@ class Live(Presented):
             if is_warning:
                 warnings.warn(text, RuntimeWarning, stacklevel=4)
 
-        self._raw = _mmmconverter.Live(options, loop, calibrate_seconds, seconds, tell)
+        self._raw = _mmmconverter.Live(options, loop, calibrate_seconds, seconds, sole_height, tell)
 
     stage, frames, dropped = map(of_raw, ("stage", "frames", "dropped"))
 
@@ -135,8 +135,9 @@ class Live(Presented):
 
 
 @with_options("live")
-def live(source: str, *, loop: bool = False, seconds: Optional[float] = None,
-         calibrate_seconds: Optional[float] = None, **options: Unpack[LiveOptions]) -> Live:
+def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = None, loop: bool = False,
+         seconds: Optional[float] = None, calibrate_seconds: Optional[float] = None,
+         **options: Unpack[LiveOptions]) -> Live:
     """Tracks a person while frames come, as the command ``live`` does; the postures are an iterator.
 
     Reading and tracking run in threads of their own from the first posture that is asked for, until
@@ -148,6 +149,10 @@ def live(source: str, *, loop: bool = False, seconds: Optional[float] = None,
     ----------
     source : str
         "qtm://HOST", "natnet://HOST" or "replay:FILE@SPEED", as of the command.
+    robot : path, optional
+        A robot, URDF or MJCF, that follows the person: the postures are its.
+    map, sole_height
+        Of the robot, as of `retarget`.
     loop : bool
         A replay begins again at its end.
     seconds : float, optional
@@ -179,4 +184,7 @@ def live(source: str, *, loop: bool = False, seconds: Optional[float] = None,
     options = keywords(options, file=source)
     if calibrate_seconds is not None and "self_calibrate" not in options:
         raise WrongValue("calibrate_seconds: is of self_calibrate")
-    return Live(source, options, loop, calibrate_seconds or 0.0, seconds or 0.0)
+    if robot is None and (map is not None or sole_height is not None):
+        raise WrongValue("map and sole_height: are of robot")
+    options.update({name: path_text(file) for name, file in (("robot", robot), ("map", map)) if file is not None})
+    return Live(source, options, loop, calibrate_seconds or 0.0, seconds or 0.0, sole_height)

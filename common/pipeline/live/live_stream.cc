@@ -40,7 +40,12 @@ LiveStream::LiveStream(const LiveRequest& request, LiveSource source, Give give,
       tell_(std::move(tell)),
       live_(std::move(source)),
       session_(request, live_.head, live_.selects_labels, live_.source->waits_for_reader()),
-      mailbox_(live_.source->waits_for_reader()) {}
+      mailbox_(live_.source->waits_for_reader()) {
+  if (request.robot.file.empty()) return;
+  Warnings warnings;
+  robot_ = std::make_unique<LiveRobot>(request.robot, &warnings);
+  for (const std::string& text : warnings.texts()) tell_(true, text);
+}
 
 LiveStream::~LiveStream() {
   Stop();
@@ -137,7 +142,7 @@ void LiveStream::Track() {
     source_ = frame->layout->source;
     rate_ = frame->layout->rate;
     received_ = frame->frame.received;
-    if (session_.body()) give_(session_.body(), pose);
+    if (session_.body()) Pass(pose);
     ++status_frames_;
     status_stage_ = session_.stage();
     status_gathered_ = session_.gathered();
@@ -146,6 +151,12 @@ void LiveStream::Track() {
     const std::chrono::duration<double> busy = steady_clock::now() - taken_;
     busy_ += kBusyShare * (busy.count() - busy_);
   }
+}
+
+void LiveStream::Pass(const PoseFrame& pose) {
+  if (!robot_) return give_(session_.body(), pose);
+  robot_->Take(session_.body(), pose);
+  give_(robot_->body(), robot_->frame());
 }
 
 // Those that came before the first was taken, while a first posture was searched for, and while

@@ -16,6 +16,7 @@
 #include "common/live/pose_frame.h"
 #include "common/live/source_address.h"
 #include "common/pipeline/live/live_request.h"
+#include "common/pipeline/live/live_robot.h"
 #include "common/pipeline/live/live_session.h"
 #include "common/support/warnings.h"
 
@@ -39,7 +40,8 @@ LiveSource OpenSourceOf(const LiveRequest& request, Warnings* warnings);
 /// A source that one thread reads and another tracks, from Start on until the source ends or Stop.
 class LiveStream {
  public:
-  /// Gets each frame once the body is known, on the tracking thread.
+  /// Gets each frame once the body is known, on the tracking thread: of the person, or of the robot
+  /// that follows.
   using Give = std::function<void(const std::shared_ptr<const LiveBody>&, const PoseFrame&)>;
   /// What there is to say, from any thread: whether it is a warning, and a line.
   using Tell = std::function<void(bool, std::string)>;
@@ -69,6 +71,7 @@ class LiveStream {
   void Guard(Work work);
   void Read();
   void Track();
+  void Pass(const PoseFrame& pose);
   int MostInOrder();
   const LaidOutFrame* NextFrame();
   void NameDropped(std::int64_t number);
@@ -79,6 +82,7 @@ class LiveStream {
   Tell tell_;
   LiveSource live_;
   LiveSession session_;
+  std::unique_ptr<LiveRobot> robot_;  // null: none
   FrameMailbox mailbox_;
   std::string source_;
   int to_make_up_ = 0;                              // frames

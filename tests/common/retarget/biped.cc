@@ -60,7 +60,10 @@ std::string ArmText(const BipedShape& shape, const std::string& side, double y) 
                       "0 0 -0.12") +
          JointAndLink({side + "elbow", link("shoulder_yaw"), "0 0 -0.25", "0 1 0",
                        shape.elbow_lower, shape.elbow_upper, 20},
-                      "0 0 -0.22");
+                      "0 0 -0.22",
+                      shape.has_bodies ? R"(<collision><origin xyz="0 0 -0.13"/>
+<geometry><box size="0.05 0.05 0.2"/></geometry></collision>)"
+                                       : "");
 }
 
 }  // namespace
@@ -77,7 +80,10 @@ std::string BipedText(const BipedShape& shape) {
   if (shape.has_legs) {
     text += LegText(shape, shape.sides[0], 0.1) + LegText(shape, shape.sides[1], -0.1);
   }
-  text += JointAndLink({"waist", "pelvis", "0 0 0.1", "0 0 1", -1, 1, 20}, "0 0 0.2");
+  text += JointAndLink({"waist", "pelvis", "0 0 0.1", "0 0 1", -1, 1, 20}, "0 0 0.2",
+                       shape.has_bodies ? R"(<collision><origin xyz="0 0 0.2"/>
+<geometry><box size="0.2 0.24 0.4"/></geometry></collision>)"
+                                        : "");
   text += ArmText(shape, shape.sides[0], 0.2) + ArmText(shape, shape.sides[1], -0.2);
   return text + "</robot>";
 }

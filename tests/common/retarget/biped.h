@@ -17,6 +17,7 @@ struct BipedShape {
   double hip_velocity = 20;  ///< [rad/s], of all hip joints
   bool has_legs = true;      ///< else the trunk stands on the world
   bool has_sole = true;
+  bool has_bodies = false;  ///< trunk and forearms are boxes that touch
 };
 
 /// A URDF.

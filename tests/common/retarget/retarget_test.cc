@@ -10,9 +10,12 @@
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/robot_file.h"
+#include "common/io/urdf/urdf_robot.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
+#include "common/motion/marker_synthesis.h"
 #include "common/retarget/retarget_figures.h"
+#include "common/retarget/robot_follower.h"
 #include "common/support/error.h"
 #include "tests/common/retarget/biped.h"
 #include "tests/support/shared_data.h"
@@ -113,6 +116,98 @@ TEST(RetargetTest, AFixedTrunkMovesItsArms) {
   const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
   EXPECT_LT(MeasureRetargeting(result, robot, body).direction, 1 * kDegree);
   EXPECT_LT(result.motion.postures[70].position.norm(), 1e-3);
+}
+
+TEST(RetargetTest, FrameByFrameFeetStandStillAndLimitsAreKept) {
+  const KinematicModel person = Person(1.75);
+  testing::BipedShape shape;
+  shape.hip_velocity = 1.2;  // less than the squat's
+  for (const double velocity : {20.0, 1.2}) {
+    shape.hip_velocity = velocity;
+    const Robot robot = MakeBiped(shape);
+    const RobotBody body = FindRobotBody(robot, {}, {});
+    const Retargeted result = FollowMotion(person, Squat(person), robot, body);
+    const RetargetFigures figures = MeasureRetargeting(result, robot, body);
+    EXPECT_EQ(figures.slide, 0);
+    EXPECT_LT(figures.penetration, 1e-3);
+    EXPECT_LT(std::abs(figures.floating), 1e-3);
+    EXPECT_EQ(figures.position_breaks, 0);
+    EXPECT_EQ(figures.velocity_breaks, 0);
+    EXPECT_LT(figures.direction, (velocity < 2 ? 8 : 2) * kDegree);
+  }
+}
+
+TEST(RetargetTest, AfterAGapARobotGoesOnFromItsJoints) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  const PoseTrajectory motion = Squat(person);
+  const auto posture = [&](int k) { return ModelPosture(person, motion, k); };
+  RobotFollower follower(std::make_shared<KinematicModel>(person), robot, body, 100);
+  const Posture before = follower.Follow(posture(0), 0);
+  Posture elsewhere = posture(50);
+  elsewhere.position += Eigen::Vector3d(3, 1, 0);
+  const Posture& after = follower.Follow(elsewhere, 5);
+  EXPECT_LE((after.joint_angles - before.joint_angles).cwiseAbs().maxCoeff(), 20.0 / 100);
+  EXPECT_NEAR((after.position - before.position).norm(), 3.2 * follower.scale(), 0.2);
+}
+
+/// Brings the left forearm to the trunk and beyond.
+PoseTrajectory ArmAcross(const KinematicModel& person) {
+  PoseTrajectory motion = Squat(person);
+  motion.joint_names = {"LSy_joint", "LSz_joint", "LEx_joint"};
+  for (std::size_t k = 0; k < motion.postures.size(); ++k) {
+    const double part = std::sin(std::numbers::pi * static_cast<double>(k) / 199);
+    motion.postures[k].joint_angles = part * Eigen::Vector3d(0, -1.4, 1.6);
+    motion.postures[k].position = motion.postures[0].position;
+  }
+  return motion;
+}
+
+TEST(RetargetTest, BodiesThatWouldTouchAreKeptApartAndToldWhereTheyAreNot) {
+  const KinematicModel person = Person(1.75);
+  testing::BipedShape shape;
+  shape.has_bodies = true;
+  const Robot robot = MakeBiped(shape);
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  ASSERT_FALSE(body.capsules.pairs.empty());
+  RobotBody heedless = body;
+  heedless.capsules.pairs.clear();
+  const PoseTrajectory motion = ArmAcross(person);
+  const Retargeted through = RetargetMotion(person, motion, robot, heedless);
+  const RetargetFigures told = MeasureRetargeting(through, robot, body);
+  ASSERT_FALSE(told.touches.empty());
+  EXPECT_GT(told.touches[0].depth, 0.02);
+  EXPECT_EQ(told.touches[0].first, "left_elbow_link");
+  EXPECT_EQ(told.touches[0].second, "waist_link");
+  const Retargeted beside = RetargetMotion(person, motion, robot, body);
+  const RetargetFigures kept = MeasureRetargeting(beside, robot, body);
+  EXPECT_TRUE(kept.touches.empty() || kept.touches[0].depth < 0.003);
+}
+
+TEST(RobotCapsulesTest, ABodyOfMeshesIsAsLargeAsItsInertiaSays) {
+  // 0.1 x 0.04 x 0.04 m of 1000 kg/m^3 as URDF has it.
+  const char* text = R"(<robot name="rod"><link name="base"/><joint name="turn" type="revolute">
+<parent link="base"/><child link="rod"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint>
+<link name="rod"><inertial><origin xyz="0.2 0 0"/><mass value="0.16"/><inertia ixx="4.2667e-5"
+ iyy="1.54667e-4" izz="1.54667e-4" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)";
+  const RobotCapsules found = FindCapsules(ParseUrdfRobot(text, "rod.urdf"), {});
+  ASSERT_EQ(found.bodies.size(), 1U);
+  const CapsuleBody& rod = found.bodies[0];
+  EXPECT_TRUE(rod.is_by_mass);
+  ASSERT_EQ(rod.capsules.size(), 1U);
+  EXPECT_NEAR(rod.capsules[0].radius, 0.02, 1e-6);
+  EXPECT_NEAR((rod.capsules[0].a_S - rod.capsules[0].b_S).norm(), 0.06, 1e-5);
+  // Another one across, 50 mm above.
+  const Eigen::Isometry3d X(Eigen::Translation3d(0.2, -0.2, 0.05) *
+                            Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
+  RobotCapsules two = {{rod, rod}, {{0, 1}}, {}};
+  two.bodies[0].segment = 0;
+  PlacedCapsules placed;
+  PlaceCapsules(two, {Eigen::Isometry3d::Identity(), X}, &placed);
+  const Touch touch = FindTouch(two, placed, {0, 1}, 0.1);
+  EXPECT_NEAR(touch.depth, -0.01, 1e-5);
+  EXPECT_LT((touch.p_second - touch.p_first - Eigen::Vector3d(0, 0, 0.05)).norm(), 1e-5);
 }
 
 TEST(RetargetTest, TooFewFramesAreRefused) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/contact_watch.h"
+
+#include <algorithm>
+
+namespace mmm_converter {
+namespace {
+
+constexpr double kWatchOnHeight = 0.04, kWatchOffHeight = 0.06;  // [m]
+constexpr double kWatchOnSpeed = 0.3, kWatchOffSpeed = 0.5;      // [m/s]
+constexpr double kSpan = 0.01;                                   // [s] until a frame, of its speed
+constexpr double kStandsBelow = 0.1;                             // [m/s] of what tells the level
+constexpr double kLevelTime = 1;                                 // [s] in which the level follows
+
+}  // namespace
+
+double PointWatch::SpeedAt(const Eigen::Vector3d& p_W, double time) const {
+  for (int i = 1; i <= count_; ++i) {
+    const Sample& before = samples_[(next_ - i + kSamples) % kSamples];
+    const double span = time - before.time;
+    if (span < kSpan - 1e-6 && i < count_) continue;
+    return span > 0 ? (p_W - before.p).norm() / span : 0;
+  }
+  return 0;
+}
+
+void PointWatch::Take(const Eigen::Vector3d& p_W, double time) {
+  const double speed = SpeedAt(p_W, time);
+  const double dt = count_ > 0 ? time - samples_[(next_ - 1 + kSamples) % kSamples].time : 0;
+  p_ = p_W;
+  is_slow_ = speed < kStandsBelow;
+  height_ = p_W.z() - level_ - kWatchOffHeight;
+  if (is_slow_ && height_ <= 0) {
+    const bool is_below = p_W.z() < level_ - kWatchOffHeight;
+    const double part = is_below ? 1 : std::min(1.0, dt / kLevelTime);
+    level_ += part * (p_W.z() - level_);
+  }
+  const double height = p_W.z() - level_;
+  is_on_ = height < (is_on_ ? kWatchOffHeight : kWatchOnHeight) &&
+           speed < (is_on_ ? kWatchOffSpeed : kWatchOnSpeed);
+  samples_[next_] = {p_W, time};
+  next_ = (next_ + 1) % kSamples;
+  count_ = std::min(count_ + 1, kSamples);
+}
+
+void PointWatch::Forget() {
+  count_ = next_ = 0;
+  is_on_ = is_slow_ = false;
+}
+
+}  // namespace mmm_converter

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "common/retarget/robot_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/math/rotation.h"
+#include "common/motion/marker_synthesis.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr FootDeviations kFollowed = {0.0001, 0.001, 0.006, 0.1};
+constexpr int kStepsAFrame = 3, kFirstSteps = 30;
+constexpr double kStepDamping = 5;  // [1/rad^2]
+// What draws a step of 10 ms to none, and its change to none: of the root's place [1/m^2], its turn
+// and joints [1/rad^2]. Less than aims, so that the robot is hardly late.
+constexpr double kFrameTime = 0.01;
+constexpr double kSlow[] = {50, 10, 30}, kSteady[] = {400, 50, 150};
+constexpr double kFloorSpring = 1e9;   // [1/m^2]
+constexpr double kFarthestStep = 0.5;  // [rad]
+constexpr double kSwiftness = 40;      // [1/s] of what follows a foot's pitch and height
+constexpr double kDraw = 0.35;         // [s] in which a swing leaves its place
+constexpr double kRaised = 2;          // [s] after which the floor is where all of the feet are
+constexpr double kTooLong = 0.5;       // [s] between frames of a track
+constexpr double kStepRounding = 1e-9;
+constexpr double kLeftBelow = 5e-4;  // [m] of the floor
+
+/// Distance between places of a foot and its edge where it bears.
+const Vector3d& PivotOf(const RobotFoot& foot, double pitch) {
+  return pitch > 0 ? foot.toe : foot.heel;
+}
+
+}  // namespace
+
+void RobotFollower::Follower::Go(double to, double dt) {
+  const double off = value - to, fading = std::exp(-kSwiftness * dt);
+  const double more = (speed + kSwiftness * off) * dt;
+  speed = (speed - kSwiftness * more) * fading;
+  value = to + (off + more) * fading;
+}
+
+RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const Robot& robot,
+                             const RobotBody& body, double rate, const RobotFollower* before)
+    : person_model_(std::move(person)),
+      robot_(robot),
+      body_(body),
+      rate_(rate > 0 ? rate : 100),
+      human_(FindHumanBody(*person_model_)),
+      scale_(body.size / (body.feet ? human_.leg_length() : human_.arm_length())),
+      person_(*person_model_),
+      points_{{{PointWatch(human_.heel_heights[0]), PointWatch(human_.toe_heights[0])},
+               {PointWatch(human_.heel_heights[1]), PointWatch(human_.toe_heights[1])}}},
+      person_aims_(AimsAtPerson(robot, body, scale_)),
+      problem_(EmptyProblem(robot, body, rate_, 1)),
+      equations_(problem_),
+      robot_state_(robot.model),
+      posture_(ZeroPosture(robot.model)),
+      H_(6 + robot.model.num_joints(), 6 + robot.model.num_joints()),
+      b_(H_.rows()),
+      step_(H_.rows()),
+      factor_(H_.rows()) {
+  for (const PersonAim& one : person_aims_) problem_.aims.push_back(MakeAim(one, 1));
+  for (std::size_t i = 0; i < 2 && body.feet; ++i) {
+    for (Aim& aim : MakeFootAims((*body.feet)[i], 1)) {
+      problem_.aims.push_back(std::move(aim));
+    }
+  }
+  robot_state_.Compute(posture_);
+  if (before != nullptr && before->has_begun_) {
+    posture_ = before->posture_;
+    has_begun_ = true;
+  }
+  lower_.resize(robot.model.num_joints());
+  upper_.resize(robot.model.num_joints());
+}
+
+void RobotFollower::WatchPerson(double time) {
+  const auto& X_WS = person_.poses();
+  person_posture_ = PostureOfBody(human_.map, X_WS);
+  for (std::size_t i = 0; i < 2; ++i) {
+    R_feet_[i] = X_WS[human_.map.legs[i]->end].linear() * human_.R_FA[i];
+    points_[i][0].Take(X_WS[human_.heels[i].segment] * human_.heels[i].p_S, time);
+    points_[i][1].Take(X_WS[human_.toes[i].segment] * human_.toes[i].p_S, time);
+  }
+}
+
+void RobotFollower::MoveLevels(double dt) {
+  bool are_raised = true;
+  for (const auto& foot : points_) are_raised &= foot[0].is_raised() && foot[1].is_raised();
+  raised_for_ = are_raised ? raised_for_ + dt : 0;
+  if (raised_for_ < kRaised) return;
+  for (auto& foot : points_) {
+    for (PointWatch& point : foot) point.SetLevel(point.height_of_level());
+  }
+}
+
+double RobotFollower::Floor() const {
+  return 0.5 * (points_[0][0].level() - human_.heel_heights[0] + points_[1][0].level() -
+                human_.heel_heights[1]);
+}
+
+std::array<double, 3> RobotFollower::AnglesOfFoot(std::size_t i) const {
+  const RobotFoot& foot = (*body_.feet)[i];
+  const Eigen::Isometry3d& X = robot_state_.X_WS(foot.segment);
+  return {PitchOf(X.linear() * foot.R_FA.col(0)), RollOf(X.linear() * foot.R_FA.col(1)),
+          LowestOf(foot, X)};
+}
+
+void RobotFollower::Touch(std::size_t i, double dt) {
+  const RobotFoot& sole = (*body_.feet)[i];
+  Foot& foot = feet_[i];
+  // Where the robot has it, not where it was to be.
+  const Eigen::Isometry3d X =
+      has_begun_ && is_following_ ? robot_state_.X_WS(sole.segment) : foot.aim;
+  const Vector3d left = X.linear() * sole.R_FA.col(1);
+  foot.yaw = std::atan2(-left.x(), left.y());
+  foot.pitch = {PitchOf(X.linear() * sole.R_FA.col(0)), 0};
+  foot.roll = {sole.rolls ? RollOf(left) : 0, 0};
+  foot.height = {std::max(0.0, LowestOf(sole, X)), 0};
+  if (is_following_) {
+    const std::array<double, 3> now = AnglesOfFoot(i);
+    foot.pitch.speed = (now[0] - foot.last[0]) / dt;
+    if (sole.rolls) foot.roll.speed = (now[1] - foot.last[1]) / dt;
+    foot.height.speed = (now[2] - foot.last[2]) / dt;
+  }
+  const Vector3d& pivot = PivotOf(sole, foot.pitch.value);
+  const Eigen::AngleAxisd R_WY(foot.yaw, Vector3d::UnitZ());
+  const Vector3d flat = X * pivot - R_WY * (sole.R_FA.transpose() * (pivot - sole.sole));
+  foot.place = flat.head<2>();
+  foot.stands = true;
+}
+
+void RobotFollower::Stand(std::size_t i, double pitch, double dt) {
+  const RobotFoot& sole = (*body_.feet)[i];
+  Foot& foot = feet_[i];
+  foot.pitch.Go(pitch, dt);
+  foot.height.Go(0, dt);
+  double roll = 0;
+  if (sole.rolls) {
+    foot.roll.Go(0, dt);
+    roll = foot.roll.value;
+  } else if (is_following_) {  // as its leg leans
+    roll = RollOf(robot_state_.X_WS(sole.segment).linear() * sole.R_FA.col(1));
+  }
+  foot.aim = StandingFoot(sole, foot.place, foot.yaw, foot.pitch.value, roll);
+  foot.aim.translation().z() += std::max(0.0, foot.height.value);
+}
+
+void RobotFollower::Leave(std::size_t i, const Eigen::Isometry3d& scaled, double dt) {
+  Foot& foot = feet_[i];
+  foot.stands = false;
+  foot.draw = Difference(foot.scaled, foot.aim);  // of the frame before
+  foot.draw_slope = (Difference(scaled, foot.aim) - foot.draw) * (kDraw / dt);
+  foot.drawn_for = 0;
+}
+
+void RobotFollower::AimFeet(double dt) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    Foot& foot = feet_[i];
+    const bool heel = points_[i][0].is_on(), toe = points_[i][1].is_on(), stands = heel || toe;
+    ScaledFoot of = {&person_posture_, R_feet_[i], human_.ankle_height, Floor(), scale_, {}};
+    const double pitch = GatedPitch(heel, toe, PitchOf(of.R_foot.col(0)));
+    const Eigen::Isometry3d swinging = PlaceFoot(of, body_, i);
+    if (stands) of.pitch = pitch;
+    const Eigen::Isometry3d scaled = stands ? PlaceFoot(of, body_, i) : swinging;
+    if (!is_following_) foot.aim = scaled;
+    if (stands) {
+      if (!foot.stands) Touch(i, dt);
+      Stand(i, pitch, dt);
+    } else {
+      if (foot.stands) Leave(i, scaled, dt);
+      foot.drawn_for += dt;
+      foot.aim = scaled;
+      const double t = foot.drawn_for / kDraw;
+      FootDifference draw = FootDifference::Zero();
+      for (int j = 0; j < 6 && t < 1; ++j) draw[j] = Fading(foot.draw[j], foot.draw_slope[j], t);
+      Move(draw, &foot.aim);
+      foot.aim.translation().z() += std::max(0.0, -LowestOf((*body_.feet)[i], foot.aim));
+    }
+    foot.scaled = swinging;
+  }
+}
+
+void RobotFollower::SetAims(double dt) {
+  const double floor = Floor();
+  for (std::size_t n = 0; n < person_aims_.size(); ++n) {
+    problem_.aims[n].target.col(0) = person_aims_[n].target(person_posture_, floor);
+  }
+  if (!body_.feet) return;
+  AimFeet(dt);
+  for (std::size_t i = 0; i < 2; ++i) {
+    SetFootAims((*body_.feet)[i], feet_[i].aim, feet_[i].stands, kFollowed, 0,
+                &problem_.aims[person_aims_.size() + 3 * i]);
+  }
+}
+
+void RobotFollower::Bound(double dt) {
+  for (int j = 0; j < robot_.model.num_joints(); ++j) {
+    const Segment& joint = robot_.model.joint(j);
+    const double step = (1 - kStepRounding) * robot_.velocity_limits[j] * dt;
+    const double q = posture_.joint_angles[j];
+    lower_[j] = std::max(joint.lower, q - step);
+    upper_[j] = std::min(joint.upper, q + step);
+  }
+}
+
+bool RobotFollower::HoldAtBounds() {
+  bool holds = false;
+  for (Eigen::Index j = 0; j < lower_.size(); ++j) {
+    const double q = posture_.joint_angles[j], change = step_[6 + j];
+    if (!((q <= lower_[j] && change < 0) || (q >= upper_[j] && change > 0))) continue;
+    H_.row(6 + j).setZero();
+    H_.col(6 + j).setZero();
+    H_(6 + j, 6 + j) = 1;
+    b_[6 + j] = 0;
+    holds = true;
+  }
+  return holds;
+}
+
+void RobotFollower::Advance(double part) {
+  posture_.position += part * step_.head<3>();
+  const Vector3d turn = part * step_.segment<3>(3);
+  posture_.orientation = (posture_.orientation * Exp(turn)).normalized();
+  posture_.joint_angles += part * step_.tail(lower_.size());
+  posture_.joint_angles = posture_.joint_angles.cwiseMax(lower_).cwiseMin(upper_);
+}
+
+void RobotFollower::AddPrior(double dt) {
+  const double frames = kFrameTime / dt;
+  const Eigen::Index joints = lower_.size();
+  FootDifference off;  // from the frame before
+  off.head<3>() = posture_.position - before_.position;
+  off.tail<3>() = Log(before_.orientation.conjugate() * posture_.orientation);
+  for (Eigen::Index i = 0; i < 6 + joints; ++i) {
+    const Eigen::Index kind = std::min<Eigen::Index>(i / 3, 2);
+    const double slow = kSlow[kind] * frames, steady = kSteady[kind] * frames * frames;
+    const double moved =
+        i < 6 ? off[i] : posture_.joint_angles[i - 6] - before_.joint_angles[i - 6];
+    H_(i, i) += slow + steady;
+    b_[i] += steady * speed_[i] * dt - (slow + steady) * moved;
+  }
+}
+
+void RobotFollower::Solve(int iterations, double dt) {
+  for (int i = 0; i < iterations; ++i) {
+    H_.setZero();
+    b_.setZero();
+    equations_.AddAims(0, posture_, &H_, &b_);
+    equations_.AddFloor(kFloorSpring, &contacts_, &H_, &b_);
+    if (is_following_) AddPrior(dt);
+    H_.diagonal().array() += kStepDamping;
+    for (int pass = 0; pass < 3; ++pass) {
+      factor_.compute(H_);
+      step_ = b_;
+      factor_.solveInPlace(step_);
+      if (!HoldAtBounds()) break;
+    }
+    equations_.FindForces(step_, &contacts_);
+    const double longest = step_.tail(step_.size() - 3).cwiseAbs().maxCoeff();
+    Advance(std::min(1.0, kFarthestStep / longest));
+  }
+  if (body_.feet) posture_.position.z() += std::max(0.0, equations_.DepthOf(posture_) - kLeftBelow);
+}
+
+void RobotFollower::Begin(const Posture& person, double time) {
+  for (auto& foot : points_) {
+    for (PointWatch& point : foot) point.Forget();
+  }
+  for (Foot& foot : feet_) {
+    foot.stands = false;
+    foot.drawn_for = kDraw;
+  }
+  raised_for_ = 0;
+  person_.Compute(person);
+  WatchPerson(time);
+  SetAims(1 / rate_);
+  Posture first = FirstPosture(person_posture_, scale_, robot_, body_);
+  if (!has_begun_) {
+    posture_ = StartTrajectory(problem_, first).front();
+    for (int j = 0; j < robot_.model.num_joints(); ++j) {
+      lower_[j] = robot_.model.joint(j).lower;
+      upper_[j] = robot_.model.joint(j).upper;
+    }
+  } else {
+    posture_.position = first.position;
+    posture_.orientation = first.orientation;
+    Bound(1 / rate_);
+  }
+  Solve(kFirstSteps, 1 / rate_);
+  speed_.setZero(6 + robot_.model.num_joints());
+}
+
+const Posture& RobotFollower::Follow(const Posture& person, double time) {
+  const double dt = time - time_;
+  if (!(dt > 0 && dt < kTooLong)) is_following_ = false;
+  if (is_following_) {
+    person_.Compute(person);
+    WatchPerson(time);
+    MoveLevels(dt);
+    SetAims(dt);
+    Bound(dt);
+    before_ = posture_;
+    Solve(kStepsAFrame, dt);
+    speed_.head<3>() = (posture_.position - before_.position) / dt;
+    speed_.segment<3>(3) = Log(before_.orientation.conjugate() * posture_.orientation) / dt;
+    speed_.tail(lower_.size()) = (posture_.joint_angles - before_.joint_angles) / dt;
+  } else {
+    Begin(person, time);
+  }
+  for (std::size_t i = 0; i < 2 && body_.feet && has_begun_; ++i) feet_[i].last = AnglesOfFoot(i);
+  robot_state_.Compute(posture_);
+  has_begun_ = is_following_ = true;
+  time_ = time;
+  return posture_;
+}
+
+Retargeted FollowMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
+                        const Robot& robot, const RobotBody& body) {
+  Retargeted result = DescribePerson(human_model, motion, robot, body);
+  RobotFollower follower(std::make_shared<KinematicModel>(human_model), robot, body, motion.rate);
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    result.motion.postures.push_back(
+        follower.Follow(ModelPosture(human_model, motion, k), motion.time(k)));
+  }
+  result.keeps_limits = true;
+  return result;
+}
+
+}  // namespace mmm_converter

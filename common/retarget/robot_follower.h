@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "common/retarget/contact_watch.h"
+#include "common/retarget/foot_turns.h"
+#include "common/retarget/retarget_targets.h"
+#include "common/retarget/trajectory_window.h"
+
+namespace mmm_converter {
+
+/// A robot that follows a person frame by frame, each by the frames until then alone: aims as
+/// RetargetMotion's, contacts by PointWatch. A foot stays where the robot had it as the person's
+/// touched the ground; joints go no farther from their last angles than their velocities allow.
+class RobotFollower {
+ public:
+  /// Robot and body stay valid. before: whose robot goes on from its joints; null: none. @throws
+  /// Error where the person's model is not known.
+  RobotFollower(std::shared_ptr<const KinematicModel> person, const Robot& robot,
+                const RobotBody& body, double rate, const RobotFollower* before = nullptr);
+
+  /// time: of the frame [s]. The posture is valid until the next call; from the second frame of a
+  /// track on, nothing is allocated.
+  const Posture& Follow(const Posture& person, double time);
+
+  /// The next frame begins a track. Joints go on from where they are.
+  void Interrupt() { is_following_ = false; }
+
+  double scale() const { return scale_; }
+
+ private:
+  /// A value that follows another without overshoot (critically damped).
+  struct Follower {
+    double value = 0, speed = 0;
+    void Go(double to, double dt);
+  };
+  struct Foot {
+    bool stands = false;
+    Eigen::Vector2d place;  ///< of the flat sole
+    double yaw = 0;
+    Follower pitch, roll, height;
+    Eigen::Isometry3d aim, scaled;  ///< of the last frame, and where the person's foot puts it
+    FootDifference draw, draw_slope;
+    std::array<double, 3> last;  ///< pitch, roll and height of the robot's, the frame before
+    double drawn_for = 0;        ///< [s] since it left the ground; beyond its end: no draw
+  };
+
+  void Begin(const Posture& person, double time);
+  void WatchPerson(double time);
+  void MoveLevels(double dt);
+  double Floor() const;
+  void AimFeet(double dt);
+  void Touch(std::size_t foot, double dt);
+  void Stand(std::size_t foot, double pitch, double dt);
+  void Leave(std::size_t foot, const Eigen::Isometry3d& scaled, double dt);
+  void SetAims(double dt);
+  void Bound(double dt);
+  /// Adds what draws the posture to where its speeds lead.
+  void AddPrior(double dt);
+  void Solve(int iterations, double dt);
+  std::array<double, 3> AnglesOfFoot(std::size_t foot) const;
+  bool HoldAtBounds();
+  void Advance(double part);
+
+  std::shared_ptr<const KinematicModel> person_model_;
+  const Robot& robot_;
+  const RobotBody& body_;
+  double rate_;
+  HumanBody human_;
+  double scale_;
+  SegmentJacobian person_;
+  BodyPosture person_posture_;
+  std::array<Eigen::Matrix3d, 2> R_feet_;
+  std::array<std::array<PointWatch, 2>, 2> points_;  // of each foot heel and toe
+  double raised_for_ = 0;                            // [s] all points
+  std::vector<PersonAim> person_aims_;
+  TrajectoryProblem problem_;  // one frame: the person's aims, then three of each foot
+  AimEquations equations_;
+  SegmentJacobian robot_state_;
+  std::vector<FloorContact> contacts_;
+  std::array<Foot, 2> feet_;
+  Posture posture_, before_;
+  Eigen::VectorXd speed_;          // of the tangent vector
+  Eigen::VectorXd lower_, upper_;  // of this frame's joints
+  Eigen::MatrixXd H_;
+  Eigen::VectorXd b_, step_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  double time_ = 0;
+  bool has_begun_ = false, is_following_ = false;
+};
+
+/// A whole motion followed frame by frame, as a stream's would be.
+Retargeted FollowMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
+                        const Robot& robot, const RobotBody& body);
+
+}  // namespace mmm_converter
