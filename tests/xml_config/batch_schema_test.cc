@@ -65,9 +65,11 @@ TEST(BatchSchema, HasEveryAttribute) {
   BatchEntry entry;
   for (const Option& attribute : AttributesOf(&entry)) {
     std::string xml;
-    for (const char* value : {"1", "true", "mm", "x", ":", "2.0", "100", "x.xml"}) {
-      xml = fmt::format("<Batch {}='{}'><Recording file='a.c3d'/></Batch>",
-                        attribute.names.attribute, value);
+    for (const char* value : {"1", "true", "mm", "x", ":", "2.0", "100", "x.xml", "isaac"}) {
+      xml = fmt::format(
+          "<Batch {}='{}'><Recording file='a.c3d' robot='g.xml' "
+          "robotOrder='isaac'/></Batch>",
+          attribute.names.attribute, value);
       if (IsReadable(xml)) break;
     }
     EXPECT_TRUE(IsReadable(xml)) << xml;
