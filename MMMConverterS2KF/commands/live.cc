@@ -37,16 +37,6 @@ const OptionGroup kOutputOptions = {
      {"summary", "FILE", "write a summary as JSON", ""}}};
 
 const std::vector<OptionGroup> kOtherOptions = {
-    {"Robot",
-     {{"robot", "FILE",
-       "a robot, URDF or MJCF, that follows the person at once: all that is sent, shown and "
-       "written "
-       "is its",
-       ""},
-      {"map", "FILE", "which joints are its limbs (XML); see retarget", ""},
-      {"sole-height", "METRES",
-       "of the origin of the last ankle link above the sole, where the file does not tell it",
-       ""}}},
     {"Calibration",
      {{"calibrate-seconds", "S", "how long to gather movement for it; default: 15", ""},
       {"subject-out", "FILE", "with --self-calibrate: also write the person", ""}}},
@@ -88,12 +78,8 @@ void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
   }
 }
 
-void CheckRobot(const Arguments& arguments, LiveRequest* request) {
-  RobotChoice& robot = request->robot;
-  robot.file = arguments.Get("robot").value_or("");
-  robot.map_file = arguments.Get("map").value_or("");
-  robot.sole_height = arguments.GetNumber("sole-height", "metres");
-  if (robot.file.empty()) {
+void CheckRobot(const Arguments& arguments, const LiveRequest& request) {
+  if (request.robot.file.empty()) {
     for (const char* option : {"map", "sole-height"}) {
       if (!arguments.Has(option)) continue;
       throw UsageError(fmt::format("live: --{} is of a robot; give --robot too", option));
@@ -109,7 +95,7 @@ void CheckRobot(const Arguments& arguments, LiveRequest* request) {
         "robots' motions are exported to",
         option));
   }
-  for (const std::string& address : request->sinks) {
+  for (const std::string& address : request.sinks) {
     if (!address.starts_with("mvn:")) continue;
     throw UsageError(fmt::format(
         "live: {} takes persons only; send a robot's postures to zmq:// or ws://", address));
@@ -149,7 +135,7 @@ LiveRequest MakeLiveRequest(const Arguments& arguments) {
   request.realtime = arguments.Has("realtime");
   request.processor = arguments.GetInteger("processor", 0, 1023).value_or(-1);
   CheckNeedsOutput(arguments, request);
-  CheckRobot(arguments, &request);
+  CheckRobot(arguments, request);
   return request;
 }
 

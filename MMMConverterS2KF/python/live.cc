@@ -217,7 +217,9 @@ LiveRequest LiveRequestOf(const py::dict& options, bool loops, double calibrate_
   LiveRequest request;
   static_cast<ConversionRequest&>(request) = RequestOf(options);
   if (const std::string wrong = Contradiction(request); !wrong.empty()) throw Error(wrong);
-  request.robot = {TextOf(options, "robot"), TextOf(options, "map"), sole_height};
+  request.robot.file = TextOf(options, "robot");
+  request.robot.map_file = TextOf(options, "map");
+  request.robot.sole_height = sole_height;
   request.loops = loops;
   request.longest = seconds;
   if (request.self_calibrate) {

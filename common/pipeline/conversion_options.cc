@@ -191,17 +191,17 @@ std::vector<Option> MotionOptions(ConversionRequest* request) {
 }
 
 std::vector<Option> RobotOptions(RobotRequest* robot) {
-  constexpr const char* kInPython = "retarget() has an argument for it";
+  constexpr const char* kInPython = "retarget() and live() have an argument for it";
   return {
       Row({"robot", "robot", ""}, kFile, "the robot to which the motion is brought: URDF or MJCF",
-          "", task::kRetarget, &robot->file, {.absent = kInPython}),
+          "", task::kRetarget | task::kLive, &robot->file, {.absent = kInPython}),
       Row({"map", "robotMap", ""}, kFile,
           "which joints are its limbs (XML), instead of what its structure tells", "",
-          task::kRetarget, &robot->map_file, {.absent = kInPython}),
+          task::kRetarget | task::kLive, &robot->map_file, {.absent = kInPython}),
       Row({"sole-height", "soleHeight_mm", ""}, {OptionKind::kNumber, "METRES", "metres"},
           "of the origin of the robot's last ankle link above the sole, where its file does not "
           "tell it",
-          "", task::kRetarget, &robot->sole_height, {.absent = kInPython})};
+          "", task::kRetarget | task::kLive, &robot->sole_height, {.absent = kInPython})};
 }
 
 std::vector<Option> RobotLearningOptions(RobotRequest* robot) {

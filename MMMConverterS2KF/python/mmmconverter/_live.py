@@ -181,10 +181,10 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
     for name, value in (("seconds", seconds), ("calibrate_seconds", calibrate_seconds)):
         if value is not None and not value > 0:
             raise WrongValue(f"{name}: is above 0")
-    options = keywords(options, file=source)
-    if calibrate_seconds is not None and "self_calibrate" not in options:
+    request = keywords(options, file=source)
+    if calibrate_seconds is not None and "self_calibrate" not in request:
         raise WrongValue("calibrate_seconds: is of self_calibrate")
     if robot is None and (map is not None or sole_height is not None):
         raise WrongValue("map and sole_height: are of robot")
-    options.update({name: path_text(file) for name, file in (("robot", robot), ("map", map)) if file is not None})
-    return Live(source, options, loop, calibrate_seconds or 0.0, seconds or 0.0, sole_height)
+    request.update({name: path_text(file) for name, file in (("robot", robot), ("map", map)) if file is not None})
+    return Live(source, request, loop, calibrate_seconds or 0.0, seconds or 0.0, sole_height)

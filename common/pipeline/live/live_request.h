@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,18 +16,11 @@ inline bool IsCalibrationTime(double seconds) {
 }
 inline const char* DescribeCalibrationTime() { return "1 to 120 seconds"; }
 
-/// A robot that follows the person, as RetargetRequest has it. Without a file: none.
-struct RobotChoice {
-  std::string file, map_file;
-  std::optional<double> sole_height;  ///< [m]
-};
-
 /// What the user asked for. input.file: the address of the source; label: points are named by the
-/// body, whatever the source calls them. Empty: a default.
+/// body, whatever the source calls them; robot: one that follows the person. Empty: a default.
 struct LiveRequest : ConversionRequest {
   /// Seconds of moving about that the person is estimated from, where that is asked for; else 0.
   double calibration_time = 0;
-  RobotChoice robot;
   bool loops = false;              ///< of a replay
   std::vector<std::string> sinks;  ///< addresses that postures are sent to
   bool view = false;               ///< serve the page

@@ -9,7 +9,7 @@
 namespace mmm_converter {
 namespace {
 
-RobotBody FindBodyOf(const Robot& robot, const RobotChoice& choice) {
+RobotBody FindBodyOf(const Robot& robot, const RobotRequest& choice) {
   BodyMapChoice map;
   if (!choice.map_file.empty()) map = ReadBodyMapChoice(choice.map_file);
   return FindRobotBody(robot, map, choice.sole_height);
@@ -17,7 +17,7 @@ RobotBody FindBodyOf(const Robot& robot, const RobotChoice& choice) {
 
 }  // namespace
 
-LiveRobot::LiveRobot(const RobotChoice& choice, Warnings* warnings)
+LiveRobot::LiveRobot(const RobotRequest& choice, Warnings* warnings)
     : robot_(ReadRobotFile(choice.file, warnings)), robot_body_(FindBodyOf(robot_, choice)) {}
 
 void LiveRobot::Take(const std::shared_ptr<const LiveBody>& person, const PoseFrame& pose) {

@@ -15,7 +15,7 @@ namespace mmm_converter {
 class LiveRobot {
  public:
   /// @throws Error where the robot can't be read, or its limbs or soles are not known.
-  LiveRobot(const RobotChoice& choice, Warnings* warnings);
+  LiveRobot(const RobotRequest& choice, Warnings* warnings);
 
   /// @throws Error where the person's model has no legs and arms that are known.
   void Take(const std::shared_ptr<const LiveBody>& person, const PoseFrame& pose);
