@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -37,7 +38,9 @@ std::string DescribeShortly(const EntryResult& result) {
   const auto& robot = result.figures->robot;
   return fmt::format("{} frames, {:.1f} mm, {}{:.2f} s, {}{}", result.figures->frames,
                      result.figures->mean_mm,
-                     robot ? fmt::format("feet slide {:.1f} %, ", kPercent * robot->slide) : "",
+                     robot && std::isfinite(robot->slide)
+                         ? fmt::format("feet slide {:.1f} %, ", kPercent * robot->slide)
+                         : "",
                      result.seconds, Name(result.figures->verdict.level),
                      warnings > 0 ? fmt::format(", {} warnings", warnings) : "");
 }

@@ -40,7 +40,12 @@ std::optional<RetargetReport> RetargetEntry(const BatchEntry& entry, const Batch
   }
   RetargetRequest request = RequestFor(entry.request, report);
   request.conversion.output = folder.Full(RobotPath(entry.id));
-  return RunRetargeting(request, {});
+  RetargetReport robot = RunRetargeting(request, {});
+  for (const RobotExporter& exporter : RobotExporters()) {
+    if (entry.exports.count(exporter.name) == 0) continue;
+    CheckRobotExport(exporter, entry.request.robot, robot);
+  }
+  return robot;
 }
 
 void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, RetargetReport* robot) {

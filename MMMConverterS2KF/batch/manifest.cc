@@ -154,6 +154,9 @@ class ManifestReader {
       diagnostics_.AddError(element.line, "<Recording> needs file=\"...\"");
       return;
     }
+    if (entry.request.robot.file.empty() && element.FindAttribute("robot") != nullptr) {
+      for (const RobotExporter& exporter : RobotExporters()) entry.exports.erase(exporter.name);
+    }
     CheckRobotExports(element, entry);
     entry.line = element.line;
     entry.request.input.file = (recordings_ / *file).lexically_normal().string();
@@ -165,6 +168,11 @@ class ManifestReader {
 
   void CheckRobotExports(const XmlElement& element, const BatchEntry& entry) {
     const RobotRequest& robot = entry.request.robot;
+    for (const char* idle : {"robotMap", "soleHeight_mm", "robotRate_hz", "robotOrder"}) {
+      if (!robot.file.empty() || element.FindAttribute(idle) == nullptr) continue;
+      diagnostics_.AddError(element.line,
+                            fmt::format("<Recording>: {} needs robot=\"FILE\"", idle));
+    }
     for (const RobotExporter& exporter : RobotExporters()) {
       if (entry.exports.count(exporter.name) == 0) continue;
       const char* const lacks = robot.file.empty()                            ? "robot=\"FILE\""

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/io/bytes/file_content.h"
+#include "common/io/mjcf/mjcf_robot.h"
 #include "common/support/content_hash.h"
 #include "common/support/data_directory.h"
 #include "common/support/folder.h"
@@ -12,6 +14,8 @@ namespace mmm_converter {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostRobotBytes = std::size_t{8} << 20;
 
 std::string HashProgram() {
   std::vector<std::string> files = {"/proc/self/exe", LibraryFile()};
@@ -55,14 +59,14 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
   }
   const std::string own_set = (fs::path(config.file).parent_path() / config.marker_set).string();
   std::vector<std::string> files = FilesOf(request.label_hints);
-  files.insert(files.end(),
-               {request.input.person.processor_file, request.input.person.subject_file,
-                config.subject_file, own_set, request.input.marker_set, request.input.marker_file,
-                request.robot.file, request.robot.map_file});
+  files.insert(files.end(), {request.input.person.processor_file, request.input.person.subject_file,
+                             config.subject_file, own_set, request.input.marker_set,
+                             request.input.marker_file, request.robot.map_file});
   for (const std::string& file : files) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");
   }
+  if (!request.robot.file.empty()) hash.AddPart(RobotHash(request.robot.file));
   return hash.Hex();
 }
 
@@ -71,6 +75,19 @@ std::string SharedInputs::FileHash(const std::string& path) {
   std::string& hash = hashes_[path];
   if (hash.empty()) hash = HashFile(path);
   return hash;
+}
+
+std::string SharedInputs::RobotHash(const std::string& path) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto known = robots_.find(path); known != robots_.end()) return known->second;
+  }
+  std::vector<std::string> files = {path};
+  if (IsMjcf(ReadFileContent(path, kMostRobotBytes))) ReadMjcf(path, nullptr, &files);
+  ContentHash hash;
+  for (const std::string& file : files) hash.AddPart(FileHash(file));
+  const std::scoped_lock lock(mutex_);
+  return robots_[path] = hash.Hex();
 }
 
 }  // namespace mmm_converter

@@ -28,12 +28,14 @@ class SharedInputs {
 
  private:
   std::string FileHash(const std::string& path);
+  /// With what an MJCF includes.
+  std::string RobotHash(const std::string& path);
 
   std::string program_;  // hash
   std::mutex mutex_;
   std::map<std::string, WithWarnings<std::shared_ptr<const LoadedModel>>> models_;
   std::map<std::string, WithWarnings<std::shared_ptr<const ConverterChoice>>> choices_;
-  std::map<std::string, std::string> hashes_;
+  std::map<std::string, std::string> hashes_, robots_;
 };
 
 }  // namespace mmm_converter

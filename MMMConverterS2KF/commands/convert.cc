@@ -136,7 +136,9 @@ int ConvertSeveral(const Arguments& arguments) {
   OutputPlan plan;
   std::set<std::filesystem::path> named;
   for (const std::string& file : arguments.positionals()) {
-    if (!named.insert(std::filesystem::weakly_canonical(file)).second) {
+    std::error_code failure;
+    const auto canonical = std::filesystem::weakly_canonical(file, failure);
+    if (!named.insert(failure ? std::filesystem::path(file) : canonical).second) {
       throw UsageError(fmt::format("convert: {} is named twice", file));
     }
     requests.push_back(MakeConversionRequest(arguments, file));

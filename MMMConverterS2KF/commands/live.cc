@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -68,7 +69,7 @@ std::vector<Exporter> LiveExporters() {
 
 void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
   if (!request.output.empty()) return;
-  std::vector<std::string> options = {"report", "format", "model-path"};
+  std::vector<std::string> options = {"report", "format", "model-path", "subject-out"};
   for (const Exporter& exporter : LiveExporters()) options.emplace_back(exporter.option);
   for (const std::string& option : options) {
     if (arguments.Has(option)) {
@@ -86,7 +87,7 @@ void CheckRobot(const Arguments& arguments, const LiveRequest& request) {
     }
     return;
   }
-  std::vector<std::string> options = {"report", "format", "model-path"};
+  std::vector<std::string> options = {"report", "format", "model-path", "subject-out"};
   for (const Exporter& exporter : LiveExporters()) options.emplace_back(exporter.option);
   for (const std::string& option : options) {
     if (!arguments.Has(option)) continue;
@@ -94,6 +95,11 @@ void CheckRobot(const Arguments& arguments, const LiveRequest& request) {
         "live: --{} is of the person's motion, and --robot gives the robot's; retarget has what "
         "robots' motions are exported to",
         option));
+  }
+  const std::string ending = std::filesystem::path(request.output).extension().string();
+  if (ending == ".mot" || ending == ".sto") {
+    throw UsageError(
+        fmt::format("live: {}: a robot's motion is written as MMM's .xml only", request.output));
   }
   for (const std::string& address : request.sinks) {
     if (!address.starts_with("mvn:")) continue;
@@ -134,8 +140,8 @@ LiveRequest MakeLiveRequest(const Arguments& arguments) {
   request.longest = arguments.GetNumber("seconds", "seconds, e.g. 60").value_or(0);
   request.realtime = arguments.Has("realtime");
   request.processor = arguments.GetInteger("processor", 0, 1023).value_or(-1);
-  CheckNeedsOutput(arguments, request);
   CheckRobot(arguments, request);
+  CheckNeedsOutput(arguments, request);
   return request;
 }
 

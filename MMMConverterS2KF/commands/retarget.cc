@@ -141,6 +141,15 @@ int RunRetarget(const Arguments& arguments) {
           "retarget: which motion? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
           "g1.urdf");
     }
+    for (const char* idle : {"output", "summary"}) {
+      if (arguments.Has(idle)) {
+        throw UsageError(fmt::format("retarget: --{} is of a motion; which?", idle));
+      }
+    }
+    if (!exports.empty()) {
+      throw UsageError(
+          fmt::format("retarget: --{} is of a motion; which?", exports.front().format->option));
+    }
     ShowMap(request, page);
     return 0;
   }
@@ -150,6 +159,7 @@ int RunRetarget(const Arguments& arguments) {
     return true;
   });
   bar.Clear();
+  for (const RobotExport& one : exports) CheckRobotExport(*one.format, robot, report);
   WriteRobotMotion(&report);
   for (const RobotExport& one : exports) WriteRobotExport(*one.format, one.file, robot, &report);
   LogWarnings(report.warnings);

@@ -11,6 +11,7 @@
 
 #include "MMMConverterS2KF/live/journal_lines.h"
 #include "MMMConverterS2KF/report/json.h"
+#include "common/live/live_tracker.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -183,6 +184,17 @@ void Interpolate(int begin, int end, PoseTrajectory* trajectory) {
   }
 }
 
+// Before the first posture, what is not of the same time.
+void DropStray(std::vector<JournalFrame>* frames) {
+  auto begin = std::find_if(frames->begin(), frames->end(),
+                            [](const JournalFrame& one) { return one.is_tracking; });
+  while (begin != frames->begin() && begin != frames->end() &&
+         begin->time - std::prev(begin)->time <= kLongestGap) {
+    --begin;
+  }
+  frames->erase(frames->begin(), begin);
+}
+
 void FillResult(const std::vector<JournalFrame>& frames, const std::vector<int>& grid,
                 JournalContent* content) {
   const auto first = std::find_if(frames.begin(), frames.end(),
@@ -286,6 +298,7 @@ JournalContent ReadJournal(const std::string& file, Warnings* warnings) {
     frames.push_back(std::move(frame));
   });
   while (!frames.empty() && !frames.back().is_tracking) frames.pop_back();
+  DropStray(&frames);
   if (frames.empty()) return content;
   content.frames = static_cast<int>(frames.size());
   double rate = IsFrameRate(content.header.rate) ? content.header.rate : MedianRate(frames);
@@ -335,7 +348,7 @@ std::string RecoverMotion(const std::string& output, Warnings* warnings) {
     const JournalHeader& header = content.header;
     MmmMotionOutput motion = header.motion;
     motion.trajectory = &content.result.trajectory;
-    motion.markers = &content.markers;
+    if (!header.labels.empty()) motion.markers = &content.markers;
     written = FreeName(output);
     WriteFileAtomically(
         written, header.format == "1.0" ? FormatMmmMotion1(motion) : FormatMmmMotion2(motion));

@@ -40,9 +40,8 @@ MotionJournal::MotionJournal(const JournalHeader& header, bool keeps_all)
 }
 
 void MotionJournal::Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) {
-  has_begun_ = has_begun_ || keeps_all_ || frame.is_tracking ||
-               CountSeen(frame.points, body->setup) >= kFewestMarkers;
-  if (!has_begun_) return;
+  has_begun_ = has_begun_ || keeps_all_ || frame.is_tracking;
+  if (!has_begun_ && CountSeen(frame.points, body->setup) < kFewestMarkers) return;
   const FrameEstimate& estimate = frame.estimate;
   const std::vector<int>& joints = body->setup.joints;
   const auto assignments = static_cast<Eigen::Index>(body->setup.assignments().size());

@@ -36,7 +36,7 @@ class MotionJournal : public PoseSink {
   MotionJournal(const JournalHeader& header, bool keeps_all);
 
   std::string name() const override { return header_.output; }
-  /// Frames from the first one on that shows three markers. @throws WriteError
+  /// Before the first posture frames that show three markers, then all. @throws WriteError
   void Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) override;
   void End() override;
   bool needs_every_frame() const override { return true; }

@@ -18,6 +18,8 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording.h"
 #include "common/io/recording/recording_axes.h"
+#include "common/io/tables/trc_writer.h"
+#include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {
@@ -266,9 +268,18 @@ void BindRecordings(py::module_* module) {
       .def_property_readonly("analog", &AnalogOf)
       .def_property_readonly("force_plates", &ForcePlatesOf)
       .def_property_readonly("forces", &ForcesOfRecording)
-      .def("save_c3d", [](const ReadRecordingResult& r, const std::string& file) {
+      .def("save_c3d",
+           [](const ReadRecordingResult& r, const std::string& file) {
+             const py::gil_scoped_release release;
+             WriteC3d(file, r.recording->markers);
+           })
+      .def("save_trc", [](const ReadRecordingResult& r, const std::string& file) {
         const py::gil_scoped_release release;
-        WriteC3d(file, r.recording->markers);
+        TrcOutput output;
+        output.file_name = std::filesystem::path(file).filename().string();
+        output.first_frame = r.recording->first_frame;
+        output.measured = &r.recording->markers;
+        WriteFileAtomically(file, FormatTrc(output));
       });
   module->def("read", &Read);
   module->def("from_arrays", &FromArrays);

@@ -92,8 +92,14 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
   for (const ConversionReport* report : reports) {
     comparisons.push_back(MakeComparison(*report));
     grounds.push_back(GroundJson(*report));
-    sections.push_back({report->plan.motion_name, DescribeForPage(*report) + of_all,
-                        &comparisons.back(), &grounds.back(), Name(report->verdict.level)});
+    const std::string file =
+        std::filesystem::path(report->plan.input.recording.file).stem().string();
+    const auto namesakes = std::count_if(reports.begin(), reports.end(), [&](const auto* one) {
+      return one->plan.motion_name == report->plan.motion_name;
+    });
+    sections.push_back({namesakes > 1 ? file : report->plan.motion_name,
+                        DescribeForPage(*report) + of_all, &comparisons.back(), &grounds.back(),
+                        Name(report->verdict.level)});
   }
   return FormatReport(TitleOf(reports, failures.size()), sections);
 }

@@ -33,8 +33,10 @@ std::string DescribeFeet(const RetargetReport& report) {
     text += RetargetLine("feet", "the person's feet are nowhere in contact");
   } else {
     std::string feet = fmt::format(
-        "slide in {:.1f} % of the frames in contact ({:.1f} % by the toe's rule at 30 Hz)",
-        kPercent * figures.slide, kPercent * figures.toe_slide);
+        "slide in {:.1f} % of the frames in contact{}", kPercent * figures.slide,
+        std::isnan(figures.toe_slide)
+            ? ""
+            : fmt::format(" ({:.1f} % by the toe's rule at 30 Hz)", kPercent * figures.toe_slide));
     if (!std::isnan(figures.floating)) {
       feet += fmt::format(", {:.1f} mm above the floor in contact", Millimetres(figures.floating));
     }

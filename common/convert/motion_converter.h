@@ -78,8 +78,8 @@ class MotionConverter {
   /// need the frame. Changes no result; Track with another dt is only slower. Allocates nothing.
   virtual void Prepare(double dt);
 
-  /// A whole recording, whose labels are those of the setup: Assemble on the first frame that shows
-  /// a third of the assigned markers (where none of a second does, on that with most), Track on the
+  /// A whole recording, whose labels are those of the setup: Assemble on the frame in which
+  /// tracking starts (TrackingStart; where it never does, on that which shows most), Track on the
   /// next ones and then backward from there while it finds three. Earlier frames take the first
   /// posture, not converged. progress(k): frames done, 0 while tracking goes backward; may be
   /// empty; returning false cancels (an Error is thrown).

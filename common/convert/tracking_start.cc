@@ -35,13 +35,12 @@ TrackingStart::TrackingStart(const TrackingSetup& setup)
 bool TrackingStart::IsAt(double time, int seen) {
   if (seen >= enough_) return true;
   if (seen < kFewestMarkers) return false;
-  std::erase_if(last_second_, [&](const auto& one) {
-    return one.first > time || one.first < time - kPatience - kRounding;
-  });
-  if (last_second_.empty()) since_ = time;
-  const bool shows_most = std::none_of(last_second_.begin(), last_second_.end(),
-                                       [&](const auto& one) { return one.second > seen; });
-  last_second_.emplace_back(time, seen);
+  while (!most_.empty() && most_.front().first < time - kPatience - kRounding) most_.pop_front();
+  while (!most_.empty() && most_.back().first > time) most_.pop_back();
+  if (most_.empty()) since_ = time;
+  const bool shows_most = most_.empty() || most_.front().second <= seen;
+  while (!most_.empty() && most_.back().second <= seen) most_.pop_back();
+  most_.emplace_back(time, seen);
   return shows_most && time - since_ > kPatience - kRounding;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <functional>
 #include <utility>
-#include <vector>
 
 #include "common/convert/motion_converter.h"
 #include "common/convert/tracking_setup.h"
@@ -29,7 +29,8 @@ class TrackingStart {
  private:
   int enough_;
   double since_ = 0;  // three are seen [s]
-  std::vector<std::pair<double, int>> last_second_;
+  // Time and number seen of frames of the last second, of those that later ones do not exceed.
+  std::deque<std::pair<double, int>> most_;
 };
 
 /// Assembles the frame `first` anew and tracks backward from there while three markers are where

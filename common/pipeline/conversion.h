@@ -53,7 +53,7 @@ struct ConversionRequest {
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
   bool builds_models = true;  ///< of objects that have none
-  RobotRequest robot;         ///< for who brings the motion to one: retarget and batch
+  RobotRequest robot;         ///< for who brings the motion to one: retarget, batch and live
 };
 
 /// All that is decided before the first frame is tracked.

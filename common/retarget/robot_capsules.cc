@@ -17,8 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostAbreast = 6;    // capsules that fill a plate
-constexpr int kCloselyJoined = 2;  // joints between bodies that are joined closely
+constexpr int kMostAbreast = 6;            // capsules that fill a plate
+constexpr std::size_t kCloselyJoined = 2;  // joints between bodies that are joined closely
+constexpr std::size_t kMostCapsules = 64;  // of a body
+constexpr std::size_t kMostBodies = 300;   // the others are not watched
 // Of what machines are made of, on average: lighter than wood or heavier than gold, the inertia is
 // not that of a body [kg/m^3].
 constexpr double kLeastDensity = 200, kMostDensity = 20000;
@@ -29,8 +31,8 @@ void AddBox(const Eigen::Isometry3d& X_SG, const Vector3d& half, CapsuleBody* bo
   std::array<int, 3> axes = {0, 1, 2};
   std::sort(axes.begin(), axes.end(), [&](int a, int b) { return half[a] > half[b]; });
   const double length = half[axes[0]], breadth = half[axes[1]], radius = half[axes[2]];
-  const int count =
-      std::clamp(static_cast<int>(std::ceil(breadth / std::max(radius, 1e-6))), 1, kMostAbreast);
+  const auto count = static_cast<int>(
+      std::clamp<double>(std::ceil(breadth / std::max(radius, 1e-6)), 1, kMostAbreast));
   for (int i = 0; i < count; ++i) {
     const double place = count == 1 ? 0 : (2.0 * i / (count - 1) - 1) * (breadth - radius);
     const Vector3d middle = place * Vector3d::Unit(axes[1]);
@@ -99,6 +101,22 @@ bool AddMassBox(const RigidMass& rigid, CapsuleBody* body) {
   body->is_by_mass = true;
   AddBox(X, half, body);
   return true;
+}
+
+/// Instead of more capsules than are looked at in time: the box around all of them.
+void KeepFew(CapsuleBody* body) {
+  if (body->capsules.size() <= kMostCapsules) return;
+  Vector3d least = Vector3d::Constant(std::numeric_limits<double>::infinity()), most = -least;
+  for (const BodyCapsule& one : body->capsules) {
+    for (const Vector3d& end : {one.a_S, one.b_S}) {
+      least = least.cwiseMin((end.array() - one.radius).matrix());
+      most = most.cwiseMax((end.array() + one.radius).matrix());
+    }
+  }
+  body->capsules.clear();
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = (least + most) / 2;
+  AddBox(X, (most - least) / 2, body);
 }
 
 void FindReach(CapsuleBody* body) {
@@ -185,28 +203,35 @@ RobotCapsules FindCapsules(const Robot& robot, const BodyMap& map) {
       if (masses[s].mass >= kLeastMass) capsules.unknown.push_back(body.name);
       continue;
     }
+    KeepFew(&body);
     FindReach(&body);
+    if (capsules.bodies.size() == kMostBodies) {
+      capsules.unknown.push_back(body.name);
+      continue;
+    }
     capsules.bodies.push_back(std::move(body));
   }
   return capsules;
 }
 
 void PairBodies(const KinematicModel& model, const BodyMap& map, RobotCapsules* capsules) {
-  // Segments above one, itself first, that move.
-  const auto above = [&](int segment) {
-    std::vector<int> all;
-    for (int s = segment; s >= 0; s = model.segments()[s].parent) {
-      if (s == segment || RigidRoot(model, s) == s) all.push_back(s);
+  // Of each body, itself first: as many as can join it closely to another one.
+  std::vector<std::vector<int>> above;
+  for (const CapsuleBody& body : capsules->bodies) {
+    std::vector<int>& all = above.emplace_back(1, body.segment);
+    while (all.size() <= kCloselyJoined) {
+      const int parent = model.segments()[all.back()].parent;
+      if (parent < 0) break;
+      all.push_back(RigidRoot(model, parent));
     }
-    return all;
-  };
-  const auto distance = [&](int a, int b) {
-    const std::vector<int> first = above(a), second = above(b);
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      const auto common = std::find(second.begin(), second.end(), first[i]);
-      if (common != second.end()) return static_cast<int>(i + (common - second.begin()));
+  }
+  const auto are_joined_closely = [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < above[a].size(); ++i) {
+      for (std::size_t j = 0; j < above[b].size() && i + j <= kCloselyJoined; ++j) {
+        if (above[a][i] == above[b][j]) return true;
+      }
     }
-    return std::numeric_limits<int>::max();
+    return false;
   };
   // A thigh folds against the pelvis as far as its joints' limits let it.
   const auto is_thigh = [&](int segment) {
@@ -219,7 +244,7 @@ void PairBodies(const KinematicModel& model, const BodyMap& map, RobotCapsules* 
   for (std::size_t i = 0; i < capsules->bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < capsules->bodies.size(); ++j) {
       const CapsuleBody &a = capsules->bodies[i], &b = capsules->bodies[j];
-      if (a.part == b.part || distance(a.segment, b.segment) <= kCloselyJoined) continue;
+      if (a.part == b.part || are_joined_closely(i, j)) continue;
       if ((a.segment == pelvis && is_thigh(b.segment)) ||
           (b.segment == pelvis && is_thigh(a.segment))) {
         continue;

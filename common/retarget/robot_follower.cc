@@ -110,7 +110,7 @@ std::array<double, 3> RobotFollower::AnglesOfFoot(std::size_t i) const {
           LowestOf(foot, X)};
 }
 
-void RobotFollower::Touch(std::size_t i, double dt) {
+void RobotFollower::Touch(std::size_t i) {
   const RobotFoot& sole = (*body_.feet)[i];
   Foot& foot = feet_[i];
   // Where the robot has it, not where it was to be.
@@ -123,9 +123,9 @@ void RobotFollower::Touch(std::size_t i, double dt) {
   foot.height = {std::max(0.0, LowestOf(sole, X)), 0};
   if (is_following_) {
     const std::array<double, 3> now = AnglesOfFoot(i);
-    foot.pitch.speed = (now[0] - foot.last[0]) / dt;
-    if (sole.rolls) foot.roll.speed = (now[1] - foot.last[1]) / dt;
-    foot.height.speed = (now[2] - foot.last[2]) / dt;
+    foot.pitch.speed = (now[0] - foot.last[0]) / last_dt_;
+    if (sole.rolls) foot.roll.speed = (now[1] - foot.last[1]) / last_dt_;
+    foot.height.speed = (now[2] - foot.last[2]) / last_dt_;
   }
   const Vector3d& pivot = PivotOf(sole, foot.pitch.value);
   const Eigen::AngleAxisd R_WY(foot.yaw, Vector3d::UnitZ());
@@ -169,7 +169,7 @@ void RobotFollower::AimFeet(double dt) {
     const Eigen::Isometry3d scaled = stands ? PlaceFoot(of, body_, i) : swinging;
     if (!is_following_) foot.aim = scaled;
     if (stands) {
-      if (!foot.stands) Touch(i, dt);
+      if (!foot.stands) Touch(i);
       Stand(i, pitch, dt);
     } else {
       if (foot.stands) Leave(i, scaled, dt);
@@ -264,7 +264,8 @@ void RobotFollower::Solve(int iterations, double dt) {
     const double longest = step_.tail(step_.size() - 3).cwiseAbs().maxCoeff();
     Advance(std::min(1.0, kFarthestStep / longest));
   }
-  if (body_.feet) posture_.position.z() += std::max(0.0, equations_.DepthOf(posture_) - kLeftBelow);
+  if (body_.feet && !robot_.model.is_root_fixed())
+    posture_.position.z() += std::max(0.0, equations_.DepthOf(posture_) - kLeftBelow);
 }
 
 void RobotFollower::Begin(const Posture& person, double time) {
@@ -311,9 +312,11 @@ const Posture& RobotFollower::Follow(const Posture& person, double time) {
     speed_.tail(lower_.size()) = (posture_.joint_angles - before_.joint_angles) / dt;
   } else {
     Begin(person, time);
+    robot_state_.Compute(posture_);
   }
-  for (std::size_t i = 0; i < 2 && body_.feet && has_begun_; ++i) feet_[i].last = AnglesOfFoot(i);
+  for (std::size_t i = 0; i < 2 && body_.feet; ++i) feet_[i].last = AnglesOfFoot(i);
   robot_state_.Compute(posture_);
+  last_dt_ = is_following_ ? dt : 1 / rate_;
   has_begun_ = is_following_ = true;
   time_ = time;
   return posture_;

@@ -23,8 +23,8 @@ class RobotFollower {
   RobotFollower(std::shared_ptr<const KinematicModel> person, const Robot& robot,
                 const RobotBody& body, double rate, const RobotFollower* before = nullptr);
 
-  /// time: of the frame [s]. The posture is valid until the next call; from the second frame of a
-  /// track on, nothing is allocated.
+  /// time: of the frame [s]. The posture is valid until the next call. Allocates in the first
+  /// two frames, and where a part touches the floor or another one for the first time.
   const Posture& Follow(const Posture& person, double time);
 
   /// The next frame begins a track. Joints go on from where they are.
@@ -45,8 +45,8 @@ class RobotFollower {
     Follower pitch, roll, height;
     Eigen::Isometry3d aim, scaled;  ///< of the last frame, and where the person's foot puts it
     FootDifference draw, draw_slope;
-    std::array<double, 3> last;  ///< pitch, roll and height of the robot's, the frame before
-    double drawn_for = 0;        ///< [s] since it left the ground; beyond its end: no draw
+    std::array<double, 3> last = {};  ///< pitch, roll and height of the robot's, the frame before
+    double drawn_for = 0;             ///< [s] since it left the ground; beyond its end: no draw
   };
 
   void Begin(const Posture& person, double time);
@@ -54,7 +54,7 @@ class RobotFollower {
   void MoveLevels(double dt);
   double Floor() const;
   void AimFeet(double dt);
-  void Touch(std::size_t foot, double dt);
+  void Touch(std::size_t foot);
   void Stand(std::size_t foot, double pitch, double dt);
   void Leave(std::size_t foot, const Eigen::Isometry3d& scaled, double dt);
   void SetAims(double dt);
@@ -89,7 +89,7 @@ class RobotFollower {
   Eigen::MatrixXd H_;
   Eigen::VectorXd b_, step_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  double time_ = 0;
+  double time_ = 0, last_dt_ = 0;  // of the last frame [s]
   bool has_begun_ = false, is_following_ = false;
 };
 

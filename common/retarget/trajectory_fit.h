@@ -28,7 +28,8 @@ struct FloorBall {
 };
 
 /// The most likely motion of a model whose accelerations are white noise, that meets its aims as
-/// their deviations say and its limits exactly: position, velocity, floor.
+/// their deviations say and its limits exactly: position, velocity, floor. Bodies are kept apart by
+/// springs, so far as aims let them.
 struct TrajectoryProblem {
   const KinematicModel* model = nullptr;
   double rate = 0;  ///< [Hz]

@@ -23,10 +23,10 @@ class AimEquations {
  public:
   explicit AimEquations(const TrajectoryProblem& problem);
 
-  /// Adds the aims of a frame at a posture to H (its lower half) and b, H step = b; returns the
-  /// cost, the sum of squares. What nothing moves is held.
+  /// Adds the aims of a frame, and what keeps bodies apart, at a posture to H (its lower half) and
+  /// b, H step = b; returns the cost, the sum of squares. What nothing moves is held.
   double AddAims(int frame, const Posture& posture, Eigen::MatrixXd* H, Eigen::VectorXd* b);
-  /// Of aims and of depths below the floor.
+  /// Of aims, of depths below the floor and of bodies that touch.
   double CostOf(int frame, const Posture& posture);
   /// At the posture of the last AddAims.
   double CostOfFloor() const;

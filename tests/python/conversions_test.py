@@ -222,6 +222,10 @@ class Conversions(Case):
         recording = mmmconverter.read(SAMPLE)
         copy = self.folder / "walk.c3d"
         recording.save(copy)
+        with self.assertRaisesRegex(ValueError, "x.foo: no recording is written so"):
+            recording.save(self.folder / "x.foo")
+        recording.save(self.folder / "x.trc")
+        self.assertEqual(mmmconverter.read(self.folder / "x.trc").format, "TRC")
         before = copy.read_bytes()
         result = mmmconverter.convert(copy, height=1.8, frames=(0, 20))
         for write in (result.save, result.report):

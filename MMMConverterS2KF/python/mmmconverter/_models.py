@@ -240,8 +240,9 @@ class Estimate(Presented):
     converged: bool
 
     def _facts(self):
+        of_person = np.isfinite(self.residuals).any()  # a robot has none
         return [("estimate", "of a frame"), ("markers seen", self.markers_seen),
-                ("mean distance", f"{1e3 * np.nanmean(self.residuals):.1f} mm"),
+                *([("mean distance", f"{1e3 * np.nanmean(self.residuals):.1f} mm")] if of_person else []),
                 ("converged", self.converged)]
 
 

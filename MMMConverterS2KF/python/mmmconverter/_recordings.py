@@ -121,8 +121,12 @@ class Recording(Presented):
                        {"position": (("label", "axis"), "m", self.markers)})
 
     def save(self, file) -> None:
-        """Writes the markers as C3D, in millimetres with z up."""
-        self._raw.save_c3d(path_text(file))
+        """Writes the markers: .c3d with z up, or .trc with y up, as OpenSim has it; in millimetres."""
+        text = path_text(file)
+        ending = os.path.splitext(text)[1].lower()
+        if ending not in (".c3d", ".trc"):
+            raise WrongValue(f"{text}: no recording is written so; its name may end with .c3d or .trc")
+        (self._raw.save_trc if ending == ".trc" else self._raw.save_c3d)(text)
 
     def __len__(self):
         return len(self.markers)

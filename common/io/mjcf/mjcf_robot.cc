@@ -301,12 +301,13 @@ Robot ParseMjcf(std::string_view content, const std::string& file, const MjcfPar
   return MjcfRobotBuilder(document, &text).Build();
 }
 
-Robot ReadMjcf(const std::string& path, Warnings* warnings) {
+Robot ReadMjcf(const std::string& path, Warnings* warnings, std::vector<std::string>* parts) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const auto read_part = [&](const std::string& name) -> std::optional<std::string> {
     const std::filesystem::path part = folder / name;
     std::error_code unreadable;
     if (!std::filesystem::exists(part, unreadable)) return {};
+    if (parts != nullptr) parts->push_back(part.string());
     return ReadFileContent(part.string(), kMaxPartBytes);
   };
   return ParseMjcf(ReadFileContent(path, kMaxPartBytes), path, read_part, warnings);

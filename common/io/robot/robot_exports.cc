@@ -231,21 +231,28 @@ Eigen::MatrixXd PoseVectors(const Robot& robot, const RobotMotion& motion) {
     for (Eigen::Index i = 0; i < num_joints; ++i) {
       const int s = motion.joint_segments[static_cast<std::size_t>(i)];
       const Segment& joint = robot.model.segments()[static_cast<std::size_t>(s)];
-      if (joint.type == JointType::kSliding) {
-        throw Error(fmt::format("{} slides; a file of PHC has joints that turn only", joint.name));
-      }
       vectors.col(k).segment<3>(3 + 3 * i) = motion.joint_positions(i, k) * joint.axis;
     }
   }
   return vectors;
 }
 
+void CheckPhc(const Robot& robot, const RobotExportOptions& options) {
+  const double rate = options.rate.value_or(kLafanRate);
+  if (rate != std::round(rate)) {
+    throw Error(fmt::format("a file of PHC has whole rates only; {:g} Hz is none", rate));
+  }
+  for (int j = 0; j < robot.model.num_joints(); ++j) {
+    const Segment& joint = robot.model.joint(j);
+    if (joint.type != JointType::kSliding) continue;
+    throw Error(fmt::format("{} slides; a file of PHC has joints that turn only", joint.name));
+  }
+}
+
 void WritePhc(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
               const RobotExportOptions& options) {
+  CheckPhc(robot, options);
   const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, kLafanRate));
-  if (motion.rate != std::round(motion.rate)) {
-    throw Error(fmt::format("a file of PHC has whole rates only; {:g} Hz is none", motion.rate));
-  }
   const Eigen::MatrixXd vectors = PoseVectors(robot, motion);
   WriteNames(file, robot, motion, "xyzw");
   WriteFileAtomically(
@@ -283,7 +290,7 @@ const std::vector<RobotExporter>& RobotExporters() {
       {"phc", "export-phc", "pkl",
        "root, joints and their rotation vectors as PHC and ASAP have them (a pickle that joblib "
        "reads), 30 Hz; names beside it",
-       false, true, WritePhc}};
+       false, true, WritePhc, CheckPhc}};
   return exporters;
 }
 

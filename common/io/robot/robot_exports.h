@@ -31,6 +31,8 @@ struct RobotExporter {
   /// @throws Error where the rate is none; the file is then as it was before.
   void (*write)(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
                 const RobotExportOptions& options) = nullptr;
+  /// @throws Error where `write` would for the robot or the options. Null: it would not.
+  void (*check)(const Robot& robot, const RobotExportOptions& options) = nullptr;
 };
 
 const std::vector<RobotExporter>& RobotExporters();

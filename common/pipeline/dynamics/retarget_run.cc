@@ -94,6 +94,14 @@ std::string DefaultOutput(const std::string& input) {
   return (file.parent_path() / (file.stem().string() + "_robot.xml")).string();
 }
 
+RobotExportOptions ExportOptionsOf(const RobotRequest& robot, const RetargetReport& report) {
+  RobotExportOptions options;
+  options.rate = robot.export_rate;
+  options.motion_name = report.motion_name;
+  if (!robot.order.empty()) options.order = ParseRobotOrder(robot.order);
+  return options;
+}
+
 void CheckFiles(const RetargetRequest& request, const std::string& output) {
   OutputPlan plan;
   NameInputs(request, &plan);
@@ -170,13 +178,14 @@ RetargetRequest RequestFor(const ConversionRequest& conversion, const Conversion
   return request;
 }
 
+void CheckRobotExport(const RobotExporter& format, const RobotRequest& robot,
+                      const RetargetReport& report) {
+  if (format.check != nullptr) format.check(report.robot, ExportOptionsOf(robot, report));
+}
+
 void WriteRobotExport(const RobotExporter& format, const std::string& file,
                       const RobotRequest& robot, RetargetReport* report) {
-  RobotExportOptions options;
-  options.rate = robot.export_rate;
-  options.motion_name = report->motion_name;
-  if (!robot.order.empty()) options.order = ParseRobotOrder(robot.order);
-  format.write(file, report->robot, report->retargeted.motion, options);
+  format.write(file, report->robot, report->retargeted.motion, ExportOptionsOf(robot, *report));
   for (std::string& one : FilesOf(format, file)) report->written.push_back(std::move(one));
 }
 

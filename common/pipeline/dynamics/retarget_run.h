@@ -64,6 +64,10 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
 /// The request for what was converted.
 RetargetRequest RequestFor(const ConversionRequest& conversion, const ConversionReport& converted);
 
+/// @throws Error where the format can't hold the robot's motion, before anything is written.
+void CheckRobotExport(const RobotExporter& format, const RobotRequest& robot,
+                      const RetargetReport& report);
+
 /// Writes `file`, as the conversion's request says of the robot. @throws Error
 void WriteRobotExport(const RobotExporter& format, const std::string& file,
                       const RobotRequest& robot, RetargetReport* report);

@@ -70,7 +70,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   }
   plan.output = request.output;
   plan.output_format = request.output_format.empty() ? config.output_format : request.output_format;
-  if (!plan.output.empty()) CheckHoldsMotion(plan);
+  if (!plan.output.empty() && request.robot.file.empty()) CheckHoldsMotion(plan);
   plan.motion_name = NameOf(request, head);
   plan.subject_output = request.subject_output;
   return plan;
