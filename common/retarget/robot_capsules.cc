@@ -88,7 +88,7 @@ struct RigidMass {
 bool AddMassBox(const RigidMass& rigid, CapsuleBody* body) {
   if (rigid.mass < kLeastMass) return false;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(rigid.inertia);
-  const Vector3d I = principal.eigenvalues();
+  const Vector3d& I = principal.eigenvalues();
   const Vector3d squares =
       1.5 / rigid.mass * (Vector3d::Constant(I.sum()) - 2 * I);  // I_y + I_z - I_x
   if (!(squares.minCoeff() > 0)) return false;
