@@ -88,11 +88,7 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
   RetargetRequest request;
   request.conversion = MakeRequest(task::kRetarget, arguments, arguments.positional().value_or(""));
   request.conversion.output = arguments.Get("output").value_or("");
-  const RobotRequest& robot = request.conversion.robot;
-  request.robot_file = robot.file;
-  request.map_file = robot.map_file;
-  request.sole_height = robot.sole_height;
-  if (request.robot_file.empty()) {
+  if (request.conversion.robot.file.empty()) {
     throw UsageError(
         "retarget: which robot? For instance: MMMConverterS2KF retarget walk_mmm.xml --robot "
         "g1.urdf");
@@ -113,7 +109,7 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
 /// Without a motion.
 void ShowMap(RetargetRequest request, const std::optional<std::string>& page) {
   Warnings warnings;
-  const LoadedRobot robot = ReadRobot(request, &warnings);
+  const LoadedRobot robot = ReadRobot(request.conversion.robot, &warnings);
   if (page) {
     request.conversion.output.clear();
     request.conversion.more_outputs = {*page};

@@ -240,9 +240,10 @@ RetargetedMotion Retarget(const py::object& motion, const py::dict& options, con
                           std::optional<double> sole_height, const py::object& progress) {
   RetargetRequest request;
   request.conversion = RequestOf(options);
-  request.robot_file = TextOf(options, "robot");
-  request.map_file = map;
-  request.sole_height = sole_height;
+  RobotRequest& robot = request.conversion.robot;
+  robot.file = TextOf(options, "robot");
+  robot.map_file = map;
+  robot.sole_height = sole_height;
   if (py::isinstance<py::dict>(motion)) request.motion = MotionOf(motion);
   if (py::isinstance<Conversion>(motion)) {
     request.converted = &motion.cast<const Conversion&>().report;

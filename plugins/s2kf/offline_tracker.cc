@@ -172,16 +172,17 @@ void OfflineTracker::SmoothBackwards(ConversionResult* result) {
           estimate = of_filter;
         }
       }
-      Write(k, estimate, result);
+      TakeEstimate(estimate, &estimate_);
+      Write(k, estimate_, result);
       result->frames[k].seconds += SecondsSince(start);
     }
   }
   const int first = checkpoints_.front().frame;
   int begin = first;
-  for (const Belief& earlier : earlier_) Write(--begin, earlier, result);
-  if (!earlier_.empty()) estimate = earlier_.back();
+  for (const Estimate& earlier : earlier_) Write(--begin, earlier, result);
+  const Estimate& earliest = earlier_.empty() ? estimate_ : earlier_.back();
   for (int k = 0; k < begin; ++k) {
-    Write(k, estimate, result);
+    Write(k, earliest, result);
     result->residuals.col(k).setConstant(kNaN);  // the posture is not of this frame
   }
 }
@@ -203,13 +204,20 @@ void OfflineTracker::PlaceByModel(const Posture& q) {
                                        &of_model_);
 }
 
-void OfflineTracker::Write(int k, const Belief& belief, ConversionResult* result) {
+void OfflineTracker::KeepEarlier(const TrackState& state) {
+  TakeEstimate(state.belief, &earlier_.emplace_back());
+}
+
+void OfflineTracker::TakeEstimate(const Belief& belief, Estimate* estimate) const {
+  tracker_.filter().ToPosture(belief, &estimate->posture);
+  tracker_.filter().Deviations(belief, &estimate->deviations);
+}
+
+void OfflineTracker::Write(int k, const Estimate& estimate, ConversionResult* result) {
   Gather(k);
-  tracker_.filter().ToPosture(belief, &frame_.posture);
-  tracker_.filter().Deviations(belief, &own_deviations_);
-  result->trajectory.postures[k] = frame_.posture;
-  result->trajectory.standard_deviations.col(k) = own_deviations_;
-  PlaceByModel(frame_.posture);
+  result->trajectory.postures[k] = estimate.posture;
+  result->trajectory.standard_deviations.col(k) = estimate.deviations;
+  PlaceByModel(estimate.posture);
   result->residuals.col(k) = (frame_.measured - of_model_.p_WM).colwise().norm().transpose();
 }
 

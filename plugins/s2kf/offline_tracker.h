@@ -31,7 +31,7 @@ class OfflineTracker {
   void Keep(int k, const TrackState& state, const TrackedFrame& frame);
 
   /// After a frame before the first of Keep, tracked backward from there, the last one first.
-  void KeepEarlier(const TrackState& state) { earlier_.push_back(state.belief); }
+  void KeepEarlier(const TrackState& state);
 
   /// result: of the tracker, all frames; its postures, standard deviations and residuals are
   /// replaced by the smoothed ones, its times grow. Frames of KeepEarlier have the filter's; those
@@ -42,6 +42,10 @@ class OfflineTracker {
   struct Checkpoint {
     int frame = 0;
     TrackState state;
+  };
+  struct Estimate {
+    Posture posture;
+    Eigen::VectorXd deviations;  ///< as the belief has them, of white noise
   };
 
   /// Keeps the belief of frame k, and every so manieth state as a checkpoint.
@@ -63,8 +67,8 @@ class OfflineTracker {
   bool IsAsNear(const Eigen::Matrix3Xd& z, const Belief& smoothed, const Belief& filtered);
   /// Takes the markers_ of a posture into of_model_.
   void PlaceByModel(const Posture& q);
-  /// Deviations as the belief has them, of white noise.
-  void Write(int k, const Belief& belief, ConversionResult* result);
+  void TakeEstimate(const Belief& belief, Estimate* estimate) const;
+  void Write(int k, const Estimate& estimate, ConversionResult* result);
   /// Replaces these by what is said of the postures (ReportedCovariance).
   void ReportDeviations(bool keeps_covariances, ConversionResult* result);
 
@@ -76,7 +80,7 @@ class OfflineTracker {
   double clip_;  // a farther marker is a wrong one [m]
   double dt_;    // [s]
   std::vector<Checkpoint> checkpoints_;
-  std::vector<Belief> earlier_;
+  std::vector<Estimate> earlier_;
   /// Of the gate, markers x frames (GateState::verdicts).
   Eigen::Matrix<std::int16_t, Eigen::Dynamic, Eigen::Dynamic> verdicts_;
   std::vector<double> distances_;  // of all markers in each frame [m]
@@ -92,6 +96,7 @@ class OfflineTracker {
   MarkerJacobian of_model_;  // places of markers_
   Eigen::RowVectorXd distances_of_filter_;
   ReportedCovariance covariance_;
+  Estimate estimate_;  // of the frame that is written
   Eigen::VectorXd own_deviations_;
 };
 

@@ -101,3 +101,25 @@ function makeTable(kind, label, heads, rows) {
       element("th", {scope: "row"}, head), ...cells))));
   return element("div", {class: "wide", tabindex: "0", role: "region", "aria-label": label}, table);
 }
+
+// The JSON of a block of the page's data.
+function readBlock(name) {
+  return JSON.parse(document.querySelector(`script.${name}`).textContent);
+}
+
+function showNotes(warnings) {
+  byId("notes-part").hidden = warnings.length === 0;
+  replaceContent(byId("notes"), ...warnings.map((warning) => element("li", {}, warning)));
+}
+
+// In other colours where the reader chooses these, or prints.
+function redrawWithColours(view) {
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => view.refresh());
+  }
+}
+
+// For tests: all that was asked for is drawn.
+function markReady() {
+  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
+}

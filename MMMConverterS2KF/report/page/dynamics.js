@@ -78,8 +78,7 @@ function describeDerivatives(derivatives) {
 }
 
 function start() {
-  const block = (name) => JSON.parse(document.querySelector(`script.${name}`).textContent);
-  const figures = block("figures");
+  const figures = readBlock("figures");
   byId("program").textContent = figures.program;
   byId("sentence").textContent = figures.sentence;
   byId("about").textContent = describeInput(figures);
@@ -87,12 +86,9 @@ function start() {
   replaceContent(byId("checks"), makeChecks(figures.checks));
   byId("flight-part").hidden = figures.flights.length === 0;
   replaceContent(byId("flights"), makeFlights(figures.flights));
-  byId("notes-part").hidden = figures.warnings.length === 0;
-  replaceContent(byId("notes"), ...figures.warnings.map((warning) => element("li", {}, warning)));
-  const view = new DynamicsView(figures, new Series(block("series")));
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => view.refresh());
-  }
+  showNotes(figures.warnings);
+  const view = new DynamicsView(figures, new Series(readBlock("series")));
+  redrawWithColours(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures,
@@ -100,7 +96,7 @@ function start() {
     get frames() { return view.trial.frames; },
     seek: (frame) => view.seek(frame),
   };
-  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
+  markReady();
 }
 
 start();

@@ -104,24 +104,20 @@ function makeChanges(changes, view) {
 }
 
 function start() {
-  const block = (name) => JSON.parse(document.querySelector(`script.${name}`).textContent);
-  const figures = block("figures");
+  const figures = readBlock("figures");
   byId("program").textContent = figures.program;
   byId("sentence").textContent = figures.sentence;
   byId("about").textContent = `${figures.input.file}: ${plural(figures.frames, "frame")} at ` +
     `${formatNumber(figures.rate_hz, 0)} Hz, ${plural(figures.input.points, "point")}. ` +
     (figures.output === null ? "Nothing was written." : `Written to ${figures.output}.`);
-  const view = new LabelView(figures, new LabelTrial(block("tracks")));
+  const view = new LabelView(figures, new LabelTrial(readBlock("tracks")));
   replaceContent(byId("name"), ...view.trial.names.map((one) => option(one.name, one.name)));
   byId("name").value = view.name;
   byId("name").addEventListener("change", (event) => view.show(event.target.value, view.frame));
   byId("no-change").hidden = figures.changes.length > 0;
   if (figures.changes.length > 0) replaceContent(byId("changes"), ...makeChanges(figures.changes, view));
-  byId("notes-part").hidden = figures.warnings.length === 0;
-  replaceContent(byId("notes"), ...figures.warnings.map((warning) => element("li", {}, warning)));
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => view.refresh());
-  }
+  showNotes(figures.warnings);
+  redrawWithColours(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures,
@@ -137,7 +133,7 @@ function start() {
     },
     seek: (frame) => view.seek(frame),
   };
-  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
+  markReady();
 }
 
 start();

@@ -133,9 +133,7 @@ function start() {
   const view = new View(readSections());
   listSections(view);
   if (view.sections.length) view.showSection(0);
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => view.refresh());
-  }
+  redrawWithColours(view);
   window.addEventListener("beforeprint", () => {
     for (const details of document.querySelectorAll("details")) details.open = true;
   });
@@ -158,7 +156,7 @@ function start() {
     showSection: (index) => view.showSection(index),
     showTrial: (index) => view.showTrial(index),
   };
-  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
+  markReady();
 }
 
 start();

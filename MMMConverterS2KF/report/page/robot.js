@@ -198,21 +198,17 @@ function makeFigures(figures) {
 }
 
 function start() {
-  const block = (name) => JSON.parse(document.querySelector(`script.${name}`).textContent);
-  const figures = block("figures");
+  const figures = readBlock("figures");
   byId("program").textContent = figures.program;
   byId("sentence").textContent = figures.sentence;
   byId("about").textContent = figures.about;
   byId("map").textContent = figures.map;
   byId("size").textContent = `The person is drawn ${formatNumber(figures.scale, 3)} times as large, as tall as the robot.`;
   byId("scene").setAttribute("aria-label", "The person and the robot, in three dimensions");
-  byId("notes-part").hidden = figures.warnings.length === 0;
-  replaceContent(byId("notes"), ...figures.warnings.map((warning) => element("li", {}, warning)));
+  showNotes(figures.warnings);
   replaceContent(byId("figures"), makeFigures(figures));
-  const view = new RobotView(figures, block("bodies"));
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => view.refresh());
-  }
+  const view = new RobotView(figures, readBlock("bodies"));
+  redrawWithColours(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures,
@@ -235,7 +231,7 @@ function start() {
     seek: (frame) => view.seek(frame),
     showTrial: (index) => view.showTrial(index),
   };
-  requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
+  markReady();
 }
 
 start();

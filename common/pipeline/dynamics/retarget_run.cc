@@ -9,7 +9,6 @@
 
 #include "common/io/model_file.h"
 #include "common/io/recording/recording_formats.h"
-#include "common/io/robot_file.h"
 #include "common/judge/coverage.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_residuals.h"
@@ -114,16 +113,8 @@ void CheckFiles(const RetargetRequest& request, const std::string& output) {
 
 void NameInputs(const RetargetRequest& request, OutputPlan* plan) {
   NameInputs(request.conversion.input, plan);
-  plan->Read(request.robot_file);
-  plan->Read(request.map_file);
-}
-
-LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings) {
-  Robot robot = ReadRobotFile(request.robot_file, warnings);
-  BodyMapChoice choice;
-  if (!request.map_file.empty()) choice = ReadBodyMapChoice(request.map_file);
-  RobotBody body = FindRobotBody(robot, choice, request.sole_height);
-  return {std::move(robot), std::move(body)};
+  plan->Read(request.conversion.robot.file);
+  plan->Read(request.conversion.robot.map_file);
 }
 
 RetargetReport RunRetargeting(const RetargetRequest& request,
@@ -133,10 +124,10 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
   if (output.empty() && HasMotion(request)) output = DefaultOutput(file);
   CheckFiles(request, output);
   Warnings warnings;
-  LoadedRobot robot = ReadRobot(request, &warnings);
+  LoadedRobot robot = ReadRobot(request.conversion.robot, &warnings);
   RetargetReport report = {file,
                            "",
-                           request.robot_file,
+                           request.conversion.robot.file,
                            output,
                            std::move(robot.robot),
                            std::move(robot.body),
@@ -171,9 +162,6 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
 RetargetRequest RequestFor(const ConversionRequest& conversion, const ConversionReport& converted) {
   RetargetRequest request;
   request.conversion = conversion;
-  request.robot_file = conversion.robot.file;
-  request.map_file = conversion.robot.map_file;
-  request.sole_height = conversion.robot.sole_height;
   request.converted = &converted;
   return request;
 }

@@ -10,6 +10,7 @@
 #include "common/io/robot/robot_exports.h"
 #include "common/judge/retarget_verdict.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/robot.h"
 #include "common/retarget/retarget_figures.h"
 #include "common/support/output_plan.h"
 
@@ -20,9 +21,6 @@ struct RetargetRequest {
   /// The recording, which is converted first, or the finished motion; output is the robot's. No
   /// file and nothing below: MakeRaisedKnee of the shipped model, which shows the map.
   ConversionRequest conversion;
-  std::string robot_file;
-  std::string map_file;               ///< see ReadBodyMapChoice
-  std::optional<double> sole_height;  ///< of the last ankle joint above the sole [m]
   /// What was read or converted already, instead of the file, which names it.
   std::optional<MmmMotion> motion = {};
   const ConversionReport* converted = nullptr;
@@ -44,16 +42,8 @@ struct RetargetReport {
   PoseTrajectory person = {};  ///< as many frames as the robot's
 };
 
-struct LoadedRobot {
-  Robot robot;
-  RobotBody body;
-};
-
 /// Says in the plan which files the request names.
 void NameInputs(const RetargetRequest& request, OutputPlan* plan);
-
-/// The robot with its map. @throws Error
-LoadedRobot ReadRobot(const RetargetRequest& request, Warnings* warnings);
 
 /// Reads all, converts where that is to be done, and brings the motion to the robot; writes
 /// nothing. progress(done, all): frames of a conversion; may be empty.

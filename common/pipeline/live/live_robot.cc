@@ -4,32 +4,21 @@
 #include <chrono>
 #include <numeric>
 
-#include "common/io/robot_file.h"
-
 namespace mmm_converter {
-namespace {
 
-RobotBody FindBodyOf(const Robot& robot, const RobotRequest& choice) {
-  BodyMapChoice map;
-  if (!choice.map_file.empty()) map = ReadBodyMapChoice(choice.map_file);
-  return FindRobotBody(robot, map, choice.sole_height);
-}
-
-}  // namespace
-
-LiveRobot::LiveRobot(const RobotRequest& choice, Warnings* warnings)
-    : robot_(ReadRobotFile(choice.file, warnings)), robot_body_(FindBodyOf(robot_, choice)) {}
+LiveRobot::LiveRobot(const RobotRequest& request, Warnings* warnings)
+    : robot_(ReadRobot(request, warnings)) {}
 
 void LiveRobot::Take(const std::shared_ptr<const LiveBody>& person, const PoseFrame& pose) {
   if (person != person_) {
     // A calibration changes the person only: the robot stays as it is, and goes on.
-    follower_ = std::make_unique<RobotFollower>(person->setup.model, robot_, robot_body_,
+    follower_ = std::make_unique<RobotFollower>(person->setup.model, robot_.robot, robot_.body,
                                                 person->rate, follower_.get());
     if (!body_ || body_->rate != person->rate) {
       auto body = std::make_shared<LiveBody>();
-      body->name = robot_.model.name();
-      body->setup.model = std::make_shared<KinematicModel>(robot_.model);
-      body->setup.joints.resize(static_cast<std::size_t>(robot_.model.num_joints()));
+      body->name = robot_.robot.model.name();
+      body->setup.model = std::make_shared<KinematicModel>(robot_.robot.model);
+      body->setup.joints.resize(static_cast<std::size_t>(robot_.robot.model.num_joints()));
       std::iota(body->setup.joints.begin(), body->setup.joints.end(), 0);
       body->rate = person->rate;
       body_ = std::move(body);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/live/pose_frame.h"
-#include "common/pipeline/live/live_request.h"
+#include "common/pipeline/robot.h"
 #include "common/retarget/robot_follower.h"
 #include "common/support/warnings.h"
 
@@ -15,7 +15,7 @@ namespace mmm_converter {
 class LiveRobot {
  public:
   /// @throws Error where the robot can't be read, or its limbs or soles are not known.
-  LiveRobot(const RobotRequest& choice, Warnings* warnings);
+  LiveRobot(const RobotRequest& request, Warnings* warnings);
 
   /// @throws Error where the person's model has no legs and arms that are known.
   void Take(const std::shared_ptr<const LiveBody>& person, const PoseFrame& pose);
@@ -25,8 +25,7 @@ class LiveRobot {
   const PoseFrame& frame() const { return frame_; }
 
  private:
-  Robot robot_;
-  RobotBody robot_body_;
+  LoadedRobot robot_;
   std::shared_ptr<const LiveBody> person_, body_;
   std::unique_ptr<RobotFollower> follower_;
   PoseFrame frame_;

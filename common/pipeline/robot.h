@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/pipeline/conversion.h"
+#include "common/retarget/robot_body.h"
+
+namespace mmm_converter {
+
+struct LoadedRobot {
+  Robot robot;
+  RobotBody body;
+};
+
+/// The robot with its map. @throws Error where it can't be read, or its limbs or soles are not
+/// known.
+LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings);
+
+}  // namespace mmm_converter
