@@ -293,7 +293,9 @@ TEST(Batch, MotionsAreBroughtToARobot) {
   for (const Json& line : Results(Out())) {
     EXPECT_EQ(line.contains("robot_motion"), line["id"] == "0");
     EXPECT_EQ(line.contains("robot"), line["id"] == "0");
-    if (line["id"] == "0") EXPECT_LT(line["robot"]["slide"], 0.02);
+    if (line["id"] == "0") {
+      EXPECT_LT(line["robot"]["slide"], 0.02);
+    }
   }
   EXPECT_THAT(ReadText(Out() + "/results.csv"), HasSubstr(",robot.slide,"));
   EXPECT_THAT(Resumed(manifest), HasSubstr("0 converted, 1 failed, 2 unchanged"));
