@@ -86,9 +86,17 @@ struct CrashNotes {
   }
 
   static void OnExit() {
-    // Other threads would go on while what they use is destroyed.
     if (WriteAll("exit() was called")) std::_Exit(EXIT_FAILURE);
   }
+
+  // exit() first destroys what is local to its thread, then static objects: those that other
+  // threads go on using are there until the process ends here.
+  struct EndOfThread {
+    ~EndOfThread() {
+      if (own < kMostThreads) OnExit();
+    }
+  };
+  static inline thread_local EndOfThread end_of_thread;
 };
 
 namespace {
@@ -120,6 +128,7 @@ void CrashNote::Update(JournalRecord running) {
   running.result = Failed(std::string("the process ended while it ran: ") + kEnding, 0);
   auto text = std::make_unique<Text>();
   text->file = file_;
+  [[maybe_unused]] const auto* watched = &CrashNotes::end_of_thread;  // made in this thread
   std::tie(text->line_begin, text->line_end) = Split(FormatJournalLine(running) + "\n");
   std::tie(text->message_begin, text->message_end) = Split(
       fmt::format("\nerror: {}: the process ended while it ran: {}; --resume goes on after it\n",
