@@ -18,6 +18,7 @@
 #include "common/math/statistics.h"
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
+#include "common/model/kit_joints.h"
 
 namespace mmm_converter {
 

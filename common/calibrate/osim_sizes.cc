@@ -57,23 +57,6 @@ void JoinAll(const OsimDocument& document, Condition joins, Groups* groups) {
 
 }  // namespace
 
-std::string MirroredOsimName(const std::string& name) {
-  const auto exchanged = [](char side) {
-    return side == 'r' ? 'l' : side == 'l' ? 'r' : side == 'R' ? 'L' : side == 'L' ? 'R' : '\0';
-  };
-  const std::size_t n = name.size();
-  std::string other = name;
-  if (n > 2 && name[n - 2] == '_' && exchanged(name[n - 1]) != '\0') {
-    other[n - 1] = exchanged(name[n - 1]);
-    return other;
-  }
-  if (n > 2 && name[1] == '_' && exchanged(name[0]) != '\0') {
-    other[0] = exchanged(name[0]);
-    return other;
-  }
-  return MirroredName(name);
-}
-
 OsimSizes FindOsimSizes(const OsimDocument& document, const std::vector<bool>& has_marker) {
   Groups groups(has_marker);
   JoinAll(

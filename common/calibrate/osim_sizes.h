@@ -21,7 +21,4 @@ struct OsimSizes {
 /// has_marker: by body of the document.
 OsimSizes FindOsimSizes(const OsimDocument& document, const std::vector<bool>& has_marker);
 
-/// "femur_l" for "femur_r", "l_hand" for "r_hand", and as MirroredName; empty: has no side.
-std::string MirroredOsimName(const std::string& name);
-
 }  // namespace mmm_converter

@@ -50,6 +50,23 @@ std::string MirroredName(const std::string& name) {
   return "";
 }
 
+std::string MirroredOsimName(const std::string& name) {
+  const auto exchanged = [](char side) {
+    return side == 'r' ? 'l' : side == 'l' ? 'r' : side == 'R' ? 'L' : side == 'L' ? 'R' : '\0';
+  };
+  const std::size_t n = name.size();
+  std::string other = name;
+  if (n > 2 && name[n - 2] == '_' && exchanged(name[n - 1]) != '\0') {
+    other[n - 1] = exchanged(name[n - 1]);
+    return other;
+  }
+  if (n > 2 && name[1] == '_' && exchanged(name[0]) != '\0') {
+    other[0] = exchanged(name[0]);
+    return other;
+  }
+  return MirroredName(name);
+}
+
 std::vector<int> MirroredMarkers(const KinematicModel& model,
                                  const std::vector<MarkerIx>& markers) {
   const auto name = [&](MarkerIx marker) {

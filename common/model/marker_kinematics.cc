@@ -69,6 +69,7 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
 
   // For every segment the link that carries it and its constant pose X_LS there.
   links_.emplace_back();
+  segment_of_link_.push_back(0);
   std::vector<int> link_of_segment(num_segments, 0);
   std::vector<Isometry3d> X_LS(num_segments, Isometry3d::Identity());
   for (int s = 1; s < num_segments; ++s) {
@@ -77,7 +78,9 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
     const int column = segment.joint < 0 ? -1 : column_of_joint[segment.joint];
     const bool is_plain = segment.leader < 0 && segment.function == nullptr;
     if (column < 0 || (!is_plain && !is_shown[s])) {
-      link_of_segment[s] = link_of_segment[segment.parent];
+      const int link = link_of_segment[segment.parent];
+      link_of_segment[s] = link;
+      if (link > 0 && segment_of_link_[link] == segment.parent) segment_of_link_[link] = s;
       X_LS[s] = IsAtRest(segment) ? X_LF : X_LF * JointTransform(segment, RestOf(model, segment));
       continue;
     }
@@ -86,6 +89,7 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
     link_of_segment[s] = static_cast<int>(links_.size());
     links_[link.parent].kept |= link.parent + 1 < link_of_segment[s];
     links_.push_back(link);
+    segment_of_link_.push_back(s);
   }
 
   for (const double upper : upper_) turns_freely_.push_back(std::isinf(upper));

@@ -34,7 +34,7 @@ struct MarkerJacobian {
   /// x (3 markers). Entries of joints that do not move a marker are 0.
   PaddedMatrix J_transposed;
   std::vector<Eigen::Matrix3d> R_WL;  ///< out: orientation of each link
-  std::vector<Eigen::Vector3d> p_WL;  // scratch
+  std::vector<Eigen::Vector3d> p_WL;  ///< out: where each link begins [m]
   Eigen::VectorXd values;             // scratch: angles, then functions of them
   Eigen::VectorXd slopes;             // scratch: derivatives of these by their angle
 };
@@ -98,6 +98,10 @@ class MarkerKinematics {
   bool Moves(int joint, int marker) const { return moves_(joint, marker); }
   /// The rigid link that carries the marker: the index of MarkerJacobian::R_WL.
   int link_of_marker(int marker) const { return link_of_marker_[marker]; }
+  int num_links() const { return static_cast<int>(links_.size()); }
+  const TrackedLink& link(int l) const { return links_[l]; }
+  /// A segment of the model that is a part of the link; of OpenSim, its body.
+  int segment_of_link(int l) const { return segment_of_link_[l]; }
 
  private:
   /// A column of values that is no angle.
@@ -124,6 +128,7 @@ class MarkerKinematics {
   std::vector<TrackedLink> links_;  // the root first, then one for each moving segment, in order
   std::vector<MarkerSite> sites_;   // by link
   std::vector<int> link_of_marker_;
+  std::vector<int> segment_of_link_;
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   Eigen::VectorXd rest_;

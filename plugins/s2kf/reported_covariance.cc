@@ -32,6 +32,10 @@ constexpr double kInterval = 0.075;
 // = 0.01 s that is 1.9^-2.
 constexpr double kPullDeviation = 2;
 constexpr double kLeastPull = 1e-4;
+// What is expected of sizes before counts as so many that are measured.
+constexpr double kPriorEffects = 2;
+// Of the squares of residuals, at least, what sizes do not explain.
+constexpr double kLeastOther = 0.25;
 // Of an angle that may be anywhere in its range, in halves of the range.
 constexpr double kUniformVariance = 1.0 / 3;
 // Where the root can be at all [m, rad].
@@ -47,6 +51,7 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
       told_deviation_(markers.told_deviation()),
       num_own_(static_cast<int>((told_deviation_.array() == 0).count())),
       noise_scale_(markers.noise_scale()),
+      size_effects_(markers.size_effects()),
       settings_(settings.deviations),
       look_variance_(settings.marker_deviation * settings.marker_deviation),
       filter_variance_(
@@ -62,7 +67,14 @@ ReportedCovariance::ReportedCovariance(const TrackedMarkers& markers, const S2kf
       weights_(3 * kinematics_.num_markers(), 1),
       H_(kinematics_.num_dofs(), kinematics_.num_dofs()),
       root_(kinematics_.num_dofs(), kinematics_.num_dofs()),
-      A_(kinematics_.num_dofs(), kinematics_.num_dofs()) {
+      A_(kinematics_.num_dofs(), kinematics_.num_dofs()),
+      moved_(3 * kinematics_.num_markers(), size_effects_.num_effects()),
+      weighted_(3 * kinematics_.num_markers(), size_effects_.num_effects()),
+      taken_(kinematics_.num_dofs(), size_effects_.num_effects()),
+      of_sizes_(kinematics_.num_dofs(), size_effects_.num_effects()),
+      kept_(size_effects_.num_effects(), 3 * kinematics_.num_markers()),
+      kept_square_(size_effects_.num_effects(), size_effects_.num_effects()),
+      kept_residual_(size_effects_.num_effects()) {
   const VectorXd natural = NaturalAngles(kinematics_);
   for (int j = 0; j < kinematics_.num_joints(); ++j) {
     const bool is_endless = kinematics_.IsEndless(j);
@@ -94,6 +106,8 @@ void ReportedCovariance::Restart() {
   since_compute_ = 0;
   squares_ = seen_ = step_squares_ = steps_ = 0;
   fitted_ = kinematics_.num_dofs();
+  size_variance_ = 1;
+  size_looks_ = size_squares_ = 0;
   white_share_ = 1;
 }
 
@@ -135,8 +149,9 @@ void ReportedCovariance::Look(const Matrix3Xd& z, const MarkerJacobian& at, doub
 
 void ReportedCovariance::EstimateVariances() {
   const double open = std::max(0.0, seen_ - fitted_);
-  const double total =
-      (kPriorCoordinates * prior_variance_ + squares_) / (kPriorCoordinates + open);
+  const double total = (kPriorCoordinates * prior_variance_ +
+                        std::max(squares_ - size_squares_, kLeastOther * squares_)) /
+                       (kPriorCoordinates + open);
   double share = 0;  // that changes from frame to frame
   if (steps_ > 0 && squares_ > 0) {
     share = std::min(1.0, (step_squares_ / steps_) / (squares_ / seen_));
@@ -151,8 +166,9 @@ void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian
   variance_ = 0;
   for (int m = 0; m < num_markers; ++m) {
     const double place = place_deviation_[m];
-    const double hidden_from_residuals =
-        std::isnan(place) ? settings_.length_share * slow_ : place * place;
+    const double hidden_from_residuals = size_effects_.num_effects() > 0 ? 0.0
+                                         : std::isnan(place) ? settings_.length_share * slow_
+                                                             : place * place;
     const double scale = noise_scale_[m] * noise_scale_[m];
     const double variance = scale * (slow_ + white_share_ * white_) + hidden_from_residuals +
                             told_deviation_[m] * told_deviation_[m];
@@ -190,6 +206,61 @@ void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian
   fitted_ = n - pull_.dot(A.diagonal().tail(n - 6));
 }
 
+void ReportedCovariance::AddSizes(const MarkerJacobian& at) {
+  size_effects_.Compute(at, &moved_);
+  const auto weights = weights_.view().col(0);
+  weighted_.view() = weights.asDiagonal() * moved_.view();
+  Multiply(1, at.J_transposed, weighted_, &taken_);
+  auto taken = taken_.view();
+  taken.array().colwise() *= unit_.array();
+  Multiply(1, A_, taken_, &of_sizes_);
+  taken = unit_.asDiagonal() * of_sizes_.view();  // now in the units of states
+  const auto J_transposed = at.J_transposed.view();
+  kept_.SetZero();
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (age_[m] > 0 || told_deviation_[m] > 0) continue;
+    auto kept = kept_.view().middleCols<3>(3 * m);
+    kept = moved_.view().middleRows<3>(3 * m).transpose();
+    kept.noalias() -= taken.transpose() * J_transposed.middleCols<3>(3 * m);
+    kept /= noise_scale_[m];
+  }
+  EstimateSizeVariance(at);
+}
+
+void ReportedCovariance::EstimateSizeVariance(const MarkerJacobian& at) {
+  // By moments: residuals are r = K^T s + e, with s of variance f and e of variance v in n open
+  // coordinates. With G = K K^T: E |r|^2 = f tr G + v n, E |K r|^2 = f tr G^2 + v tr G.
+  kept_residual_.setZero();
+  double squares = 0;
+  double seen = 0;
+  for (int m = 0; m < kinematics_.num_markers(); ++m) {
+    if (age_[m] > 0 || told_deviation_[m] > 0) continue;
+    const Vector3d r = at.R_WL[kinematics_.link_of_marker(m)] * last_residual_.col(m);
+    kept_residual_.noalias() += kept_.view().middleCols<3>(3 * m) * r;
+    squares += r.squaredNorm();
+    seen += 3;
+  }
+  kept_square_.SetZero();
+  AddSquare(1, kept_, &kept_square_);
+  const auto G = kept_square_.view();
+  double trace = 0;
+  double square = 0;
+  for (Eigen::Index i = 0; i < G.cols(); ++i) {
+    trace += G(i, i);
+    square += 2 * G.col(i).tail(G.rows() - i).squaredNorm() - G(i, i) * G(i, i);
+  }
+  const double open = seen - fitted_;
+  const double unlike = open * square - trace * trace;
+  if (open > 0 && unlike > 0) {
+    const double found =
+        std::max(0.0, (open * kept_residual_.squaredNorm() - trace * squares) / unlike);
+    const double effects = trace * trace / square;
+    const double now = (kPriorEffects + effects * found) / (kPriorEffects + effects);
+    size_variance_ += (now - size_variance_) / ++size_looks_;
+  }
+  size_squares_ = size_variance_ * trace;
+}
+
 bool ReportedCovariance::IsShown(int joint) const {
   for (int m = 0; m < kinematics_.num_markers(); ++m) {
     if (age_[m] == 0 && kinematics_.Moves(joint, m)) return true;
@@ -203,6 +274,7 @@ double ReportedCovariance::VarianceOf(int i, const VectorXd& angles) const {
   for (Eigen::Index j = 0; j < pull_.size(); ++j) {
     variance -= pull_[j] * (1 - pull_[j] * spread_[j]) * A(6 + j, i) * A(6 + j, i);
   }
+  variance += size_variance_ * of_sizes_.view().row(i).squaredNorm();
   if (i < 6) return variance;
   if (kinematics_.IsEndless(i - 6)) return variance * unit_[i] * unit_[i];
   // Nor can it be farther off than an angle that is anywhere in the range.
@@ -218,6 +290,7 @@ MatrixXd ReportedCovariance::Covariance() const {
       pull_.array() * (1 - pull_.array() * spread_.array());  // N - N S N, of the joints
   const auto of_joints = A.rightCols(joints);
   MatrixXd P = A - of_joints * pulled.asDiagonal() * of_joints.transpose();
+  P += size_variance_ * of_sizes_.view() * of_sizes_.view().transpose();
   // What bounds a deviation leaves the correlations as they are.
   const VectorXd scale = deviations_.array() / P.diagonal().array().sqrt();
   P = scale.asDiagonal() * P * scale.asDiagonal();
@@ -243,6 +316,7 @@ void ReportedCovariance::Compute(const VectorXd& angles, const VectorXd& own, Ma
   EstimateVariances();
   kinematics_.ComputeJacobian(at);
   Invert(until_look, *at);
+  if (size_effects_.num_effects() > 0) AddSizes(*at);
   white_share_ = ShareOf(own);
   for (int i = 0; i < kinematics_.num_dofs(); ++i) {
     deviations_[i] = std::sqrt(VarianceOf(i, angles));

@@ -18,7 +18,9 @@ namespace mmm_converter::s2kf {
 /// with J the Jacobian at the estimate, C the variance of a marker's place, measured by the
 /// residuals of those whose place no posture told; N what draws the estimate to the natural
 /// posture, S how far joints are from that. Joints are angles in halves of their range, so that a
-/// limit is no certainty.
+/// limit is no certainty. On a model that is as large as its file has it, sizes of its parts
+/// (deviations s, f of whose square the residuals tell) move the markers by U:
+///   P += f B B^T,   B = A J^T C^-1 U diag(s).
 ///
 /// Frame by frame: Look, then Compute where it is due. Nothing is allocated after construction.
 class ReportedCovariance {
@@ -56,6 +58,9 @@ class ReportedCovariance {
  private:
   double PriorVariance(const S2kfSettings& settings) const;
   void EstimateVariances();
+  /// What sizes that are not the person's add to the covariance, and to the residuals.
+  void AddSizes(const MarkerJacobian& at);
+  void EstimateSizeVariance(const MarkerJacobian& at);
   void Invert(const Eigen::VectorXd* until_look, const MarkerJacobian& at);
   /// The mean share of one look's white noise that an estimator leaves.
   double ShareOf(const Eigen::VectorXd& own) const;
@@ -68,6 +73,7 @@ class ReportedCovariance {
   const Eigen::VectorXd& told_deviation_;
   int num_own_;  // markers whose places no posture told
   const Eigen::VectorXd& noise_scale_;
+  const SizeEffects& size_effects_;
   DeviationSettings settings_;
   double look_variance_;    // that the filter's natural pull is meant for [m^2]
   double filter_variance_;  // of a marker, that the filter goes by, at noise scale 1 [m^2]
@@ -98,6 +104,13 @@ class ReportedCovariance {
   PaddedMatrix H_;
   PaddedMatrix root_;
   PaddedMatrix A_;
+  // Of sizes: what they move markers by, the same weighted, what the posture takes up of it, what
+  // residuals keep (effects x coordinates), and the square of that.
+  PaddedMatrix moved_, weighted_, taken_, of_sizes_, kept_, kept_square_;
+  Eigen::VectorXd kept_residual_;
+  double size_variance_ = 1;  // over that of SizeDeviations
+  double size_looks_ = 0;
+  double size_squares_ = 0;  // of residuals that sizes leave
 };
 
 }  // namespace mmm_converter::s2kf

@@ -60,6 +60,9 @@ TrackedMarkers::TrackedMarkers(const TrackingSetup& setup)
     place_deviation_[m] = told_deviation_[m] > 0 ? kNaN : marker.deviation.value_or(kNaN);
     skin_deviation_[m] = marker.skin_deviation.value_or(kNaN);
   }
+  if (setup.model->coordinates() != nullptr && place_deviation_.array().isNaN().all()) {
+    size_effects_ = SizeEffects(*setup.model, kinematics_, {});
+  }
 }
 
 TrackedMarkers TrackedMarkers::Worn(const WornPlaces& places) const {

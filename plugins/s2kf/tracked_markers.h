@@ -7,6 +7,7 @@
 #include "common/convert/tracking_setup.h"
 #include "common/fit/posture_fit.h"
 #include "common/model/marker_kinematics.h"
+#include "common/model/size_effects.h"
 
 namespace mmm_converter::s2kf {
 
@@ -55,6 +56,10 @@ class TrackedMarkers {
   /// was learnt beside its place moves there with the posture.
   double UsualDeviation(double configured) const;
 
+  /// How sizes that are not the person's move the markers: of a person who was not calibrated, on a
+  /// model of OpenSim, which is as large as its file has it.
+  const SizeEffects& size_effects() const { return size_effects_; }
+
   /// measured: the markers in a frame of labels, 3 x markers [m]; all NaN where not seen. Returns
   /// how many are seen.
   int Gather(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, Eigen::Matrix3Xd* measured) const;
@@ -68,6 +73,7 @@ class TrackedMarkers {
   Eigen::VectorXd place_deviation_;
   Eigen::VectorXd told_deviation_;
   Eigen::VectorXd skin_deviation_;  // NaN: not measured
+  SizeEffects size_effects_;
   Eigen::VectorXd worn_deviation_;  // WornPlaces; NaN: not learnt
 };
 

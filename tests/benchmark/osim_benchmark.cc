@@ -71,6 +71,7 @@ void Deviations(const std::string& text, int first, int last) {
       const Case other = MoveOtherwise(made, seed, seed + 5000);
       const MarkerSequence seen = OccludeShare(other.markers, 0.1, 30, seed);
       AddShares(other, made.generic, Track(made.generic, preset, seen), &shares["uncalibrated"]);
+      AddShares(other, made.person, Track(made.person, preset, seen), &shares["as large"]);
       ConversionResult result = Track(person.model, preset, seen);
       WidenDeviations(person.subject, &result);
       AddShares(other, person.model, result, &shares["calibrated"]);

@@ -18,6 +18,7 @@
 #include "common/io/osim/osim_scaling.h"
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
+#include "common/model/kit_joints.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/support/error.h"
 #include "tests/support/all_indices.h"
