@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -14,6 +17,13 @@ using Level = Verdict::Level;
 constexpr const char* kLevelNames[] = {"good", "check", "failed"};
 
 }  // namespace
+
+void AddReason(Verdict::Level level, std::string reason, Verdict* verdict) {
+  const bool is_gravest = level > verdict->level;
+  verdict->level = std::max(verdict->level, level);
+  verdict->reasons.insert(is_gravest ? verdict->reasons.begin() : verdict->reasons.end(),
+                          std::move(reason));
+}
 
 const char* Name(Verdict::Level level) { return kLevelNames[static_cast<int>(level)]; }
 

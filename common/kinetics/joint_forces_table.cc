@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "common/io/tables/column_names.h"
+#include "common/io/tables/known_frames.h"
 #include "common/io/xml/xml_text.h"
 #include "common/kinetics/inverse_dynamics.h"
 #include "common/support/units.h"
@@ -129,12 +130,13 @@ std::string JsonOfLeg(const JointForces& found, std::size_t i) {
 TextPieces FormatJointForcesSto(const JointForces& found) {
   return [&found](const TextSink& sink) {
     PieceWriter pieces(sink);
+    const KnownFrames frames = FramesWithValues(found.forces);
     *pieces.text() += fmt::format(
         "Inverse Dynamics Generalized Forces\nversion=1\nnRows={}\nnColumns={}\ninDegrees=no\n"
         "endheader\ntime\t{}\n",
-        found.num_frames(), found.names.size() + 1,
+        frames.count(), found.names.size() + 1,
         fmt::join(NamesWith(found, "_moment", "_force"), "\t"));
-    for (int k = 0; k < found.num_frames(); ++k) {
+    for (int k = frames.begin; k < frames.end; ++k) {
       AppendDecimal(found.time(k), kSecondDecimals, pieces.text());
       AppendCells(found.forces.col(k), '\t', "nan", pieces.text());
       *pieces.text() += '\n';

@@ -11,7 +11,7 @@ namespace mmm_converter {
 // Must outlive the texts.
 
 /// As OpenSim's inverse dynamics writes it (.sto): NAME_moment [N m], NAME_force [N]; nan: not
-/// known.
+/// known. From the first to the last frame with a value.
 TextPieces FormatJointForcesSto(const JointForces& found);
 
 /// time_s, NAME_Nm or NAME_N, their standard deviations sd_... where they are estimated, then

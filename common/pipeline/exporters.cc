@@ -197,7 +197,8 @@ const std::vector<Exporter>& Exporters() {
        WriteGrf},
       {"inverse-dynamics", "export-id", "csv", "forces and moments of the joints, as CSV",
        "generalised forces of the joints by inverse dynamics (6 Hz) with what force "
-       "plates measured: .sto as OpenSim's, .json with residuals and the legs' extremes, else CSV",
+       "plates measured: .sto as OpenSim's, from the first to the last frame with values, .json "
+       "with residuals and the legs' extremes, else CSV",
        WriteJointForces, false, true}};
   return exporters;
 }

@@ -139,8 +139,11 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
   if (joint_forces != files.end()) {
     ground->joint_forces = JointForcesOf(*report, *ground, HasDeviations(joint_forces->second));
     const Residuals residuals = MeasureResiduals(*ground->joint_forces);
-    if (!residuals.is_within) {
-      report->warnings.Add(SentenceOf(residuals, *ground->joint_forces));
+    const std::string sentence = SentenceOf(residuals, *ground->joint_forces);
+    if (residuals.frames == 0) {
+      report->warnings.Add(sentence);
+    } else if (!residuals.is_within) {
+      AddReason(Verdict::Level::kCheck, sentence, &report->verdict);
     }
   }
   if (files.count(kGait) > 0) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/io/tables/column_names.h"
+#include "common/io/tables/known_frames.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/up_axis.h"
 #include "common/model/coordinate_map.h"
@@ -42,19 +43,25 @@ void AppendCell(double value, std::string* out) {
   }
 }
 
-/// A table of a row a frame: row(k, out) appends its cells.
+/// A table of a row for each of these frames: row(k, out) appends its cells.
 template <typename Row>
-void AppendTable(const PoseTrajectory& trajectory, std::string header, const Row& row,
-                 const TextSink& sink) {
+void AppendRows(const PoseTrajectory& trajectory, KnownFrames frames, const std::string& header,
+                const Row& row, const TextSink& sink) {
   PieceWriter pieces(sink);
   *pieces.text() += header;
-  for (int k = 0; k < trajectory.num_frames(); ++k) {
+  for (int k = frames.begin; k < frames.end; ++k) {
     AppendDecimal(trajectory.time(k), kOsimDecimals, pieces.text());
     row(k, pieces.text());
     *pieces.text() += '\n';
     pieces.EndPart();
   }
   pieces.Flush();
+}
+
+template <typename Row>
+void AppendTable(const PoseTrajectory& trajectory, const std::string& header, const Row& row,
+                 const TextSink& sink) {
+  AppendRows(trajectory, {0, trajectory.num_frames()}, header, row, sink);
 }
 
 std::vector<std::string> CoordinateNames(const KinematicModel& model) {
@@ -164,10 +171,11 @@ TextPieces FormatOsimMarkerErrors(const std::vector<std::string>& names,
       AppendCell(most, out);
       for (const double error : errors.col(k)) AppendCell(error, out);
     };
-    AppendTable(trajectory,
-                OsimHeader("Model Marker Errors from IK", trajectory.num_frames(), false,
-                           ColumnNames(columns)),
-                row, sink);
+    const KnownFrames frames = FramesWithValues(errors);
+    AppendRows(
+        trajectory, frames,
+        OsimHeader("Model Marker Errors from IK", frames.count(), false, ColumnNames(columns)), row,
+        sink);
   };
 }
 

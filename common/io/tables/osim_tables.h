@@ -28,7 +28,8 @@ TextPieces FormatOsimMarkers(const KinematicModel& model, const PoseTrajectory& 
                              const std::vector<MarkerIx>& markers);
 
 /// How far the model's markers are from the measured ones [m]: total_squared_error,
-/// marker_error_RMS and marker_error_max of each frame, then of each marker that is seen.
+/// marker_error_RMS and marker_error_max of each frame, then of each marker that is seen; from the
+/// first to the last frame in which one is.
 /// errors: markers x frames [m], NaN where it is not seen.
 TextPieces FormatOsimMarkerErrors(const std::vector<std::string>& names,
                                   const Eigen::MatrixXd& errors, const PoseTrajectory& trajectory);
