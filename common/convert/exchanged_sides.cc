@@ -101,9 +101,23 @@ std::optional<ExchangedSides> FindExchangedSides(const TrackingSetup& setup,
     const double exchanged = distance_exchanging(limb);
     if (exchanged > kClearlyNearer * distance) continue;
     if (found && found->exchanged_distance <= exchanged) continue;
-    found = ExchangedSides{part, distance, exchanged};
+    found = ExchangedSides{part, distance, exchanged, {}};
+    for (const Pair& pair : pairs) {
+      if (limb != std::string("all") && pair.limb != limb) continue;
+      found->labels.emplace_back(setup.assignments()[pair.one].label,
+                                 setup.assignments()[pair.other].label);
+    }
   }
   return found;
+}
+
+MarkerSequence WithLabelsExchanged(const ExchangedSides& sides, const MarkerSequence& recording) {
+  std::vector<std::string> labels = recording.labels();
+  for (const auto& [one, other] : sides.labels) std::swap(labels[one], labels[other]);
+  MarkerSequence exchanged(labels, recording.num_frames(), recording.rate(),
+                           recording.first_time());
+  for (int k = 0; k < recording.num_frames(); ++k) exchanged.frame(k) = recording.frame(k);
+  return exchanged;
 }
 
 }  // namespace mmm_converter

@@ -71,6 +71,21 @@ double MeanDistance(const Eigen::MatrixXd& distances, Eigen::Index marker) {
 
 }  // namespace
 
+std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found) {
+  std::set<std::string> others;
+  for (const OtherBody& other : found.others) {
+    for (int i = other.first_name; i < other.end_name; ++i) others.insert(found.labelling.names[i]);
+  }
+  std::vector<RelabelledPoint> points;
+  for (const RelabelledPoint& point : found.points) {
+    if (point.label.starts_with('*')) continue;
+    if (point.is_named && others.contains(point.label)) continue;
+    points.push_back(point);
+    if (point.is_named) points.back().label.erase(0, found.prefix.size());
+  }
+  return points;
+}
+
 std::set<std::string> NamesThatFit(const FoundLabels& found, const MarkerSequence& markers,
                                    double most) {
   const NamedMarkersOf of = FindMarkers(found, markers);
@@ -102,7 +117,8 @@ LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
   fit.p95_distance = Percentile(all, 95);
   if (reference == nullptr) return fit;
   // Of a repair by the names that were there: those that were found are sought at the height.
-  const MarkerSequence& telling = found.is_repair ? markers : named;
+  const bool are_old_right = found.is_repair && !found.has_exchanged_sides;
+  const MarkerSequence& telling = are_old_right ? markers : named;
   const NamedMarkersOf told = FindMarkers(found, telling);
   if (told.markers.size() < kFewestPoints) return fit;
   HeightOptions options;

@@ -11,6 +11,7 @@
 #include "common/convert/marker_set.h"
 #include "common/judge/label_verdict.h"
 #include "common/label/track/label_recording.h"
+#include "common/pipeline/exchanged_labels.h"
 #include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/labelled_output.h"
 #include "common/pipeline/object.h"
@@ -292,21 +293,6 @@ std::vector<std::string> FilesOf(const LabelHints& hints) {
   return files;
 }
 
-std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found) {
-  std::set<std::string> others;
-  for (const OtherBody& other : found.others) {
-    for (int i = other.first_name; i < other.end_name; ++i) others.insert(found.labelling.names[i]);
-  }
-  std::vector<RelabelledPoint> points;
-  for (const RelabelledPoint& point : found.points) {
-    if (point.label.starts_with('*')) continue;
-    if (point.is_named && others.contains(point.label)) continue;
-    points.push_back(point);
-    if (point.is_named) points.back().label.erase(0, found.prefix.size());
-  }
-  return points;
-}
-
 FoundLabels FindNames(const InputRequest& request, const Input& input,
                       const ConverterConfig& config, Warnings* warnings) {
   LabelScene scene;
@@ -327,20 +313,31 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   LabelScene scene;
   LabelOptions options;
   FoundLabels found = FindNamesAndPerson(request, known, input, config, &scene, &options, warnings);
+  const std::vector<std::string>& labels = input.recording.markers.labels();
+  std::optional<Input> exchanged;
+  if (hints.repair) {
+    if (auto sides =
+            ExchangeSides(found.setup, options.stored, input.recording.markers, warnings)) {
+      exchanged = input;
+      exchanged->recording.markers = std::move(*sides);
+      scene = {};
+      options = {};
+      found = FindNamesAndPerson(request, known, *exchanged, config, &scene, &options, warnings);
+      found.has_exchanged_sides = true;
+    }
+  }
+  const MarkerSequence& markers = (exchanged ? *exchanged : input).recording.markers;
   found.is_repair = known.repair;
-  const Recording& recording = input.recording;
-  found.labelling =
-      LabelRecording(scene, found.labelling.names, recording.markers, options, progress);
-  const std::vector<std::string>& labels = recording.markers.labels();
+  found.labelling = LabelRecording(scene, found.labelling.names, markers, options, progress);
   if (known.repair && found.person.subject == nullptr) {
     // Who asks for a repair has labels that may be wrong all along, as far as the body can tell.
     constexpr double kWornElsewhere = 0.1;  // [m]
-    KeepLabelsOfAllFrames(labels,
-                          hints.repair ? NamesThatFit(found, recording.markers, kWornElsewhere)
+    KeepLabelsOfAllFrames(markers.labels(),
+                          hints.repair ? NamesThatFit(found, markers, kWornElsewhere)
                                        : std::set<std::string>(labels.begin(), labels.end()),
                           &found.labelling);
   }
-  found.points = RelabelledPoints(found.labelling, labels, recording.markers.num_frames());
+  found.points = RelabelledPoints(found.labelling, labels, markers.num_frames());
   found.changes = ChangesOf(found.labelling, labels);
   return found;
 }

@@ -43,7 +43,8 @@ struct OtherBody {
 
 /// Whose markers the points of a recording are.
 struct FoundLabels {
-  bool is_repair = false;  ///< of the recording's own labels
+  bool is_repair = false;            ///< of the recording's own labels
+  bool has_exchanged_sides = false;  ///< these were left for right, and were exchanged first
   Person person;
   TrackingSetup setup;            ///< of the labelling's names; its model is the person's
   std::string prefix;             ///< of the person's names, as in `anna:`

@@ -10,6 +10,7 @@
 
 #include "common/io/c3d/c3d_file.h"
 #include "common/io/c3d/c3d_relabelling.h"
+#include "common/io/c3d/c3d_writer.h"
 #include "common/io/recording/recording.h"
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
@@ -90,6 +91,49 @@ TEST(Label, NamesThatAreThereAndRightStay) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("changed    nothing"), HasSubstr("verdict    good")));
   EXPECT_EQ(nlohmann::json::parse(ReadText(summary)).at("changes").size(), 0);
+}
+
+// The shipped recording with left and right labels exchanged, of all markers or of the legs.
+std::string WithSidesExchanged(bool of_legs_only) {
+  MarkerSequence markers = ReadRecording(Handstand(), {}).markers.Slice(100, 140);
+  std::vector<std::string> labels = markers.labels();
+  const std::set<std::string> legs = {"ANK", "HEE", "HIP", "KNE", "MT1",
+                                      "MT5", "THI", "TIP", "TOE"};
+  for (std::string& label : labels) {
+    const bool is_sided = label.size() == 4 && (label[0] == 'L' || label[0] == 'R');
+    if (!is_sided || markers.FindLabel((label[0] == 'L' ? "R" : "L") + label.substr(1)) < 0)
+      continue;
+    if (of_legs_only && !legs.contains(label.substr(1))) continue;
+    label[0] = label[0] == 'L' ? 'R' : 'L';
+  }
+  MarkerSequence exchanged(labels, markers.num_frames(), markers.rate(), markers.first_time());
+  for (int k = 0; k < markers.num_frames(); ++k) exchanged.frame(k) = markers.frame(k);
+  std::string file = InFolder("sides.c3d");
+  WriteC3d(file, exchanged, {});
+  return file;
+}
+
+// All of them, or none: half a repair is worse than none.
+TEST(Label, RepairExchangesSidesWhole) {
+  const MarkerSequence truth = ReadRecording(Handstand(), {}).markers.Slice(100, 140);
+  for (const bool of_legs_only : {false, true}) {
+    SCOPED_TRACE(of_legs_only);
+    const std::string output = InFolder("repaired.c3d");
+    const ProgramRun run = RunProgram(
+        {"label", WithSidesExchanged(of_legs_only), "--repair", "--height", "1.8", "-o", output});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("left and right labels of"), HasSubstr("mirrored")));
+    EXPECT_THAT(run.out, HasSubstr("verdict    good"));
+    const MarkerSequence repaired = ReadRecording(output, {}).markers;
+    for (int i = 0; i < truth.num_labels(); ++i) {
+      const int label = repaired.FindLabel(truth.labels()[i]);
+      ASSERT_GE(label, 0) << truth.labels()[i];
+      for (int k = 0; k < truth.num_frames(); k += 10) {
+        ASSERT_LT((repaired.frame(k).col(label) - truth.frame(k).col(i)).norm(), 1e-4)
+            << truth.labels()[i];
+      }
+    }
+  }
 }
 
 // Half of a file, by the subject file of somebody else.
