@@ -5,6 +5,9 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "MMMConverterS2KF/report/drawn_frames.h"
 #include "MMMConverterS2KF/report/html.h"
@@ -12,7 +15,9 @@
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/page_sources.h"
 #include "common/io/recording/marker_labels.h"
+#include "common/judge/label_verdict.h"
 #include "common/judge/verdict.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -54,12 +59,24 @@ Json TracksOfNames(const LabelReport& report) {
           {"names", names}};
 }
 
+// Of a repair what it did; else what was found.
+std::string SentenceOf(const FoundLabels& found) {
+  if (!found.is_repair) return DescribeLabels(found);
+  std::set<int> points;
+  for (const LabelChange& change : found.changes) points.insert(change.point);
+  const std::vector<std::string> missing = NamesNotFound(found.labelling);
+  return fmt::format("{} of {} labels {} changed{}",
+                     points.empty() ? "None" : std::to_string(points.size()),
+                     found.labelling.names.size(), points.size() == 1 ? "was" : "were",
+                     missing.empty() ? "" : fmt::format("; on no point: {}", FirstNames(missing)));
+}
+
 }  // namespace
 
 std::string FormatLabelPage(const LabelReport& report) {
   Json figures = ToJson(report);
-  figures["sentence"] = fmt::format("{}. Verdict: {}.", DescribeLabels(report.found),
-                                    DescribeVerdict(report.verdict));
+  figures["sentence"] =
+      fmt::format("{}. Verdict: {}.", SentenceOf(report.found), DescribeVerdict(report.verdict));
   const std::string title =
       "Labels of " + std::filesystem::path(report.input.recording.file).filename().string();
   const std::string data = DataBlock("figures", FormatJson(figures)) +

@@ -164,6 +164,7 @@ Json ToJson(const LabelReport& report) {
                  {"motion", recording.motion()},
                  {"points", recording.markers.num_labels()}}},
                {"output", TextOrNull(report.output)},
+               {"repair", report.found.is_repair},
                {"frames", recording.markers.num_frames()},
                {"rate_hz", recording.markers.rate()},
                {"height_m", person.height.value > 0 ? Number(person.height.value) : Json(nullptr)},

@@ -22,13 +22,15 @@ class LabelPage(PageCase):
         last = figures["changes"][-1]
         self.assertEqual(self.run_script("return mmmReport.name"), last["to"])
         self.assertEqual(self.run_script("return mmmReport.frame"), last["first_frame"])
-        self.assertIn("now", self.text("#x-plot .readout"))
+        words = ("after it", "after the repair") if figures["repair"] else ("found", "names that were found")
+        self.assertIn(words[0], self.text("#x-plot .readout"))
+        self.assertIn(words[1], self.text("#player-heading"))
         self.check_sticks(len(names))
         self.check_nothing_was_loaded()
 
     # Between all names; crosses where the last change begins.
     def check_sticks(self, names):
-        self.assertIn("changed: ", self.text("#now"))
+        self.assertRegex(self.text("#now"), "(changed|newly named): ")
         for drawn in self.run_script("return mmmReport.drawn"):
             self.assertGreater(drawn["crosses"], 0, drawn)
             self.assertGreater(drawn["ends"], 0, drawn)

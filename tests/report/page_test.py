@@ -231,6 +231,16 @@ class ReportPage(ReportCase):
         self.run_script("mmmReport.seek(100)")
         self.assertEqual(self.frame(), 100)
 
+    def test_value_axes_have_a_scale(self):
+        for page in ("compare.html", "finished.html"):
+            self.open(page)
+            counts = self.run_script(
+                "return [...document.querySelectorAll('.plot-area')].filter((plot) => plot.offsetHeight > 0)"
+                ".map((plot) => [...plot.querySelectorAll('.dygraph-axis-label-y')]"
+                ".filter((label) => label.textContent).length)")
+            self.assertGreater(len(counts), 2)
+            self.assertGreaterEqual(min(counts), 2, page)
+
     def test_click_in_a_plot_jumps_there(self):
         self.open("compare.html")
         plot = self.find("#distance-plot .plot-area")

@@ -59,7 +59,7 @@ class Chart {
       valueRange: range || null, includeZero: !logarithmic && !range,
       gridLineColor: themeColour("grid"), axisLineColor: themeColour("line"), gridLineWidth: 1,
       axisLabelFontSize: 12, xRangePad: 0, animatedZooms: false, highlightCircleSize: 3,
-      axes: {y: Object.assign({axisLabelWidth: 46}, hasNoScale ? {drawGrid: false, axisLabelFormatter: () => ""} : {})},
+      axes: {y: Object.assign({axisLabelWidth: 46, ticker: twoTicks}, hasNoScale ? {drawGrid: false, axisLabelFormatter: () => ""} : {})},
       underlayCallback: (canvas, area, graph) => this.shade(shades, canvas, area, graph),
       interactionModel: withoutTouch(Dygraph.defaultInteractionModel),
       clickCallback: (event, x) => this.view.seek(this.view.trial.frameAt(x)),

@@ -123,3 +123,13 @@ function redrawWithColours(view) {
 function markReady() {
   requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("ready")));
 }
+
+// Marks of a value axis, of which at least two are named: one number says nothing of the scale.
+function twoTicks(least, most, pixels, options, graph, values) {
+  for (let apart = options("pixelsPerLabel"); ; apart /= 1.5) {
+    const ticks = Dygraph.numericTicks(least, most, pixels,
+      (name) => (name === "pixelsPerLabel" ? apart : options(name)), graph, values);
+    const named = ticks.filter(({v, label}) => label && v >= least && v <= most);
+    if (named.length > 1 || apart < 4) return ticks;
+  }
+}

@@ -68,7 +68,7 @@ class CycleChart {
       gridLineColor: themeColour("grid"), axisLineColor: themeColour("line"), gridLineWidth: 1, axisLabelFontSize: 11,
       xRangePad: 0, valueRange: this.range(rows),
       axes: {x: {axisLabelFormatter: (percent) => `${percent} %`, pixelsPerLabel: 50},
-        y: {axisLabelWidth: 34, pixelsPerLabel: 26}},
+        y: {axisLabelWidth: 34, pixelsPerLabel: 26, ticker: twoTicks}},
       underlayCallback: (canvas, area, graph) => this.drawFootOff(canvas, area, graph),
     });
   }

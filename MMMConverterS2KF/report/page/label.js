@@ -29,7 +29,7 @@ class LabelView {
 
   describe(frame) {
     const changed = this.trial.names.filter((_, label) => this.trial.isChanged(label, frame)).map((one) => one.name);
-    return [changed.length > 0 ? `changed: ${changed.join(", ")}` : ""];
+    return [changed.length > 0 ? `${this.figures.repair ? "changed" : "newly named"}: ${changed.join(", ")}` : ""];
   }
 
   track() {
@@ -55,9 +55,9 @@ class LabelView {
       .map((change) => [this.trial.drawn(change.first_frame), this.trial.drawn(change.last_frame)]);
     this.charts = ["x", "y", "z"].map((axis, i) => {
       const values = (which) => (k) => track[which][i * this.trial.frames + k];
-      const lines = [{name: "now", colour: converterColour(0), dash: null, values: values("after")}];
+      const lines = [{name: this.trial.words.after, colour: converterColour(0), dash: null, values: values("after")}];
       if (track.hasBefore) {
-        lines.push({name: "before", colour: converterColour(1), dash: [4, 4], values: values("before")});
+        lines.push({name: this.trial.words.before, colour: converterColour(1), dash: [4, 4], values: values("before")});
       }
       return new Chart(byId(`${axis}-plot`), this, {lines, shades, unit: "m", digits: 3,
         range: withMargin(extremes(lines, this.trial.frames)), label: `${axis} over time, metres`});
@@ -82,7 +82,7 @@ class LabelView {
 }
 
 function makeChanges(changes, view) {
-  const heads = ["Label", "is", "frames", "seconds", "probability"];
+  const heads = [view.figures.repair ? "Label" : "Point", "is", "frames", "seconds", "probability"];
   const rows = changes.slice(0, kMostRows).map((change) => {
     const shown = [change.to, change.from].find((name) => view.trial.names.some((one) => one.name === name));
     const button = element("button", {type: "button", disabled: shown === undefined}, change.from);
@@ -95,22 +95,31 @@ function makeChanges(changes, view) {
       element("td", {}, formatNumber(change.probability, 3)));
   });
   const table = element("table", {class: "figures changes"},
-    element("caption", {class: "unseen"}, "What was changed"),
+    element("caption", {class: "unseen"}, byId("change-heading").textContent),
     element("thead", {}, element("tr", {}, ...heads.map((head) => element("th", {scope: "col"}, head)))),
     element("tbody", {}, ...rows));
   const more = changes.length - rows.length;
-  return [element("div", {class: "wide", tabindex: "0", role: "region", "aria-label": "What was changed"}, table),
+  return [element("div", {class: "wide", tabindex: "0", role: "region", "aria-label": byId("change-heading").textContent}, table),
     more > 0 ? element("p", {class: "caption"}, `And ${more} more, which the summary (JSON) has.`) : null];
+}
+
+// Of a repair there are labels before and after it; points without labels got names.
+function chooseWords(isRepair) {
+  for (const one of document.querySelectorAll(isRepair ? ".of-names" : ".of-repair")) one.hidden = true;
+  if (isRepair) return;
+  byId("player-heading").textContent = "Points under the names that were found";
+  byId("change-heading").textContent = "Which points got which names";
 }
 
 function start() {
   const figures = readBlock("figures");
+  chooseWords(figures.repair);
   byId("program").textContent = figures.program;
   byId("sentence").textContent = figures.sentence;
   byId("about").textContent = `${figures.input.file}: ${plural(figures.frames, "frame")} at ` +
     `${formatNumber(figures.rate_hz, 0)} Hz, ${plural(figures.input.points, "point")}. ` +
     (figures.output === null ? "Nothing was written." : `Written to ${figures.output}.`);
-  const view = new LabelView(figures, new LabelTrial(readBlock("tracks")));
+  const view = new LabelView(figures, new LabelTrial(readBlock("tracks"), figures.repair));
   replaceContent(byId("name"), ...view.trial.names.map((one) => option(one.name, one.name)));
   byId("name").value = view.name;
   byId("name").addEventListener("change", (event) => view.show(event.target.value, view.frame));
@@ -123,7 +132,7 @@ function start() {
     figures,
     get name() { return view.name; },
     get frame() { return view.frame; },
-    // Crosses of what was changed in this frame, and ends of sticks: of now, and of what was.
+    // Crosses of what was changed in this frame, and ends of sticks: after it, and before.
     get drawn() {
       return view.trial.tracks.map((track) => {
         const one = track.makeFigure(makeSigns());

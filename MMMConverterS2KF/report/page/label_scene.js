@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A recording's points with sticks between neighbours, under the names as they were and as they are now: where a name
-// is on another point, sticks of what was go astray.
+// A recording's points with sticks between neighbours, under the names before and after: where a name is on another
+// point, sticks of those before go astray.
 
 const kStickFrames = 60;     // that tell neighbours
 const kStiffness = 5;        // a spread of a distance counts so many times the distance
 const kMoved = 1e-4;         // [m] between the places of a name that is on another point
 
-// The names' tracks, before and now; the chosen one is drawn as a ring.
+// The names' tracks, before and after; the chosen one is drawn as a ring.
 class LabelTrial extends Trial {
-  constructor(json) {
+  constructor(json, isRepair) {
     super({...json, name: "labels", labels: json.names.map((one) => one.name), markers: [], model: {segments: []},
       optimum_every: json.every});
     this.firstFrame = json.first_frame;
@@ -23,7 +23,8 @@ class LabelTrial extends Trial {
     const hasBefore = this.names.some((one) => one.hasBefore);
     const track = (name, which, contender) => ({name, which, contender, trial: this,
       makeFigure: (signs) => new StickFigure(this, which, contender, signs)});
-    this.tracks = [...(hasBefore ? [track("as it was", "before", 1)] : []), track("now", "after", 0)];
+    this.words = isRepair ? {before: "before the repair", after: "after it"} : {before: "as it was", after: "found"};
+    this.tracks = [...(hasBefore ? [track(this.words.before, "before", 1)] : []), track(this.words.after, "after", 0)];
   }
 
   // As of any Trial: a frame's names beside each other.
@@ -131,7 +132,7 @@ class StickFigure {
   constructor(trial, which, contender, signs) {
     this.trial = trial;
     this.which = which;
-    this.track = {contender, name: which === "after" ? "now" : "as it was", mean: []};
+    this.track = {contender, name: trial.words[which], mean: []};
     this.crosses = Cloud.signs(trial.names.length, signs.cross, 1.2 * kMarkerSize);
     this.lines = Cloud.lines(trial.sticks.length);
     this.group = new THREE.Group();

@@ -43,7 +43,7 @@ class LiveAngles {
         labels: ["time", ...chart.of.map(({side}) => side || "middle")], colors: chart.of.map(({side}) => kSideLines[side]),
         legend: "never", strokeWidth: 1.8, interactionModel: {}, highlightCircleSize: 0, gridLineColor: themeColour("grid"),
         axisLineColor: themeColour("line"), gridLineWidth: 1, axisLabelFontSize: 11, xRangePad: 0,
-        axes: {x: {axisLabelFormatter: (time) => `${time.toFixed(0)} s`}, y: {axisLabelWidth: 34, pixelsPerLabel: 24}},
+        axes: {x: {axisLabelFormatter: (time) => `${time.toFixed(0)} s`}, y: {axisLabelWidth: 34, pixelsPerLabel: 24, ticker: twoTicks}},
       });
     }
   }
