@@ -13,6 +13,7 @@
 #include "MMMConverterS2KF/batch/result_files.h"
 #include "MMMConverterS2KF/batch/scan.h"
 #include "MMMConverterS2KF/commands/commands.h"
+#include "MMMConverterS2KF/commands/request_options.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "MMMConverterS2KF/terminal/log.h"
@@ -51,10 +52,7 @@ const std::vector<OptionGroup> kBatchOptions = {
       {"subjects", "FILE",
        "with --scan: CSV table of persons: folder (or file),height_m,mass_kg,"
        "subject_file; other columns become metadata",
-       ""}}},
-    {"General",
-     {{"log", "LEVEL", "off, error, warning, info or debug; default: info", ""},
-      {"help,h", "", "print this help", ""}}}};
+       ""}}}};
 
 constexpr const char* kBatchUsage = R"(MMMConverterS2KF batch MANIFEST -o FOLDER [options]
 Converts the recordings of a manifest, an XML file ("print-config batch" prints an example). A
@@ -64,7 +62,8 @@ interrupted.
 {}FOLDER contains motions/ID.xml, optionally reports/, csv/, robots/ and subjects/; persons/ID.xml
 of each <Person>, who is calibrated once; journal.jsonl with a line for each finished recording;
 results.jsonl and results.csv; index.html, sorted by quality, the worst first. The exit code is 1
-if a recording failed, and 128 + N if signal N interrupted the run.
+if a recording failed, whatever the verdicts, and 128 + N if signal N interrupted the run; with
+--strict 3 if a verdict is failed, of shards at their --merge.
 
 Examples
   MMMConverterS2KF batch --scan recordings --subjects subjects.csv > manifest.xml
@@ -159,11 +158,16 @@ std::string DescribeResults(const BatchManifest& manifest, const BatchOptions& o
   return text + fmt::format("results    {}\n", index.string());
 }
 
-int Merge(const BatchManifest& manifest, const BatchOptions& options) {
+int ExitCodeOf(const Arguments& arguments, const BatchResults& results) {
+  const auto worst = results.judged_failed > 0 ? Verdict::Level::kFailed : Verdict::Level::kGood;
+  return ExitCodeOf(arguments, {worst});
+}
+
+int Merge(const BatchManifest& manifest, const BatchOptions& options, const Arguments& arguments) {
   BatchProgress progress;
   const BatchResults results = WriteBatchResults(manifest, options, &progress);
   std::cout << DescribeResults(manifest, options, results);
-  return results.failed + results.missing > 0 ? 1 : 0;
+  return results.failed + results.missing > 0 ? 1 : ExitCodeOf(arguments, results);
 }
 
 void WarnOfEarlierRun(const std::string& folder) {
@@ -179,7 +183,8 @@ void WarnOfEarlierRun(const std::string& folder) {
                   folder, ended));
 }
 
-int Convert(const BatchManifest& manifest, const BatchOptions& options) {
+int Convert(const BatchManifest& manifest, const BatchOptions& options,
+            const Arguments& arguments) {
   if (!options.resume) WarnOfEarlierRun(options.output);
   BatchProgress progress;
   const InterruptionWatch watch;
@@ -190,15 +195,17 @@ int Convert(const BatchManifest& manifest, const BatchOptions& options) {
   } else if (was_ended) {
     LogWarning("interrupted; what is done stays: go on with --resume");
   }
+  int exit_code = 0;
   if (!was_ended && options.shards == 1) {
-    std::cout << DescribeResults(manifest, options,
-                                 WriteBatchResults(manifest, options, &progress));
+    const BatchResults results = WriteBatchResults(manifest, options, &progress);
+    exit_code = ExitCodeOf(arguments, results);
+    std::cout << DescribeResults(manifest, options, results);
   }
   const std::string shard =
       options.shards > 1 ? fmt::format(" shard {}/{}:", options.shard, options.shards) : "";
   std::cout << fmt::format("run       {} {}\n", shard, DescribeRun(outcome));
   if (InterruptionWatch::Signal() != 0) return kSignalExit + InterruptionWatch::Signal();
-  return was_ended || outcome.failed > 0 ? 1 : 0;
+  return was_ended || outcome.failed > 0 ? 1 : exit_code;
 }
 
 int PrintScan(const Arguments& arguments) {
@@ -214,7 +221,7 @@ int PrintScan(const Arguments& arguments) {
 
 }  // namespace
 
-Manual BatchManual() { return {kBatchUsage, kBatchOptions}; }
+Manual BatchManual() { return {kBatchUsage, CommandOptions(task::kBatch, kBatchOptions)}; }
 
 int RunBatch(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
@@ -227,7 +234,8 @@ int RunBatch(const Arguments& arguments) {
   const BatchOptions options = MakeOptions(arguments);
   BatchManifest manifest = ReadManifest(*arguments.positional());
   UsePersons(options.output, &manifest);
-  return arguments.Has("merge") ? Merge(manifest, options) : Convert(manifest, options);
+  return arguments.Has("merge") ? Merge(manifest, options, arguments)
+                                : Convert(manifest, options, arguments);
 }
 
 }  // namespace mmm_converter

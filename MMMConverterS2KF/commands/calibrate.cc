@@ -139,7 +139,7 @@ int WriteOsim(const Arguments& arguments, const OsimScalingReport& report,
     WriteFileAtomically(*file, FormatJson(ToJson(report, output)));
   }
   std::cout << FormatOsimScalingSummary(report, output);
-  return 0;
+  return report.verdict ? ExitCodeOf(arguments, {report.verdict->level}) : 0;
 }
 
 // A model of OpenSim instead of a subject.
@@ -226,7 +226,7 @@ int RunCalibrate(const Arguments& arguments) {
                                        "the model scaled by height"));
   }
   std::cout << FormatCalibrationSummary(report, output);
-  return 0;
+  return ExitCodeOf(arguments, {report.verdict.level});
 }
 
 }  // namespace mmm_converter

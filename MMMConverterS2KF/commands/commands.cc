@@ -22,9 +22,10 @@ Environment
   MMM_CONVERTER_INSTRUCTION_SET  baseline, avx2 or avx512, instead of the best available
 
 Exit codes
-  0  done
-  1  input or conversion failed
+  0  done: outputs are written, whatever the verdict on them
+  1  input or conversion failed; of check-dynamics also: the motion is implausible
   2  the command line is invalid
+  3  with --strict: outputs are written, and a verdict is failed
 )";
 
 }  // namespace

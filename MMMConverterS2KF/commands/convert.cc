@@ -176,7 +176,9 @@ int ConvertSeveral(const Arguments& arguments) {
     for (const ConversionReport& report : reports) all.push_back(&report);
     WriteFileAtomically(*file, FormatConversionPage(all, failures));
   }
-  return failures.empty() ? 0 : 1;
+  std::vector<Verdict::Level> verdicts;
+  for (const ConversionReport& report : reports) verdicts.push_back(report.verdict.level);
+  return failures.empty() ? ExitCodeOf(arguments, verdicts) : 1;
 }
 
 int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& request) {
@@ -203,7 +205,9 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   }
   std::cout << FormatAllMotions(all);
   for (const std::string& failure : failures) LogError(failure);
-  return failures.empty() ? 0 : 1;
+  std::vector<Verdict::Level> verdicts;
+  for (const ConversionReport* report : reports) verdicts.push_back(report->verdict.level);
+  return failures.empty() ? ExitCodeOf(arguments, verdicts) : 1;
 }
 
 }  // namespace
@@ -239,7 +243,7 @@ int RunConvert(const Arguments& arguments) {
     WriteFileAtomically(*file, FormatUsedSet(report.plan));
   }
   std::cout << FormatSummary(report);
-  return 0;
+  return ExitCodeOf(arguments, {report.verdict.level});
 }
 
 }  // namespace mmm_converter

@@ -95,7 +95,7 @@ int RunLabel(const Arguments& arguments) {
     WriteFileAtomically(*file, FormatLabelPage(report));
   }
   std::cout << FormatLabelSummary(report);
-  return 0;
+  return ExitCodeOf(arguments, {report.verdict.level});
 }
 
 }  // namespace mmm_converter

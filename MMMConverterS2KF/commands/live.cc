@@ -7,6 +7,7 @@
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/request_options.h"
+#include "MMMConverterS2KF/live/live_output.h"
 #include "MMMConverterS2KF/live/live_run.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
 #include "MMMConverterS2KF/live/live_summary.h"
@@ -57,6 +58,7 @@ Tracks while frames come, until the source ends or Ctrl-C is pressed. SOURCE is 
   MMMConverterS2KF live natnet://192.168.0.11 --height 1.75 --self-calibrate --to mvn://127.0.0.1
   MMMConverterS2KF live qtm://192.168.0.10 --label --subject-file anna.xml --view
   MMMConverterS2KF live qtm://192.168.0.10 --height 1.75 --robot g1.urdf --to zmq://127.0.0.1
+  MMMConverterS2KF live natnet://192.168.0.11 --model box.xml --and-model lamp.xml -o scene.xml
   MMMConverterS2KF live replay:walk.c3d@2 --height 1.75 --to zmq://127.0.0.1:5556
 )";
 
@@ -166,14 +168,13 @@ Manual LiveManual() {
 int RunLive(const Arguments& arguments) {
   StartLog(arguments.Get("log").value_or("info"));
   const LiveRequest request = MakeLiveRequest(arguments);
-  if (!request.output.empty()) {
+  for (const std::string& motion : FirstMotions(request)) {
     Warnings warnings;
-    const std::string recovered = RecoverMotion(request.output, &warnings);
-    if (!recovered.empty()) {
-      LogWarning(fmt::format("{}: the motion of a run that was killed is now in {}", request.output,
-                             recovered));
-      LogWarnings(warnings);
-    }
+    const std::string recovered = RecoverMotion(motion, &warnings);
+    if (recovered.empty()) continue;
+    LogWarning(
+        fmt::format("{}: the motion of a run that was killed is now in {}", motion, recovered));
+    LogWarnings(warnings);
   }
   StatusLine line;
   LiveReport report;
@@ -198,7 +199,9 @@ int RunLive(const Arguments& arguments) {
     WriteFileAtomically(*file, FormatConversionPage({&report.motions.front()}));
   }
   std::cout << FormatSummary(report);
-  return 0;
+  std::vector<Verdict::Level> verdicts;
+  for (const ConversionReport& motion : report.motions) verdicts.push_back(motion.verdict.level);
+  return ExitCodeOf(arguments, verdicts);
 }
 
 }  // namespace mmm_converter

@@ -93,6 +93,12 @@ ConversionRequest MakeRequest(Task task, const Arguments& arguments, const std::
   throw UsageError(contradiction);
 }
 
+int ExitCodeOf(const Arguments& arguments, const std::vector<Verdict::Level>& verdicts) {
+  constexpr int kJudgedFailed = 3;
+  const auto failed = std::count(verdicts.begin(), verdicts.end(), Verdict::Level::kFailed);
+  return arguments.Has("strict") && failed > 0 ? kJudgedFailed : 0;
+}
+
 std::vector<InputRequest> MakeInputs(Task task, const Arguments& arguments,
                                      const std::vector<std::string>& per_recording) {
   std::vector<InputRequest> inputs;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "MMMConverterS2KF/terminal/command_line.h"
+#include "common/judge/verdict.h"
 #include "common/pipeline/conversion_options.h"
 
 namespace mmm_converter {
@@ -29,6 +30,9 @@ void ReadArguments(const Arguments& arguments, const std::vector<Option>& table,
 
 /// @throws UsageError as ReadArguments, and where options exclude or need each other.
 ConversionRequest MakeRequest(Task task, const Arguments& arguments, const std::string& file);
+
+/// Of a command that wrote what it was asked for: 3 where it is --strict and a verdict failed.
+int ExitCodeOf(const Arguments& arguments, const std::vector<Verdict::Level>& verdicts);
 
 /// What it says of each positional argument, with its own of the options per_recording.
 std::vector<InputRequest> MakeInputs(Task task, const Arguments& arguments,

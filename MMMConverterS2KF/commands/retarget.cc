@@ -169,7 +169,9 @@ int RunRetarget(const Arguments& arguments) {
     std::cout << FormatBodyMap(report.robot.model, report.body.map);
   }
   std::cout << FormatRetargetSummary(report);
-  return 0;
+  std::vector<Verdict::Level> verdicts = {report.verdict.level};
+  if (report.conversion_verdict) verdicts.push_back(report.conversion_verdict->level);
+  return ExitCodeOf(arguments, verdicts);
 }
 
 }  // namespace mmm_converter

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -35,7 +36,22 @@ void TrackEarlier(const ConversionPlan& plan, JournalContent* content) {
   writer.FindIncidents();
 }
 
+std::string WithSuffix(const std::filesystem::path& output, const std::string& suffix) {
+  return (output.parent_path() / (output.stem().string() + suffix + output.extension().string()))
+      .string();
+}
+
 }  // namespace
+
+std::vector<std::string> FirstMotions(const LiveRequest& request) {
+  if (request.output.empty()) return {};
+  std::vector<std::string> files = {request.output};
+  for (const std::string& model : request.other_objects) {
+    const std::string name = std::filesystem::path(model).stem().string();
+    files.push_back(WithSuffix(request.output, "_" + name));
+  }
+  return files;
+}
 
 LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
   OutputPlan outputs;
@@ -44,45 +60,56 @@ LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
   NameInputs(inputs, &outputs);
   outputs.Read(request.robot.file);
   outputs.Read(request.robot.map_file);
-  outputs.Write(request.output);
-  if (!request.output.empty()) outputs.Write(JournalOf(request.output));
+  for (const std::string& file : FirstMotions(request)) {
+    outputs.Write(file);
+    outputs.Write(JournalOf(file));
+  }
   outputs.Write(request.subject_output);
   for (const auto& [unused, file] : request.exports) outputs.Write(file);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
+  for (const std::string& file : request.other_objects) outputs.Read(file);
   outputs.Check();
 }
 
-std::string LiveOutput::FileOf(std::size_t motion) const {
-  if (motion == 0) return request_.output;
-  const std::filesystem::path output = request_.output;
-  return (output.parent_path() /
-          fmt::format("{}_{}{}", output.stem().string(), motion + 1, output.extension().string()))
-      .string();
+std::string LiveOutput::FileOf(const Motion& motion) const {
+  std::string suffix;
+  if (motion.body > 0) suffix += "_" + motion.plan.motion_name;
+  if (motion.number > 0) suffix += fmt::format("_{}", motion.number + 1);
+  return WithSuffix(request_.output, suffix);
 }
 
-ConversionRequest LiveOutput::RequestOf(std::size_t motion) const {
+ConversionRequest LiveOutput::RequestOf(const Motion& motion) const {
   ConversionRequest request;
   request.input = request_.input;
-  request.input.file = FileOf(motion);
-  request.output = FileOf(motion);
+  request.input.file = motion.file;
+  request.output = motion.file;
   request.model_path = request_.model_path;
-  if (motion == 0) request.exports = request_.exports;
+  if (motion.body > 0) {
+    request.input.model_file = motion.plan.input.model_file;
+    request.model_path.clear();
+  }
+  if (motion.is_first()) request.exports = request_.exports;
   return request;
 }
 
 std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const LiveBody& body) {
-  const std::size_t motion = plans_.size();
-  plans_.push_back(plan);
-  plans_.back().output = FileOf(motion);
+  Motion motion;
+  motion.plan = plan;
+  motion.body = body.index;
+  motion.number =
+      static_cast<int>(std::count_if(motions_.begin(), motions_.end(), [&](const Motion& earlier) {
+        return earlier.body == body.index;
+      }));
+  motion.file = motion.plan.output = FileOf(motion);
   JournalHeader header;
-  header.output = FileOf(motion);
+  header.output = motion.file;
   header.format = plan.output_format;
-  header.motion = DescribeMotion(RequestOf(motion), plans_.back());
-  if (!request_.robot.file.empty()) {
+  header.motion = DescribeMotion(RequestOf(motion), motion.plan);
+  if (IsRobots(motion)) {
     header.format = "2.0";
     header.motion = {};
-    header.motion.recording_name = plans_.back().motion_name;
-    header.motion.motion_name = plans_.back().motion_name;
+    header.motion.recording_name = plan.motion_name;
+    header.motion.motion_name = plan.motion_name;
     header.motion.model_path = ModelPathFor(request_.robot.file, header.output);
   }
   header.rate = body.rate;
@@ -90,43 +117,50 @@ std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const Li
   for (const int joint : body.setup.joints) {
     header.joints.push_back(body.setup.model->joint(joint).name);
   }
+  motions_.push_back(std::move(motion));
   const bool is_recording = !FileOfSource(request_.input.file).empty();
   return std::make_unique<MotionJournal>(header, is_recording);
 }
 
-void LiveOutput::WriteRobotMotion(std::size_t motion, const JournalContent& content) {
+void LiveOutput::Update(const ConversionPlan& plan, int body) {
+  const auto last = std::find_if(motions_.rbegin(), motions_.rend(),
+                                 [&](const Motion& motion) { return motion.body == body; });
+  last->plan = plan;
+}
+
+void LiveOutput::WriteRobotMotion(const Motion& motion, const JournalContent& content) {
   MmmMotionOutput output = content.header.motion;
   output.trajectory = &content.result.trajectory;
-  WriteFileAtomically(FileOf(motion), FormatMmmMotion2(output));
-  robot_motions_.push_back(FileOf(motion));
+  WriteFileAtomically(motion.file, FormatMmmMotion2(output));
+  robot_motions_.push_back(motion.file);
 }
 
 std::vector<ConversionReport> LiveOutput::Finish(
     const std::optional<CalibrationResult>& calibration) {
   std::vector<ConversionReport> reports;
-  for (std::size_t i = 0; i < plans_.size(); ++i) {
-    const std::string journal = JournalOf(FileOf(i));
+  for (Motion& motion : motions_) {
+    const std::string journal = JournalOf(motion.file);
     Warnings warnings;
     JournalContent content = ReadJournal(journal, &warnings);
-    if (content.frames > 0 && !request_.robot.file.empty()) {
-      WriteRobotMotion(i, content);
+    if (content.frames > 0 && IsRobots(motion)) {
+      WriteRobotMotion(motion, content);
     } else if (content.frames > 0) {
       ConversionReport report;
-      report.plan = std::move(plans_[i]);
-      report.plan.output = FileOf(i);
-      if (!calibration) TrackEarlier(report.plan, &content);
+      report.plan = motion.plan;
+      report.plan.output = motion.file;
+      if (!calibration || motion.body > 0) TrackEarlier(report.plan, &content);
       report.plan.input.recording.markers = std::move(content.markers);
       report.result = std::move(content.result);
       report.warnings = std::move(warnings);
-      if (i == 0) report.plan.calibration = calibration;
-      if (i > 0) report.plan.subject_output.clear();
+      if (motion.is_first()) report.plan.calibration = calibration;
+      if (!motion.is_first()) report.plan.subject_output.clear();
       MeasureAndJudge(&report);
-      WriteConversion(RequestOf(i), &report);
+      WriteConversion(RequestOf(motion), &report);
       reports.push_back(std::move(report));
     }
     std::filesystem::remove(journal);
   }
-  plans_.clear();
+  motions_.clear();
   return reports;
 }
 

@@ -13,8 +13,12 @@
 
 namespace mmm_converter {
 
+/// The first motion of each body: OUTPUT.xml, OUTPUT_NAME.xml of other objects.
+std::vector<std::string> FirstMotions(const LiveRequest& request);
+
 /// The motions that a run writes: one a body whose labels are its own, each kept in its journal
-/// until the end. All but the first are called OUTPUT_2.xml and so on.
+/// until the end. All but the first are called OUTPUT_2.xml and so on, those of other objects
+/// OUTPUT_NAME.xml, OUTPUT_NAME_2.xml.
 class LiveOutput {
  public:
   /// @throws Error where an output is a file that is read, two are the same, or one can't be
@@ -24,25 +28,34 @@ class LiveOutput {
   /// The journal for this plan, where the body is a new one.
   std::unique_ptr<PoseSink> Begin(const ConversionPlan& plan, const LiveBody& body);
 
-  /// Writes all motions, the first with the request's exports; then the journals are removed.
-  /// plans: the last of each body. Those of a robot are written without exports and reports.
+  /// Writes all motions, the first with the request's exports; then the journals are removed. Those
+  /// of a robot are written without exports and reports.
   /// @throws Error; journals that were not written stay.
   std::vector<ConversionReport> Finish(const std::optional<CalibrationResult>& calibration);
 
   const std::vector<std::string>& robot_motions() const { return robot_motions_; }
 
-  /// Of the motion that is being written: its plan has changed.
-  void Update(const ConversionPlan& plan) { plans_.back() = plan; }
+  /// Of the motion of a body that is being written: its plan has changed.
+  void Update(const ConversionPlan& plan, int body);
 
  private:
-  ConversionRequest RequestOf(std::size_t motion) const;
-  std::string FileOf(std::size_t motion) const;
-
-  void WriteRobotMotion(std::size_t motion, const JournalContent& content);
+  struct Motion {
+    ConversionPlan plan;
+    int body = 0;
+    int number = 0;  // of this body's motions
+    std::string file;
+    bool is_first() const { return body == 0 && number == 0; }
+  };
+  ConversionRequest RequestOf(const Motion& motion) const;
+  std::string FileOf(const Motion& motion) const;
+  bool IsRobots(const Motion& motion) const {
+    return motion.body == 0 && !request_.robot.file.empty();
+  }
+  void WriteRobotMotion(const Motion& motion, const JournalContent& content);
 
   LiveRequest request_;
   std::vector<std::string> robot_motions_;
-  std::vector<ConversionPlan> plans_;
+  std::vector<Motion> motions_;
 };
 
 }  // namespace mmm_converter

@@ -24,6 +24,7 @@ using std::chrono::steady_clock;
 constexpr milliseconds kWait(100);
 constexpr int kFileCapacity = 4096;  // frames: 20 s of 200 Hz, while a disk stands
 constexpr int kNetworkCapacity = 64;
+constexpr int kAllBodies = -1;
 
 // What threads have to say, until the caller's thread says it.
 class NewsBox {
@@ -55,6 +56,8 @@ class LiveRun {
       : request_(request),
         observer_(observer),
         output_(request),
+        bodies_(1 + request.other_objects.size()),
+        journals_(bodies_.size(), -1),
         stream_(
             request, Open(request, observer),
             [this](const auto& body, const auto& pose) { Give(body, pose); },
@@ -63,12 +66,12 @@ class LiveRun {
       // Threads of sinks begin with it.
       const RealtimePriority priority(request.realtime ? kTrackingPriority - 1 : 0, true);
       for (const std::string& address : request.sinks) {
-        AddSink(OpenSink(address), kNetworkCapacity);
+        AddSink(OpenSink(address), kNetworkCapacity, TakesObjects(address) ? kAllBodies : 0);
       }
     }
     if (!request.view) return;
     LivePage page = OpenLivePage(request.view_address, "Live: " + request.input.file);
-    AddSink(std::move(page.sink), kNetworkCapacity);
+    AddSink(std::move(page.sink), kNetworkCapacity, kAllBodies);
     news_.Add(false, "to watch it, open " + page.address);
   }
 
@@ -100,10 +103,12 @@ class LiveRun {
     return source;
   }
 
-  void AddSink(std::unique_ptr<PoseSink> sink, int capacity) {
+  // body: the index of the one that the sink gets, or kAllBodies.
+  void AddSink(std::unique_ptr<PoseSink> sink, int capacity, int body) {
     const std::string name = sink->name();
     const std::size_t index = sinks_.size();
     failures_.emplace_back();
+    bodies_of_sinks_.push_back(body);
     sinks_.push_back(std::make_unique<SinkRunner>(
         std::move(sink), capacity, [this, name, index](const std::string& why) {
           news_.Add(true, fmt::format("{}: {}; it gets no more frames", name, why));
@@ -113,30 +118,39 @@ class LiveRun {
   }
 
   void Give(const std::shared_ptr<const LiveBody>& body, const PoseFrame& pose) {
-    if (body != body_) TakeBody(body);
-    if (pose.is_tracking) {
+    if (body != bodies_[static_cast<std::size_t>(body->index)]) TakeBody(body);
+    if (body->index > 0) {
+      OtherObject& object = report_.objects[static_cast<std::size_t>(body->index - 1)];
+      if (pose.is_tracking) ++object.tracked;
+    } else if (pose.is_tracking) {
       ++report_.tracked;
       report_.waits.Add(std::chrono::duration<double>(stream_.taken() - pose.received).count());
       report_.delays.Add(std::chrono::duration<double>(pose.tracked - pose.received).count());
     }
     const bool may_wait = stream_.waits_for_reader();
-    for (const auto& sink : sinks_) {
-      if (sink) sink->Offer(body, pose, may_wait);
+    for (std::size_t i = 0; i < sinks_.size(); ++i) {
+      const bool takes_it = bodies_of_sinks_[i] == kAllBodies || bodies_of_sinks_[i] == body->index;
+      if (takes_it) sinks_[i]->Offer(body, pose, may_wait);
     }
   }
 
   // Another person or other labels begin another motion, a calibration does not.
   void TakeBody(const std::shared_ptr<const LiveBody>& body) {
-    const bool goes_on = body_ && body->labels == body_->labels && body->is_calibrated;
-    body_ = body;
+    const auto index = static_cast<std::size_t>(body->index);
+    const auto before = std::exchange(bodies_[index], body);
+    const bool goes_on = before && body->labels == before->labels && body->is_calibrated;
+    report_.objects.resize(bodies_.size() - 1);
+    if (index > 0) report_.objects[index - 1].name = body->name;
     if (request_.output.empty()) return;
+    const ConversionPlan& plan = stream_.session(body->index).plan();
     if (goes_on) {
-      output_.Update(stream_.session().plan());
+      output_.Update(plan, body->index);
       return;
     }
-    if (journal_ >= 0) sinks_[static_cast<std::size_t>(journal_)]->Finish();
-    journal_ = static_cast<int>(sinks_.size());
-    AddSink(output_.Begin(stream_.session().plan(), *body), kFileCapacity);
+    int& journal = journals_[index];
+    if (journal >= 0) sinks_[static_cast<std::size_t>(journal)]->Finish();
+    journal = static_cast<int>(sinks_.size());
+    AddSink(output_.Begin(plan, *body), kFileCapacity, body->index);
   }
 
   void Finish() {
@@ -152,6 +166,9 @@ class LiveRun {
     report_.frames = stream_.status().frames;
     report_.dropped = stream_.status().dropped;
     report_.starts = stream_.session().starts();
+    for (std::size_t i = 0; i < report_.objects.size(); ++i) {
+      report_.objects[i].starts = stream_.session(static_cast<int>(i) + 1).starts();
+    }
     report_.motions = output_.Finish(stream_.session().calibration());
     report_.robot_motions = output_.robot_motions();
     if (stream_.failure()) std::rethrow_exception(stream_.failure());
@@ -162,8 +179,9 @@ class LiveRun {
   NewsBox news_;
   LiveOutput output_;
   std::vector<std::unique_ptr<SinkRunner>> sinks_;
-  std::shared_ptr<const LiveBody> body_;
-  int journal_ = -1;  // of the sinks the motion that is being written
+  std::vector<int> bodies_of_sinks_;
+  std::vector<std::shared_ptr<const LiveBody>> bodies_;
+  std::vector<int> journals_;  // of each body, of the sinks: the motion that is being written
   LiveReport report_;
   std::mutex failures_mutex_;
   std::vector<std::string> failures_;  // of the sinks

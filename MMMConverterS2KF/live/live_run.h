@@ -24,6 +24,13 @@ struct SinkReport {
   std::string failure;  ///< empty: none
 };
 
+/// An object that is tracked beside the stream's first body.
+struct OtherObject {
+  std::string name;
+  std::int64_t tracked = 0;  ///< frames with a pose
+  int starts = 0;            ///< how often a track began
+};
+
 /// Everything that a summary tells.
 struct LiveReport {
   std::string source;  ///< what it says of itself
@@ -32,6 +39,7 @@ struct LiveReport {
   std::int64_t frames = 0;   ///< taken
   std::int64_t tracked = 0;  ///< of them with a posture
   int starts = 0;            ///< how often a track began
+  std::vector<OtherObject> objects;
   double seconds = 0;
   LatencyHistogram waits;   ///< from received to taken by the tracking thread, of those tracked
   LatencyHistogram delays;  ///< from received to tracked

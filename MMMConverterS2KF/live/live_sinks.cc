@@ -18,12 +18,21 @@ namespace {
 struct SinkKind {
   const char* scheme;
   std::unique_ptr<PoseSink> (*open)(const std::string& address);
+  bool takes_objects;
 };
 
 const std::vector<SinkKind>& Kinds() {
   static const std::vector<SinkKind> kinds = {
-      {"mvn", OpenMvnSink}, {"ws", OpenWebSocketSink}, {"zmq", OpenZmqSink}};
+      {"mvn", OpenMvnSink, false}, {"ws", OpenWebSocketSink, true}, {"zmq", OpenZmqSink, true}};
   return kinds;
+}
+
+const SinkKind& KindOf(const std::string& address) {
+  for (const SinkKind& kind : Kinds()) {
+    if (address.starts_with(std::string(kind.scheme) + "://")) return kind;
+  }
+  throw Error(
+      fmt::format("{}: is no address that postures can be sent to; use {}", address, SinkKinds()));
 }
 
 }  // namespace
@@ -35,11 +44,9 @@ std::string SinkKinds() {
 }
 
 std::unique_ptr<PoseSink> OpenSink(const std::string& address) {
-  for (const SinkKind& kind : Kinds()) {
-    if (address.starts_with(std::string(kind.scheme) + "://")) return kind.open(address);
-  }
-  throw Error(
-      fmt::format("{}: is no address that postures can be sent to; use {}", address, SinkKinds()));
+  return KindOf(address).open(address);
 }
+
+bool TakesObjects(const std::string& address) { return KindOf(address).takes_objects; }
 
 }  // namespace mmm_converter

@@ -36,6 +36,10 @@ std::string FormatSummary(const LiveReport& report) {
       "part{}\n",
       report.frames, report.seconds, report.dropped, report.tracked, report.starts,
       report.starts == 1 ? "" : "s");
+  for (const OtherObject& object : report.objects) {
+    text += fmt::format("object     {}: {} tracked in {} part{}\n", object.name, object.tracked,
+                        object.starts, object.starts == 1 ? "" : "s");
+  }
   text += fmt::format("delay      received to taken: {}\n", DescribeDelays(report.waits));
   text += fmt::format("           received to tracked: {}\n", DescribeDelays(report.delays));
   for (const SinkReport& sink : report.sinks) {
@@ -61,6 +65,11 @@ Json ToJson(const LiveReport& report) {
   }
   Json motions = Json::array();
   for (const ConversionReport& motion : report.motions) motions.push_back(ToJson(motion));
+  Json objects = Json::array();
+  for (const OtherObject& object : report.objects) {
+    objects.push_back(
+        {{"name", object.name}, {"tracked", object.tracked}, {"parts", object.starts}});
+  }
   return {{"source", report.source},
           {"connections", report.counts.connections},
           {"frames_lost", report.counts.lost},
@@ -69,6 +78,7 @@ Json ToJson(const LiveReport& report) {
           {"dropped", report.dropped},
           {"tracked", report.tracked},
           {"parts", report.starts},
+          {"objects", objects},
           {"seconds", Number(report.seconds, 3)},
           {"received_to_taken", DelaysJson(report.waits)},
           {"received_to_tracked", DelaysJson(report.delays)},

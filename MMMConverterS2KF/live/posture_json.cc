@@ -153,6 +153,9 @@ std::string FormatPosture(const LiveBody& body, const PoseFrame& frame, SteadyTi
                   "\"delay_ms\":{:.4f},\"dropped\":{},\"lost\":{}",
                   frame.number, frame.time, frame.is_tracking, frame.stage, frame.progress,
                   kMilliseconds * delay.count(), frame.dropped, frame.counts.lost));
+  if (body.index > 0)
+    json.Raw(fmt::format(",\"body\":{}",
+                         Json(body.name).dump(-1, ' ', false, Json::error_handler_t::replace)));
   AddMarkers(body, frame, &json);
   if (frame.is_tracking) {
     AddPosture(body, frame.estimate, &json);

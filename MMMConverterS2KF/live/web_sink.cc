@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "MMMConverterS2KF/live/posture_json.h"
 #include "MMMConverterS2KF/report/html.h"
@@ -19,6 +20,14 @@ namespace {
 constexpr int kWebSocketPort = 9002;
 constexpr const char* kLoopback = "127.0.0.1";
 
+// A text of the first body with those of the others.
+std::string WithObjects(std::string first, const std::vector<std::string>& objects) {
+  if (objects.empty()) return first;
+  while (first.back() != '}') first.pop_back();
+  first.pop_back();
+  return first + fmt::format(",\"objects\":[{}]}}", fmt::join(objects, ","));
+}
+
 class WebSink : public PoseSink {
  public:
   WebSink(std::string name, const WebServerOptions& options, const PostureDetails& details)
@@ -28,19 +37,42 @@ class WebSink : public PoseSink {
   int port() const { return server_.port(); }
 
   void Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) override {
-    if (body != body_) {
-      server_.Greet(FormatBody(*body));
-      body_ = body;
+    bodies_.resize(static_cast<std::size_t>(body->count));
+    auto& known = bodies_[static_cast<std::size_t>(body->index)];
+    if (body != known) {
+      known = body;
+      Greet();
     }
     if (server_.clients() == 0) return;
-    server_.Publish(FormatPosture(*body, frame, std::chrono::steady_clock::now(), details_));
+    std::string text = FormatPosture(*body, frame, std::chrono::steady_clock::now(), details_);
+    if (body->index == 0) {
+      first_ = std::move(text);
+      objects_.clear();
+    } else if (!first_.empty()) {
+      objects_.push_back(std::move(text));
+    }
+    // Clients get a frame whole.
+    if (body->index + 1 == body->count && !first_.empty()) {
+      server_.Publish(WithObjects(std::exchange(first_, {}), objects_));
+    }
   }
 
  private:
+  void Greet() {
+    if (!bodies_.front()) return;
+    std::vector<std::string> objects;
+    for (std::size_t i = 1; i < bodies_.size(); ++i) {
+      if (bodies_[i]) objects.push_back(FormatBody(*bodies_[i]));
+    }
+    server_.Greet(WithObjects(FormatBody(*bodies_.front()), objects));
+  }
+
   std::string name_;
   PostureDetails details_;
   WebServer server_;
-  std::shared_ptr<const LiveBody> body_;
+  std::vector<std::shared_ptr<const LiveBody>> bodies_;  // null: not known yet
+  std::string first_;                                    // posture of the frame that comes in
+  std::vector<std::string> objects_;
 };
 
 std::string MakeToken() {

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "MMMConverterS2KF/python/arrays.h"
 #include "MMMConverterS2KF/python/estimates.h"
@@ -132,9 +133,11 @@ class Live {
 
   // On the tracking thread.
   void Give(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) {
-    if (!body_ || body_->body != body) body_ = BodyOf(body);
+    bodies_.resize(static_cast<std::size_t>(body->count));
+    auto& known = bodies_[static_cast<std::size_t>(body->index)];
+    if (!known || known->body != body) known = BodyOf(body);
     if (!frame.is_tracking) return;
-    TrackedPosture posture = {body_, frame};
+    TrackedPosture posture = {known, frame};
     std::unique_lock lock(mutex_);
     if (stream_->waits_for_reader()) {
       taken_.wait(lock, [this] { return is_ending_ || waiting_.size() < kMostWaiting; });
@@ -148,13 +151,13 @@ class Live {
   }
 
   std::shared_ptr<const TrackedBody> BodyOf(const std::shared_ptr<const LiveBody>& body) const {
-    const ConversionPlan& plan = stream_->session().plan();
+    const ConversionPlan& plan = stream_->session(body->index).plan();
     auto model = std::make_shared<PersonModel>();
     model->file = plan.input.model_file;
     model->loaded = plan.input.model;
     model->scaling = ScalingOf(plan.person, plan.converter.config);
     model->model = body->setup.model;
-    if (!request_.robot.file.empty()) {
+    if (body->index == 0 && !request_.robot.file.empty()) {
       model->file = request_.robot.file;
       model->loaded = std::make_shared<LoadedModel>(LoadedModel{*body->setup.model, false, {}});
       model->scaling = {};
@@ -204,7 +207,7 @@ class Live {
   std::condition_variable given_, taken_;
   std::deque<TrackedPosture> waiting_;
   std::vector<std::pair<bool, std::string>> news_;
-  std::shared_ptr<const TrackedBody> body_;  // the tracking thread's
+  std::vector<std::shared_ptr<const TrackedBody>> bodies_;  // the tracking thread's
   std::atomic<std::int64_t> given_way_ = 0;
   bool is_ending_ = false;
   bool has_begun_ = false, is_closed_ = false;

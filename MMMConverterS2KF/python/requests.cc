@@ -70,6 +70,9 @@ KeywordType TypeOf(const Option& option) {
       {OptionKind::kFile, {"path", kPath}},
       {OptionKind::kShipped, {"str or path", kPath}},
       {OptionKind::kSubject, {"path, Subject or Calibration", "Any"}}};
+  if (IsList(option) && option.value.kind == OptionKind::kFile) {
+    return {"sequence of path", "Sequence[Union[str, os.PathLike]]"};
+  }
   if (IsList(option)) return {"sequence of path, Subject or Calibration", "Sequence[Any]"};
   const auto found = types.find(option.value.kind);
   return found == types.end() ? KeywordType{"str", "str"} : found->second;

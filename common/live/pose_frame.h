@@ -11,13 +11,16 @@
 
 namespace mmm_converter {
 
-/// Whose postures a stream has: new with each person, calibration and layout.
+/// Whose postures a stream has: new with each person, calibration and layout. Of several bodies
+/// each frame has one PoseFrame each, in the order of their indices.
 struct LiveBody {
   std::string name;
   TrackingSetup setup;              ///< scaled to the person
   std::vector<std::string> labels;  ///< of PoseFrame::points
   double rate = 0;                  ///< [Hz]; 0: not known
   bool is_calibrated = false;
+  int index = 0;  ///< 0: whom the stream is tracked for; else an object that is there too
+  int count = 1;  ///< of the bodies of the stream
 };
 
 /// One frame of what is known of the body.

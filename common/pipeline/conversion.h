@@ -52,8 +52,10 @@ struct ConversionRequest {
   bool keeps_covariances = false;         ///< also where no export is of them
   /// Folder of the models of objects; those that it lacks are written there.
   std::string object_models;
-  bool builds_models = true;  ///< of objects that have none
-  RobotRequest robot;         ///< for who brings the motion to one: retarget, batch and live
+  bool builds_models = true;               ///< of objects that have none
+  std::vector<std::string> other_objects;  ///< live: models of rigid objects that are there too
+  bool is_strict = false;                  ///< to the caller a failed verdict is a failure
+  RobotRequest robot;  ///< for who brings the motion to one: retarget, batch and live
 };
 
 /// All that is decided before the first frame is tracked.

@@ -19,6 +19,7 @@ constexpr Task kTrackings = task::kConvert | task::kLabel | task::kCalibrate | t
 constexpr Task kWritings = task::kConvert | task::kLive;
 constexpr Task kConversions = kWritings | task::kRetarget;
 constexpr Task kLabellings = task::kConvert | task::kLabel | task::kRetarget;
+constexpr Task kVerdicts = kConversions | task::kLabel | task::kCalibrate | task::kBatch;
 constexpr Task kReadings = kTrackings | task::kServe | task::kRead;
 constexpr Task kMotions = task::kCheckDynamics | task::kExportPoses;
 constexpr Task kPersons = kTrackings | kMotions | task::kModel;
@@ -233,10 +234,21 @@ std::vector<Option> Options(ConversionRequest* request) {
   Add("Objects",
       {Row({"object", "object", "object"}, kSwitch,
            "the recording shows a rigid object, not a person; MMM motions state this themselves",
-           "", task::kConvert, &request->is_object)},
+           "", task::kConvert, &request->is_object),
+       Row({"and-model", "", "and_models"}, kFile,
+           "also track the rigid object of this model without joints; for each of them. Its labels "
+           "are those of the subject that is called as the file (box.xml: Box:M1), else the names "
+           "of its markers; its motion is OUTPUT_box.xml",
+           "", task::kLive, &request->other_objects,
+           {.absent = "a batch converts all motions of a file"})},
       &options);
   Add("Robot", RobotOptions(&request->robot), &options);
   Add("Robot learning", RobotLearningOptions(&request->robot), &options);
+  Add("Verdict",
+      {Row({"strict", "", ""}, kSwitch,
+           "exit code 3 where a verdict is failed; all is written as without it", "", kVerdicts,
+           &request->is_strict, {.absent = "results have their verdict, and exit codes are none"})},
+      &options);
   return options;
 }
 
@@ -269,6 +281,12 @@ std::string Contradiction(const ConversionRequest& request) {
   const auto option = [](const char* name) { return OptionText(name); };
   if (request.label && request.is_object) {
     return option("label") + " names the markers of a person, not those of an " + option("object");
+  }
+  if (request.label && !request.other_objects.empty()) {
+    return fmt::format(
+        "{} names the points of a person by the body, and {} is known by its labels; "
+        "use one",
+        option("label"), option("and-model"));
   }
   if (!request.label && !hints.like.empty()) {
     return fmt::format("{} says by which recording {} or {} finds names", option("like"),

@@ -34,6 +34,7 @@ inline constexpr Task kCheckDynamics = 1 << 11;
 inline constexpr Task kExportPoses = 1 << 12;
 inline constexpr Task kModel = 1 << 13;  ///< of a person, without a recording
 inline constexpr Task kRetarget = 1 << 14;
+inline constexpr Task kBatch = 1 << 15;  ///< of a manifest, which has the other options
 }  // namespace task
 
 enum class OptionKind {

@@ -231,6 +231,20 @@ TEST(Verdict, ExchangedSides) {
   EXPECT_THAT(judged.reasons, HasSubstr("labels of the legs are exchanged"));
 }
 
+// Outputs are written all the same.
+TEST(Verdict, IsAnExitCodeWhereItIsAskedFor) {
+  const std::string file = TestFolder() + "/made.c3d";
+  const std::string motion = TestFolder() + "/strict.xml";
+  WriteC3d(file, Relabelled(WithSidesExchanged([](const std::string&) { return true; })));
+  const auto judged = RunProgram({"convert", file, "--height", "1.8", "--strict", "-o", motion});
+  EXPECT_EQ(judged.exit_code, 3) << judged.err;
+  EXPECT_THAT(judged.out, HasSubstr("verdict    failed"));
+  EXPECT_THAT(ReadText(motion), HasSubstr("</MMM>"));
+  const auto good = RunProgram(
+      {"convert", Handstand(), "--height", "1.8", "--strict", "-c", "s2kf_default", "-o", motion});
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+}
+
 TEST(Verdict, MarkersOfAnotherPerson) {
   const MarkerSequence& sample = Sample();
   const auto other = [&](int k, int i) -> Eigen::Vector3d {

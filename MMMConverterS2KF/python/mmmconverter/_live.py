@@ -97,7 +97,7 @@ class Live(Presented):
     def __init__(self, source, options, loop, calibrate_seconds, seconds, sole_height):
         self.source = source
         self.messages: List[str] = []
-        self._bodies: tuple = (None, None)
+        self._bodies: dict = {}  # by name, each with what it is made of
         messages = self.messages  # not self: the compiled part lives no longer than this
 
         def tell(is_warning, text):
@@ -116,9 +116,11 @@ class Live(Presented):
         found = self._raw.next()
         if found is None:
             raise StopIteration
-        if found["body"] is not self._bodies[0]:
-            self._bodies = (found["body"], LiveBody(found["body"]))
-        return LivePosture(**{**found, "body": self._bodies[1]})
+        raw = found["body"]
+        known = self._bodies.get(raw.name)
+        if known is None or known[0] is not raw:
+            known = self._bodies[raw.name] = (raw, LiveBody(raw))
+        return LivePosture(**{**found, "body": known[1]})
 
     def close(self) -> None:
         """Ends tracking and leaves the source; then there are no more postures."""
@@ -143,7 +145,8 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
     Reading and tracking run in threads of their own from the first posture that is asked for, until
     the source ends, the stream is closed or nobody has it any more; Ctrl-C and errors close it. Where
     a loop is slower than the source, postures that wait give way to newer ones; a replay ``@max``
-    waits for the loop. Frames without a person have no posture.
+    waits for the loop. Frames without a person have no posture. With `and_models` a frame has a posture
+    of each body, one after the other; `LivePosture.body` says whose it is.
 
     Parameters
     ----------

@@ -93,17 +93,22 @@ class LiveView {
     if (!this.scene) return;
     this.scene.show(this.trial);
     byId("pale-legend").hidden = !this.scene.figures[0].body.hasPaleLimb;
-    this.scene.setShown(() => this.posture !== null && this.posture.tracking);
+    this.scene.setShown((contender) => this.isShown(contender));
     this.scene.resetCamera(this.trial.middle());
+  }
+
+  // Whether the body of this index is tracked.
+  isShown(index) {
+    return index === 0 ? this.trial.isTracking : this.trial.objects[index - 1].isTracking;
   }
 
   draw() {
     requestAnimationFrame(() => this.draw());
     if (!this.scene || !this.trial || !this.isNew) return;
     this.isNew = false;
-    const isTracking = Boolean(this.posture && this.posture.tracking);
-    const figure = this.scene.figures[0].group;
-    if (figure.visible !== isTracking) this.scene.setShown(() => isTracking);
+    const {isTracking} = this.trial;
+    const isNews = ({group}, index) => group.visible !== this.isShown(index);
+    if (this.scene.figures.some(isNews)) this.scene.setShown((contender) => this.isShown(contender));
     const middle = this.trial.middle();
     if (isTracking && !this.hasPlace) {
       this.hasPlace = true;
@@ -126,7 +131,8 @@ class LiveView {
     byId("gathered").value = posture.progress;
     const count = (state) => this.trial.states.filter((one) => one === state).length;
     const rows = [
-      ["Person", `${this.body.body}${this.body.calibrated ? ", calibrated" : ""}`],
+      [this.body.anatomy.length ? "Person" : "Tracked", `${this.body.body}${this.body.calibrated ? ", calibrated" : ""}`],
+      ...this.trial.objects.map(({name, isTracking}) => ["Object", `${name}${isTracking ? "" : ", not seen"}`]),
       ["Frame", `${posture.frame} at ${formatNumber(posture.time, 2)} s`],
       ["Rate of the source", this.body.rate ? `${formatNumber(this.body.rate, 1)} Hz` : "–"],
       ["Shown here", `${this.received.rate(now)} received, ${this.drawn.rate(now)} drawn a second`],
@@ -157,7 +163,8 @@ class LiveView {
     const hidden = of(kStates.hidden);
     const mean = this.meanDistance();
     const texts = [];
-    if (!posture.tracking) texts.push("nobody is tracked");
+    if (!posture.tracking) texts.push(this.body.anatomy.length ? "nobody is tracked" : `${this.body.body} is not tracked`);
+    for (const {name, isTracking} of trial.objects) if (!isTracking) texts.push(`${name} is not tracked`);
     if (wrong.length) texts.push(`${plural(wrong.length, "marker")} not where the label says: ${named(wrong)}`);
     if (hidden.length) texts.push(`${plural(hidden.length, "marker")} not seen: ${named(hidden)}`);
     if (mean > (this.body.calibrated ? 0.02 : 0.055)) texts.push(`markers are ${formatMillimetres(mean)} from the model on average: is it this person's?`);

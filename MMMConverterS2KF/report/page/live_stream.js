@@ -23,7 +23,13 @@ class LiveTrial {
       orientation: new Float64Array([0, 0, 0, 1]),
       angles: new Float64Array(body.joints.length),
     };
-    this.tracks = [{contender: 0, name: body.body, trial: this, motion: this.motion}];
+    // Of other objects, each with its own labels.
+    this.objects = (body.objects || []).map((object) => new LiveTrial(object));
+    this.name = body.body;
+    this.isTracking = false;
+    this.tracks = [{contender: 0, name: body.body, trial: this, motion: this.motion},
+      ...this.objects.map((trial, i) => ({contender: i + 1, name: trial.name, trial, motion: trial.motion,
+        makeFigure: (signs) => new ObjectFigure(trial.tracks[0], signs, i + 1)}))];
     this.smooth = null;
   }
 
@@ -35,6 +41,11 @@ class LiveTrial {
       const distance = posture.distances[label];
       this.distances[i] = distance === null ? NaN : distance;
     });
+    this.isTracking = posture.tracking;
+    for (const one of posture.objects || []) {
+      const object = this.objects.find(({name}) => name === one.body);
+      if (object) object.take(one);
+    }
     if (!posture.tracking) return;
     this.motion.position.set(posture.root.slice(0, 3));
     this.motion.orientation.set(posture.root.slice(3));
@@ -54,6 +65,31 @@ class LiveTrial {
 
   middle() {
     return this.smooth ? Array.from(this.smooth) : [0, 0, 0.9];
+  }
+}
+
+// An object that is tracked beside the first body, with its measured markers.
+class ObjectFigure extends Figure {
+  constructor(track, signs, contender) {
+    super({...track, contender}, signs);
+    this.seen = Cloud.signs(track.trial.labels.length, signs.disc, kMarkerSize);
+    this.group.add(this.seen.object);
+  }
+
+  setFrame(k) {
+    const {trial} = this.track;
+    const measured = (label, _, target) => target.fromArray(trial.positions, 3 * label);
+    this.seen.clear();
+    trial.labels.forEach((_, label) => {
+      if (trial.isMeasured(label)) this.seen.add(measured(label, k, new THREE.Vector3()));
+    });
+    this.seen.finish();
+    super.setFrame(k, measured);
+  }
+
+  setLook(options, overlaid) {
+    super.setLook(options, overlaid);
+    this.seen.setColour(themeColour("text"));
   }
 }
 

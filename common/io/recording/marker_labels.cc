@@ -318,4 +318,24 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
   return selection;
 }
 
+LabelSelection SelectAllSubjects(const std::vector<std::string>& labels,
+                                 const std::vector<std::string>& outputs,
+                                 const std::vector<std::string>& label_prefixes,
+                                 Warnings* warnings) {
+  const std::vector<std::string> prefixes = AllToUtf8(label_prefixes);
+  std::vector<Label> all = KeepMarkers(AllToUtf8(labels), AllToUtf8(outputs),
+                                       {prefixes.begin(), prefixes.end()}, warnings)
+                               .markers;
+  LabelSelection selection;
+  std::set<std::string> subjects;
+  for (Label& label : all) {
+    selection.indices.push_back(label.index);
+    if (label.prefix.empty()) continue;
+    if (subjects.insert(label.prefix).second) selection.subjects.push_back(label.prefix);
+    label.name = label.prefix + ":" + label.name;
+  }
+  selection.labels = UniqueNames(all, warnings);
+  return selection;
+}
+
 }  // namespace mmm_converter

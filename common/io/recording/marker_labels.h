@@ -41,4 +41,10 @@ LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::string& subject, const std::string& file, Warnings* warnings,
                             bool with_unlabelled = false);
 
+/// The labels of all subjects, with their prefixes: Subject:LABEL.
+LabelSelection SelectAllSubjects(const std::vector<std::string>& labels,
+                                 const std::vector<std::string>& outputs,
+                                 const std::vector<std::string>& label_prefixes,
+                                 Warnings* warnings);
+
 }  // namespace mmm_converter

@@ -50,8 +50,10 @@ void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& 
                 Remedy::kRate);
   }
   const LabelSelection selection =
-      SelectLabels(content.labels, content.outputs, content.label_prefixes, options.subject,
-                   recording->file, warnings, options.with_unlabelled);
+      options.all_subjects
+          ? SelectAllSubjects(content.labels, content.outputs, content.label_prefixes, warnings)
+          : SelectLabels(content.labels, content.outputs, content.label_prefixes, options.subject,
+                         recording->file, warnings, options.with_unlabelled);
   recording->subjects = selection.subjects;
   recording->subject = selection.subject;
   if (selection.labels.empty()) {

@@ -20,6 +20,7 @@ struct ReadRecordingOptions {
   bool ignore_residuals = false;         ///< C3D: also use points that are marked invalid
   bool with_unlabelled = false;          ///< also points without a label, as `*` and a number
   std::string subject = {};              ///< label prefix to keep where a file has several subjects
+  bool all_subjects = false;             ///< keep those of all, with their prefixes: Subject:LABEL
   std::string motion = {};               ///< MMM: motion to read; empty: that with most markers
 };
 

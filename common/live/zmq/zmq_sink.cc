@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <vector>
 #include <zmq.hpp>
 
 #include "common/live/stream_address.h"
@@ -50,14 +52,18 @@ class ZmqSink : public PoseSink {
   std::string name() const override { return name_; }
 
   void Write(const std::shared_ptr<const LiveBody>& body, const PoseFrame& frame) override {
-    if (body != body_) {
-      format_.emplace(*body);
-      body_ = body;
+    formats_.resize(static_cast<std::size_t>(std::max(1, body->count)));
+    Formatted& one = formats_[static_cast<std::size_t>(body->index)];
+    if (body != one.body) {
+      one.body = body;
+      one.format.emplace(*body);
+      one.topic = body->index == 0 ? "posture" : "posture/" + body->name;
     }
-    const PostureMessage message = format_->Format(*body, frame, std::chrono::steady_clock::now());
+    const PostureMessage message =
+        one.format->Format(*body, frame, std::chrono::steady_clock::now());
     constexpr auto kMore = zmq::send_flags::sndmore | zmq::send_flags::dontwait;
     try {
-      socket_.send(zmq::str_buffer("posture"), kMore);
+      socket_.send(zmq::buffer(one.topic), kMore);
       socket_.send(zmq::buffer(message.header), kMore);
       socket_.send(zmq::buffer(message.arrays), zmq::send_flags::dontwait);
     } catch (const zmq::error_t& error) {
@@ -70,8 +76,12 @@ class ZmqSink : public PoseSink {
   zmq::context_t context_;
   zmq::socket_t socket_;
   std::optional<SubscriberGuard> guard_;
-  std::shared_ptr<const LiveBody> body_;
-  std::optional<PostureMessageFormat> format_;
+  struct Formatted {
+    std::shared_ptr<const LiveBody> body;
+    std::optional<PostureMessageFormat> format;
+    std::string topic;
+  };
+  std::vector<Formatted> formats_;  // of each body of the stream
 };
 
 }  // namespace

@@ -21,6 +21,7 @@ void LiveRobot::Take(const std::shared_ptr<const LiveBody>& person, const PoseFr
       body->setup.joints.resize(static_cast<std::size_t>(robot_.robot.model.num_joints()));
       std::iota(body->setup.joints.begin(), body->setup.joints.end(), 0);
       body->rate = person->rate;
+      body->count = person->count;
       body_ = std::move(body);
     }
     person_ = person;

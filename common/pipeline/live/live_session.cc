@@ -26,18 +26,29 @@ bool ShowsPerson(const StreamFrame& frame) {
   return seen >= std::min<Eigen::Index>(kFewestSeen, frame.points.cols());
 }
 
+MarkerSequence Share(const MarkerSequence& markers, const LabelSelection& selection) {
+  MarkerSequence share(selection.labels, markers.num_frames(), markers.rate(),
+                       markers.first_time());
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    for (std::size_t i = 0; i < selection.indices.size(); ++i) {
+      share.frame(k).col(static_cast<Eigen::Index>(i)) = markers.frame(k).col(selection.indices[i]);
+    }
+  }
+  return share;
+}
+
 int FramesOf(double seconds, double rate) {
   return std::max(1, static_cast<int>(std::lround(seconds * (rate > 0 ? rate : kUsualRate))));
 }
 
 }  // namespace
 
-const char* Describe(LiveStage stage) {
+const char* Describe(LiveStage stage, bool is_of_object) {
   switch (stage) {
     case LiveStage::kMeasuring:
       return "the person is measured";
     case LiveStage::kWaiting:
-      return "waiting for the person";
+      return is_of_object ? "waiting for the object" : "waiting for the person";
     case LiveStage::kTracking:
       return "tracking";
     case LiveStage::kGathering:
@@ -48,14 +59,18 @@ const char* Describe(LiveStage stage) {
   return "";
 }
 
-LiveSession::LiveSession(const LiveRequest& request, Recording head, bool selects_labels,
-                         bool waits)
-    : request_(request),
+LiveSession::LiveSession(LiveBodyRequest body, int index, int count, Recording head, bool waits)
+    : request_(std::move(body.request)),
+      choose_(std::move(body.choose)),
+      index_(index),
+      count_(count),
       head_(std::move(head)),
-      selects_labels_(selects_labels),
       waits_(waits),
-      calibration_time_(request.calibration_time) {
+      calibration_time_(request_.calibration_time) {
   if (!request_.label) std::swap(played_, head_.markers);
+  if (!choose_ || played_.num_frames() == 0) return;
+  Warnings told_later;
+  played_ = Share(played_, choose_(played_.labels(), head_.file, &told_later));
 }
 
 double LiveSession::gathered() const {
@@ -69,14 +84,13 @@ void LiveSession::Begin(const StreamLayout& layout) {
   if (!request_.label) labels = layout.labels;
   columns_.resize(labels.size());
   std::iota(columns_.begin(), columns_.end(), 0);
-  if (selects_labels_ && !request_.label) {
+  if (choose_) {
     Warnings warnings;
-    LabelSelection selection = SelectLabels(layout.labels, {}, {}, request_.input.reading.subject,
-                                            layout.source, &warnings);
+    LabelSelection selection = choose_(layout.labels, layout.source, &warnings);
     for (const std::string& text : warnings.texts()) Say(text);
     columns_ = selection.indices;
     labels = std::move(selection.labels);
-    head_.subject = selection.subject;
+    if (index_ == 0) head_.subject = selection.subject;
   }
   const bool is_same =
       body_ && (request_.label || labels == body_->labels) && layout.rate == body_->rate;
@@ -145,6 +159,8 @@ void LiveSession::Use(TrackingSetup setup, bool is_calibrated,
   body->labels = gathered_.labels();
   body->rate = layout_->rate;
   body->is_calibrated = is_calibrated;
+  body->index = index_;
+  body->count = count_;
   body_ = std::move(body);
   if (tracker_) starts_ += tracker_->starts();
   tracker_ = std::make_unique<LiveTracker>(std::move(converter), layout_->rate);
@@ -219,9 +235,9 @@ void LiveSession::Track() {
   if (estimate != nullptr) pose_.estimate = *estimate;
   const bool is_tracked = tracker_->is_tracking();
   const bool was_waiting = stage_ <= LiveStage::kWaiting;
-  if (is_tracked && was_waiting) Say(fmt::format("frame {}: the person is seen", pose_.number));
+  if (is_tracked && was_waiting) Say(fmt::format("frame {}: {} is seen", pose_.number, Who()));
   if (!is_tracked && !was_waiting) {
-    Say(fmt::format("frame {}: the person is not seen any more", pose_.number));
+    Say(fmt::format("frame {}: {} is not seen any more", pose_.number, Who()));
   }
   stage_ = is_tracked ? LiveStage::kTracking : LiveStage::kWaiting;
 }
@@ -235,6 +251,8 @@ void LiveSession::GoOnCalibrating() {
   Gather();
   if (num_gathered_ == gathered_.num_frames()) Calibrate();
 }
+
+std::string LiveSession::Who() const { return plan_->object ? plan_->motion_name : "the person"; }
 
 void LiveSession::Prepare() {
   if (tracker_) tracker_->Prepare();
@@ -262,7 +280,7 @@ const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropp
     const bool is_wanted = calibration_time_ > 0 && !body_->is_calibrated;
     if (is_wanted && tracker_->is_tracking()) GoOnCalibrating();
   }
-  pose_.stage = Describe(stage_);
+  pose_.stage = Describe(stage_, plan_ && plan_->object);
   pose_.progress = stage_ == LiveStage::kGathering ? gathered() : 1;
   pose_.tracked = std::chrono::steady_clock::now();
   return pose_;

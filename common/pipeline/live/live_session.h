@@ -12,6 +12,7 @@
 #include "common/live/live_tracker.h"
 #include "common/live/pose_frame.h"
 #include "common/live/stream_clock.h"
+#include "common/pipeline/live/live_bodies.h"
 #include "common/pipeline/live/live_plan.h"
 #include "common/pipeline/live/live_request.h"
 
@@ -25,16 +26,15 @@ enum class LiveStage {
   kGathering,   ///< tracking; frames are gathered for the calibration
   kCalibrating  ///< tracking; the person is being estimated in the background
 };
-const char* Describe(LiveStage stage);
+const char* Describe(LiveStage stage, bool is_of_object = false);
 
 /// The work of the tracking thread: from a stream's frames to postures of a person who may not be
 /// known yet, be calibrated meanwhile, leave and return.
 class LiveSession {
  public:
-  /// head: what is known of the stream beyond its frames. selects_labels: subject prefixes and
-  /// points without a label are to be taken off, as of a recording that is read. waits: as of
-  /// LiveLabeller.
-  LiveSession(const LiveRequest& request, Recording head, bool selects_labels, bool waits);
+  /// head: what is known of the stream beyond its frames. body: which of `count` bodies it is.
+  /// waits: as of LiveLabeller.
+  LiveSession(LiveBodyRequest body, int index, int count, Recording head, bool waits);
 
   /// @throws Error where the labels or the person are not known; ends the session.
   const PoseFrame& Take(const LaidOutFrame& frame, std::int64_t dropped);
@@ -65,13 +65,16 @@ class LiveSession {
   void GoOnCalibrating();
   void Calibrate();
   void TakeCalibration();
+  std::string Who() const;
   void Say(std::string text) { news_.push_back(std::move(text)); }
 
   LiveRequest request_;
+  ChooseLabels choose_;  // empty: all labels are the body's
+  int index_, count_;    // of the stream's bodies
   Recording head_;
   // Of a replay, whose file tells the person as in a conversion; else empty.
   MarkerSequence played_;
-  bool selects_labels_, waits_;
+  bool waits_;
   std::shared_ptr<const StreamLayout> layout_;
   std::vector<int> columns_;  // of the layout's labels those that count
   std::optional<ConversionPlan> plan_;

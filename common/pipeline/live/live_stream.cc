@@ -30,6 +30,7 @@ LiveSource OpenSourceOf(const LiveRequest& request, Warnings* warnings) {
   options.needs_labels = !request.label;
   options.reading = request.input.reading;
   options.reading.with_unlabelled = request.label;
+  options.reading.all_subjects = !request.other_objects.empty();
   options.loops = request.loops;
   return OpenLiveSource(request.input.file, options, warnings);
 }
@@ -39,8 +40,13 @@ LiveStream::LiveStream(const LiveRequest& request, LiveSource source, Give give,
       give_(std::move(give)),
       tell_(std::move(tell)),
       live_(std::move(source)),
-      session_(request, live_.head, live_.selects_labels, live_.source->waits_for_reader()),
       mailbox_(live_.source->waits_for_reader()) {
+  std::vector<LiveBodyRequest> bodies = BodiesOf(request, live_.selects_labels);
+  const int count = static_cast<int>(bodies.size());
+  for (int i = 0; i < count; ++i) {
+    sessions_.push_back(std::make_unique<LiveSession>(
+        std::move(bodies[static_cast<std::size_t>(i)]), i, count, live_.head, waits_for_reader()));
+  }
   if (request.robot.file.empty()) return;
   Warnings warnings;
   robot_ = std::make_unique<LiveRobot>(request.robot, &warnings);
@@ -134,28 +140,38 @@ void LiveStream::Track() {
       if (mailbox_.is_closed() && mailbox_.is_empty()) return;
       continue;
     }
-    const int starts = session_.starts();
+    const int starts = this->starts();
     taken_ = steady_clock::now();
     NameDropped(frame->frame.number);
-    const PoseFrame& pose = session_.Take(*frame, mailbox_.dropped());
-    for (std::string& text : session_.TakeNews()) tell_(false, std::move(text));
+    for (const auto& session : sessions_) {
+      const PoseFrame& pose = session->Take(*frame, mailbox_.dropped());
+      for (std::string& text : session->TakeNews()) tell_(false, std::move(text));
+      if (session->body()) Pass(*session, pose);
+    }
     source_ = frame->layout->source;
     rate_ = frame->layout->rate;
     received_ = frame->frame.received;
-    if (session_.body()) Pass(pose);
     ++status_frames_;
-    status_stage_ = session_.stage();
-    status_gathered_ = session_.gathered();
-    if (session_.starts() != starts) to_make_up_ = kMostMadeUp;
-    if (mailbox_.is_empty()) session_.Prepare();
+    status_stage_ = session().stage();
+    status_gathered_ = session().gathered();
+    if (this->starts() != starts) to_make_up_ = kMostMadeUp;
+    for (const auto& session : sessions_) {
+      if (mailbox_.is_empty()) session->Prepare();
+    }
     const std::chrono::duration<double> busy = steady_clock::now() - taken_;
     busy_ += kBusyShare * (busy.count() - busy_);
   }
 }
 
-void LiveStream::Pass(const PoseFrame& pose) {
-  if (!robot_) return give_(session_.body(), pose);
-  robot_->Take(session_.body(), pose);
+int LiveStream::starts() const {
+  int starts = 0;
+  for (const auto& session : sessions_) starts += session->starts();
+  return starts;
+}
+
+void LiveStream::Pass(const LiveSession& session, const PoseFrame& pose) {
+  if (!robot_ || session.body()->index > 0) return give_(session.body(), pose);
+  robot_->Take(session.body(), pose);
   give_(robot_->body(), robot_->frame());
 }
 

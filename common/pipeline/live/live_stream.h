@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "common/live/frame_mailbox.h"
 #include "common/live/pose_frame.h"
@@ -40,8 +41,8 @@ LiveSource OpenSourceOf(const LiveRequest& request, Warnings* warnings);
 /// A source that one thread reads and another tracks, from Start on until the source ends or Stop.
 class LiveStream {
  public:
-  /// Gets each frame once the body is known, on the tracking thread: of the person, or of the robot
-  /// that follows.
+  /// Gets each frame of each body once that is known, on the tracking thread: of the person, or of
+  /// the robot that follows, and of other objects.
   using Give = std::function<void(const std::shared_ptr<const LiveBody>&, const PoseFrame&)>;
   /// What there is to say, from any thread: whether it is a warning, and a line.
   using Tell = std::function<void(bool, std::string)>;
@@ -59,7 +60,11 @@ class LiveStream {
   bool waits_for_reader() const { return live_.source->waits_for_reader(); }
 
   // On the tracking thread, or after Join:
-  const LiveSession& session() const { return session_; }
+  /// Of a body; 0: whom the stream is tracked for.
+  const LiveSession& session(int body = 0) const {
+    return *sessions_[static_cast<std::size_t>(body)];
+  }
+  int num_bodies() const { return static_cast<int>(sessions_.size()); }
   SteadyTime taken() const { return taken_; }  ///< when the tracking thread took the frame
   const std::string& source() const { return source_; }
   // After Join:
@@ -71,7 +76,8 @@ class LiveStream {
   void Guard(Work work);
   void Read();
   void Track();
-  void Pass(const PoseFrame& pose);
+  int starts() const;
+  void Pass(const LiveSession& session, const PoseFrame& pose);
   int MostInOrder();
   const LaidOutFrame* NextFrame();
   void NameDropped(std::int64_t number);
@@ -81,7 +87,7 @@ class LiveStream {
   Give give_;
   Tell tell_;
   LiveSource live_;
-  LiveSession session_;
+  std::vector<std::unique_ptr<LiveSession>> sessions_;
   std::unique_ptr<LiveRobot> robot_;  // null: none
   FrameMailbox mailbox_;
   std::string source_;

@@ -116,5 +116,30 @@ TEST(ZmqSink, ASubscriberGetsThreeParts) {
   ExpectPosture(*body, frame, parts[1], parts[2]);
 }
 
+// Each has a topic of its own, behind the one that has all.
+TEST(ZmqSink, ObjectsHaveTopics) {
+  const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", FreePort());
+  zmq::context_t context;
+  const auto sink = OpenZmqSink("zmq" + endpoint.substr(3));
+  zmq::socket_t subscriber(context, zmq::socket_type::sub);
+  subscriber.set(zmq::sockopt::subscribe, "posture/box");
+  subscriber.set(zmq::sockopt::rcvtimeo, 20);
+  subscriber.connect(endpoint);
+  auto person = std::make_shared<LiveBody>(*SmallBody());
+  auto box = std::make_shared<LiveBody>(*person);
+  person->count = box->count = 2;
+  box->index = 1;
+  box->name = "box";
+  zmq::message_t topic, header;
+  for (int tries = 0; tries < 500 && topic.size() == 0; ++tries) {
+    sink->Write(person, SmallFrame(*person));
+    sink->Write(box, SmallFrame(*box));
+    if (!subscriber.recv(topic)) continue;
+    ASSERT_TRUE(subscriber.recv(header));
+  }
+  EXPECT_EQ(topic.to_string(), "posture/box");
+  EXPECT_EQ(nlohmann::json::parse(header.to_string())["body"], "box");
+}
+
 }  // namespace
 }  // namespace mmm_converter
