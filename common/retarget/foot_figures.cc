@@ -8,7 +8,6 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kBears = 0.002;       // [m] above the foot's lowest point
-constexpr double kSlides = 0.01;       // [m/s]
 constexpr double kEnds = 0.05;         // [s] of a contact that floating leaves out
 constexpr double kOthersRate = 30;     // [Hz]
 constexpr double kOthersSlide = 0.01;  // [m] a frame
@@ -20,22 +19,6 @@ std::vector<bool> ContactsOf(const Retargeted& retargeted, std::size_t foot) {
                       IsInContact(retargeted.states.toes[foot], k));
   }
   return contact;
-}
-
-/// Horizontal way of what bears from one pose to the next.
-double WayOf(const RobotFoot& foot, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const double low_from = LowestOf(foot, from) + kBears, low_to = LowestOf(foot, to) + kBears;
-  double largest = -1, smallest = INFINITY;
-  for (const FloorBall& ball : foot.balls) {
-    const Eigen::Vector3d p_S = ball.p_S - ball.radius * foot.R_FA.col(2);
-    const Eigen::Vector3d before = from * p_S, after = to * p_S;
-    const double way = (after - before).head<2>().norm();
-    const bool first = before.z() < low_from, second = after.z() < low_to;
-    if (first && second) largest = std::max(largest, way);
-    if (first || second) smallest = std::min(smallest, way);
-  }
-  if (largest >= 0) return largest;
-  return std::isinf(smallest) ? 0 : smallest;
 }
 
 struct Counts {
@@ -79,6 +62,21 @@ void CountOthersRule(const Eigen::Matrix3Xd& human, const Eigen::Matrix3Xd& robo
 
 }  // namespace
 
+double WayOf(const RobotFoot& foot, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+  const double low_from = LowestOf(foot, from) + kBears, low_to = LowestOf(foot, to) + kBears;
+  double largest = -1, smallest = INFINITY;
+  for (const FloorBall& ball : foot.balls) {
+    const Eigen::Vector3d p_S = ball.p_S - ball.radius * foot.R_FA.col(2);
+    const Eigen::Vector3d before = from * p_S, after = to * p_S;
+    const double way = (after - before).head<2>().norm();
+    const bool first = before.z() < low_from, second = after.z() < low_to;
+    if (first && second) largest = std::max(largest, way);
+    if (first || second) smallest = std::min(smallest, way);
+  }
+  if (largest >= 0) return largest;
+  return std::isinf(smallest) ? 0 : smallest;
+}
+
 void MeasureFeet(const Retargeted& retargeted, const RobotBody& body, const PosesOverTime& X_WS,
                  RetargetFigures* figures) {
   Counts counts;
@@ -104,7 +102,7 @@ void MeasureFeet(const Retargeted& retargeted, const RobotBody& body, const Pose
       if (k == 0 || !contact[k] || !contact[k - 1]) continue;
       ++counts.pairs;
       speed[k] = WayOf(foot, X_WS[k - 1][foot.segment], X) * rate;
-      if (speed[k] > kSlides) ++counts.slides;
+      if (speed[k] > kSlideSpeed) ++counts.slides;
     }
     CountFloating(contact, lowest, rate, &counts);
     CountOthersRule(retargeted.human.toes[i], toe, rate, &counts);

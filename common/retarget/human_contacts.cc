@@ -57,8 +57,10 @@ std::vector<bool> FindOn(const PointState& point, double rate) {
     const bool is_low = (point.height.segment(begin, end - begin).array() < kOffHeight).all();
     if (begin > 0 && end < frames && is_low) std::fill(on.begin() + begin, on.begin() + end, true);
   });
-  each_run(true,
-           [&](int begin, int end) { std::fill(on.begin() + begin, on.begin() + end, false); });
+  // How long those are that the recording cuts off is not known.
+  each_run(true, [&](int begin, int end) {
+    if (begin > 0 && end < frames) std::fill(on.begin() + begin, on.begin() + end, false);
+  });
   return on;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/model/forward_kinematics.h"
+#include "common/retarget/held_joints.h"
 #include "common/retarget/retarget_targets.h"
 #include "common/support/error.h"
 
@@ -27,7 +28,27 @@ FootTracks FeetOf(const KinematicModel& model, const RobotBody& body,
   return tracks;
 }
 
+void TakeObjects(const std::vector<TrackedObject>& objects, const RobotBody& body,
+                 Retargeted* result) {
+  if (objects.empty()) return;
+  if (!body.feet) {
+    throw Error("objects keep their place to the hands of a robot with legs; this one has none");
+  }
+  result->holds = FindHolds(result->human, objects);
+  for (const TrackedObject& object : objects) {
+    result->objects.push_back(ScaledObject(object, result->scale, FloorOf(*result)));
+  }
+}
+
 }  // namespace
+
+double FloorOf(const Retargeted& retargeted) {
+  double floor = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    floor += 0.5 * (retargeted.states.heels[i].level - retargeted.heel_heights[i]);
+  }
+  return floor;
+}
 
 Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body) {
@@ -48,12 +69,14 @@ Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajector
 }
 
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
-                          const Robot& robot, const RobotBody& body) {
+                          const Robot& robot, const RobotBody& body,
+                          const std::vector<TrackedObject>& objects) {
   if (motion.num_frames() < kFewestFrames) {
     throw Error(fmt::format("a motion of {} frames; at least {} are brought to a robot",
                             motion.num_frames(), kFewestFrames));
   }
   Retargeted result = DescribePerson(human_model, motion, robot, body);
+  TakeObjects(objects, body, &result);
   FootTracks feet = ScaledFeet(result, body);
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
   std::vector<Posture> start = StartTrajectory(
@@ -64,6 +87,7 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
     problem = MakeProblem(result, robot, body, feet, kFirm);
     fit = FitTrajectory(problem, std::move(fit.postures), kSecondIterations, kMore);
   }
+  for (Posture& posture : fit.postures) PutHeldJoints(body, &posture);
   result.iterations = fit.iterations;
   result.keeps_limits = fit.has_converged;
   result.motion.postures = std::move(fit.postures);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/motion/pose_trajectory.h"
+#include "common/retarget/held_objects.h"
 #include "common/retarget/human_body.h"
 #include "common/retarget/human_contacts.h"
 #include "common/retarget/robot_body.h"
@@ -20,17 +21,25 @@ struct Retargeted {
   std::array<FootContacts, 2> contacts;
   double ankle_height = 0;                  ///< of the person [m]
   std::array<double, 2> heel_heights = {};  ///< of HumanMotion::heels above the sole [m]
-  int iterations = 0;                       ///< of the fit, the most
-  bool keeps_limits = false;                ///< FitResult::has_converged
+  std::vector<TrackedObject> objects;       ///< in the robot's world
+  std::vector<Hold> holds;
+  int iterations = 0;         ///< of the fit, the most
+  bool keeps_limits = false;  ///< FitResult::has_converged
 };
 
 /// What is known of the person: all but the robot's postures.
 Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body);
 
-/// README.md has the algorithm. human_model: a person's, of MMM or OpenSim.
-/// @throws Error where the person's model is not known, or the motion has fewer than three frames.
+/// Height of the floor on which the person stands [m].
+double FloorOf(const Retargeted& retargeted);
+
+/// README.md has the algorithm. human_model: a person's, of MMM or OpenSim. objects: as many frames
+/// as the motion's.
+/// @throws Error where the person's model is not known, the motion has fewer than three frames, or
+/// there are objects for a robot without legs, which has no place in the person's world.
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
-                          const Robot& robot, const RobotBody& body);
+                          const Robot& robot, const RobotBody& body,
+                          const std::vector<TrackedObject>& objects = {});
 
 }  // namespace mmm_converter

@@ -9,6 +9,7 @@
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/foot_figures.h"
+#include "common/retarget/limb_directions.h"
 #include "common/retarget/self_contact.h"
 
 namespace mmm_converter {
@@ -21,37 +22,10 @@ constexpr double kMoves = 0.01;       // [rad] of a joint that moves
 constexpr double kAtLimit = 1e-3;     // [rad]
 constexpr double kAtSpeed = 0.98;     // of a velocity limit
 constexpr double kLeastShare = 0.02;  // of the frames at a limit that are worth a word
-constexpr double kSteepest = 60;      // [deg] of a pelvis whose heading is known
 constexpr double kBetterShare = 0.7;  // another reading of the sides fits better below
 constexpr double kBetterAngle = 2;    // [deg] and by so much
 constexpr double kLeastPath = 0.2;    // [m] rms of a person who goes somewhere
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// The limbs' directions as the pelvis' heading sees them.
-struct Directions {
-  std::vector<Vector3d> limbs;
-  double heading = 0;
-  bool is_known = true;
-};
-
-Directions DirectionsOf(const BodyMap& map, const BodyPosture& body, bool by_chest) {
-  Directions directions;
-  const Vector3d left = by_chest ? body.R_chest.col(1) : body.R_pelvis.col(1);
-  directions.is_known = std::abs(left.z()) < std::sin(kSteepest * kDegree);
-  directions.heading = std::atan2(-left.x(), left.y());
-  const Eigen::AngleAxisd back(-directions.heading, Vector3d::UnitZ());
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!map.legs[i]) continue;
-    directions.limbs.push_back(back * UpperDirection(body.legs[i]));
-    directions.limbs.push_back(back * LowerDirection(body.legs[i]));
-  }
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!map.arms[i]) continue;
-    directions.limbs.push_back(back * UpperDirection(body.arms[i]));
-    directions.limbs.push_back(back * LowerDirection(body.arms[i]));
-  }
-  return directions;
-}
 
 /// The person's map without the limbs that the robot has not.
 BodyMap LimbsOfBoth(const BodyMap& robot) {
@@ -59,25 +33,6 @@ BodyMap LimbsOfBoth(const BodyMap& robot) {
   map.legs = robot.legs;
   map.arms = robot.arms;
   return map;
-}
-
-double Angle(const Vector3d& a, const Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-std::vector<std::string> NamesOf(const BodyMap& map) {
-  std::vector<std::string> names;
-  for (const Side side : kSides) {
-    if (!map.leg(side)) continue;
-    names.push_back(std::string(Name(side)) + " thigh");
-    names.push_back(std::string(Name(side)) + " shank");
-  }
-  for (const Side side : kSides) {
-    if (!map.arm(side)) continue;
-    names.push_back(std::string(Name(side)) + " upper arm");
-    names.push_back(std::string(Name(side)) + " forearm");
-  }
-  return names;
 }
 
 /// Limbs stand in fours, left and right in twos.
@@ -89,15 +44,15 @@ class DirectionMeasure {
       : retargeted_(retargeted) {
     const BodyMap map = LimbsOfBoth(body.map);
     const bool by_chest = !body.feet;
-    names_ = NamesOf(map);
+    names_ = NamesOfLimbs(map);
     errors_.resize(names_.size());
     for (int k = 0; k < retargeted.human.num_frames(); ++k) {
-      const Directions person = DirectionsOf(map, retargeted.human.bodies[k], by_chest);
-      const Directions robot = DirectionsOf(map, PostureOfBody(body.map, X_WS[k]), by_chest);
+      const LimbDirections person = DirectionsOf(map, retargeted.human.bodies[k], by_chest);
+      const LimbDirections robot = DirectionsOf(map, PostureOfBody(body.map, X_WS[k]), by_chest);
       if (!person.is_known || !robot.is_known) continue;
       frames_.push_back(k);
       turned_ += std::abs(std::remainder(robot.heading - person.heading, 2 * std::numbers::pi));
-      AddFrame(person.limbs, robot.limbs);
+      AddFrame(person, robot);
     }
     is_fixed_ = by_chest;
   }
@@ -136,13 +91,13 @@ class DirectionMeasure {
     return all;
   }
 
-  void AddFrame(const std::vector<Vector3d>& person, const std::vector<Vector3d>& robot) {
+  void AddFrame(const LimbDirections& person, const LimbDirections& robot) {
     const Eigen::DiagonalMatrix<double, 3> reflect(1, -1, 1);
-    for (std::size_t n = 0; n < robot.size(); ++n) {
-      errors_[n].push_back(Angle(person[n], robot[n]));
-      const Vector3d& other = person[OtherSide(n)];
-      exchanged_ += Angle(other, robot[n]);
-      reflected_ += Angle(reflect * other, robot[n]);
+    for (std::size_t n = 0; n < robot.count; ++n) {
+      errors_[n].push_back(AngleBetween(person.limbs[n], robot.limbs[n]));
+      const Vector3d& other = person.limbs[OtherSide(n)];
+      exchanged_ += AngleBetween(other, robot.limbs[n]);
+      reflected_ += AngleBetween(reflect * other, robot.limbs[n]);
     }
   }
 
@@ -180,28 +135,48 @@ void MeasureSmoothness(const PoseTrajectory& motion, RetargetFigures* figures) {
   figures->jerk = rate * Square(rate) * std::sqrt(third / moving / std::max(1, frames - 3));
 }
 
-void MeasureLimits(const PoseTrajectory& motion, const Robot& robot, RetargetFigures* figures) {
+void MeasureHolds(const Retargeted& retargeted, const RobotBody& body, const PosesOverTime& X_WS,
+                  RetargetFigures* figures) {
+  const Vector3d floor = FloorOf(retargeted) * Vector3d::UnitZ();
+  for (const Hold& hold : retargeted.holds) {
+    const BodyPoint& palm = body.palms[hold.hand];
+    if (palm.segment < 0) continue;
+    HoldFigures& one = figures->holds.emplace_back();
+    one.object = retargeted.objects[hold.object].name;
+    one.hand = Name(kSides[hold.hand]);
+    one.begin = retargeted.motion.time(hold.begin);
+    one.end = retargeted.motion.time(hold.end - 1);
+    for (int k = hold.begin; k < hold.end; ++k) {
+      const Vector3d wanted =
+          retargeted.scale * (PalmOf(retargeted.human.bodies[k].arms[hold.hand]) - floor);
+      const double off = (X_WS[k][palm.segment] * palm.p_S - wanted).norm();
+      one.mean += off / (hold.end - hold.begin);
+      if (off > one.most) one.most_time = retargeted.motion.time(k);
+      one.most = std::max(one.most, off);
+    }
+  }
+}
+
+void MeasureLimits(const PoseTrajectory& motion, const Robot& robot, const RobotBody& body,
+                   RetargetFigures* figures) {
   const int frames = motion.num_frames();
   for (int j = 0; j < robot.model.num_joints(); ++j) {
-    const Segment& joint = robot.model.joint(j);
     int at_limit = 0, at_speed = 0;
     for (int k = 0; k < frames; ++k) {
       const double q = motion.postures[k].joint_angles[j];
-      if (q < joint.lower - kBeyond || q > joint.upper + kBeyond) ++figures->position_breaks;
-      if (q < joint.lower + kAtLimit || q > joint.upper - kAtLimit) ++at_limit;
-      if (k == 0) continue;
-      const double speed = std::abs(q - motion.postures[k - 1].joint_angles[j]) * motion.rate;
-      if (speed > robot.velocity_limits[j]) ++figures->velocity_breaks;
-      if (speed > kAtSpeed * robot.velocity_limits[j]) ++at_speed;
+      const double speed =
+          k == 0 ? 0 : std::abs(q - motion.postures[k - 1].joint_angles[j]) * motion.rate;
+      const JointState state = StateOf(robot, j, q, speed);
+      figures->position_breaks += state.is_beyond ? 1 : 0;
+      figures->velocity_breaks += state.is_too_fast ? 1 : 0;
+      at_limit += state.is_at_limit ? 1 : 0;
+      at_speed += state.is_at_speed ? 1 : 0;
     }
-    const double share = static_cast<double>(at_limit) / frames;
-    const double fast = static_cast<double>(at_speed) / frames;
-    if (share > kLeastShare || at_speed > 0) figures->joints.push_back({joint.name, share, fast});
+    if (std::count(body.held.begin(), body.held.end(), j) > 0) continue;
+    AddJointFigures({robot.model.joint(j).name, static_cast<double>(at_limit) / frames,
+                     static_cast<double>(at_speed) / frames},
+                    figures);
   }
-  std::stable_sort(
-      figures->joints.begin(), figures->joints.end(), [](const auto& a, const auto& b) {
-        return a.share_at_limit + a.share_at_speed > b.share_at_limit + b.share_at_speed;
-      });
 }
 
 double PathOf(const Retargeted& retargeted, const BodyMap& map, const PosesOverTime& X_WS) {
@@ -218,6 +193,25 @@ double PathOf(const Retargeted& retargeted, const BodyMap& map, const PosesOverT
 }
 
 }  // namespace
+
+JointState StateOf(const Robot& robot, int j, double q, double speed) {
+  const Segment& joint = robot.model.joint(j);
+  const double fastest = robot.velocity_limits[j];
+  return {q < joint.lower - kBeyond || q > joint.upper + kBeyond,
+          q < joint.lower + kAtLimit || q > joint.upper - kAtLimit, speed > fastest,
+          speed > kAtSpeed * fastest};
+}
+
+void AddJointFigures(JointFigures joint, RetargetFigures* figures) {
+  if (joint.share_at_limit <= kLeastShare && joint.share_at_speed == 0) return;
+  const auto share = [](const JointFigures& one) {
+    return one.share_at_limit + one.share_at_speed;
+  };
+  const auto place =
+      std::upper_bound(figures->joints.begin(), figures->joints.end(), joint,
+                       [&](const auto& a, const auto& b) { return share(a) > share(b); });
+  figures->joints.insert(place, std::move(joint));
+}
 
 RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& robot,
                                    const RobotBody& body) {
@@ -237,7 +231,8 @@ RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& ro
     figures.path = PathOf(retargeted, body.map, X_WS);
   }
   MeasureSelfContact(retargeted.motion, body.capsules, X_WS, &figures);
-  MeasureLimits(retargeted.motion, robot, &figures);
+  MeasureHolds(retargeted, body, X_WS, &figures);
+  MeasureLimits(retargeted.motion, robot, body, &figures);
   MeasureSmoothness(retargeted.motion, &figures);
   DirectionMeasure(retargeted, body, X_WS).Conclude(&figures);
   return figures;

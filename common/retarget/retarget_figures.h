@@ -39,6 +39,14 @@ struct TouchFigures {
   bool is_by_mass = false;     ///< the size of one is known by its inertia only
 };
 
+/// A hand at what it holds.
+struct HoldFigures {
+  std::string object, hand;   ///< "left"
+  double begin = 0, end = 0;  ///< [s]
+  /// From where the person had it, in the object [m].
+  double mean = 0, most = 0, most_time = 0;
+};
+
 /// A robot's motion in numbers; what each counts is in README.md.
 struct RetargetFigures {
   double rate = 0;  ///< [Hz]
@@ -62,9 +70,19 @@ struct RetargetFigures {
   double direction = 0, direction95 = 0;
   std::vector<LimbFigures> limbs;
   std::vector<JointFigures> joints;  ///< that are at a limit for a while, the longest first
+  std::vector<HoldFigures> holds;
   bool is_mirrored = false, is_backwards = false;
   double path = 0;  ///< length over what the legs allow; NaN: the person stays
 };
+
+/// Of a joint in one frame; speed: since the frame before [rad/s].
+struct JointState {
+  bool is_beyond, is_at_limit;    ///< of position
+  bool is_too_fast, is_at_speed;  ///< of velocity
+};
+JointState StateOf(const Robot& robot, int joint, double q, double speed);
+/// Where its shares are worth a word.
+void AddJointFigures(JointFigures joint, RetargetFigures* figures);
 
 RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& robot,
                                    const RobotBody& body);

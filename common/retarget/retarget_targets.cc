@@ -20,6 +20,8 @@ constexpr double kLegTwist = 0.3;
 constexpr double kArmDirection = 0.04;
 constexpr double kArmTwist = 0.4;
 constexpr double kHandTurn = 0.3;
+constexpr double kHoldPlace = 0.003;  // of a hand at what it holds
+constexpr double kHoldTurn = 0.1;
 constexpr double kHeld = 1e-4;    // of a root without legs
 constexpr double kLeaning = 0.1;  // of a foot that no joint rolls
 
@@ -103,12 +105,28 @@ Vector3d MidHip(const KinematicModel& model, const BodyMap& map) {
   return X_WS[map.pelvis].inverse() * PostureOfBody(map, X_WS).mid_hip;
 }
 
-double FloorOf(const Retargeted& retargeted) {
-  double floor = 0;
+/// Hands that hold an object are where the person's are, in a world as much smaller as the robot.
+void AddHolds(const Retargeted& retargeted, const RobotBody& body, TrajectoryProblem* problem) {
+  const int frames = problem->num_frames;
+  const Vector3d floor = FloorOf(retargeted) * Vector3d::UnitZ();
   for (std::size_t i = 0; i < 2; ++i) {
-    floor += 0.5 * (retargeted.states.heels[i].level - retargeted.heel_heights[i]);
+    if (!body.map.arms[i]) continue;
+    const LimbMap& map = *body.map.arms[i];
+    const std::vector<double> weights = WeightsOfHold(retargeted.holds, i, problem->rate, frames);
+    std::vector<Aim> aims = {MakeAim({map.end, false, body.palms[i].p_S, kHoldPlace, {}}, frames)};
+    for (const int column : {2, 1}) {
+      if (map.has_wrist)
+        aims.push_back(MakeAim({map.end, true, map.R_ED.col(column), kHoldTurn, {}}, frames));
+    }
+    for (int k = 0; k < frames; ++k) {
+      const LimbPosture& arm = retargeted.human.bodies[k].arms[i];
+      aims[0].target.col(k) = retargeted.scale * (PalmOf(arm) - floor);
+      if (map.has_wrist) aims[1].target.col(k) = arm.R_end.col(2);
+      if (map.has_wrist) aims[2].target.col(k) = arm.R_end.col(1);
+      for (Aim& aim : aims) aim.weight.col(k) *= weights[k];
+    }
+    problem->aims.insert(problem->aims.end(), aims.begin(), aims.end());
   }
-  return floor;
 }
 
 }  // namespace
@@ -167,7 +185,8 @@ TrajectoryProblem EmptyProblem(const Robot& robot, const RobotBody& body, double
   problem.rate = rate;
   problem.num_frames = frames;
   problem.velocity_limits = robot.velocity_limits;
-  problem.rest = ZeroPosture(robot.model).joint_angles;
+  problem.rest = body.rest;
+  problem.held = body.held;
   problem.capsules = &body.capsules;
   if (!body.feet) return problem;
   for (const RobotFoot& foot : *body.feet) {
@@ -197,6 +216,7 @@ TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
     }
     problem.aims.insert(problem.aims.end(), aims.begin(), aims.end());
   }
+  if (!retargeted.holds.empty()) AddHolds(retargeted, body, &problem);
   return problem;
 }
 

@@ -9,13 +9,17 @@
 
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/body_posture.h"
+#include "common/retarget/held_joints.h"
+#include "common/retarget/held_objects.h"
 #include "common/retarget/self_contact.h"
+#include "common/support/advice.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kMostSoleHeight = 0.5;  // [m]
+constexpr double kLeastSoleHeight = 0.005, kMostSoleHeight = 0.5;  // [m]
 using Eigen::Vector3d;
 
 constexpr double kTilts[] = {0.3, 1};  // of directions in which the sole's ends are the lowest
@@ -130,9 +134,13 @@ Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& pla
 
 RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
                         std::optional<double> sole_height) {
-  if (sole_height && !(*sole_height >= 0 && *sole_height <= kMostSoleHeight)) {
-    throw Error(fmt::format("a sole {:g} m below the ankle is none; 0 to {:g} m are expected",
-                            *sole_height, kMostSoleHeight));
+  if (sole_height && *sole_height != 0 &&
+      !(*sole_height >= kLeastSoleHeight && *sole_height <= kMostSoleHeight)) {
+    throw Error(fmt::format(
+        "{}: a sole is not {:g} m ({:g} mm) below the ankle; expected are {:g} to {:g} m ({:g} to "
+        "{:g} mm), or 0 where the link begins at the sole",
+        OptionText("sole-height"), *sole_height, kMillimetres * *sole_height, kLeastSoleHeight,
+        kMostSoleHeight, kMillimetres * kLeastSoleHeight, kMillimetres * kMostSoleHeight));
   }
   RobotBody body;
   body.map = FindBodyMap(robot.model, choice);
@@ -147,6 +155,13 @@ RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
   } else {
     body.size = body.map.arms[0]->upper.length + body.map.arms[0]->lower.length;
   }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!body.map.arms[i]) continue;
+    const int hand = body.map.arms[i]->end;
+    body.palms[i] = {hand, X_WS[hand].inverse() * PalmOf(PostureOfBody(body.map, X_WS).arms[i])};
+  }
+  body.rest = ZeroPosture(robot.model).joint_angles;
+  HoldIdleJoints(robot, &body);
   body.capsules = FindCapsules(robot, body.map);
   WatchContacts(robot, &body);
   return body;

@@ -44,6 +44,9 @@ struct RobotBody {
   double hip_width = 0;  ///< [m]
   RobotCapsules capsules;
   std::vector<FloorBall> balls;  ///< of arms, trunk and knees: with them, too, it stays above z = 0
+  std::array<BodyPoint, 2> palms;  ///< of hands (PalmOf); segment -1: it has no such arm
+  Eigen::VectorXd rest;            ///< of all joints, where nothing moves them
+  std::vector<int> held;           ///< joints that stay there (held_joints.h)
 };
 
 /// sole_height: of the last segment's origin above the sole, where the file does not tell it [m].

@@ -31,6 +31,10 @@ class RobotFollower {
   void Interrupt() { is_following_ = false; }
 
   double scale() const { return scale_; }
+  // Of the last frame:
+  const BodyPosture& person() const { return person_posture_; }
+  const std::vector<Eigen::Isometry3d>& X_WS() const { return robot_state_.poses(); }
+  bool stands(std::size_t foot) const { return feet_[foot].stands; }
 
  private:
   /// A value that follows another without overshoot (critically damped).

@@ -39,6 +39,7 @@ struct TrajectoryProblem {
   const RobotCapsules* capsules = nullptr;  ///< whose pairs are kept apart
   Eigen::VectorXd velocity_limits;          ///< of joints [rad/s, m/s]; infinity: none
   Eigen::VectorXd rest;                     ///< of joints, where nothing moves them
+  std::vector<int> held;                    ///< joints that stay there
   double joint_acceleration = 45;           ///< standard deviation [rad/s^2]
   double root_acceleration = 40;            ///< [m/s^2]
   double root_turning = 100;                ///< [rad/s^2]

@@ -9,9 +9,9 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a step, for what subtraction loses
-constexpr double kDeepest = 5e-4;   // [m]
-constexpr double kLiftTime = 0.1;   // [s] before and behind what is lifted
+constexpr double kLimitRounding = 1e-9;  // of a step, for what subtraction loses
+constexpr double kDeepest = 5e-4;        // [m]
+constexpr double kLiftTime = 0.1;        // [s] before and behind what is lifted
 
 /// The highest values below q that change by no more than `step` from frame to frame.
 Eigen::VectorXd HighestBelow(Eigen::VectorXd q, double step) {
@@ -30,7 +30,7 @@ double CorrectJoints(const TrajectoryProblem& problem, std::vector<Posture>* pos
     const Segment& joint = problem.model->joint(j);
     for (Eigen::Index k = 0; k < frames; ++k) given[k] = (*postures)[k].joint_angles[j];
     Eigen::VectorXd kept = given.cwiseMax(joint.lower).cwiseMin(joint.upper);
-    const double step = (1 - kRounding) * problem.velocity_limits[j] / problem.rate;
+    const double step = (1 - kLimitRounding) * problem.velocity_limits[j] / problem.rate;
     if (std::isfinite(step)) {
       kept = 0.5 * (HighestBelow(kept, step) - HighestBelow(-kept, step));
       kept = kept.cwiseMax(joint.lower).cwiseMin(joint.upper);

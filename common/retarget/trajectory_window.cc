@@ -28,6 +28,7 @@ constexpr double kLongestStep = 0.7;  // [rad]
 constexpr double kApart = 0.003;      // [m] between bodies that are kept apart
 constexpr double kTouchDeviation = 0.002;  // [m]
 constexpr double kUnmoved = 1.0;           // weight of what nothing moves
+constexpr double kHoldsFirmly = 1e8;       // [1/rad^2, 1/m^2] of what is held, against any aim
 
 /// How far a value is beyond its limits; within them 0.
 double Excess(double value, double lower, double upper) {
@@ -117,6 +118,10 @@ double AimEquations::AddAims(int frame, const Posture& posture, Eigen::MatrixXd*
   const Eigen::Index joints = posture.joint_angles.size();
   H->diagonal().tail(joints).array() += rest;
   b->tail(joints) += rest * (problem_.rest - posture.joint_angles);
+  for (const int joint : problem_.held) {
+    (*H)(6 + joint, 6 + joint) += kHoldsFirmly;
+    (*b)[6 + joint] += kHoldsFirmly * (problem_.rest[joint] - posture.joint_angles[joint]);
+  }
   if (problem_.model->is_root_fixed()) H->diagonal().head<6>().array() += kUnmoved;
   return cost;
 }
@@ -165,7 +170,10 @@ void AimEquations::FindForces(const Eigen::VectorXd& step,
     contact.force = 0;
     if (!contact.is_on) continue;
     const std::vector<int>& columns = jacobian_.columns(problem_.balls[i].segment);
-    contact.force = contact.missing - contact.row.dot(step(columns));
+    contact.force = contact.missing;
+    for (std::size_t j = 0; j < columns.size(); ++j) {  // step(columns) would copy them
+      contact.force -= contact.row[static_cast<Eigen::Index>(j)] * step[columns[j]];
+    }
   }
 }
 

@@ -6,10 +6,16 @@
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/recording/recording.h"
+#include "common/io/robot_file.h"
 #include "common/live/frame_mailbox.h"
 #include "common/live/live_tracker.h"
 #include "common/live/replay/replay_source.h"
 #include "common/live/sink_runner.h"
+#include "common/model/model_scaling.h"
+#include "common/motion/marker_synthesis.h"
+#include "common/motion/synthetic_motion.h"
+#include "common/retarget/follow_figures.h"
+#include "common/retarget/robot_follower.h"
 #include "common/support/data_directory.h"
 #include "tests/support/shared_data.h"
 
@@ -77,6 +83,34 @@ TEST(LiveAllocation, TheTrackingThreadAllocatesNothing) {
   }
   EXPECT_EQ(counted, 0);
   EXPECT_GT(allocations, 0);
+}
+
+TEST(LiveAllocation, ARobotThatFollowsAllocatesNothing) {
+  const auto person = std::make_shared<const KinematicModel>(
+      ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")), {1.8, 70, {}}));
+  const Robot robot = ReadRobotFile(testing::SourcePath("examples/robot/biped.urdf"));
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  RobotFollower follower(person, robot, body, 100);
+  FollowWatch watch(robot, body);
+  const PoseTrajectory motion = MakeRaisedKnee(*person);
+  std::vector<Posture> postures;
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    postures.push_back(ModelPosture(*person, motion, k));
+  }
+  long counted = 0;
+  // What touches for the first time gets its size: the second time round none is left.
+  for (int k = 0; k < 2 * motion.num_frames(); ++k) {
+    const int frame = k % motion.num_frames();
+    const long before = allocations;
+    const Posture& posture = follower.Follow(postures[frame], k / motion.rate);
+    watch.Take({follower.person(),
+                posture,
+                follower.X_WS(),
+                {follower.stands(0), follower.stands(1)},
+                k / motion.rate});
+    if (k >= motion.num_frames()) counted += allocations - before;
+  }
+  EXPECT_EQ(counted, 0);
 }
 
 }  // namespace

@@ -48,6 +48,15 @@ std::string LegText(const BipedShape& shape, const std::string& side, double y) 
                       "0.02 0 -0.04", foot);
 }
 
+std::string HandText(const std::string& side) {
+  const std::string hand = side + "wrist_link", at = "0 0.02 -0.08", mass = "0 0 -0.02";
+  return JointAndLink({side + "wrist", side + "elbow_link", "0 0 -0.22", "0 1 0", -1, 1, 20},
+                      "0 0 -0.05") +
+         JointAndLink({side + "finger_1", hand, at, "0 1 0", 0.1, 1.5, 5}, mass) +
+         JointAndLink({side + "finger_2", hand, at, "0 1 0", 0.1, 1.5, 5}, mass) +
+         JointAndLink({side + "thumb", hand, "0.02 0 -0.06", "0 0 1", -1, 1, 5}, mass);
+}
+
 std::string ArmText(const BipedShape& shape, const std::string& side, double y) {
   const std::string here = "0 0 0";
   const auto link = [&](const char* name) { return side + name + "_link"; };
@@ -85,6 +94,7 @@ std::string BipedText(const BipedShape& shape) {
 <geometry><box size="0.2 0.24 0.4"/></geometry></collision>)"
                                         : "");
   text += ArmText(shape, shape.sides[0], 0.2) + ArmText(shape, shape.sides[1], -0.2);
+  if (shape.has_fingers) text += HandText(shape.sides[0]) + HandText(shape.sides[1]);
   return text + "</robot>";
 }
 

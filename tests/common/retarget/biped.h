@@ -17,7 +17,8 @@ struct BipedShape {
   double hip_velocity = 20;  ///< [rad/s], of all hip joints
   bool has_legs = true;      ///< else the trunk stands on the world
   bool has_sole = true;
-  bool has_bodies = false;  ///< trunk and forearms are boxes that touch
+  bool has_bodies = false;   ///< trunk and forearms are boxes that touch
+  bool has_fingers = false;  ///< two beyond a wrist, 0.1 to 1.5 rad, and a thumb, -1 to 1
 };
 
 /// A URDF.

@@ -7,65 +7,26 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/robot_file.h"
 #include "common/io/urdf/urdf_robot.h"
-#include "common/model/forward_kinematics.h"
-#include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/retarget/retarget_figures.h"
 #include "common/retarget/robot_follower.h"
 #include "common/support/error.h"
 #include "tests/common/retarget/biped.h"
+#include "tests/common/retarget/squat.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter {
 namespace {
 
 using testing::MakeBiped;
+using testing::Person;
 using testing::SharedData;
+using testing::Squat;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-KinematicModel Person(double height) {
-  return ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")),
-                     {height, 70, {}});
-}
-
-/// Bends its knees, with the feet where they are, and swings an arm: 2 s at 100 Hz.
-PoseTrajectory Squat(const KinematicModel& person) {
-  PoseTrajectory motion;
-  motion.rate = 100;
-  const std::vector<std::pair<std::string, double>> joints = {
-      {"LHx_joint", 1}, {"RHx_joint", 1}, {"LKx_joint", -2}, {"RKx_joint", -2},
-      {"LAx_joint", 1}, {"RAx_joint", 1}, {"LSx_joint", 2}};
-  for (const auto& [name, share] : joints) motion.joint_names.push_back(name);
-  const double thigh =
-      (SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LHy_joint")].translation() -
-       SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LKx_joint")].translation())
-          .norm();
-  const double shank =
-      (SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LKx_joint")].translation() -
-       SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LAy_joint")].translation())
-          .norm();
-  const double low =
-      SegmentPoses(person, ZeroPosture(person))[person.FindSegment("LeftFootHeight_joint")]
-          .translation()
-          .z();
-  for (int k = 0; k < 200; ++k) {
-    const double bend = 0.25 * (1 - std::cos(2 * std::numbers::pi * k / 100));
-    Posture posture;
-    posture.joint_angles.resize(static_cast<Eigen::Index>(joints.size()));
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      posture.joint_angles[static_cast<Eigen::Index>(i)] = bend * joints[i].second;
-    }
-    posture.position = {0, (thigh - shank) * -std::sin(bend),
-                        -low - (thigh + shank) * (1 - std::cos(bend))};
-    motion.postures.push_back(posture);
-  }
-  return motion;
-}
 
 TEST(RetargetTest, ASquatIsASquatAndItsFeetStandStill) {
   const KinematicModel person = Person(1.75);
@@ -261,6 +222,20 @@ INSTANTIATE_TEST_SUITE_P(
                       RealCase{kG1, kWave, 0.01, 2.5}, RealCase{kT1, kWalk, 0.01, 2.5},
                       RealCase{kT1, kTurn, 0.01, 2.5}, RealCase{kT1, kWave, 0.01, 2.5},
                       RealCase{kH1, kWalk, 0.02, 5}));
+
+TEST(HumanContactsTest, AStanceThatTheRecordingCutsOffMayBeShort) {
+  PointState point;
+  point.height = Eigen::VectorXd::Constant(60, 0.2);
+  point.speed = Eigen::VectorXd::Constant(60, 0.1);
+  for (const int begin : {0, 30, 56}) point.height.segment(begin, 4).setConstant(0.01);
+  FootStates states;
+  states.heels = {point, point};
+  states.toes = states.heels;
+  const auto feet = FindFootContacts(states, 100);
+  ASSERT_EQ(feet[0].stances.size(), 2U);
+  EXPECT_EQ(feet[0].stances[0].end, 4);
+  EXPECT_EQ(feet[0].stances[1].begin, 56);
+}
 
 TEST(HumanContactsTest, AFootThatStaysLowIsNotOffForAMoment) {
   PointState low, high;
