@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <set>
 #include <thread>
 #include <unordered_map>
 
@@ -22,6 +23,8 @@
 #include "MMMConverterS2KF/batch/memory_budget.h"
 #include "MMMConverterS2KF/batch/persons.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
+#include "common/pipeline/robot.h"
+#include "common/support/error.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -45,10 +48,30 @@ std::string DescribeShortly(const EntryResult& result) {
                      warnings > 0 ? fmt::format(", {} warnings", warnings) : "");
 }
 
+/// Each robot once, before any recording is converted. @throws Error naming the manifest's line.
+void CheckRobots(const BatchManifest& manifest, const std::vector<const BatchEntry*>& entries) {
+  std::set<std::string> known;
+  for (const BatchEntry* entry : entries) {
+    const RobotRequest& robot = entry->request.robot;
+    if (robot.file.empty()) continue;
+    const std::string said = fmt::format("{}\n{}\n{}\n{}", robot.file, robot.map_file, robot.hold,
+                                         robot.sole_height.value_or(-1));
+    if (!known.insert(said).second) continue;
+    try {
+      ReadRobot(robot, nullptr);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}:{}: the robot of \"{}\" can't be used: {}", manifest.file,
+                              entry->line, entry->id, error.what()),
+                  error.remedy());
+    }
+  }
+}
+
 class BatchRunner {
  public:
   BatchRunner(const BatchManifest& manifest, const BatchOptions& options, BatchProgress* progress)
-      : entries_(ShardOf(manifest.entries, options.shard, options.shards)),
+      : manifest_(manifest),
+        entries_(ShardOf(manifest.entries, options.shard, options.shards)),
         options_(options),
         progress_(progress),
         folder_(options.output),
@@ -59,6 +82,7 @@ class BatchRunner {
   }
 
   BatchOutcome Run() {
+    CheckRobots(manifest_, entries_);
     const CrashWatch watch;
     progress_->Start(static_cast<int>(entries_.size()));
     persons_.WarnOfUnused();
@@ -270,6 +294,7 @@ class BatchRunner {
     is_ending_ = true;
   }
 
+  const BatchManifest& manifest_;
   std::vector<const BatchEntry*> entries_;
   const BatchOptions& options_;
   BatchProgress* progress_;

@@ -6,6 +6,7 @@
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/mjcf/mjcf_robot.h"
+#include "common/pipeline/dynamics/retarget_objects.h"
 #include "common/support/content_hash.h"
 #include "common/support/data_directory.h"
 #include "common/support/folder.h"
@@ -62,6 +63,7 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
   files.insert(files.end(), {request.input.person.processor_file, request.input.person.subject_file,
                              config.subject_file, own_set, request.input.marker_set,
                              request.input.marker_file, request.robot.map_file});
+  for (const std::string& object : request.robot.objects) files.push_back(FileOfObjects(object));
   for (const std::string& file : files) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");

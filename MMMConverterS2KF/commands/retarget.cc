@@ -109,14 +109,14 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
 /// Without a motion.
 void ShowMap(RetargetRequest request, const std::optional<std::string>& page) {
   Warnings warnings;
-  const LoadedRobot robot = ReadRobot(request.conversion.robot, &warnings);
+  const std::string map = DescribeRobotMap(request.conversion.robot, &warnings);
   if (page) {
     request.conversion.output.clear();
     request.conversion.more_outputs = {*page};
     WriteFileAtomically(*page, FormatRetargetPage(RunRetargeting(request, {})));
   }
   LogWarnings(warnings);
-  std::cout << FormatBodyMap(robot.robot.model, robot.body.map);
+  std::cout << map;
 }
 
 }  // namespace

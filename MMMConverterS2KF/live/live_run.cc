@@ -171,6 +171,7 @@ class LiveRun {
     }
     report_.motions = output_.Finish(stream_.session().calibration());
     report_.robot_motions = output_.robot_motions();
+    if (stream_.robot() != nullptr) report_.robot = stream_.robot()->figures();
     if (stream_.failure()) std::rethrow_exception(stream_.failure());
   }
 

@@ -12,6 +12,7 @@
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/live/live_request.h"
 #include "common/pipeline/live/live_stream.h"
+#include "common/retarget/retarget_figures.h"
 
 namespace mmm_converter {
 
@@ -46,6 +47,7 @@ struct LiveReport {
   std::vector<SinkReport> sinks;
   std::vector<ConversionReport> motions;   ///< that were written
   std::vector<std::string> robot_motions;  ///< files
+  std::optional<RetargetFigures> robot;    ///< that followed
 };
 
 /// How a caller hears of a run; all on its own thread.

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/judge/retarget_verdict.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -22,6 +24,40 @@ Json DelaysJson(const LatencyHistogram& delays) {
   return {{"p50_ms", Number(kMilliseconds * delays.Quantile(0.5))},
           {"p99_ms", Number(kMilliseconds * delays.Quantile(0.99))},
           {"longest_ms", Number(kMilliseconds * delays.longest())}};
+}
+
+std::string DescribeRobot(const RetargetFigures& robot) {
+  std::string text = fmt::format("{} frames", robot.num_frames);
+  if (!std::isnan(robot.slide)) {
+    text += fmt::format(
+        "; feet slide in {:.1f} % of those in contact, are {:.1f} mm above the floor then, and at "
+        "most {:.1f} below",
+        kPercent * robot.slide, kMillimetres * robot.floating, kMillimetres * robot.penetration);
+  }
+  if (!std::isnan(robot.direction)) {
+    text += fmt::format("; limbs {:.1f} degrees from the person's", kDegrees * robot.direction);
+  }
+  return text + fmt::format("; limits of position broken {} times, of velocity {} times",
+                            robot.position_breaks, robot.velocity_breaks);
+}
+
+Json RobotJson(const RetargetFigures& robot, const Verdict& verdict) {
+  Json joints = Json::array();
+  for (const JointFigures& joint : robot.joints) {
+    joints.push_back({{"name", joint.name},
+                      {"at_position_limit", Number(joint.share_at_limit)},
+                      {"at_velocity_limit", Number(joint.share_at_speed)}});
+  }
+  return {{"frames", robot.num_frames},
+          {"contact", Number(robot.contact_share)},
+          {"slide", Number(robot.slide)},
+          {"penetration_m", Number(robot.penetration, 6)},
+          {"floating_m", Number(robot.floating, 6)},
+          {"direction_rad", Number(robot.direction)},
+          {"position_limits_broken", robot.position_breaks},
+          {"velocity_limits_broken", robot.velocity_breaks},
+          {"joints_at_limits", joints},
+          {"verdict", ToJson(verdict)}};
 }
 
 }  // namespace
@@ -48,6 +84,11 @@ std::string FormatSummary(const LiveReport& report) {
                         sink.failure.empty() ? "" : "; failed: " + sink.failure);
   }
   for (const ConversionReport& motion : report.motions) text += FormatSummary(motion);
+  if (report.robot && report.robot->num_frames > 0) {
+    text += fmt::format("robot      {}\n", DescribeRobot(*report.robot));
+    text +=
+        fmt::format("verdict    {}\n", DescribeVerdict(JudgeRetargeting(*report.robot, nullptr)));
+  }
   for (const std::string& file : report.robot_motions) {
     text += fmt::format("written    {}, the robot's motion\n", file);
   }
@@ -70,6 +111,7 @@ Json ToJson(const LiveReport& report) {
     objects.push_back(
         {{"name", object.name}, {"tracked", object.tracked}, {"parts", object.starts}});
   }
+  const bool followed = report.robot && report.robot->num_frames > 0;
   return {{"source", report.source},
           {"connections", report.counts.connections},
           {"frames_lost", report.counts.lost},
@@ -84,7 +126,9 @@ Json ToJson(const LiveReport& report) {
           {"received_to_tracked", DelaysJson(report.delays)},
           {"sinks", sinks},
           {"motions", motions},
-          {"robot_motions", report.robot_motions}};
+          {"robot_motions", report.robot_motions},
+          {"robot",
+           followed ? RobotJson(*report.robot, JudgeRetargeting(*report.robot, nullptr)) : Json()}};
 }
 
 }  // namespace mmm_converter

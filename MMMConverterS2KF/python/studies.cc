@@ -244,6 +244,10 @@ RetargetedMotion Retarget(const py::object& motion, const py::dict& options, con
   robot.file = TextOf(options, "robot");
   robot.map_file = map;
   robot.sole_height = sole_height;
+  robot.hold = TextOf(options, "hold");
+  if (options.contains("objects")) {
+    robot.objects = options["objects"].cast<std::vector<std::string>>();
+  }
   if (py::isinstance<py::dict>(motion)) request.motion = MotionOf(motion);
   if (py::isinstance<Conversion>(motion)) {
     request.converted = &motion.cast<const Conversion&>().report;

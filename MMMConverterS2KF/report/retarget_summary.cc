@@ -111,6 +111,40 @@ Json LimbsJson(const RetargetFigures& figures) {
   return limbs;
 }
 
+std::string DescribeObjects(const RetargetReport& report) {
+  std::string text =
+      fmt::format("as large as {:.3f} times the recorded: ", report.retargeted.scale);
+  std::vector<std::string> names;
+  for (const TrackedObject& object : report.retargeted.objects) names.push_back(object.name);
+  text += FirstNames(names);
+  if (report.figures.holds.empty()) return text + "; the person takes none along";
+  for (const HoldFigures& hold : report.figures.holds) {
+    text += fmt::format(
+        "; {} hand at {} from {:.2f} to {:.2f} s, {:.1f} mm off in the mean, {:.1f} at {:.2f} s",
+        hold.hand, hold.object, hold.begin, hold.end, Millimetres(hold.mean),
+        Millimetres(hold.most), hold.most_time);
+  }
+  return text;
+}
+
+Json ObjectsJson(const RetargetReport& report) {
+  Json objects = Json::array();
+  for (const TrackedObject& object : report.retargeted.objects) {
+    Json holds = Json::array();
+    for (const HoldFigures& hold : report.figures.holds) {
+      if (hold.object != object.name) continue;
+      holds.push_back({{"hand", hold.hand},
+                       {"from_s", Number(hold.begin)},
+                       {"to_s", Number(hold.end)},
+                       {"off_mean_m", Number(hold.mean, 6)},
+                       {"off_most_m", Number(hold.most, 6)},
+                       {"off_most_at_s", Number(hold.most_time)}});
+    }
+    objects.push_back({{"name", object.name}, {"held", holds}});
+  }
+  return objects;
+}
+
 Json JointsJson(const RetargetFigures& figures) {
   Json joints = Json::array();
   for (const JointFigures& joint : figures.joints) {
@@ -145,6 +179,7 @@ std::string FormatRetargetSummary(const RetargetReport& report) {
                                              figures.acceleration, figures.jerk,
                                              figures.position_breaks, figures.velocity_breaks));
   text += RetargetLine("itself", DescribeTouches(report));
+  if (!report.retargeted.objects.empty()) text += RetargetLine("objects", DescribeObjects(report));
   if (!std::isnan(figures.path)) {
     text += RetargetLine("path", fmt::format("{:.3f} of what the legs allow", figures.path));
   }
@@ -185,6 +220,7 @@ Json ToJson(const RetargetReport& report) {
                {"path", Number(figures.path)},
                {"limbs", LimbsJson(figures)},
                {"joints_at_limits", JointsJson(figures)},
+               {"objects", ObjectsJson(report)},
                {"self_contact", TouchesJson(figures)},
                {"pairs_watched", report.body.capsules.pairs.size()},
                {"size_not_known", report.body.capsules.unknown}};

@@ -202,7 +202,17 @@ std::vector<Option> RobotOptions(RobotRequest* robot) {
       Row({"sole-height", "soleHeight_mm", ""}, {OptionKind::kNumber, "METRES", "metres"},
           "of the origin of the robot's last ankle link above the sole, where its file does not "
           "tell it",
-          "", task::kRetarget | task::kLive, &robot->sole_height, {.absent = kInPython})};
+          "", task::kRetarget | task::kLive, &robot->sole_height, {.absent = kInPython}),
+      Row({"hold", "robotHold", ""}, {OptionKind::kText, "JOINT=DEG,..."},
+          "angles of joints that follow nobody, as of fingers; * is any text, sliding joints are "
+          "given in mm: left_hand_*=30,neck=0",
+          "joints that no limb or trunk has stay at 0, or the nearest that they may",
+          task::kRetarget | task::kLive, &robot->hold, {.absent = kInPython}),
+      Row({"objects", "robotObjects", ""}, {OptionKind::kFile, "FILE[:NAMES]"},
+          "MMM file with the motions of rigid objects that were tracked beside the person, or some "
+          "of them (A,B); hands that hold one keep their place at it, and it is written with the "
+          "robot",
+          "", task::kRetarget, &robot->objects, {.absent = kInPython})};
 }
 
 std::vector<Option> RobotLearningOptions(RobotRequest* robot) {

@@ -1,19 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "common/pipeline/robot.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "common/io/robot_file.h"
 #include "common/retarget/body_map.h"
+#include "common/retarget/held_joints.h"
+#include "common/support/advice.h"
 
 namespace mmm_converter {
 
+namespace {
+
+BodyMapChoice MapChoiceOf(const RobotRequest& request) {
+  return request.map_file.empty() ? BodyMapChoice{} : ReadBodyMapChoice(request.map_file);
+}
+
+}  // namespace
+
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   Robot robot = ReadRobotFile(request.file, warnings);
-  BodyMapChoice map;
-  if (!request.map_file.empty()) map = ReadBodyMapChoice(request.map_file);
-  RobotBody body = FindRobotBody(robot, map, request.sole_height);
+  RobotBody body = FindRobotBody(robot, MapChoiceOf(request), request.sole_height);
+  HoldJoints(robot, request.hold, &body);
   return {std::move(robot), std::move(body)};
+}
+
+std::string DescribeRobotMap(const RobotRequest& request, Warnings* warnings) {
+  const Robot robot = ReadRobotFile(request.file, warnings);
+  const BodyMap map = FindBodyMap(robot.model, MapChoiceOf(request));
+  std::string text = FormatBodyMap(robot.model, map);
+  for (const Side side : kSides) {
+    if (!map.leg(side)) continue;
+    std::string reason;
+    const auto sole = FindSole(robot, map.leg(side)->end, request.sole_height, &reason);
+    text += fmt::format("{} sole: {}\n", Name(side),
+                        sole ? sole->said
+                             : fmt::format("not known ({}); {} gives its height below {}", reason,
+                                           OptionText("sole-height"),
+                                           robot.model.segments()[map.leg(side)->end].name));
+  }
+  return text;
 }
 
 }  // namespace mmm_converter

@@ -15,4 +15,8 @@ struct LoadedRobot {
 /// known.
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings);
 
+/// The map of what can be read alone, as text, with where its soles are or why they are not known.
+/// @throws Error where it can't be read, or its limbs are not known.
+std::string DescribeRobotMap(const RobotRequest& request, Warnings* warnings);
+
 }  // namespace mmm_converter

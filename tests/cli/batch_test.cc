@@ -273,9 +273,18 @@ TEST(Batch, MotionsAreBroughtToARobot) {
   const std::string robot = TestFolder() + "/biped.urdf";
   WriteText(robot, testing::BipedText({}));
   WriteText(TestFolder() + "/none.urdf", "<robot name='none'><link name='base'/></robot>");
+  const auto refused = RunProgram(
+      {"batch",
+       WriteManifest(1, "robot='biped.urdf'",
+                     "<Recording file='handstand.c3d' id='none' robot='none.urdf' frames=':40'/>"),
+       "-o", Out()});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err,
+              ::testing::AllOf(HasSubstr(".xml:"), HasSubstr("\"none\""), HasSubstr("none")));
+  EXPECT_FALSE(fs::exists(Out() + "/motions/0.xml"));
   const std::string manifest =
       WriteManifest(1, "robot='biped.urdf' lafan1='true' beyondmimic='true' robotOrder='isaac'",
-                    "<Recording file='handstand.c3d' id='none' robot='none.urdf' frames=':40'/>"
+                    "<Recording file='none.c3d' id='none' frames=':40'/>"
                     "<Recording file='handstand.c3d' id='person' robot='' lafan1='false' "
                     "beyondmimic='false' frames=':40'/>");
   const auto run = RunProgram({"batch", manifest, "-o", Out(), "--reports", "all"});

@@ -83,7 +83,9 @@ TEST(Live, ARobotFollowsThePerson) {
   writes.insert(writes.end(), {"-o", folder + "/robot.xml"});
   const auto run = RunProgram(writes);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr(folder + "/robot.xml"));
+  EXPECT_THAT(run.out,
+              ::testing::AllOf(HasSubstr(folder + "/robot.xml"), HasSubstr("feet slide in"),
+                               HasSubstr("of velocity 0 times"), HasSubstr("verdict")));
   const MmmMotionFile file = ReadMmmMotionFile(folder + "/robot.xml");
   const PoseTrajectory& motion = file.motions.front().trajectory;
   EXPECT_EQ(motion.num_frames(), 675);

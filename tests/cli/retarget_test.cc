@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/io/mmm/mmm_motion.h"
 #include "tests/cli/program.h"
 #include "tests/common/retarget/biped.h"
 #include "tests/support/shared_data.h"
@@ -92,6 +94,49 @@ TEST_F(RetargetCommand, PrintsWhichJointsAreTheLimbs) {
   EXPECT_THAT(ReadText(File("map.html")), HasSubstr("a raised knee on biped</title>"));
 }
 
+TEST_F(RetargetCommand, PrintsTheMapOfARobotWhoseSoleIsNotKnown) {
+  testing::BipedShape shape;
+  shape.has_sole = false;
+  WriteText(robot_, testing::BipedText(shape));
+  const auto run = RunProgram({"retarget", "--robot", robot_, "--print-map"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("left_knee"), HasSubstr("sole: not known"),
+                             HasSubstr("--sole-height")));
+  EXPECT_EQ(RunProgram(Words({"-o", File("none.xml"), "--print-map"})).exit_code, 1);
+}
+
+TEST_F(RetargetCommand, ObjectsComeAlong) {
+  std::string object = R"(<MMM version="2.0"><Motion name="box" type="object"><Model path="b.xml"/>
+<Sensors><Sensor type="ModelPose" version="1.0"><Configuration/><Data>)";
+  for (int k = 0; k < 200; ++k) {
+    object += fmt::format(
+        R"(<Measurement timestep="{}"><RootPosition>{} 0 900</RootPosition>
+<RootRotation>0 0 0</RootRotation></Measurement>)",
+        0.01 * k, k);
+  }
+  WriteText(File("box.xml"), object + "</Data></Sensor></Sensors></Motion></MMM>");
+  const auto run = RunProgram(Words({"-o", File("b_o.xml"), "--objects", File("box.xml") + ":box",
+                                     "--summary", File("b_o.json")}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("box"));
+  const auto summary = nlohmann::json::parse(ReadText(File("b_o.json")));
+  EXPECT_EQ(summary["objects"][0]["name"], "box");
+  const MmmMotionFile file = ReadMmmMotionFile(File("b_o.xml"));
+  ASSERT_EQ(file.motions.size(), 2U);
+  EXPECT_EQ(file.motions[1].type, "object");
+  EXPECT_EQ(file.motions[1].model_path, "b.xml");
+  const PoseTrajectory& box = file.motions[1].trajectory;
+  EXPECT_EQ(box.num_frames(), file.motions[0].trajectory.num_frames());
+  const double way = box.postures.back().position.x() - box.postures.front().position.x();
+  EXPECT_NEAR(way, summary["scale"].get<double>() * 0.001 * (box.num_frames() - 1),
+              1e-5);  // the scale has four digits
+  const auto none = RunProgram(Words({"-o", File("x.xml"), "--objects", File("box.xml") + ":cup"}));
+  EXPECT_THAT(none.err, HasSubstr("has no object \"cup\"; there is box"));
+  const auto itself = RunProgram(Words({"-o", File("box.xml"), "--objects", File("box.xml")}));
+  EXPECT_EQ(itself.exit_code, 1);
+  EXPECT_THAT(itself.err, HasSubstr("box.xml"));
+}
+
 TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   const auto refusal = [&](const std::vector<std::string>& words, int code) {
     const auto run = RunProgram(words);
@@ -113,6 +158,15 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   EXPECT_THAT(refusal(Words({"-o", robot_}), 1), HasSubstr(robot_));
   EXPECT_THAT(refusal(Words({"-o", out, "--report", robot_}), 1), HasSubstr(robot_));
   EXPECT_THAT(refusal({"retarget", "--robot", robot_, "--report", robot_}, 1), HasSubstr(robot_));
+  EXPECT_THAT(refusal(Words({"-o", out, "--hold", "left_finger=3"}), 1),
+              AllOf(HasSubstr("--hold"), HasSubstr("left_hip_yaw")));
+  EXPECT_THAT(refusal(Words({"-o", out, "--sole-height", "50"}), 1), HasSubstr("5 to 500 mm"));
+  EXPECT_THAT(refusal(Words({"-o", out, "--objects", File("no.xml")}), 1),
+              HasSubstr(File("no.xml")));
+  EXPECT_THAT(
+      refusal(Words({"-o", out, "--objects", testing::SourcePath("examples/handstand_true.xml")}),
+              1),
+      HasSubstr("without joints"));
   testing::BipedShape mirrored;
   mirrored.sides = {"right_", "left_"};
   WriteText(File("mirrored.urdf"), testing::BipedText(mirrored));

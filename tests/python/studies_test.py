@@ -207,6 +207,11 @@ class Studies(Case):
         self.assertEqual(moved.warnings, moved.summary["warnings"])
         self.assertIn("verdict", moved.text)
         self.assertIn("biped", repr(moved))
+        held = mmmconverter.retarget(MOTION, robot, frames=(None, 60), hold={"*_elbow": -30})
+        for side in ("left_elbow", "right_elbow"):
+            np.testing.assert_array_equal(held.joints[:, held.joint_names.index(side)], np.radians(-30.0))
+        with self.assertRaisesRegex(mmmconverter.Error, "no motion|none"):
+            mmmconverter.retarget(MOTION, robot, objects=MOTION)
         with self.assertRaisesRegex(mmmconverter.Error, "lafan1"):
             moved.export("lafan2", self.folder / "o.csv")
         for save in (moved.save, moved.report, lambda file: moved.export("lafan1", file)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from typing import TYPE_CHECKING, Iterator, List, Optional
+from typing import TYPE_CHECKING, Iterator, List, Mapping, Optional
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ._models import Estimate, Model
 from ._options import with_options
 from ._present import Presented, WrongValue, of_raw, path_text
 from ._recordings import keywords
+from ._robots import robot_options
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -137,7 +138,8 @@ class Live(Presented):
 
 
 @with_options("live")
-def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = None, loop: bool = False,
+def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = None,
+         hold: Optional[Mapping[str, float]] = None, loop: bool = False,
          seconds: Optional[float] = None, calibrate_seconds: Optional[float] = None,
          **options: Unpack[LiveOptions]) -> Live:
     """Tracks a person while frames come, as the command ``live`` does; the postures are an iterator.
@@ -154,7 +156,7 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
         "qtm://HOST", "natnet://HOST" or "replay:FILE@SPEED", as of the command.
     robot : path, optional
         A robot, URDF or MJCF, that follows the person: the postures are its.
-    map, sole_height
+    map, sole_height, hold
         Of the robot, as of `retarget`.
     loop : bool
         A replay begins again at its end.
@@ -187,7 +189,8 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
     request = keywords(options, file=source)
     if calibrate_seconds is not None and "self_calibrate" not in request:
         raise WrongValue("calibrate_seconds: is of self_calibrate")
-    if robot is None and (map is not None or sole_height is not None):
-        raise WrongValue("map and sole_height: are of robot")
+    if robot is None and (map is not None or sole_height is not None or hold):
+        raise WrongValue("map, sole_height and hold: are of robot")
     request.update({name: path_text(file) for name, file in (("robot", robot), ("map", map)) if file is not None})
+    request.update(robot_options(hold))
     return Live(source, request, loop, calibrate_seconds or 0.0, seconds or 0.0, sole_height)

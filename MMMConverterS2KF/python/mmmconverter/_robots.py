@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Optional
+from typing import TYPE_CHECKING, Mapping, Optional
 
 import numpy as np
 
@@ -90,8 +90,14 @@ class Retargeted(Postures, Judged):
         return [("robot", self.summary["robot"]), ("frames", len(self.joints)), ("verdict", self.verdict)]
 
 
+def robot_options(hold):
+    """The option hold for the compiled part."""
+    return {"hold": ",".join(f"{name}={float(angle)!r}" for name, angle in hold.items())} if hold else {}
+
+
 @with_options("retarget")
-def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None, progress: Progress = None,
+def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
+             hold: Optional[Mapping[str, float]] = None, objects=None, progress: Progress = None,
              **options: Unpack[RetargetOptions]) -> Retargeted:
     """Brings a person's motion to a humanoid robot, as the command does.
 
@@ -105,6 +111,12 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
         Which joints are its limbs, instead of what its structure tells.
     sole_height : float, optional
         Of the last ankle link's origin above the sole [m], where the file does not tell it.
+    hold : dict, optional
+        Angles of joints that follow nobody [deg; sliding mm] by name; ``*`` is any text:
+        ``{"left_hand_*": 30}``.
+    objects : path or list of them, optional
+        MMM files of rigid objects beside the person, or FILE:NAME,NAME; hands that hold one keep
+        their place at it.
     progress : optional
         As of `convert`.
     **options
@@ -119,7 +131,11 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
     request = keywords(options)
     if isinstance(recording, Conversion) and request:
         raise WrongValue(f"{next(iter(request))}: a conversion is taken as it is; give it to convert()")
-    request.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot))
+    request.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot),
+                   **robot_options(hold))
+    if objects is not None:
+        several = objects if isinstance(objects, (list, tuple)) else [objects]
+        request["objects"] = [path_text(one) for one in several]
     with shown(progress, "frames") as callback:
         return Retargeted(_mmmconverter.retarget(raw, request, path_text(map) if map is not None else "",
                                                  sole_height, callback))

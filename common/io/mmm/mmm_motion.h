@@ -72,10 +72,11 @@ struct MmmMotionOutput {
       nullptr;  ///< 2.0: MoCapMarker; unseen markers are left out of their frame
 };
 
-/// The text of a whole file with one motion; 1.0 must have a trajectory. Trajectory and markers
-/// must outlive it.
+/// The text of a whole file with one motion, in 2.0 also those of objects beside it; 1.0 must have
+/// a trajectory. Trajectories and markers must outlive it.
 /// @throws Error where a posture is not finite.
-TextPieces FormatMmmMotion2(const MmmMotionOutput& output);
+TextPieces FormatMmmMotion2(const MmmMotionOutput& output,
+                            const std::vector<MmmMotionOutput>& objects = {});
 TextPieces FormatMmmMotion1(const MmmMotionOutput& output);
 
 /// The MMM 2.0 file `content` with the motions called motion_name of each output converted: Model

@@ -225,6 +225,16 @@ void AppendLegacyFrames(const MmmMotionOutput& output, PieceWriter* pieces) {
   }
 }
 
+void AppendMotion(const MmmMotionOutput& output, const char* type, PieceWriter* pieces) {
+  std::string& text = *pieces->text();
+  text +=
+      fmt::format("\t<Motion name=\"{}\" type=\"{}\">\n\t\t", EscapeXml(output.motion_name), type);
+  if (output.trajectory != nullptr) text += FormatModelElement(output) + "\n\t\t";
+  text += "<Sensors>\n\t\t\t";
+  AppendSensorElements(output, pieces);
+  text += "\n\t\t</Sensors>\n\t</Motion>\n";
+}
+
 void AppendLegacyHead(const MmmMotionOutput& output, Text text) {
   text << "<?xml version='1.0'?>\n<MMM>\n\t<Motion name='" << EscapeXml(output.motion_name)
        << "'>\n\t\t<Model>\n\t\t\t<File>" << EscapeXml(output.model_path) << "</File>\n";
@@ -261,20 +271,21 @@ void AppendSensorElements(const MmmMotionOutput& output, PieceWriter* pieces) {
   if (output.markers != nullptr) AppendMarkers(*output.markers, pieces);
 }
 
-TextPieces FormatMmmMotion2(const MmmMotionOutput& output) {
+TextPieces FormatMmmMotion2(const MmmMotionOutput& output,
+                            const std::vector<MmmMotionOutput>& objects) {
   CheckWritable(output);
-  return [output](const TextSink& sink) {
+  for (const MmmMotionOutput& object : objects) CheckWritable(object);
+  return [output, objects](const TextSink& sink) {
     PieceWriter pieces(sink);
     std::string& text = *pieces.text();
     text += "<MMM version=\"2.0\"";
     if (!output.recording_name.empty()) {
       text += " name=\"" + EscapeXml(output.recording_name) + "\"";
     }
-    text += ">\n\t<Motion name=\"" + EscapeXml(output.motion_name) + "\" type=\"mmm\">\n\t\t";
-    if (output.trajectory != nullptr) text += FormatModelElement(output) + "\n\t\t";
-    text += "<Sensors>\n\t\t\t";
-    AppendSensorElements(output, &pieces);
-    text += "\n\t\t</Sensors>\n\t</Motion>\n</MMM>\n";
+    text += ">\n";
+    AppendMotion(output, "mmm", &pieces);
+    for (const MmmMotionOutput& object : objects) AppendMotion(object, "object", &pieces);
+    text += "</MMM>\n";
     pieces.Flush();
   };
 }

@@ -53,7 +53,10 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
 
 void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
                     RetargetReport* report) {
-  report->retargeted = RetargetMotion(*model, motion, report->robot, report->body);
+  AlignObjects(motion, &report->objects);
+  std::vector<TrackedObject> objects;
+  for (const RecordedObject& object : report->objects) objects.push_back(object.motion);
+  report->retargeted = RetargetMotion(*model, motion, report->robot, report->body, objects);
   report->person_model = std::move(model);
   report->person = std::move(motion);
 }
@@ -115,6 +118,7 @@ void NameInputs(const RetargetRequest& request, OutputPlan* plan) {
   NameInputs(request.conversion.input, plan);
   plan->Read(request.conversion.robot.file);
   plan->Read(request.conversion.robot.map_file);
+  for (const std::string& text : request.conversion.robot.objects) plan->Read(FileOfObjects(text));
 }
 
 RetargetReport RunRetargeting(const RetargetRequest& request,
@@ -131,6 +135,7 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                            output,
                            std::move(robot.robot),
                            std::move(robot.body),
+                           ReadObjects(request.conversion.robot.objects),
                            {},
                            {},
                            {},
@@ -183,7 +188,16 @@ void WriteRobotMotion(RetargetReport* report) {
   output.motion_name = report->motion_name;
   output.model_path = ModelPathFor(report->robot_file, report->output);
   output.trajectory = &report->retargeted.motion;
-  WriteFileAtomically(report->output, FormatMmmMotion2(output));
+  std::vector<PoseTrajectory> trajectories;
+  std::vector<MmmMotionOutput> objects;
+  for (std::size_t i = 0; i < report->objects.size(); ++i) {
+    trajectories.push_back(PosesOf(report->retargeted.objects[i], report->retargeted.motion));
+    MmmMotionOutput& object = objects.emplace_back();
+    object.motion_name = report->objects[i].motion.name;
+    object.model_path = ModelPathOf(report->objects[i], report->output);
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) objects[i].trajectory = &trajectories[i];
+  WriteFileAtomically(report->output, FormatMmmMotion2(output, objects));
   report->written.push_back(report->output);
 }
 

@@ -10,6 +10,7 @@
 #include "common/io/robot/robot_exports.h"
 #include "common/judge/retarget_verdict.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/dynamics/retarget_objects.h"
 #include "common/pipeline/robot.h"
 #include "common/retarget/retarget_figures.h"
 #include "common/support/output_plan.h"
@@ -31,6 +32,7 @@ struct RetargetReport {
   std::string robot_file, output;
   Robot robot;
   RobotBody body;
+  std::vector<RecordedObject> objects;
   Retargeted retargeted;
   RetargetFigures figures;
   Verdict verdict;

@@ -7,7 +7,7 @@
 namespace mmm_converter {
 
 LiveRobot::LiveRobot(const RobotRequest& request, Warnings* warnings)
-    : robot_(ReadRobot(request, warnings)) {}
+    : robot_(ReadRobot(request, warnings)), watch_(robot_.robot, robot_.body) {}
 
 void LiveRobot::Take(const std::shared_ptr<const LiveBody>& person, const PoseFrame& pose) {
   if (person != person_) {
@@ -44,8 +44,14 @@ void LiveRobot::Take(const std::shared_ptr<const LiveBody>& person, const PoseFr
   estimate.converged = pose.estimate.converged;
   if (pose.is_tracking) {
     estimate.posture = follower_->Follow(pose.estimate.posture, pose.time);
+    watch_.Take({follower_->person(),
+                 estimate.posture,
+                 follower_->X_WS(),
+                 {follower_->stands(0), follower_->stands(1)},
+                 pose.time});
   } else {
     follower_->Interrupt();
+    watch_.Interrupt();
   }
   frame_.tracked = std::chrono::steady_clock::now();
 }

@@ -6,6 +6,7 @@
 
 #include "common/live/pose_frame.h"
 #include "common/pipeline/robot.h"
+#include "common/retarget/follow_figures.h"
 #include "common/retarget/robot_follower.h"
 #include "common/support/warnings.h"
 
@@ -24,10 +25,14 @@ class LiveRobot {
   const std::shared_ptr<const LiveBody>& body() const { return body_; }
   const PoseFrame& frame() const { return frame_; }
 
+  /// Of all frames until then.
+  RetargetFigures figures() const { return watch_.Figures(); }
+
  private:
   LoadedRobot robot_;
   std::shared_ptr<const LiveBody> person_, body_;
   std::unique_ptr<RobotFollower> follower_;
+  FollowWatch watch_;
   PoseFrame frame_;
 };
 

@@ -52,7 +52,8 @@ class LiveStream {
   ~LiveStream();
 
   void Start();
-  void Stop() { is_ending_ = true; }  ///< soon
+  void Stop() { is_ending_ = true; }                       ///< soon
+  const LiveRobot* robot() const { return robot_.get(); }  ///< null: none
   bool has_ended() const { return has_ended_; }
   /// Until both threads have ended.
   void Join();

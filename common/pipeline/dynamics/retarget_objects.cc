@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "common/pipeline/dynamics/retarget_objects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "common/io/mmm/mmm_motion.h"
+#include "common/io/model_file.h"
+#include "common/pipeline/object.h"
+#include "common/support/advice.h"
+#include "common/support/error.h"
+#include "common/support/text.h"
+
+namespace mmm_converter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameTime = 1e-6;  // of a frame
+constexpr int kMostFrames = 100;    // whose markers tell an object's size
+
+bool IsFile(const std::string& file) {
+  std::error_code failure;
+  return fs::is_regular_file(file, failure);
+}
+
+std::vector<std::string> NamesOf(const std::string& text) {
+  std::vector<std::string> names;
+  const std::string file = FileOfObjects(text);
+  for (std::size_t at = file.size() + 1; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    names.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return names;
+}
+
+std::vector<MmmMotion> ObjectsOf(const std::string& file, const std::vector<std::string>& wanted) {
+  std::vector<MmmMotion> objects;
+  std::vector<std::string> there;
+  for (MmmMotion& motion : ReadMmmMotionFile(file).motions) {
+    if (motion.trajectory.num_frames() == 0 || !motion.trajectory.joint_names.empty()) continue;
+    there.push_back(motion.name);
+    if (wanted.empty() || std::count(wanted.begin(), wanted.end(), motion.name) > 0) {
+      objects.push_back(std::move(motion));
+    }
+  }
+  if (there.empty()) {
+    throw Error(fmt::format(
+        "{}: {} expects motions of rigid objects, with poses and without joints, and there is "
+        "none; convert writes them",
+        file, OptionText("objects")));
+  }
+  for (const std::string& name : wanted) {
+    if (std::count(there.begin(), there.end(), name) > 0) continue;
+    throw Error(
+        fmt::format("{}: has no object \"{}\"; there is {}", file, name, FirstNames(there)));
+  }
+  return objects;
+}
+
+std::string NamedModel(const RecordedObject& object) {
+  const fs::path named = fs::path(object.file).parent_path() / object.recorded.model_path;
+  return object.recorded.model_path.empty() ? "" : named.lexically_normal().string();
+}
+
+Eigen::AlignedBox3d ExtentOf(const RecordedObject& object) {
+  Eigen::AlignedBox3d extent;
+  const MarkerSequence& markers = object.recorded.markers;
+  const PoseTrajectory& poses = object.recorded.trajectory;
+  const int every = std::max(1, poses.num_frames() / kMostFrames);
+  for (int k = 0; k < poses.num_frames() && markers.num_labels() > 0; k += every) {
+    const auto frame = std::lround((poses.time(k) - markers.first_time()) * markers.rate());
+    if (frame < 0 || frame >= markers.num_frames()) continue;
+    const Posture& pose = poses.postures[k];
+    const auto places = markers.frame(static_cast<int>(frame));
+    for (Eigen::Index i = 0; i < places.cols(); ++i) {
+      const Eigen::Vector3d p = pose.orientation.conjugate() * (places.col(i) - pose.position);
+      if (p.allFinite()) extent.extend(p);
+    }
+  }
+  const std::string model = NamedModel(object);
+  if (!extent.isEmpty() || !IsFile(model)) return extent;
+  try {
+    const Eigen::Matrix3Xd places = PlacesOfMarkers(ReadModelFile(model, nullptr).model);
+    for (Eigen::Index i = 0; i < places.cols(); ++i) extent.extend(Eigen::Vector3d(places.col(i)));
+  } catch (const Error&) {  // its size is not known then
+  }
+  return extent;
+}
+
+bool IsKnown(const Posture& pose) {
+  return pose.position.allFinite() && pose.orientation.coeffs().allFinite();
+}
+
+/// False: not known then.
+bool PoseAt(const PoseTrajectory& poses, double time, Eigen::Isometry3d* X_WO) {
+  const double at = (time - poses.first_time) * poses.rate;
+  if (at < -kSameTime || at > poses.num_frames() - 1 + kSameTime) return false;
+  const int last = poses.num_frames() - 1;
+  const int k = std::clamp(static_cast<int>(std::floor(at + kSameTime)), 0, last);
+  const Posture &one = poses.postures[k], &other = poses.postures[std::min(k + 1, last)];
+  if (!IsKnown(one) || !IsKnown(other)) return false;
+  const double part = std::clamp(at - k, 0.0, 1.0);
+  *X_WO = Eigen::Translation3d((1 - part) * one.position + part * other.position) *
+          one.orientation.slerp(part, other.orientation);
+  return true;
+}
+
+}  // namespace
+
+std::string FileOfObjects(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  return IsFile(text) ? text : text.substr(0, colon);
+}
+
+std::vector<RecordedObject> ReadObjects(const std::vector<std::string>& texts) {
+  std::vector<RecordedObject> objects;
+  std::set<std::string> names;
+  for (const std::string& text : texts) {
+    const std::string file = FileOfObjects(text);
+    for (MmmMotion& motion : ObjectsOf(file, NamesOf(text))) {
+      if (!names.insert(motion.name).second) {
+        throw Error(fmt::format("{}: {} names the object \"{}\" twice", file, OptionText("objects"),
+                                motion.name));
+      }
+      objects.push_back({file, std::move(motion), {}});
+    }
+  }
+  return objects;
+}
+
+void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects) {
+  for (RecordedObject& object : *objects) {
+    const PoseTrajectory& poses = object.recorded.trajectory;
+    TrackedObject& motion = object.motion;
+    motion.name = object.recorded.name;
+    motion.X_WO.assign(person.postures.size(), Eigen::Isometry3d::Identity());
+    motion.extent = ExtentOf(object);
+    // The first frames in which it is known without a gap.
+    for (int k = 0; k < person.num_frames(); ++k) {
+      if (PoseAt(poses, person.time(k), &motion.X_WO[k])) {
+        if (motion.end == 0) motion.begin = k;
+        motion.end = k + 1;
+      } else if (motion.end > 0) {
+        break;
+      }
+    }
+    if (motion.end > 0) continue;
+    throw Error(fmt::format(
+        "{}: \"{}\" is known from {:.3f} s to {:.3f} s, the person from {:.3f} s to {:.3f} s: they "
+        "have to be of one recording",
+        object.file, motion.name, poses.first_time, poses.time(poses.num_frames() - 1),
+        person.first_time, person.time(person.num_frames() - 1)));
+  }
+}
+
+PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames) {
+  PoseTrajectory poses;
+  poses.rate = frames.rate;
+  poses.first_time = frames.time(object.begin);
+  for (int k = object.begin; k < object.end; ++k) {
+    Posture& posture = poses.postures.emplace_back();
+    posture.position = object.X_WO[k].translation();
+    posture.orientation = Eigen::Quaterniond(object.X_WO[k].linear());
+    posture.joint_angles.resize(0);
+  }
+  return poses;
+}
+
+std::string ModelPathOf(const RecordedObject& object, const std::string& output) {
+  const std::string model = NamedModel(object);
+  return IsFile(model) ? ModelPathFor(model, output) : object.recorded.model_path;
+}
+
+}  // namespace mmm_converter
