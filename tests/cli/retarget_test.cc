@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -174,6 +175,35 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
                        File("mirrored.urdf"), "-o", out},
                       1),
               HasSubstr("contradict"));
+}
+
+// KIT's own poses of what a person pours from and into, at 10 Hz, beside a table that nobody takes
+// along. 10 mm: a palm's width is some 80.
+TEST(RealRetarget, HandsStayAtWhatTheyPourWith) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string file =
+      testing::SharedData("mmm/kit_bimanual_10hz/Pour_files_motions_2967_Pour1_cs_ms_0_20l_04.xml");
+  const std::string& folder = TestFolder();
+  for (const char* robot : {"unitree_g1/g1_custom_collision_29dof.urdf", "unitree_h1/h1.urdf",
+                            "booster_t1/T1_23dof.urdf"}) {
+    const auto run = RunProgram({"retarget", file, "--motion", "true_1480", "--robot",
+                                 testing::SharedData(std::string("robots/") + robot), "--objects",
+                                 file + ":true_cup_small,true_milk_small,true_kitchen_sideboard",
+                                 "-o", folder + "/pour.xml", "--summary", folder + "/pour.json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto summary = nlohmann::json::parse(ReadText(folder + "/pour.json"));
+    EXPECT_EQ(summary["slide"], 0);
+    std::map<std::string, nlohmann::json> held;
+    for (const auto& object : summary["objects"]) held[object["name"]] = object["held"];
+    ASSERT_EQ(held["true_cup_small"].size(), 1U);
+    ASSERT_EQ(held["true_milk_small"].size(), 1U);
+    EXPECT_EQ(held["true_kitchen_sideboard"].size(), 0U);
+    EXPECT_EQ(held["true_cup_small"][0]["hand"], "left");
+    EXPECT_EQ(held["true_milk_small"][0]["hand"], "right");
+    for (const char* name : {"true_cup_small", "true_milk_small"}) {
+      EXPECT_LT(held[name][0]["off_most_m"].get<double>(), 0.01) << robot;
+    }
+  }
 }
 
 }  // namespace
