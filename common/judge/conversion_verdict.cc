@@ -11,6 +11,7 @@
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
 #include "common/judge/told_distances.h"
+#include "common/judge/worn_distances.h"
 #include "common/model/coordinate_map.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/advice.h"
@@ -26,8 +27,9 @@ using Level = Verdict::Level;
 // One position. A marker on skin or a wand is at most 0.18 from the model (above), and 0.25 for 0.1
 // s of a somersault; the frame, or the label in it, is wrong beyond.
 constexpr Limit kFarthest = {0.3, kNever};
-// What a label of a known place is off by (ToldDistances), at most 0.11 where right, of real
-// persons and of 9 made ones in 10, whose places are off by 0.028 on each axis.
+// What a label of a known place is off by: ToldDistances, at most 0.11 where right, of real persons
+// and of 9 made ones in 10, whose places are off by 0.028 on each axis; WornDistances, at most 0.11
+// of all of these.
 constexpr Limit kToldDistance = {0.112, kNever};
 // Of a posture that is not tracked [s]: what a prediction bridges.
 constexpr Limit kLateStart = {0.5, kNever};
@@ -149,8 +151,10 @@ class Judge {
 
   // Labels that are within what any marker may be off, but not within what their names leave open.
   void JudgePlaces() {
+    const PoseTrajectory& trajectory = evidence_.result.trajectory;
+    const Eigen::VectorXd told = ToldDistances(evidence_.setup, markers_, trajectory);
     const Eigen::VectorXd distances =
-        ToldDistances(evidence_.setup, markers_, evidence_.result.trajectory);
+        told.cwiseMax(WornDistances(evidence_.setup, markers_, trajectory));
     std::vector<std::string> labels;
     double most = 0;
     for (int i = 0; i < distances.size(); ++i) {

@@ -2,10 +2,10 @@
 #include "common/judge/told_distances.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "common/judge/told_frames.h"
 #include "common/math/statistics.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/units.h"
@@ -16,12 +16,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-
-constexpr int kFrames = 24;
-constexpr double kDeviation = 0.028;   // of each coordinate of a label's place [m]: noise scale 1
-constexpr double kJointDeviation = 1;  // that a joint is expected to have [rad]
-constexpr double kRootDeviation = 10;  // [m], [rad]: anywhere
-constexpr double kAtLimit = 0.01;      // of a joint that follows no label beyond [rad]
 
 /// The frames' fits, linear about the postures.
 class LinearFit {
@@ -38,7 +32,7 @@ class LinearFit {
                                posture.joint_angles, &at_);
     kinematics_.ComputeJacobian(&at_);
     const auto all = at_.J_transposed.view();
-    MatrixXd information = PriorInformation(posture).asDiagonal();
+    MatrixXd information = PostureInformation(kinematics_, posture).asDiagonal();
     const auto& assignments = setup_.assignments();
     const auto count = static_cast<Eigen::Index>(assignments.size());
     MatrixXd J_transposed = MatrixXd::Zero(kinematics_.num_dofs(), 3 * count);  // over sigma
@@ -56,7 +50,7 @@ class LinearFit {
       const Vector3d r = (frame.col(one.label) - at_.p_WM.col(i)) / Sigma(one);
       const Matrix3d left = Matrix3d::Identity() - J_transposed.middleCols<3>(3 * i).transpose() *
                                                        gain.middleCols<3>(3 * i);
-      (*distances)[static_cast<std::size_t>(i)].push_back(kDeviation *
+      (*distances)[static_cast<std::size_t>(i)].push_back(kPlaceDeviation *
                                                           std::sqrt(r.dot(left.llt().solve(r))));
     }
   }
@@ -68,21 +62,7 @@ class LinearFit {
     return markers;
   }
 
-  static double Sigma(const MarkerAssignment& one) { return kDeviation * one.noise_scale; }
-
-  /// A joint at a limit follows no label beyond it.
-  Eigen::VectorXd PriorInformation(const Posture& posture) const {
-    Eigen::VectorXd information(kinematics_.num_dofs());
-    information.head<6>().setConstant(1 / (kRootDeviation * kRootDeviation));
-    for (int j = 0; j < kinematics_.num_joints(); ++j) {
-      const double angle = posture.joint_angles[j];
-      const bool is_at_limit =
-          angle < kinematics_.lower()[j] + kAtLimit || angle > kinematics_.upper()[j] - kAtLimit;
-      const double deviation = is_at_limit ? kAtLimit : kJointDeviation;
-      information[6 + j] = 1 / (deviation * deviation);
-    }
-    return information;
-  }
+  static double Sigma(const MarkerAssignment& one) { return kPlaceDeviation * one.noise_scale; }
 
   const TrackingSetup& setup_;
   const MarkerSequence& markers_;
@@ -96,10 +76,7 @@ Eigen::VectorXd ToldDistances(const TrackingSetup& setup, const MarkerSequence& 
                               const PoseTrajectory& trajectory) {
   LinearFit fit(setup, markers);
   std::vector<std::vector<double>> distances(setup.assignments().size());
-  const long frames = markers.num_frames();
-  const auto looks = std::min<long>(frames, kFrames);
-  for (long i = 0; i < looks; ++i) {
-    const auto k = static_cast<int>((2 * i + 1) * frames / (2 * looks));
+  for (const int k : LookedAt(markers.num_frames())) {
     fit.AddFrame(k, trajectory.postures[static_cast<std::size_t>(k)], &distances);
   }
   Eigen::VectorXd medians(static_cast<Eigen::Index>(distances.size()));

@@ -368,6 +368,16 @@ TEST(Verdict, ALabelThatIsWornElsewhere) {
   }
 }
 
+// A single frame's posture takes up much of it; all frames together do not.
+TEST(Verdict, ALabelThatIsWornElsewhereInAllFrames) {
+  const int moved = Sample().FindLabel("LHIP");
+  const Judged judged = ConvertMarkers(Changed([&](int, int i, Point p) {
+    if (i == moved) p.z() -= 0.13;
+  }));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons, HasSubstr("far from where their names say: LHIP (1"));
+}
+
 TEST(Verdict, IsInThePageToo) {
   const std::string page = TestFolder() + "/page.html";
   const std::string file = TestFolder() + "/made.c3d";
