@@ -124,6 +124,7 @@ std::vector<RecordedObject> ReadObjects(const std::vector<std::string>& texts) {
   std::set<std::string> names;
   for (const std::string& text : texts) {
     const std::string file = FileOfObjects(text);
+    if (file.empty()) throw Error(OptionText("objects") + ": names no file");
     for (MmmMotion& motion : ObjectsOf(file, NamesOf(text))) {
       if (!names.insert(motion.name).second) {
         throw Error(fmt::format("{}: {} names the object \"{}\" twice", file, OptionText("objects"),
