@@ -28,8 +28,8 @@ void PrintLine(const std::string& robot_file, const CheckedMotion& motion, bool 
   const Robot robot = ReadRobotFile(robot_file);
   const RobotBody body = FindRobotBody(robot, {}, {});
   const std::clock_t begin = std::clock();  // of the processor: others may use it, too
-  const Retargeted made =
-      (is_live ? FollowMotion : RetargetMotion)(motion.model, motion.trajectory, robot, body);
+  const Retargeted made = is_live ? FollowMotion(motion.model, motion.trajectory, robot, body)
+                                  : RetargetMotion(motion.model, motion.trajectory, robot, body);
   const double time = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   const RetargetFigures of = MeasureRetargeting(made, robot, body);
   fmt::print(
