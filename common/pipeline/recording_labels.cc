@@ -264,6 +264,7 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
     if (found.setup.marker_set.empty()) found.setup.marker_set = marker_set;
   }
   found.setup.joints = ResolveJoints(config, *input.reference);
+  found.reference = reference;
   found.setup.model = std::make_shared<const KinematicModel>(
       ScaleModel(*reference, ScalingOf(found.person, config)));
   const std::string name = found.person.subject ? found.person.subject->name : SubjectName(input);
@@ -382,8 +383,7 @@ LabelReport RunLabelling(const LabelRequest& request,
   const FoundLabels& found = report.found;
   const bool is_calibrated = found.person.subject != nullptr;
   const bool has_size = is_calibrated || report.input.reference->coordinates();
-  report.fit =
-      FitLabels(found, recording.markers, has_size ? nullptr : report.input.reference.get());
+  report.fit = FitLabels(found, recording.markers, has_size ? nullptr : found.reference.get());
   report.verdict = JudgeLabels(
       {recording, found.labelling, report.fit, is_calibrated, found.person.height.value});
   return report;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,6 +46,7 @@ struct OtherBody {
 struct FoundLabels {
   bool is_repair = false;            ///< of the recording's own labels
   bool has_exchanged_sides = false;  ///< these were left for right, and were exchanged first
+  std::shared_ptr<const KinematicModel> reference;  ///< of the setup, not scaled
   Person person;
   TrackingSetup setup;            ///< of the labelling's names; its model is the person's
   std::string prefix;             ///< of the person's names, as in `anna:`

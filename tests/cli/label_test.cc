@@ -114,7 +114,7 @@ std::string WithSidesExchanged(bool of_legs_only) {
 }
 
 // All of them, or none: half a repair is worse than none.
-TEST(Label, RepairExchangesSidesWhole) {
+TEST(LabelSides, RepairExchangesThemWhole) {
   const MarkerSequence truth = ReadRecording(Handstand(), {}).markers.Slice(100, 140);
   for (const bool of_legs_only : {false, true}) {
     SCOPED_TRACE(of_legs_only);
@@ -134,6 +134,15 @@ TEST(Label, RepairExchangesSidesWhole) {
       }
     }
   }
+}
+
+// Whose labels are names of landmarks, at which the model gets markers.
+TEST(LabelRealFiles, RepairKnowsNamesOfLandmarks) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const ProgramRun run =
+      RunProgram({"label", SharedData("field/btk_FunctionalWalk.c3d"), "--repair"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("verdict    "));
 }
 
 // Half of a file, by the subject file of somebody else.

@@ -222,6 +222,26 @@ class Models(Case):
         with self.assertRaisesRegex(mmmconverter.Error, "tracked as a rigid object; height"):
             list(mmmconverter.live(source, model=model, height=1.8))
 
+    def test_live_tracks_several_objects(self):
+        places = np.array([[0, 0.02, 0], [0.16, -0.01, 0.03], [0.01, 0.09, 0.05], [-0.05, 0, 0.12]])
+        way = np.linspace(0, 1, 40)[:, np.newaxis, np.newaxis] * [0.5, 1, 0.2]
+        shapes = {"box": places, "lamp": 1.5 * places[::-1] + [1, 0, 0]}
+        for name, shape in shapes.items():
+            one = mmmconverter.Recording.from_arrays(["1", "2", "3", "4"], shape + way, 100)
+            one.save(self.folder / f"{name}.c3d")
+            self.run_program("convert", self.folder / f"{name}.c3d", "--object", "--object-models", self.folder / "several",
+                             "-o", self.folder / f"{name}.xml")
+        labels = [f"{name}:{i}" for name in shapes for i in (1, 2, 3, 4)]
+        both = np.concatenate([shape + way for shape in shapes.values()], axis=1)
+        mmmconverter.Recording.from_arrays(labels, both, 100).save(self.folder / "both.c3d")
+        box, lamp = (self.folder / "several" / f"{name}.xml" for name in shapes)
+        postures = list(mmmconverter.live(f"replay:{self.folder / 'both.c3d'}@max", model=box, and_models=[lamp]))
+        self.assertEqual([one.body.name for one in postures[:4]], ["box", "lamp", "box", "lamp"])
+        for name in shapes:
+            converted, = mmmconverter.read_motions(self.folder / f"{name}.xml")
+            found = [one.root_position for one in postures if one.body.name == name]
+            np.testing.assert_allclose(found, converted.root_positions, atol=1e-6)
+
     def test_live_says_what_is_wrong(self):
         for source, options, error in ((SAMPLE, {}, "qtm"), ("replay:none.c3d", {}, "no such file"),
                                        (f"replay:{SAMPLE}@max", {"height": 9.0}, "height"),

@@ -24,6 +24,7 @@ LabelReport LabelCase(const std::string& text) {
   const std::vector<std::string>& labels = recording.markers.labels();
   report.found.points = RelabelledPoints(labelling, labels, kFrames);
   report.found.changes = ChangesOf(labelling, labels);
+  report.found.is_repair = text == "RKNE";
   report.warnings.Add(text);
   return report;
 }
