@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "common/fit/rigid_shape.h"
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
 #include "common/judge/told_distances.h"
 #include "common/judge/worn_distances.h"
+#include "common/math/statistics.h"
 #include "common/model/coordinate_map.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/advice.h"
@@ -39,6 +41,9 @@ constexpr Limit kReassembled = {0.1, 0.5};
 constexpr Limit kWrongLabels = {0.01, 0.2};
 // Share of the frames: who lies now and then also stands.
 constexpr Limit kLyingFrames = {0.9, kNever};
+// What a body is nowhere accelerated by in all [m/s^2], and what a jump is at least [m].
+constexpr double kMostAcceleration = 100;
+constexpr double kLeastJump = 0.1;
 // Of a motion: nothing moves in fewer, so that no label or marker that is wrong shows.
 constexpr int kFewestFrames = 10;
 // Mean distance over an object's radius.
@@ -66,6 +71,7 @@ class Judge {
     JudgeCoverage(evidence_.setup, limbs_, &reasons_);
     if (evidence_.names != nullptr) JudgeNames(*evidence_.names, &reasons_);
     JudgeGaps();
+    JudgeJumps();
     JudgeTrack();
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
@@ -200,6 +206,41 @@ class Judge {
                                late / markers_.rate(), evidence_.first_frame,
                                evidence_.first_frame + late - 1),
                    Remedy::kFrames));
+  }
+
+  // How far the markers are from where they were a frame before: of half of them, further.
+  double StepTo(int k) const {
+    std::vector<double> steps;
+    for (const MarkerAssignment& one : evidence_.setup.assignments()) {
+      const double step =
+          (markers_.frame(k).col(one.label) - markers_.frame(k - 1).col(one.label)).norm();
+      if (!std::isnan(step)) steps.push_back(step);
+    }
+    return steps.empty() ? kNaN : Median(steps);
+  }
+
+  // Where a body is elsewhere within a frame, and is as slow before as after, it is another one: on
+  // half of the way it speeds up, on the other half it stops.
+  void JudgeJumps() {
+    const double most =
+        std::max(kLeastJump, kMostAcceleration / (4 * markers_.rate() * markers_.rate()));
+    double before = kNaN, step = kNaN, farthest = 0;
+    int jumps = 0, first = 0;
+    for (int k = 1; k < markers_.num_frames(); ++k) {
+      const double after = StepTo(k);
+      const double jump = step - std::max(before, after);
+      before = step;
+      step = after;
+      if (!(jump > most)) continue;
+      if (jumps++ == 0) first = k - 1;
+      farthest = std::max(farthest, jump);
+    }
+    if (jumps == 0) return;
+    reasons_.Add(Level::kCheck,
+                 fmt::format("the markers jump {} {} by up to {:.0f} mm within a frame, first in "
+                             "frame {}: are they another person's there, or do frames lack?",
+                             jumps, jumps == 1 ? "time" : "times", kMillimetres * farthest,
+                             evidence_.first_frame + first));
   }
 
   void JudgeTrack() {

@@ -378,6 +378,16 @@ TEST(Verdict, ALabelThatIsWornElsewhereInAllFrames) {
   EXPECT_THAT(judged.reasons, HasSubstr("far from where their names say: LHIP (1"));
 }
 
+// Each half is tracked well.
+TEST(Verdict, AnotherPersonUnderTheSameLabels) {
+  const Judged judged = ConvertMarkers(Changed([&](int k, int, Point p) {
+    if (k >= 100) p.x() += 0.4;
+  }));
+  EXPECT_EQ(judged.level, "check");
+  EXPECT_THAT(judged.reasons,
+              HasSubstr("jump 1 time by up to 390 mm within a frame, first in frame 100"));
+}
+
 TEST(Verdict, IsInThePageToo) {
   const std::string page = TestFolder() + "/page.html";
   const std::string file = TestFolder() + "/made.c3d";
