@@ -160,7 +160,8 @@ class Judge {
     const PoseTrajectory& trajectory = evidence_.result.trajectory;
     const Eigen::VectorXd told = ToldDistances(evidence_.setup, markers_, trajectory);
     const Eigen::VectorXd distances =
-        told.cwiseMax(WornDistances(evidence_.setup, markers_, trajectory));
+        told.binaryExpr(WornDistances(evidence_.setup, markers_, trajectory),
+                        [](double a, double b) { return std::fmax(a, b); });
     std::vector<std::string> labels;
     double most = 0;
     for (int i = 0; i < distances.size(); ++i) {
@@ -216,7 +217,7 @@ class Judge {
           (markers_.frame(k).col(one.label) - markers_.frame(k - 1).col(one.label)).norm();
       if (!std::isnan(step)) steps.push_back(step);
     }
-    return steps.empty() ? kNaN : Median(steps);
+    return static_cast<int>(steps.size()) < kFewestMarkers ? kNaN : Median(steps);
   }
 
   // Where a body is elsewhere within a frame, and is as slow before as after, it is another one: on
@@ -228,7 +229,8 @@ class Judge {
     int jumps = 0, first = 0;
     for (int k = 1; k < markers_.num_frames(); ++k) {
       const double after = StepTo(k);
-      const double jump = step - std::max(before, after);
+      const bool is_known = !std::isnan(before) && !std::isnan(after);
+      const double jump = is_known ? step - std::max(before, after) : kNaN;
       before = step;
       step = after;
       if (!(jump > most)) continue;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "common/calibrate/calibration_frames.h"
 #include "common/judge/told_frames.h"
 #include "common/math/square.h"
+#include "common/math/statistics.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -30,6 +32,8 @@ constexpr double kAllLengths = 0.03;         // of all segments together
 constexpr double kLengthCorrelation = 0.97;  // of left and right
 // A place of which the body tells less than this share is not judged in that direction.
 constexpr double kLeastTold = 0.02;
+// A marker that is so much farther from its own median place in a frame is another's there [m].
+constexpr double kAstray = 0.15;
 constexpr std::size_t kMostLabels = 150;  // the work grows with their square
 
 /// The most likely body of some frames, postures being unknown; Gauss-Newton. The body is
@@ -56,6 +60,7 @@ class WornBody {
     for (const int k : frames_) {
       postures_.push_back(trajectory.postures[static_cast<std::size_t>(k)]);
     }
+    FindAstray();
     MakePrior();
     for (int step = 0; step < kSteps; ++step) Step();
   }
@@ -102,6 +107,36 @@ class WornBody {
     prior_.bottomRightCorner(n, n) = covariance.llt().solve(MatrixXd::Identity(n, n));
   }
 
+  void FindAstray() {
+    kinematics_.SetBody(kinematics_.ModelBody());
+    BodyJacobian at = kinematics_.MakeJacobian();
+    std::vector<Eigen::Matrix3Xd> places;  // by frame, in axes of segments
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      kinematics_.Compute(postures_[f], &at);
+      Eigen::Matrix3Xd& of_frame = places.emplace_back(3, places_ / 3);
+      for (std::size_t m = 0; m < used_.size(); ++m) {
+        const auto i = static_cast<Index>(m);
+        of_frame.col(i) =
+            at.R_WS[m].transpose() *
+            (markers_.frame(frames_[f]).col(assignments_[m].label) - at.posture.p_WM.col(i));
+      }
+    }
+    is_astray_.assign(frames_.size(), std::vector<bool>(used_.size(), false));
+    for (std::size_t m = 0; m < used_.size(); ++m) {
+      const auto i = static_cast<Index>(m);
+      std::array<std::vector<double>, 3> all;
+      for (const Eigen::Matrix3Xd& of_frame : places) {
+        if (!IsSeen(of_frame.col(i))) continue;
+        for (int axis = 0; axis < 3; ++axis) all[axis].push_back(of_frame(axis, i));
+      }
+      if (all[0].empty()) continue;
+      const Vector3d usual(Median(all[0]), Median(all[1]), Median(all[2]));
+      for (std::size_t f = 0; f < frames_.size(); ++f) {
+        is_astray_[f][m] = (places[f].col(i) - usual).norm() > kAstray;
+      }
+    }
+  }
+
   /// How a frame's posture follows the body's step.
   struct Following {
     MatrixXd slopes;
@@ -120,7 +155,7 @@ class WornBody {
     VectorXd r = VectorXd::Zero(places_);
     for (std::size_t m = 0; m < used_.size(); ++m) {
       const auto z = frame.col(assignments_[m].label);
-      if (!IsSeen(z)) continue;
+      if (!IsSeen(z) || is_astray_[f][m]) continue;
       is_seen_[m] = true;
       const auto i = 3 * static_cast<Index>(m);
       const double w = 1 / (kSkin * assignments_[m].noise_scale);
@@ -183,6 +218,7 @@ class WornBody {
   const std::vector<int> frames_;
   VectorXd body_;
   std::vector<Posture> postures_;
+  std::vector<std::vector<bool>> is_astray_;  // by frame and used marker
   MatrixXd prior_, covariance_;
 };
 

@@ -30,7 +30,8 @@ SizeEffects::SizeEffects(const KinematicModel& model, const MarkerKinematics& ki
     part_.push_back(-1);
     if (!has_size[l]) continue;
     const std::string& name = model.segments()[kinematics.segment_of_link(l)].name;
-    const auto other = part_of_name.find(MirroredOsimName(name));
+    const std::string mirrored = MirroredOsimName(name);
+    const auto other = mirrored.empty() ? part_of_name.end() : part_of_name.find(mirrored);
     part_[l] = other == part_of_name.end() ? num_parts_++ : other->second;
     part_of_name.emplace(name, part_[l]);
   }
