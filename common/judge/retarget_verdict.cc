@@ -26,6 +26,8 @@ constexpr Limit kPath = {0.05, 0.3};           // from 1
 constexpr Limit kTouch = {0.01, kNever};       // [m]: capsules are no closer to the bodies
 constexpr Limit kAtLimit = {0.1, kNever};      // share of the frames
 constexpr Limit kJump = {0.5, 1.5};            // [rad] from frame to frame
+// [m]: a quarter of a palm's width of 80 mm; robots that reach what the person holds are within 10.
+constexpr Limit kOffHold = {0.02, kNever};
 constexpr std::size_t kMostJointsNamed = 4, kMostTouchesNamed = 3;
 
 void JudgeJoints(const RetargetFigures& figures, VerdictReasons* reasons) {
@@ -52,6 +54,18 @@ void JudgeTouches(const RetargetFigures& figures, VerdictReasons* reasons) {
         fmt::format("{} goes {:.0f} mm into {} at {:.2f} s, {:.0f} % of the frames", touch.first,
                     kMillimetres * touch.depth, touch.second, touch.time, kPercent * touch.share));
   }
+}
+
+void JudgeHolds(const RetargetFigures& figures, VerdictReasons* reasons) {
+  const auto worst = std::max_element(figures.holds.begin(), figures.holds.end(),
+                                      [](const auto& a, const auto& b) { return a.most < b.most; });
+  if (worst == figures.holds.end()) return;
+  reasons->AddBeyond(
+      kOffHold, worst->most,
+      fmt::format("the {} hand is {:.0f} mm off {}, which the person holds, at {:.2f} s, {:.0f} on "
+                  "average",
+                  worst->hand, kMillimetres * worst->most, worst->object, worst->most_time,
+                  kMillimetres * worst->mean));
 }
 
 /// Of few contacts a share says nothing.
@@ -115,6 +129,7 @@ Verdict JudgeRetargeting(const RetargetFigures& figures, const Verdict* of_conve
                     "{:.0f}",
                     limb.name, limb.mean * kDegrees, limb.most_time, limb.most * kDegrees));
   }
+  JudgeHolds(figures, &reasons);
   JudgeTouches(figures, &reasons);
   JudgeJoints(figures, &reasons);
   reasons.AddBeyond(kJump, figures.largest_jump,

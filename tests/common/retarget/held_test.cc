@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "common/judge/retarget_verdict.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/retarget/follow_figures.h"
 #include "common/retarget/held_joints.h"
@@ -110,7 +112,13 @@ TEST(RetargetTest, HandsKeepTheirPlaceAtWhatTheyHold) {
   Retargeted heedless = RetargetMotion(person, motion, robot, body);
   heedless.objects = result.objects;
   heedless.holds = result.holds;
-  EXPECT_GT(MeasureRetargeting(heedless, robot, body).holds.at(0).mean, 0.02);
+  const RetargetFigures off = MeasureRetargeting(heedless, robot, body);
+  EXPECT_GT(off.holds.at(0).mean, 0.02);
+  const auto reasons = [](const RetargetFigures& of) {
+    return ::testing::PrintToString(JudgeRetargeting(of, nullptr).reasons);
+  };
+  EXPECT_THAT(reasons(off), ::testing::ContainsRegex("the left hand is [0-9]+ mm off cup"));
+  EXPECT_THAT(reasons(figures), ::testing::Not(::testing::HasSubstr("cup")));
   for (const TrackedObject& object : result.objects) {
     EXPECT_NEAR(object.X_WO[0].translation().x(),
                 result.scale * objects[&object - result.objects.data()].X_WO[0].translation().x(),
