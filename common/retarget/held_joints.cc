@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/retarget/self_contact.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
@@ -120,6 +121,7 @@ void HoldJoints(const Robot& robot, const std::string& angles, RobotBody* body) 
     HoldPattern(robot.model, legs, ParsePattern(angles.substr(at, comma - at)), body);
     at = comma + 1;
   }
+  if (!angles.empty()) WatchContacts(robot, body);
 }
 
 void PutHeldJoints(const RobotBody& body, Posture* posture) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/model/forward_kinematics.h"
+#include "common/retarget/held_joints.h"
 #include "common/retarget/retarget_targets.h"
 
 namespace mmm_converter {
@@ -101,9 +102,11 @@ Posture StandingRobot(const Robot& robot, const RobotBody& body) {
 void WatchContacts(const Robot& robot, RobotBody* body) {
   RobotCapsules& capsules = body->capsules;
   capsules.pairs.clear();
-  const Posture standing = StandingRobot(robot, *body);
+  body->balls.clear();
+  Posture zero = ZeroPosture(robot.model), standing = StandingRobot(robot, *body);
+  for (Posture* posture : {&zero, &standing}) PutHeldJoints(*body, posture);
   PairBodies(robot.model, body->map, &capsules);
-  for (const Posture& posture : {ZeroPosture(robot.model), standing}) {
+  for (const Posture& posture : {zero, standing}) {
     PlacedCapsules placed;
     PlaceCapsules(capsules, SegmentPoses(robot.model, posture), &placed);
     std::erase_if(capsules.pairs, [&](const std::pair<int, int>& pair) {

@@ -9,8 +9,8 @@ namespace mmm_converter {
 /// The robot as it follows a person who stands upright, arms hanging a little apart.
 Posture StandingRobot(const Robot& robot, const RobotBody& body);
 
-/// Of the body's capsules the pairs that do not touch at the zero pose or where it stands, and the
-/// balls that are above the floor there.
+/// Of the body's capsules the pairs that do not touch at the zero pose or where it stands, joints
+/// held as they are, and the balls that are above the floor there.
 void WatchContacts(const Robot& robot, RobotBody* body);
 
 /// How deep arms, trunk and knees are in the floor.

@@ -68,6 +68,27 @@ TEST(RetargetTest, FingersStayWhereTheyAreHeldOrAtRest) {
   }
 }
 
+TEST(RetargetTest, WhatTouchesWhereJointsAreHeldIsNotWatched) {
+  testing::BipedShape shape;
+  shape.has_bodies = true;
+  const Robot robot = MakeBiped(shape);
+  RobotBody body = FindRobotBody(robot, {}, {});
+  const auto watches = [&](const std::string& first, const std::string& second) {
+    const auto& bodies = body.capsules.bodies;
+    return std::any_of(
+        body.capsules.pairs.begin(), body.capsules.pairs.end(), [&](const auto& pair) {
+          const std::string &a = bodies[pair.first].name, &b = bodies[pair.second].name;
+          return (a == first && b == second) || (a == second && b == first);
+        });
+  };
+  EXPECT_TRUE(watches("left_elbow_link", "waist_link"));
+  const std::size_t balls = body.balls.size();
+  HoldJoints(robot, "left_shoulder_roll=-30", &body);  // into the trunk
+  EXPECT_FALSE(watches("left_elbow_link", "waist_link"));
+  EXPECT_TRUE(watches("right_elbow_link", "waist_link"));
+  EXPECT_EQ(body.balls.size(), balls);
+}
+
 /// What the left hand takes from one place to another between two frames, and a table.
 std::vector<TrackedObject> CupOnTable(const KinematicModel& person, const PoseTrajectory& motion,
                                       int begin, int end) {
