@@ -104,9 +104,10 @@ bool PoseAt(const PoseTrajectory& poses, double time, Eigen::Isometry3d* X_WO) {
   if (at < -kSameTime || at > poses.num_frames() - 1 + kSameTime) return false;
   const int last = poses.num_frames() - 1;
   const int k = std::clamp(static_cast<int>(std::floor(at + kSameTime)), 0, last);
-  const Posture &one = poses.postures[k], &other = poses.postures[std::min(k + 1, last)];
+  const double part = at - k > kSameTime ? at - k : 0;
+  const Posture &one = poses.postures[k],
+                &other = poses.postures[part > 0 ? std::min(k + 1, last) : k];
   if (!IsKnown(one) || !IsKnown(other)) return false;
-  const double part = std::clamp(at - k, 0.0, 1.0);
   *X_WO = Eigen::Translation3d((1 - part) * one.position + part * other.position) *
           one.orientation.slerp(part, other.orientation);
   return true;
@@ -136,23 +137,42 @@ std::vector<RecordedObject> ReadObjects(const std::vector<std::string>& texts) {
   return objects;
 }
 
-void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects) {
+std::vector<std::string> ModelsOfObjects(const std::vector<std::string>& texts) {
+  std::vector<std::string> models;
+  try {
+    for (const RecordedObject& object : ReadObjects(texts)) models.push_back(NamedModel(object));
+  } catch (const Error&) {  // their reader tells why
+  }
+  return models;
+}
+
+void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects,
+                  Warnings* warnings) {
   for (RecordedObject& object : *objects) {
     const PoseTrajectory& poses = object.recorded.trajectory;
     TrackedObject& motion = object.motion;
     motion.name = object.recorded.name;
     motion.X_WO.assign(person.postures.size(), Eigen::Isometry3d::Identity());
     motion.extent = ExtentOf(object);
-    // The first frames in which it is known without a gap.
+    int begin = 0, known = 0;
     for (int k = 0; k < person.num_frames(); ++k) {
-      if (PoseAt(poses, person.time(k), &motion.X_WO[k])) {
-        if (motion.end == 0) motion.begin = k;
-        motion.end = k + 1;
-      } else if (motion.end > 0) {
-        break;
+      if (!PoseAt(poses, person.time(k), &motion.X_WO[k])) {
+        begin = k + 1;
+        continue;
       }
+      ++known;
+      if (k + 1 - begin <= motion.end - motion.begin) continue;
+      motion.begin = begin;
+      motion.end = k + 1;
     }
-    if (motion.end > 0) continue;
+    if (known > motion.end - motion.begin) {
+      warnings->Add(fmt::format(
+          "{}: \"{}\" is not known all the time: only its longest part without a gap comes along, "
+          "{:.2f} to {:.2f} s, {:.2f} s of {:.2f} s",
+          object.file, motion.name, person.time(motion.begin), person.time(motion.end - 1),
+          (motion.end - motion.begin) / person.rate, known / person.rate));
+    }
+    if (known > 0) continue;
     throw Error(fmt::format(
         "{}: \"{}\" is known from {:.3f} s to {:.3f} s, the person from {:.3f} s to {:.3f} s: they "
         "have to be of one recording",

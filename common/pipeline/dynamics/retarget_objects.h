@@ -7,6 +7,7 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/motion/pose_trajectory.h"
 #include "common/retarget/held_objects.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 
@@ -24,8 +25,13 @@ std::vector<RecordedObject> ReadObjects(const std::vector<std::string>& texts);
 /// The file of such a text.
 std::string FileOfObjects(const std::string& text);
 
-/// At the person's times. @throws Error where the times have nothing in common.
-void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects);
+/// Files of models they name, which may give their sizes. Of what can't be read: none.
+std::vector<std::string> ModelsOfObjects(const std::vector<std::string>& texts);
+
+/// At the person's times: the longest part without a gap; a warning tells what is left out.
+/// @throws Error where the times have nothing in common.
+void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects,
+                  Warnings* warnings);
 
 /// The frames in which it is known. frames: has their times.
 PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames);

@@ -52,8 +52,8 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
 }
 
 void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
-                    RetargetReport* report) {
-  AlignObjects(motion, &report->objects);
+                    RetargetReport* report, Warnings* warnings) {
+  AlignObjects(motion, &report->objects, warnings);
   std::vector<TrackedObject> objects;
   for (const RecordedObject& object : report->objects) objects.push_back(object.motion);
   report->retargeted = RetargetMotion(*model, motion, report->robot, report->body, objects);
@@ -67,14 +67,14 @@ void RetargetConversion(const ConversionReport& converted, RetargetReport* repor
   report->motion_name = converted.plan.motion_name;
   report->conversion_verdict = converted.verdict;
   report->unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
-  RetargetPerson(converted.plan.setup.model, TrackedFrames(converted, warnings), report);
+  RetargetPerson(converted.plan.setup.model, TrackedFrames(converted, warnings), report, warnings);
 }
 
 void RetargetFinished(CheckedMotion checked, RetargetReport* report, Warnings* warnings) {
   warnings->Append(checked.warnings);
   report->motion_name = checked.name;
   RetargetPerson(std::make_shared<const KinematicModel>(std::move(checked.model)),
-                 FramesOf(checked.trajectory, checked.begin, checked.end), report);
+                 FramesOf(checked.trajectory, checked.begin, checked.end), report, warnings);
 }
 
 void RetargetRaisedKnee(RetargetReport* report, Warnings* warnings) {
@@ -83,7 +83,7 @@ void RetargetRaisedKnee(RetargetReport* report, Warnings* warnings) {
   auto model = std::make_shared<const KinematicModel>(ScaleWinter(reference.model, kPerson));
   PoseTrajectory motion = MakeRaisedKnee(*model);
   report->motion_name = "a raised knee";
-  RetargetPerson(std::move(model), std::move(motion), report);
+  RetargetPerson(std::move(model), std::move(motion), report, warnings);
 }
 
 bool HasMotion(const RetargetRequest& request) {
