@@ -9,6 +9,7 @@
 #include "common/retarget/body_map.h"
 #include "common/retarget/held_joints.h"
 #include "common/support/advice.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 
@@ -23,6 +24,10 @@ BodyMapChoice MapChoiceOf(const RobotRequest& request) {
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   Robot robot = ReadRobotFile(request.file, warnings);
   RobotBody body = FindRobotBody(robot, MapChoiceOf(request), request.sole_height);
+  if (!request.objects.empty() && !body.feet) {
+    throw Error(fmt::format("{}: {} needs a robot with legs, and this one has none", request.file,
+                            OptionText("objects")));
+  }
   HoldJoints(robot, request.hold, &body);
   return {std::move(robot), std::move(body)};
 }

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
+#include "tests/common/retarget/biped.h"
 
 namespace mmm_converter {
 namespace {
@@ -70,6 +72,31 @@ TEST(BatchObjects, AnObjectIsConverted) {
   EXPECT_TRUE(line["height_m"].is_null());
   EXPECT_TRUE(line["mass_source"].is_null());
   EXPECT_LT(line["distance_mm"]["mean"], 1);
+}
+
+TEST(BatchObjects, RobotsTakeThemAlong) {
+  std::string box = R"(<MMM version="2.0"><Motion name="box" type="object"><Model path="m.xml"/>
+<Sensors><Sensor type="ModelPose" version="1.0"><Configuration/><Data>)";
+  for (int k = 0; k < 50; ++k) {
+    box += fmt::format(
+        R"(<Measurement timestep="{}"><RootPosition>{} 0 900</RootPosition>
+<RootRotation>0 0 0</RootRotation></Measurement>)",
+        0.01 * k, k);
+  }
+  WriteText(TestFolder() + "/box.xml", box + "</Data></Sensor></Sensors></Motion></MMM>");
+  WriteText(TestFolder() + "/m.xml", "<Robot/>");
+  const std::string manifest = testing::WriteManifest(
+      1, testing::QuickConverter() + " robot='biped.urdf' robotObjects='box.xml'");
+  testing::BipedShape shape;
+  shape.has_legs = false;
+  WriteText(TestFolder() + "/biped.urdf", testing::BipedText(shape));
+  EXPECT_THAT(Resume(manifest), HasSubstr("--objects needs a robot with legs"));
+  EXPECT_FALSE(std::filesystem::exists(ObjectsOut() + "/motions/0.xml"));
+  WriteText(TestFolder() + "/biped.urdf", testing::BipedText({}));
+  EXPECT_THAT(Resume(manifest), HasSubstr("1 converted, 0 failed in"));
+  EXPECT_THAT(Resume(manifest), HasSubstr("0 converted, 0 failed, 1 unchanged"));
+  WriteText(TestFolder() + "/m.xml", "<Robot/><!-- another -->");  // gives its size
+  EXPECT_THAT(Resume(manifest), HasSubstr("1 converted, 0 failed in"));
 }
 
 TEST(BatchObjects, ResumeNoticesAChangeOfTheModelThatTheMotionNames) {

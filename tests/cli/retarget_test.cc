@@ -168,6 +168,13 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
       refusal(Words({"-o", out, "--objects", testing::SourcePath("examples/handstand_true.xml")}),
               1),
       HasSubstr("without joints"));
+  testing::BipedShape stands;
+  stands.has_legs = false;
+  WriteText(File("stands.urdf"), testing::BipedText(stands));
+  EXPECT_THAT(refusal({"retarget", testing::SourcePath("examples/handstand_true.xml"), "--robot",
+                       File("stands.urdf"), "-o", out, "--objects", File("box.xml")},
+                      1),
+              AllOf(HasSubstr("stands.urdf"), HasSubstr("--objects needs a robot with legs")));
   testing::BipedShape mirrored;
   mirrored.sides = {"right_", "left_"};
   WriteText(File("mirrored.urdf"), testing::BipedText(mirrored));
