@@ -148,8 +148,8 @@ LiveRequest MakeLiveRequest(const Arguments& arguments) {
 }
 
 std::string Describe(const LiveStatus& status) {
-  std::string text = fmt::format("{} frames, {} dropped: {}", status.frames, status.dropped,
-                                 Describe(status.stage));
+  std::string text =
+      fmt::format("{} frames, {} dropped: {}", status.frames, status.dropped, status.text);
   if (status.stage == LiveStage::kGathering || status.stage == LiveStage::kMeasuring) {
     text += fmt::format(", {:.0f} %", 100 * status.gathered);
   }
@@ -195,12 +195,20 @@ int RunLive(const Arguments& arguments) {
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report)));
   }
-  if (const auto file = arguments.Get("report"); file && !report.motions.empty()) {
-    WriteFileAtomically(*file, FormatConversionPage({&report.motions.front()}));
+  if (const auto file = arguments.Get("report")) {
+    const bool has_motion =
+        !report.motions.empty() && report.motions.front().plan.output == request.output;
+    if (has_motion) {
+      WriteFileAtomically(*file, FormatConversionPage({&report.motions.front()}));
+    } else {
+      LogWarning(fmt::format("{}: is not written, as there is no {} that it would show", *file,
+                             request.output));
+    }
   }
   std::cout << FormatSummary(report);
   std::vector<Verdict::Level> verdicts;
   for (const ConversionReport& motion : report.motions) verdicts.push_back(motion.verdict.level);
+  if (report.robot_verdict) verdicts.push_back(report.robot_verdict->level);
   return ExitCodeOf(arguments, verdicts);
 }
 

@@ -10,6 +10,7 @@
 #include "common/convert/tracking_start.h"
 #include "common/live/source_address.h"
 #include "common/model/posture.h"
+#include "common/pipeline/live/live_bodies.h"
 #include "common/pipeline/live/live_plan.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/atomic_file.h"
@@ -36,19 +37,13 @@ void TrackEarlier(const ConversionPlan& plan, JournalContent* content) {
   writer.FindIncidents();
 }
 
-std::string WithSuffix(const std::filesystem::path& output, const std::string& suffix) {
-  return (output.parent_path() / (output.stem().string() + suffix + output.extension().string()))
-      .string();
-}
-
 }  // namespace
 
 std::vector<std::string> FirstMotions(const LiveRequest& request) {
   if (request.output.empty()) return {};
   std::vector<std::string> files = {request.output};
   for (const std::string& model : request.other_objects) {
-    const std::string name = std::filesystem::path(model).stem().string();
-    files.push_back(WithSuffix(request.output, "_" + name));
+    files.push_back(OutputOfObject(request.output, std::filesystem::path(model).stem().string()));
   }
   return files;
 }
@@ -72,10 +67,11 @@ LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
 }
 
 std::string LiveOutput::FileOf(const Motion& motion) const {
-  std::string suffix;
-  if (motion.body > 0) suffix += "_" + motion.plan.motion_name;
-  if (motion.number > 0) suffix += fmt::format("_{}", motion.number + 1);
-  return WithSuffix(request_.output, suffix);
+  const std::filesystem::path first = motion.plan.output;
+  if (motion.number == 0) return first.string();
+  const std::string name =
+      fmt::format("{}_{}{}", first.stem().string(), motion.number + 1, first.extension().string());
+  return (first.parent_path() / name).string();
 }
 
 ConversionRequest LiveOutput::RequestOf(const Motion& motion) const {
@@ -138,6 +134,8 @@ void LiveOutput::WriteRobotMotion(const Motion& motion, const JournalContent& co
 std::vector<ConversionReport> LiveOutput::Finish(
     const std::optional<CalibrationResult>& calibration) {
   std::vector<ConversionReport> reports;
+  std::stable_sort(motions_.begin(), motions_.end(),
+                   [](const Motion& a, const Motion& b) { return a.body < b.body; });
   for (Motion& motion : motions_) {
     const std::string journal = JournalOf(motion.file);
     Warnings warnings;

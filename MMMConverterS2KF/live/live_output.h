@@ -13,7 +13,7 @@
 
 namespace mmm_converter {
 
-/// The first motion of each body: OUTPUT.xml, OUTPUT_NAME.xml of other objects.
+/// The first motion of each body: OUTPUT, OUTPUT_NAME.xml of other objects.
 std::vector<std::string> FirstMotions(const LiveRequest& request);
 
 /// The motions that a run writes: one a body whose labels are its own, each kept in its journal
@@ -28,8 +28,8 @@ class LiveOutput {
   /// The journal for this plan, where the body is a new one.
   std::unique_ptr<PoseSink> Begin(const ConversionPlan& plan, const LiveBody& body);
 
-  /// Writes all motions, the first with the request's exports; then the journals are removed. Those
-  /// of a robot are written without exports and reports.
+  /// Writes all motions, body by body, the first with the request's exports; then the journals are
+  /// removed. Those of a robot are written without exports and reports.
   /// @throws Error; journals that were not written stay.
   std::vector<ConversionReport> Finish(const std::optional<CalibrationResult>& calibration);
 

@@ -12,6 +12,7 @@
 #include "MMMConverterS2KF/live/live_output.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
 #include "MMMConverterS2KF/live/web_sink.h"
+#include "common/judge/retarget_verdict.h"
 #include "common/live/realtime_priority.h"
 #include "common/live/sink_runner.h"
 
@@ -107,7 +108,10 @@ class LiveRun {
   void AddSink(std::unique_ptr<PoseSink> sink, int capacity, int body) {
     const std::string name = sink->name();
     const std::size_t index = sinks_.size();
-    failures_.emplace_back();
+    {
+      const std::lock_guard lock(failures_mutex_);  // sinks that run may write theirs
+      failures_.emplace_back();
+    }
     bodies_of_sinks_.push_back(body);
     sinks_.push_back(std::make_unique<SinkRunner>(
         std::move(sink), capacity, [this, name, index](const std::string& why) {
@@ -171,8 +175,16 @@ class LiveRun {
     }
     report_.motions = output_.Finish(stream_.session().calibration());
     report_.robot_motions = output_.robot_motions();
-    if (stream_.robot() != nullptr) report_.robot = stream_.robot()->figures();
+    JudgeRobot();
     if (stream_.failure()) std::rethrow_exception(stream_.failure());
+  }
+
+  void JudgeRobot() {
+    if (stream_.robot() == nullptr) return;
+    RetargetFigures figures = stream_.robot()->figures();
+    if (figures.num_frames == 0) return;
+    report_.robot_verdict = JudgeRetargeting(figures, nullptr);
+    report_.robot = std::move(figures);
   }
 
   const LiveRequest& request_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/judge/verdict.h"
 #include "common/live/frame_source.h"
 #include "common/live/latency_histogram.h"
 #include "common/pipeline/conversion.h"
@@ -47,7 +48,8 @@ struct LiveReport {
   std::vector<SinkReport> sinks;
   std::vector<ConversionReport> motions;   ///< that were written
   std::vector<std::string> robot_motions;  ///< files
-  std::optional<RetargetFigures> robot;    ///< that followed
+  std::optional<RetargetFigures> robot;    ///< that followed; none: it had no frame
+  std::optional<Verdict> robot_verdict;    ///< with the above
 };
 
 /// How a caller hears of a run; all on its own thread.

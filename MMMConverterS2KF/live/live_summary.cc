@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/judge/retarget_verdict.h"
+#include "common/judge/verdict.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -84,10 +84,9 @@ std::string FormatSummary(const LiveReport& report) {
                         sink.failure.empty() ? "" : "; failed: " + sink.failure);
   }
   for (const ConversionReport& motion : report.motions) text += FormatSummary(motion);
-  if (report.robot && report.robot->num_frames > 0) {
+  if (report.robot) {
     text += fmt::format("robot      {}\n", DescribeRobot(*report.robot));
-    text +=
-        fmt::format("verdict    {}\n", DescribeVerdict(JudgeRetargeting(*report.robot, nullptr)));
+    text += fmt::format("verdict    {}\n", DescribeVerdict(*report.robot_verdict));
   }
   for (const std::string& file : report.robot_motions) {
     text += fmt::format("written    {}, the robot's motion\n", file);
@@ -111,7 +110,6 @@ Json ToJson(const LiveReport& report) {
     objects.push_back(
         {{"name", object.name}, {"tracked", object.tracked}, {"parts", object.starts}});
   }
-  const bool followed = report.robot && report.robot->num_frames > 0;
   return {{"source", report.source},
           {"connections", report.counts.connections},
           {"frames_lost", report.counts.lost},
@@ -127,8 +125,7 @@ Json ToJson(const LiveReport& report) {
           {"sinks", sinks},
           {"motions", motions},
           {"robot_motions", report.robot_motions},
-          {"robot",
-           followed ? RobotJson(*report.robot, JudgeRetargeting(*report.robot, nullptr)) : Json()}};
+          {"robot", report.robot ? RobotJson(*report.robot, *report.robot_verdict) : Json()}};
 }
 
 }  // namespace mmm_converter

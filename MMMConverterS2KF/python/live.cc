@@ -256,7 +256,7 @@ void BindLive(py::module_* module) {
       }))
       .def("next", &Live::Next)
       .def("close", &Live::Close)
-      .def_property_readonly("stage", [](const Live& l) { return Describe(l.status().stage); })
+      .def_property_readonly("stage", [](const Live& l) { return l.status().text; })
       .def_property_readonly("frames", [](const Live& l) { return l.status().frames; })
       .def_property_readonly("dropped", [](const Live& l) { return l.status().dropped; });
 }

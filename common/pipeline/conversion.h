@@ -56,7 +56,6 @@ struct ConversionRequest {
   std::string object_models;
   bool builds_models = true;               ///< of objects that have none
   std::vector<std::string> other_objects;  ///< live: models of rigid objects that are there too
-  bool is_strict = false;                  ///< to the caller a failed verdict is a failure
   RobotRequest robot;  ///< for who brings the motion to one: retarget, batch and live
 };
 

@@ -256,8 +256,8 @@ std::vector<Option> Options(ConversionRequest* request) {
   Add("Robot learning", RobotLearningOptions(&request->robot), &options);
   Add("Verdict",
       {Row({"strict", "", ""}, kSwitch,
-           "exit code 3 where a verdict is failed; all is written as without it", "", kVerdicts,
-           &request->is_strict, {.absent = "results have their verdict, and exit codes are none"})},
+           "exit code 3 where a verdict is failed; all is written as without it", "", kVerdicts, {},
+           {.absent = "results have their verdict, and exit codes are none"})},
       &options);
   return options;
 }

@@ -135,6 +135,21 @@ TEST(LiveObjects, APersonIsThereToo) {
   ExpectTruePoses(folder + "/a_lamp.xml", 1);
 }
 
+// A motion of OpenSim, and MMM's of objects.
+TEST(LiveObjects, APersonOfOpenSimIsThereToo) {
+  const std::string& folder = TestFolder();
+  const std::string examples = testing::SourcePath("examples/opensim/");
+  const MarkerSequence person = ReadRecording(examples + "walk.trc", {}).markers;
+  const auto run =
+      RunProgram({"live", "replay:" + WriteScene("box:", "lamp:", person) + "@max", "--model",
+                  examples + "generic.osim", "--and-model", WriteModel("box", kBox), "--and-model",
+                  WriteModel("lamp", kLamp), "-o", folder + "/a.mot"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(ReadText(folder + "/a.mot"), HasSubstr("inDegrees"));
+  ExpectTruePoses(folder + "/a_box.xml", 0);
+  ExpectTruePoses(folder + "/a_lamp.xml", 1);
+}
+
 void ExpectObjectsRefused(const std::vector<std::string>& words, int exit_code,
                           const std::string& why) {
   std::vector<std::string> all = {"live"};
@@ -155,6 +170,12 @@ TEST(LiveObjects, WhoseLabelsAreWhoseIsSaid) {
   ExpectObjectsRefused({one, "--model", box, "--and-model", lamp}, 1,
                        "is of the object box and of lamp");
   ExpectObjectsRefused({one, "--model", box, "--and-model", box}, 1, "two objects are called box");
+  const std::string both = "replay:" + WriteScene("box:", "lamp:") + "@max";
+  ExpectObjectsRefused({both, "--model", box, "--and-model", lamp, "--motion", "Lamp"}, 1,
+                       "called Lamp, and so is the object lamp");
+  const std::string second = WriteModel("box_2", kLamp);
+  ExpectObjectsRefused({one, "--height", "1.8", "--and-model", box, "--and-model", second}, 1,
+                       "box.xml and box_2.xml would have motions of one name");
   const std::string person = testing::SourcePath("xml_config/models/mmm.xml");
   ExpectObjectsRefused({one, "--model", box, "--and-model", person}, 1,
                        "--and-model is of rigid objects");

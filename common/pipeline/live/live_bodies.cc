@@ -58,6 +58,7 @@ LiveRequest RequestOf(const LiveRequest& request, const std::string& file,
   own.input.marker_file.clear();
   own.other_objects.clear();
   own.motion_name = name;
+  if (!own.output.empty()) own.output = OutputOfObject(own.output, name);
   own.self_calibrate = false;
   own.calibration_time = 0;
   own.subject_output.clear();
@@ -81,7 +82,27 @@ void CheckNames(const std::vector<LabelledObject>& objects) {
   }
 }
 
+// The second motion of box is OUTPUT_box_2.
+void CheckOutputsOf(const std::vector<LiveBodyRequest>& bodies) {
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    for (std::size_t j = 1; j < bodies.size(); ++j) {
+      const std::string& name = bodies[j].request.motion_name;
+      const std::string before = bodies[i].request.motion_name + "_";
+      if (!EqualIgnoringCase(name.substr(0, before.size()), before)) continue;
+      if (ParseLong(name.substr(before.size())).value_or(0) < 2) continue;
+      throw Error(fmt::format(
+          "the objects {}.xml and {}.xml would have motions of one name, {}; rename one of them",
+          bodies[i].request.motion_name, name, bodies[j].request.output));
+    }
+  }
+}
+
 }  // namespace
+
+std::string OutputOfObject(const std::string& output, const std::string& name) {
+  const std::filesystem::path path = output;
+  return (path.parent_path() / (path.stem().string() + "_" + name + ".xml")).string();
+}
 
 std::vector<LiveBodyRequest> BodiesOf(const LiveRequest& request, bool selects_labels) {
   if (request.other_objects.empty()) {
@@ -118,6 +139,10 @@ std::vector<LiveBodyRequest> BodiesOf(const LiveRequest& request, bool selects_l
     bodies.push_back({RequestOf(request, file, objects.back().name), {}});
   }
   CheckNames(objects);
+  if (!request.output.empty()) CheckOutputsOf(bodies);
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    bodies.front().other_names.push_back(bodies[i].request.motion_name);
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const std::string subject = request.input.reading.subject;
     const std::size_t offset = is_first_object ? 0 : 1;

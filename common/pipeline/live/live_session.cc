@@ -10,7 +10,9 @@
 
 #include "common/io/recording/marker_labels.h"
 #include "common/live/any_processor.h"
+#include "common/support/advice.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -43,12 +45,12 @@ int FramesOf(double seconds, double rate) {
 
 }  // namespace
 
-const char* Describe(LiveStage stage, bool is_of_object) {
-  switch (stage) {
+const char* LiveSession::stage_text() const {
+  switch (stage_) {
     case LiveStage::kMeasuring:
       return "the person is measured";
     case LiveStage::kWaiting:
-      return is_of_object ? "waiting for the object" : "waiting for the person";
+      return plan_ && plan_->object ? "waiting for the object" : "waiting for the person";
     case LiveStage::kTracking:
       return "tracking";
     case LiveStage::kGathering:
@@ -59,18 +61,19 @@ const char* Describe(LiveStage stage, bool is_of_object) {
   return "";
 }
 
-LiveSession::LiveSession(LiveBodyRequest body, int index, int count, Recording head, bool waits)
+LiveSession::LiveSession(LiveBodyRequest body, int index, int count, const Recording& head,
+                         const MarkerSequence& played, bool waits)
     : request_(std::move(body.request)),
       choose_(std::move(body.choose)),
+      other_names_(std::move(body.other_names)),
       index_(index),
       count_(count),
-      head_(std::move(head)),
+      head_(head),
       waits_(waits),
       calibration_time_(request_.calibration_time) {
-  if (!request_.label) std::swap(played_, head_.markers);
-  if (!choose_ || played_.num_frames() == 0) return;
+  if (request_.label || played.num_frames() == 0) return;
   Warnings told_later;
-  played_ = Share(played_, choose_(played_.labels(), head_.file, &told_later));
+  played_ = choose_ ? Share(played, choose_(played.labels(), head_.file, &told_later)) : played;
 }
 
 double LiveSession::gathered() const {
@@ -124,11 +127,23 @@ void LiveSession::NamePoints() {
   labeller_ = std::make_unique<LiveLabeller>(labels_->setup, waits_);
 }
 
+// Who takes postures tells bodies apart by their names.
+void LiveSession::CheckName(const std::string& name) const {
+  for (const std::string& other : other_names_) {
+    if (!EqualIgnoringCase(name, other)) continue;
+    throw Error(fmt::format(
+        "the motion is called {}, and so is the object {} beside it; give {} another name, or "
+        "rename the file of the object's model",
+        name, other, OptionText("motion")));
+  }
+}
+
 bool LiveSession::TryToPlan(bool is_last_try) {
   const bool is_played = played_.num_frames() > 0;
   head_.markers = is_played ? played_ : gathered_.Slice(0, std::max(1, num_gathered_));
   try {
     ConversionPlan plan = PlanLive(request_, head_);
+    CheckName(plan.motion_name);
     if (plan.input.names && !is_played && !is_last_try) return false;  // frames are to judge them
     plan.input.recording.markers = plan.input.recording.markers.Slice(0, 1);
     plan_ = std::move(plan);
@@ -280,7 +295,7 @@ const PoseFrame& LiveSession::Take(const LaidOutFrame& frame, std::int64_t dropp
     const bool is_wanted = calibration_time_ > 0 && !body_->is_calibrated;
     if (is_wanted && tracker_->is_tracking()) GoOnCalibrating();
   }
-  pose_.stage = Describe(stage_, plan_ && plan_->object);
+  pose_.stage = stage_text();
   pose_.progress = stage_ == LiveStage::kGathering ? gathered() : 1;
   pose_.tracked = std::chrono::steady_clock::now();
   return pose_;

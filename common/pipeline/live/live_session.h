@@ -26,15 +26,15 @@ enum class LiveStage {
   kGathering,   ///< tracking; frames are gathered for the calibration
   kCalibrating  ///< tracking; the person is being estimated in the background
 };
-const char* Describe(LiveStage stage, bool is_of_object = false);
 
 /// The work of the tracking thread: from a stream's frames to postures of a person who may not be
 /// known yet, be calibrated meanwhile, leave and return.
 class LiveSession {
  public:
-  /// head: what is known of the stream beyond its frames. body: which of `count` bodies it is.
-  /// waits: as of LiveLabeller.
-  LiveSession(LiveBodyRequest body, int index, int count, Recording head, bool waits);
+  /// head: what is known of the stream beyond its frames, without markers; played: of a replay all
+  /// frames. index: which of `count` bodies it is. waits: as of LiveLabeller.
+  LiveSession(LiveBodyRequest body, int index, int count, const Recording& head,
+              const MarkerSequence& played, bool waits);
 
   /// @throws Error where the labels or the person are not known; ends the session.
   const PoseFrame& Take(const LaidOutFrame& frame, std::int64_t dropped);
@@ -48,6 +48,7 @@ class LiveSession {
   const ConversionPlan& plan() const { return *plan_; }
   const std::optional<CalibrationResult>& calibration() const { return calibration_; }
   LiveStage stage() const { return stage_; }
+  const char* stage_text() const;
   double gathered() const;  ///< share of the frames that the calibration or the height needs
   int starts() const { return starts_ + (tracker_ ? tracker_->starts() : 0); }
 
@@ -57,6 +58,7 @@ class LiveSession {
  private:
   void Begin(const StreamLayout& layout);
   bool TryToPlan(bool is_last_try);
+  void CheckName(const std::string& name) const;
   void NamePoints();
   void Use(TrackingSetup setup, bool is_calibrated, std::unique_ptr<MotionConverter> converter);
   void TakePoints(const LaidOutFrame& frame, bool is_new);
@@ -70,7 +72,8 @@ class LiveSession {
 
   LiveRequest request_;
   ChooseLabels choose_;  // empty: all labels are the body's
-  int index_, count_;    // of the stream's bodies
+  std::vector<std::string> other_names_;
+  int index_, count_;  // of the stream's bodies
   Recording head_;
   // Of a replay, whose file tells the person as in a conversion; else empty.
   MarkerSequence played_;

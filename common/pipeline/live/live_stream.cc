@@ -41,11 +41,13 @@ LiveStream::LiveStream(const LiveRequest& request, LiveSource source, Give give,
       tell_(std::move(tell)),
       live_(std::move(source)),
       mailbox_(live_.source->waits_for_reader()) {
+  const MarkerSequence played = std::exchange(live_.head.markers, {});
   std::vector<LiveBodyRequest> bodies = BodiesOf(request, live_.selects_labels);
   const int count = static_cast<int>(bodies.size());
   for (int i = 0; i < count; ++i) {
-    sessions_.push_back(std::make_unique<LiveSession>(
-        std::move(bodies[static_cast<std::size_t>(i)]), i, count, live_.head, waits_for_reader()));
+    sessions_.push_back(
+        std::make_unique<LiveSession>(std::move(bodies[static_cast<std::size_t>(i)]), i, count,
+                                      live_.head, played, waits_for_reader()));
   }
   if (request.robot.file.empty()) return;
   Warnings warnings;
@@ -69,7 +71,7 @@ void LiveStream::Join() {
 }
 
 LiveStatus LiveStream::status() const {
-  return {status_stage_, status_frames_, mailbox_.dropped(), status_gathered_};
+  return {status_stage_, status_text_, status_frames_, mailbox_.dropped(), status_gathered_};
 }
 
 template <typename Work>
@@ -153,6 +155,7 @@ void LiveStream::Track() {
     received_ = frame->frame.received;
     ++status_frames_;
     status_stage_ = session().stage();
+    status_text_ = session().stage_text();
     status_gathered_ = session().gathered();
     if (this->starts() != starts) to_make_up_ = kMostMadeUp;
     for (const auto& session : sessions_) {

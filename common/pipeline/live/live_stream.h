@@ -30,6 +30,7 @@ inline constexpr int kTrackingPriority = 20;
 /// What a stream is at.
 struct LiveStatus {
   LiveStage stage = LiveStage::kMeasuring;
+  const char* text = "";     ///< the stage of the first body, in words
   std::int64_t frames = 0;   ///< taken
   std::int64_t dropped = 0;  ///< that a newer one took the place of before they were tracked
   double gathered = 0;       ///< share of the frames that a calibration or the height needs
@@ -107,6 +108,7 @@ class LiveStream {
   std::atomic<int> ended_threads_ = 0;
   std::atomic<std::int64_t> status_frames_ = 0;
   std::atomic<LiveStage> status_stage_ = LiveStage::kMeasuring;
+  std::atomic<const char*> status_text_ = "waiting for frames";
   std::atomic<double> status_gathered_ = 0;
   std::thread reader_, tracker_;
 };
