@@ -313,16 +313,19 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   }
   LabelScene scene;
   LabelOptions options;
+  Warnings of_exchange = warnings != nullptr ? *warnings : Warnings();
   FoundLabels found = FindNamesAndPerson(request, known, input, config, &scene, &options, warnings);
   const std::vector<std::string>& labels = input.recording.markers.labels();
   std::optional<Input> exchanged;
   if (hints.repair) {
     if (auto sides =
-            ExchangeSides(found.setup, options.stored, input.recording.markers, warnings)) {
+            ExchangeSides(found.setup, options.stored, input.recording.markers, &of_exchange)) {
       exchanged = input;
       exchanged->recording.markers = std::move(*sides);
       scene = {};
       options = {};
+      // What was said of the wrong sides does not hold.
+      if (warnings != nullptr) *warnings = std::move(of_exchange);
       found = FindNamesAndPerson(request, known, *exchanged, config, &scene, &options, warnings);
       found.has_exchanged_sides = true;
     }

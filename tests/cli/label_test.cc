@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "common/io/c3d/c3d_file.h"
 #include "common/io/c3d/c3d_relabelling.h"
@@ -123,6 +124,11 @@ TEST(LabelSides, RepairExchangesThemWhole) {
         {"label", WithSidesExchanged(of_legs_only), "--repair", "--height", "1.8", "-o", output});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, AllOf(HasSubstr("left and right labels of"), HasSubstr("mirrored")));
+    std::istringstream lines(run.err);
+    std::set<std::string> said;
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_TRUE(said.insert(line).second) << "twice: " << line;
+    }
     EXPECT_THAT(run.out, HasSubstr("verdict    good"));
     const MarkerSequence repaired = ReadRecording(output, {}).markers;
     for (int i = 0; i < truth.num_labels(); ++i) {
