@@ -173,10 +173,12 @@ int ConvertSeveral(const Arguments& arguments) {
   }
   if (const auto file = arguments.Get("report"); file && !reports.empty()) {
     std::vector<const ConversionReport*> all;
+    all.reserve(reports.size());
     for (const ConversionReport& report : reports) all.push_back(&report);
     WriteFileAtomically(*file, FormatConversionPage(all, failures));
   }
   std::vector<Verdict::Level> verdicts;
+  verdicts.reserve(reports.size());
   for (const ConversionReport& report : reports) verdicts.push_back(report.verdict.level);
   return failures.empty() ? ExitCodeOf(arguments, verdicts) : 1;
 }
@@ -206,6 +208,7 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   std::cout << FormatAllMotions(all);
   for (const std::string& failure : failures) LogError(failure);
   std::vector<Verdict::Level> verdicts;
+  verdicts.reserve(reports.size());
   for (const ConversionReport* report : reports) verdicts.push_back(report->verdict.level);
   return failures.empty() ? ExitCodeOf(arguments, verdicts) : 1;
 }

@@ -207,6 +207,7 @@ int RunLive(const Arguments& arguments) {
   }
   std::cout << FormatSummary(report);
   std::vector<Verdict::Level> verdicts;
+  verdicts.reserve(report.motions.size());
   for (const ConversionReport& motion : report.motions) verdicts.push_back(motion.verdict.level);
   if (report.robot_verdict) verdicts.push_back(report.robot_verdict->level);
   return ExitCodeOf(arguments, verdicts);

@@ -150,6 +150,7 @@ void BindOptions(py::module_* module) {
   module->def("options", &OptionsOf);
   module->def("tasks", [] {
     std::vector<std::string> names;
+    names.reserve(std::size(kTasks));
     for (const auto& [name, task] : kTasks) names.push_back(name);
     return names;
   });

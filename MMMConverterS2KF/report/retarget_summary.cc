@@ -115,6 +115,7 @@ std::string DescribeObjects(const RetargetReport& report) {
   std::string text =
       fmt::format("as large as {:.3f} times the recorded: ", report.retargeted.scale);
   std::vector<std::string> names;
+  names.reserve(report.retargeted.objects.size());
   for (const TrackedObject& object : report.retargeted.objects) names.push_back(object.name);
   text += FirstNames(names);
   if (report.figures.holds.empty()) return text + "; the person takes none along";

@@ -54,6 +54,7 @@ LabelSelection LabelsOf(const std::vector<std::string>& labels, const LabelledOb
   }
   if (places.size() > 1) {
     std::vector<std::string> subjects;
+    subjects.reserve(places.size());
     for (const auto& [subject, unused] : places) {
       subjects.push_back(subject.empty() ? "(without prefix)" : subject);
     }

@@ -61,6 +61,7 @@ HeldPattern ParsePattern(const std::string& text) {
 
 [[noreturn]] void ThrowUnknown(const KinematicModel& model, const HeldPattern& pattern) {
   std::vector<std::string> names;
+  names.reserve(model.num_joints());
   for (int j = 0; j < model.num_joints(); ++j) names.push_back(model.joint(j).name);
   const std::string near = ClosestName(pattern.name, names);
   throw Error(fmt::format("{}: the robot {} has no joint \"{}\"{}; it has {}", OptionText("hold"),

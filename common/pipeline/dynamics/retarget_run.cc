@@ -55,6 +55,7 @@ void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory 
                     RetargetReport* report, Warnings* warnings) {
   AlignObjects(motion, &report->objects, warnings);
   std::vector<TrackedObject> objects;
+  objects.reserve(report->objects.size());
   for (const RecordedObject& object : report->objects) objects.push_back(object.motion);
   report->retargeted = RetargetMotion(*model, motion, report->robot, report->body, objects);
   report->person_model = std::move(model);

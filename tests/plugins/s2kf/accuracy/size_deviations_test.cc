@@ -17,6 +17,7 @@
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/osim_texts.h"
+#include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
 namespace {
