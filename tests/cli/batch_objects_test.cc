@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/batch_manifest.h"
+#include "tests/cli/moving_object.h"
 #include "tests/cli/program.h"
 #include "tests/common/retarget/biped.h"
 
@@ -75,15 +75,7 @@ TEST(BatchObjects, AnObjectIsConverted) {
 }
 
 TEST(BatchObjects, RobotsTakeThemAlong) {
-  std::string box = R"(<MMM version="2.0"><Motion name="box" type="object"><Model path="m.xml"/>
-<Sensors><Sensor type="ModelPose" version="1.0"><Configuration/><Data>)";
-  for (int k = 0; k < 50; ++k) {
-    box += fmt::format(
-        R"(<Measurement timestep="{}"><RootPosition>{} 0 900</RootPosition>
-<RootRotation>0 0 0</RootRotation></Measurement>)",
-        0.01 * k, k);
-  }
-  WriteText(TestFolder() + "/box.xml", box + "</Data></Sensor></Sensors></Motion></MMM>");
+  WriteText(TestFolder() + "/box.xml", testing::SlidingBox("m.xml", 50));
   WriteText(TestFolder() + "/m.xml", "<Robot/>");
   const std::string manifest = testing::WriteManifest(
       1, testing::QuickConverter() + " robot='biped.urdf' robotObjects='box.xml'");

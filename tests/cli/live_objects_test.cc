@@ -11,7 +11,7 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/mmm/mmm_object_model.h"
 #include "common/io/recording/recording.h"
-#include "common/math/rotation.h"
+#include "tests/cli/moving_object.h"
 #include "tests/cli/pose_deviation.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
@@ -21,10 +21,11 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3Xd;
-using Eigen::Vector3d;
 using testing::DeviationOf;
 using testing::Handstand;
 using ::testing::HasSubstr;
+using testing::kBox;
+using testing::MovingPose;
 using ::testing::Not;
 using testing::PosesOf;
 using testing::ReadText;
@@ -33,20 +34,7 @@ using testing::TestFolder;
 
 constexpr int kFrames = 100;
 
-const Matrix3Xd kBox = (Matrix3Xd(3, 4) << 0.00, 0.16, 0.01, -0.05,  //
-                        0.02, -0.01, 0.09, 0.00,                     //
-                        0.00, 0.03, 0.05, 0.12)
-                           .finished();
 const Matrix3Xd kLamp = 1.4 * kBox.rowwise().reverse();
-
-// Where the object with this phase is.
-Isometry3d PoseAt(int k, double phase) {
-  const double t = 0.03 * k + phase;
-  Isometry3d X = Isometry3d::Identity();
-  X.linear() = Exp(Vector3d(std::sin(t), 0.5 * std::sin(1.3 * t), 0.7 * t)).toRotationMatrix();
-  X.translation() = Vector3d(0.4 + 0.2 * std::sin(t) + phase, -0.3 * t, 1 + 0.1 * std::sin(2 * t));
-  return X;
-}
 
 // With the markers M0, M1, ...
 std::string WriteModel(const std::string& name, const Matrix3Xd& markers) {
@@ -72,7 +60,7 @@ std::string WriteScene(const std::string& box, const std::string& lamp,
   }
   MarkerSequence scene(labels, others.num_frames(), others.rate(), others.first_time());
   for (int k = 0; k < scene.num_frames(); ++k) {
-    scene.frame(k) << others.frame(k), PoseAt(k, 0) * kBox, PoseAt(k, 1) * kLamp;
+    scene.frame(k) << others.frame(k), MovingPose(k, 0) * kBox, MovingPose(k, 1) * kLamp;
   }
   std::string file = TestFolder() + "/scene.c3d";
   WriteC3d(file, scene, {});
@@ -83,7 +71,7 @@ void ExpectTruePoses(const std::string& file, double phase) {
   std::vector<Isometry3d> truth;
   const MmmMotionFile motion = ReadMmmMotionFile(file);
   for (int k = 0; k < motion.motions.front().trajectory.num_frames(); ++k) {
-    truth.push_back(PoseAt(k, phase));
+    truth.push_back(MovingPose(k, phase));
   }
   ASSERT_GE(truth.size(), 100U);
   // The filter assumes noise: it lags behind exact markers, which C3D rounds (objects_test.cc).

@@ -9,7 +9,7 @@
 
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/math/rotation.h"
+#include "tests/cli/moving_object.h"
 #include "tests/cli/pose_deviation.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
@@ -26,25 +26,14 @@ using testing::Deviation;
 using testing::DeviationOf;
 using testing::FindMotion;
 using ::testing::HasSubstr;
+using testing::kBox;
+using testing::MovingPose;
 using ::testing::Not;
 using testing::PosesOf;
 using testing::ReadText;
 using testing::RunProgram;
 using testing::TestFolder;
 using testing::WriteText;
-
-const Matrix3Xd kBox = (Matrix3Xd(3, 4) << 0.00, 0.16, 0.01, -0.05,  //
-                        0.02, -0.01, 0.09, 0.00,                     //
-                        0.00, 0.03, 0.05, 0.12)
-                           .finished();
-
-Isometry3d PoseAt(int k) {
-  const double t = 0.03 * k;
-  Isometry3d X = Isometry3d::Identity();
-  X.linear() = Exp(Vector3d(std::sin(t), 0.5 * std::sin(1.3 * t), 0.7 * t)).toRotationMatrix();
-  X.translation() = Vector3d(0.4 + 0.2 * std::sin(t), -0.3 * t, 1 + 0.1 * std::sin(2 * t));
-  return X;
-}
 
 struct ObjectOptions {
   int frames = 60;
@@ -55,8 +44,8 @@ struct ObjectOptions {
 };
 
 Isometry3d PoseAt(int k, const ObjectOptions& options) {
-  if (k < options.jump_at) return PoseAt(k);
-  return Eigen::Translation3d(0.5, 0, 0) * PoseAt(k) *
+  if (k < options.jump_at) return MovingPose(k);
+  return Eigen::Translation3d(0.5, 0, 0) * MovingPose(k) *
          Eigen::AngleAxisd(2, Vector3d(1, 1, 1).normalized());
 }
 
@@ -88,7 +77,7 @@ std::string WriteRecording(const std::string& motions) {
 
 std::vector<Isometry3d> TruePoses(int begin, int end) {
   std::vector<Isometry3d> poses;
-  for (int k = begin; k < end; ++k) poses.push_back(PoseAt(k));
+  for (int k = begin; k < end; ++k) poses.push_back(MovingPose(k));
   return poses;
 }
 
@@ -215,7 +204,7 @@ TEST(Objects, TheModelThatTheMotionNamesIsTakenWhereItIsThere) {
   EXPECT_FALSE(std::filesystem::exists(TestFolder() + "/out_objects"));
   const MmmMotionFile file = ReadMmmMotionFile(output);
   const Posture& last = FindMotion(file, "box").trajectory.postures.back();
-  EXPECT_LT((last.position - PoseAt(59).translation()).norm(), 1e-3 * kLagMillimetres);
+  EXPECT_LT((last.position - MovingPose(59).translation()).norm(), 1e-3 * kLagMillimetres);
 }
 
 TEST(Objects, RecordingsOfOtherFormatsAreObjectsWhereTheUserSaysSo) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <sstream>
 
 #include "common/io/mmm/mmm_motion.h"
+#include "tests/cli/moving_object.h"
 #include "tests/cli/program.h"
 #include "tests/common/retarget/biped.h"
 #include "tests/support/shared_data.h"
@@ -107,15 +107,7 @@ TEST_F(RetargetCommand, PrintsTheMapOfARobotWhoseSoleIsNotKnown) {
 }
 
 TEST_F(RetargetCommand, ObjectsComeAlong) {
-  std::string object = R"(<MMM version="2.0"><Motion name="box" type="object"><Model path="b.xml"/>
-<Sensors><Sensor type="ModelPose" version="1.0"><Configuration/><Data>)";
-  for (int k = 0; k < 200; ++k) {
-    object += fmt::format(
-        R"(<Measurement timestep="{}"><RootPosition>{} 0 900</RootPosition>
-<RootRotation>0 0 0</RootRotation></Measurement>)",
-        0.01 * k, k);
-  }
-  WriteText(File("box.xml"), object + "</Data></Sensor></Sensors></Motion></MMM>");
+  WriteText(File("box.xml"), testing::SlidingBox("b.xml", 200));
   const auto run = RunProgram(Words({"-o", File("b_o.xml"), "--objects", File("box.xml") + ":box",
                                      "--summary", File("b_o.json")}));
   ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -223,15 +223,19 @@ INSTANTIATE_TEST_SUITE_P(
                       RealCase{kT1, kTurn, 0.01, 2.5}, RealCase{kT1, kWave, 0.01, 2.5},
                       RealCase{kH1, kWalk, 0.02, 5}));
 
+/// Toes move as heels do.
+FootStates WholeFeet(const PointState& left, const PointState& right) {
+  FootStates states;
+  states.heels = states.toes = {left, right};
+  return states;
+}
+
 TEST(HumanContactsTest, AStanceThatTheRecordingCutsOffMayBeShort) {
   PointState point;
   point.height = Eigen::VectorXd::Constant(60, 0.2);
   point.speed = Eigen::VectorXd::Constant(60, 0.1);
   for (const int begin : {0, 30, 56}) point.height.segment(begin, 4).setConstant(0.01);
-  FootStates states;
-  states.heels = {point, point};
-  states.toes = states.heels;
-  const auto feet = FindFootContacts(states, 100);
+  const auto feet = FindFootContacts(WholeFeet(point, point), 100);
   ASSERT_EQ(feet[0].stances.size(), 2U);
   EXPECT_EQ(feet[0].stances[0].end, 4);
   EXPECT_EQ(feet[0].stances[1].begin, 56);
@@ -245,10 +249,7 @@ TEST(HumanContactsTest, AFootThatStaysLowIsNotOffForAMoment) {
     point->speed.segment(20, 5).setConstant(0.9);
   }
   high.height.segment(20, 5).setConstant(0.07);
-  FootStates states;
-  states.heels = {low, high};
-  states.toes = states.heels;
-  const auto feet = FindFootContacts(states, 100);
+  const auto feet = FindFootContacts(WholeFeet(low, high), 100);
   ASSERT_EQ(feet[0].stances.size(), 1U);
   EXPECT_EQ(feet[0].stances[0].end, 60);
   ASSERT_EQ(feet[1].stances.size(), 2U);
