@@ -78,10 +78,9 @@ void BindDeviations(S2kfSettings* v, SettingTable* table) {
              "of a person who was not calibrated: of each coordinate, between where a marker is "
              "worn and where the model has it; counts where too few markers are seen to tell");
   table->Add("Deviations", "lengthShare", &d->length_share, 1, 0, 10,
-             "of a person who was not calibrated, but on a model of OpenSim, whose parts have "
-             "deviations of their sizes: variance by which lengths of segments move "
-             "markers, as far as the posture takes it up, over the variance that the markers' "
-             "distances show");
+             "of a person who was not calibrated, on another body than OpenSim's, whose parts have "
+             "sizes: variance by which lengths of segments move markers, as far as the posture "
+             "takes it up, over the variance that the markers' distances show");
   table->Add("Deviations", "limbSpeed_m_per_s", &d->limb_speed, 1, 0, 100,
              "of a marker while it is hidden: how fast what is known of its limb is lost");
 }
