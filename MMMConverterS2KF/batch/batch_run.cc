@@ -236,7 +236,8 @@ class BatchRunner {
       WritePage(entry, report, robot, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
-    record->models = InspectNamedModels(report);
+    record->models =
+        InspectNamedModels(report, robot ? robot->objects : std::vector<RecordedObject>());
     record->outputs = folder_.Inspect(outputs);
     record->result = Converted(report, robot ? &*robot : nullptr, SecondsSince(start));
     NoteConverted(*record);

@@ -57,13 +57,21 @@ void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, Retar
   }
 }
 
-std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report) {
+std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report,
+                                                    const std::vector<RecordedObject>& objects) {
+  std::map<std::string, FileState> models;
+  for (const RecordedObject& object : objects) {
+    const std::string named = NamedModel(object);
+    if (!named.empty()) models[fs::absolute(named).string()] = InspectFile(named);
+  }
   const Recording& recording = report.plan.input.recording;
-  if (!report.plan.object || !recording.mmm || recording.mmm->model_path.empty()) return {};
+  if (!report.plan.object || !recording.mmm || recording.mmm->model_path.empty()) return models;
   const fs::path folder = fs::path(recording.file).parent_path();
   const std::string named = (folder / recording.mmm->model_path).lexically_normal().string();
-  if (report.plan.input.model_file != named) return {};
-  return {{recording.mmm->model_path, InspectFile(named)}};
+  if (report.plan.input.model_file == named) {
+    models[recording.mmm->model_path] = InspectFile(named);
+  }
+  return models;
 }
 
 bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record) {

@@ -30,10 +30,12 @@ std::optional<RetargetReport> RetargetEntry(const BatchEntry& entry, const Batch
 /// Writes the robot's motion and its exports. @throws WriteError
 void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, RetargetReport* robot);
 
-/// The model that the recording of an object names, by path relative to the recording's folder:
-/// what a fingerprint does not have, as only reading the recording tells. None: it names none.
+/// The model that the recording of an object names, by path relative to the recording's folder, and
+/// those that a robot's objects name: what a fingerprint does not have, as only reading these files
+/// tells.
 /// @throws Error where it can't be read.
-std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report);
+std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report,
+                                                    const std::vector<RecordedObject>& objects);
 
 /// Whether these are as they were; one that is gone is not.
 bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record);

@@ -18,7 +18,8 @@ struct JournalRecord {
   std::int64_t time = 0;    ///< when it ended [ms since 1970]
   std::string fingerprint;  ///< see SharedInputs
   FileState recording;      ///< of converted ones
-  /// Models that the recording names, and that were used; by path relative to its folder.
+  /// Models that the recording or its objects name, and that were used; by path, where it is not
+  /// absolute relative to the recording's folder.
   std::map<std::string, FileState> models;
   std::map<std::string, FileState> outputs;  ///< by path in the output folder
   EntryResult result;

@@ -64,8 +64,6 @@ std::string SharedInputs::Fingerprint(const BatchEntry& entry, const ConverterCh
                              config.subject_file, own_set, request.input.marker_set,
                              request.input.marker_file, request.robot.map_file});
   for (const std::string& object : request.robot.objects) files.push_back(FileOfObjects(object));
-  const std::vector<std::string> models = ModelsOfObjects(request.robot.objects);
-  files.insert(files.end(), models.begin(), models.end());
   for (const std::string& file : files) {
     std::error_code failure;
     hash.AddPart(fs::is_regular_file(file, failure) ? FileHash(file) : "");

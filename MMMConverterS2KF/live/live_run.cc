@@ -63,6 +63,7 @@ class LiveRun {
             request, Open(request, observer),
             [this](const auto& body, const auto& pose) { Give(body, pose); },
             [this](bool is_warning, std::string text) { news_.Add(is_warning, std::move(text)); }) {
+    report_.objects.resize(bodies_.size() - 1);
     {
       // Threads of sinks begin with it.
       const RealtimePriority priority(request.realtime ? kTrackingPriority - 1 : 0, true);
@@ -143,7 +144,6 @@ class LiveRun {
     const auto index = static_cast<std::size_t>(body->index);
     const auto before = std::exchange(bodies_[index], body);
     const bool goes_on = before && body->labels == before->labels && body->is_calibrated;
-    report_.objects.resize(bodies_.size() - 1);
     if (index > 0) report_.objects[index - 1].name = body->name;
     if (request_.output.empty()) return;
     const ConversionPlan& plan = stream_.session(body->index).plan();

@@ -43,7 +43,10 @@ class WebSink : public PoseSink {
       known = body;
       Greet();
     }
-    if (server_.clients() == 0) return;
+    if (server_.clients() == 0) {
+      first_.clear();
+      return;
+    }
     std::string text = FormatPosture(*body, frame, std::chrono::steady_clock::now(), details_);
     if (body->index == 0) {
       first_ = std::move(text);

@@ -41,7 +41,8 @@ constexpr Limit kReassembled = {0.1, 0.5};
 constexpr Limit kWrongLabels = {0.01, 0.2};
 // Share of the frames: who lies now and then also stands.
 constexpr Limit kLyingFrames = {0.9, kNever};
-// What a body is nowhere accelerated by in all [m/s^2], and what a jump is at least [m].
+// What the median label of no recording at hand is accelerated by, fast punches and falls among
+// them [m/s^2], and what a jump is at least [m].
 constexpr double kMostAcceleration = 100;
 constexpr double kLeastJump = 0.1;
 // Of a motion: nothing moves in fewer, so that no label or marker that is wrong shows.

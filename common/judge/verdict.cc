@@ -18,11 +18,9 @@ constexpr const char* kLevelNames[] = {"good", "check", "failed"};
 
 }  // namespace
 
-void AddReason(Verdict::Level level, std::string reason, Verdict* verdict) {
-  const bool is_gravest = level > verdict->level;
-  verdict->level = std::max(verdict->level, level);
-  verdict->reasons.insert(is_gravest ? verdict->reasons.begin() : verdict->reasons.end(),
-                          std::move(reason));
+void AddDoubt(std::string reason, Verdict* verdict) {
+  verdict->level = std::max(verdict->level, Verdict::Level::kCheck);
+  verdict->reasons.push_back(std::move(reason));
 }
 
 const char* Name(Verdict::Level level) { return kLevelNames[static_cast<int>(level)]; }

@@ -17,8 +17,8 @@ struct Verdict {
   std::vector<std::string> reasons;  ///< in words and numbers, the gravest first; good: none
 };
 
-/// What was found later: the level is at least the reason's, which stands behind those as grave.
-void AddReason(Verdict::Level level, std::string reason, Verdict* verdict);
+/// What was found later and is to be looked at.
+void AddDoubt(std::string reason, Verdict* verdict);
 
 /// "good", "check" or "failed".
 const char* Name(Verdict::Level level);

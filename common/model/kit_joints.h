@@ -23,6 +23,7 @@ std::string MirroredName(const std::string& name);
 
 /// "femur_l" for "femur_r", "l_hand" for "r_hand", and as MirroredName; empty: has no side.
 std::string MirroredOsimName(const std::string& name);
+
 /// Of each of these markers, which of them has its name with the side exchanged; -1: none.
 std::vector<int> MirroredMarkers(const KinematicModel& model, const std::vector<MarkerIx>& markers);
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kHold = 1e-3;  // frames beyond the ends of an object's recording, for rounding
+constexpr double kSameFrame = 1e-3;  // [frames], for the rounding of times
 
 struct Twist {
   Vector3d v = Vector3d::Zero();  // of the origin [m/s], W
@@ -52,25 +52,6 @@ std::vector<int> VelocityRows(const KinematicModel& model, const PoseTrajectory&
     if (joint >= 0) rows[joint] = 6 + static_cast<int>(i);
   }
   return rows;
-}
-
-Isometry3d PoseAt(const PoseTrajectory& object, double time) {
-  const double frame = (time - object.first_time) * object.rate;
-  const int last = object.num_frames() - 1;
-  Isometry3d X = Isometry3d::Identity();
-  if (last < 0 || !(frame >= -kHold && frame <= last + kHold)) {
-    X.matrix().setConstant(kNaN);
-    return X;
-  }
-  const double within = std::clamp(frame, 0.0, static_cast<double>(last));
-  const int k = std::min(static_cast<int>(within), std::max(last - 1, 0));
-  const Posture& q0 = object.postures[k];
-  const Posture& q1 = object.postures[std::min(k + 1, last)];
-  double share = within - k;
-  if (std::abs(share - std::round(share)) < kHold) share = std::round(share);
-  X.linear() = q0.orientation.slerp(share, q1.orientation).toRotationMatrix();
-  X.translation() = (1 - share) * q0.position + share * q1.position;
-  return X;
 }
 
 Eigen::Vector4d QuaternionOf(const Eigen::Matrix3d& R) {
@@ -195,6 +176,23 @@ class PoseTable {
 };
 
 }  // namespace
+
+Isometry3d PoseAt(const PoseTrajectory& body, double time) {
+  double frame = (time - body.first_time) * body.rate;
+  if (std::abs(frame - std::round(frame)) < kSameFrame) frame = std::round(frame);
+  Isometry3d X = Isometry3d::Identity();
+  if (!(frame >= 0 && frame <= body.num_frames() - 1)) {
+    X.matrix().setConstant(kNaN);
+    return X;
+  }
+  const int k = static_cast<int>(frame);
+  const double share = frame - k;
+  const Posture& q0 = body.postures[k];
+  const Posture& q1 = body.postures[share > 0 ? k + 1 : k];
+  X.linear() = q0.orientation.slerp(share, q1.orientation).toRotationMatrix();
+  X.translation() = (1 - share) * q0.position + share * q1.position;
+  return X;
+}
 
 BodyPoses ComputeBodyPoses(const KinematicModel& model, const PoseTrajectory& motion,
                            const BodySelection& selection) {

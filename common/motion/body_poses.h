@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct ObjectMotion {
   std::string name;
   PoseTrajectory trajectory;
 };
+
+/// The pose of a rigid body at that time [s], W; between two frames interpolated; NaN: not known.
+Eigen::Isometry3d PoseAt(const PoseTrajectory& body, double time);
 
 /// What of a body is asked for.
 struct BodySelection {

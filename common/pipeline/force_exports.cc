@@ -143,7 +143,7 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
     if (residuals.frames == 0) {
       report->warnings.Add(sentence);
     } else if (!residuals.is_within) {
-      AddReason(Verdict::Level::kCheck, sentence, &report->verdict);
+      AddDoubt(sentence, &report->verdict);
     }
   }
   if (files.count(kGait) > 0) {

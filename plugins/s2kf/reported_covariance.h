@@ -18,9 +18,9 @@ namespace mmm_converter::s2kf {
 /// with J the Jacobian at the estimate, C the variance of a marker's place, measured by the
 /// residuals of those whose place no posture told; N what draws the estimate to the natural
 /// posture, S how far joints are from that. Joints are angles in halves of their range, so that a
-/// limit is no certainty. On a model that is as large as its file has it, sizes of its parts
-/// (deviations s, f of whose square the residuals tell) move the markers by U:
-///   P += f B B^T,   B = A J^T C^-1 U diag(s).
+/// limit is no certainty. On a model that is as large as its file has it, sizes of its parts,
+/// each off by its deviation, move the markers by U, and the residuals tell f of their variance:
+///   P += f B B^T,   B = A J^T C^-1 U.
 ///
 /// Frame by frame: Look, then Compute where it is due. Nothing is allocated after construction.
 class ReportedCovariance {

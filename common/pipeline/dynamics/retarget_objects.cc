@@ -11,6 +11,7 @@
 
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/model_file.h"
+#include "common/motion/body_poses.h"
 #include "common/pipeline/object.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
@@ -21,8 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSameTime = 1e-6;  // of a frame
-constexpr int kMostFrames = 100;    // whose markers tell an object's size
+constexpr int kMostFrames = 100;  // whose markers tell an object's size
 
 bool IsFile(const std::string& file) {
   std::error_code failure;
@@ -64,11 +64,6 @@ std::vector<MmmMotion> ObjectsOf(const std::string& file, const std::vector<std:
   return objects;
 }
 
-std::string NamedModel(const RecordedObject& object) {
-  const fs::path named = fs::path(object.file).parent_path() / object.recorded.model_path;
-  return object.recorded.model_path.empty() ? "" : named.lexically_normal().string();
-}
-
 Eigen::AlignedBox3d ExtentOf(const RecordedObject& object) {
   Eigen::AlignedBox3d extent;
   const MarkerSequence& markers = object.recorded.markers;
@@ -85,7 +80,7 @@ Eigen::AlignedBox3d ExtentOf(const RecordedObject& object) {
     }
   }
   const std::string model = NamedModel(object);
-  if (!extent.isEmpty() || !IsFile(model)) return extent;
+  if (!extent.isEmpty() || model.empty()) return extent;
   try {
     const Eigen::Matrix3Xd places = PlacesOfMarkers(ReadModelFile(model, nullptr).model);
     for (Eigen::Index i = 0; i < places.cols(); ++i) extent.extend(Eigen::Vector3d(places.col(i)));
@@ -94,26 +89,13 @@ Eigen::AlignedBox3d ExtentOf(const RecordedObject& object) {
   return extent;
 }
 
-bool IsKnown(const Posture& pose) {
-  return pose.position.allFinite() && pose.orientation.coeffs().allFinite();
-}
-
-/// False: not known then.
-bool PoseAt(const PoseTrajectory& poses, double time, Eigen::Isometry3d* X_WO) {
-  const double at = (time - poses.first_time) * poses.rate;
-  if (at < -kSameTime || at > poses.num_frames() - 1 + kSameTime) return false;
-  const int last = poses.num_frames() - 1;
-  const int k = std::clamp(static_cast<int>(std::floor(at + kSameTime)), 0, last);
-  const double part = at - k > kSameTime ? at - k : 0;
-  const Posture &one = poses.postures[k],
-                &other = poses.postures[part > 0 ? std::min(k + 1, last) : k];
-  if (!IsKnown(one) || !IsKnown(other)) return false;
-  *X_WO = Eigen::Translation3d((1 - part) * one.position + part * other.position) *
-          one.orientation.slerp(part, other.orientation);
-  return true;
-}
-
 }  // namespace
+
+std::string NamedModel(const RecordedObject& object) {
+  const fs::path named = fs::path(object.file).parent_path() / object.recorded.model_path;
+  return object.recorded.model_path.empty() || !IsFile(named) ? ""
+                                                              : named.lexically_normal().string();
+}
 
 std::string FileOfObjects(const std::string& text) {
   const std::size_t colon = text.rfind(':');
@@ -131,32 +113,25 @@ std::vector<RecordedObject> ReadObjects(const std::vector<std::string>& texts) {
         throw Error(fmt::format("{}: {} names the object \"{}\" twice", file, OptionText("objects"),
                                 motion.name));
       }
-      objects.push_back({file, std::move(motion), {}});
+      objects.push_back({file, std::move(motion)});
     }
   }
   return objects;
 }
 
-std::vector<std::string> ModelsOfObjects(const std::vector<std::string>& texts) {
-  std::vector<std::string> models;
-  try {
-    for (const RecordedObject& object : ReadObjects(texts)) models.push_back(NamedModel(object));
-  } catch (const Error&) {  // their reader tells why
-  }
-  return models;
-}
-
-void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects,
-                  Warnings* warnings) {
-  for (RecordedObject& object : *objects) {
+std::vector<TrackedObject> AlignObjects(const PoseTrajectory& person,
+                                        const std::vector<RecordedObject>& objects,
+                                        Warnings* warnings) {
+  std::vector<TrackedObject> aligned;
+  for (const RecordedObject& object : objects) {
     const PoseTrajectory& poses = object.recorded.trajectory;
-    TrackedObject& motion = object.motion;
+    TrackedObject& motion = aligned.emplace_back();
     motion.name = object.recorded.name;
-    motion.X_WO.assign(person.postures.size(), Eigen::Isometry3d::Identity());
     motion.extent = ExtentOf(object);
     int begin = 0, known = 0;
     for (int k = 0; k < person.num_frames(); ++k) {
-      if (!PoseAt(poses, person.time(k), &motion.X_WO[k])) {
+      motion.X_WO.push_back(PoseAt(poses, person.time(k)));
+      if (!motion.X_WO.back().matrix().allFinite()) {
         begin = k + 1;
         continue;
       }
@@ -179,6 +154,7 @@ void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* obj
         object.file, motion.name, poses.first_time, poses.time(poses.num_frames() - 1),
         person.first_time, person.time(person.num_frames() - 1)));
   }
+  return aligned;
 }
 
 PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames) {
@@ -196,7 +172,7 @@ PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames
 
 std::string ModelPathOf(const RecordedObject& object, const std::string& output) {
   const std::string model = NamedModel(object);
-  return IsFile(model) ? ModelPathFor(model, output) : object.recorded.model_path;
+  return model.empty() ? object.recorded.model_path : ModelPathFor(model, output);
 }
 
 }  // namespace mmm_converter

@@ -15,7 +15,6 @@ namespace mmm_converter {
 struct RecordedObject {
   std::string file;
   MmmMotion recorded;
-  TrackedObject motion;  ///< of the person's frames, by AlignObjects
 };
 
 /// The motions without joints of MMM files: "FILE" all, "FILE:A,B" those.
@@ -25,16 +24,17 @@ std::vector<RecordedObject> ReadObjects(const std::vector<std::string>& texts);
 /// The file of such a text.
 std::string FileOfObjects(const std::string& text);
 
-/// Files of models they name, which may give their sizes. Of what can't be read: none.
-std::vector<std::string> ModelsOfObjects(const std::vector<std::string>& texts);
-
 /// At the person's times: the longest part without a gap; a warning tells what is left out.
 /// @throws Error where the times have nothing in common.
-void AlignObjects(const PoseTrajectory& person, std::vector<RecordedObject>* objects,
-                  Warnings* warnings);
+std::vector<TrackedObject> AlignObjects(const PoseTrajectory& person,
+                                        const std::vector<RecordedObject>& objects,
+                                        Warnings* warnings);
 
 /// The frames in which it is known. frames: has their times.
 PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames);
+
+/// The file of the model that it names, which may give its size; empty: there is none.
+std::string NamedModel(const RecordedObject& object);
 
 /// To write into `output`.
 std::string ModelPathOf(const RecordedObject& object, const std::string& output);

@@ -53,11 +53,8 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
 
 void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
                     RetargetReport* report, Warnings* warnings) {
-  AlignObjects(motion, &report->objects, warnings);
-  std::vector<TrackedObject> objects;
-  objects.reserve(report->objects.size());
-  for (const RecordedObject& object : report->objects) objects.push_back(object.motion);
-  report->retargeted = RetargetMotion(*model, motion, report->robot, report->body, objects);
+  report->retargeted = RetargetMotion(*model, motion, report->robot, report->body,
+                                      AlignObjects(motion, report->objects, warnings));
   report->person_model = std::move(model);
   report->person = std::move(motion);
 }
@@ -191,13 +188,14 @@ void WriteRobotMotion(RetargetReport* report) {
   output.trajectory = &report->retargeted.motion;
   std::vector<PoseTrajectory> trajectories;
   std::vector<MmmMotionOutput> objects;
+  trajectories.reserve(report->objects.size());  // their places stay
   for (std::size_t i = 0; i < report->objects.size(); ++i) {
-    trajectories.push_back(PosesOf(report->retargeted.objects[i], report->retargeted.motion));
     MmmMotionOutput& object = objects.emplace_back();
-    object.motion_name = report->objects[i].motion.name;
+    object.motion_name = report->objects[i].recorded.name;
     object.model_path = ModelPathOf(report->objects[i], report->output);
+    object.trajectory = &trajectories.emplace_back(
+        PosesOf(report->retargeted.objects[i], report->retargeted.motion));
   }
-  for (std::size_t i = 0; i < objects.size(); ++i) objects[i].trajectory = &trajectories[i];
   WriteFileAtomically(report->output, FormatMmmMotion2(output, objects));
   report->written.push_back(report->output);
 }

@@ -66,7 +66,6 @@ class LiveStream {
   const LiveSession& session(int body = 0) const {
     return *sessions_[static_cast<std::size_t>(body)];
   }
-  int num_bodies() const { return static_cast<int>(sessions_.size()); }
   SteadyTime taken() const { return taken_; }  ///< when the tracking thread took the frame
   const std::string& source() const { return source_; }
   // After Join:

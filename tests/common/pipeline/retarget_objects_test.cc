@@ -31,23 +31,21 @@ RecordedObject WithGap(int begin, int end) {
 }
 
 TEST(AlignObjects, KeepsTheLongestPartAndSaysWhatIsLeftOut) {
-  std::vector<RecordedObject> objects = {WithGap(5, 7), WithGap(15, 20)};
   Warnings warnings;
-  AlignObjects(Frames(20, 100), &objects, &warnings);
-  EXPECT_EQ(objects[0].motion.begin, 7);
-  EXPECT_EQ(objects[0].motion.end, 20);
+  auto objects = AlignObjects(Frames(20, 100), {WithGap(5, 7), WithGap(15, 20)}, &warnings);
+  EXPECT_EQ(objects[0].begin, 7);
+  EXPECT_EQ(objects[0].end, 20);
   // Of the last frame before a gap nothing behind it is needed.
-  EXPECT_EQ(objects[1].motion.begin, 0);
-  EXPECT_EQ(objects[1].motion.end, 15);
+  EXPECT_EQ(objects[1].begin, 0);
+  EXPECT_EQ(objects[1].end, 15);
   ASSERT_EQ(warnings.all().size(), 1U);
   EXPECT_THAT(warnings.texts().front(),
               ::testing::AllOf(::testing::HasSubstr("\"cup\""),
                                ::testing::HasSubstr("0.07 to 0.19 s, 0.13 s of 0.18 s")));
   // Between two frames both are.
-  objects = {WithGap(15, 20)};
-  AlignObjects(Frames(39, 200), &objects, &warnings);
-  EXPECT_EQ(objects[0].motion.end, 29);
-  EXPECT_NEAR(objects[0].motion.X_WO[27].translation().x(), 1.35, 1e-12);
+  objects = AlignObjects(Frames(39, 200), {WithGap(15, 20)}, &warnings);
+  EXPECT_EQ(objects[0].end, 29);
+  EXPECT_NEAR(objects[0].X_WO[27].translation().x(), 1.35, 1e-12);
 }
 
 }  // namespace
