@@ -61,13 +61,8 @@ struct PoseRequest {
 PoseRequest MakePoseRequest(const Arguments& arguments) {
   PoseRequest request;
   if (const auto names = arguments.Get("segments")) {
-    request.choice.segments.clear();
-    for (std::size_t begin = 0; begin <= names->size();) {
-      const std::size_t end = std::min(names->find(',', begin), names->size());
-      const auto name = Trim(std::string_view(*names).substr(begin, end - begin));
-      if (!name.empty()) request.choice.segments.emplace_back(name);
-      begin = end + 1;
-    }
+    request.choice.segments = Split(*names, ',');
+    std::erase(request.choice.segments, "");
   }
   if (request.choice.segments.empty()) {
     throw UsageError("--segments: give the names of segments, all or none");

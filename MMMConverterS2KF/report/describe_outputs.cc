@@ -44,16 +44,6 @@ const TableKind* FindTable(std::string_view head) {
   return found == std::end(kTables) ? nullptr : found;
 }
 
-std::vector<std::string> Split(std::string_view line, char separator) {
-  std::vector<std::string> words;
-  for (;;) {
-    const std::size_t end = line.find(separator);
-    words.emplace_back(Trim(line.substr(0, end)));
-    if (end == std::string_view::npos) return words;
-    line.remove_prefix(end + 1);
-  }
-}
-
 /// Of a file that is not empty.
 bool EndsWithItsLine(const std::string& path) {
   const ByteSource bytes = BytesOfFile(path);

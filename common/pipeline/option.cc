@@ -13,16 +13,6 @@
 namespace mmm_converter {
 namespace {
 
-std::vector<std::string> Split(std::string_view text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('|', begin), text.size());
-    parts.emplace_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
 bool IsOneOf(const std::vector<std::string>& choices, const std::string& text) {
   return std::find(choices.begin(), choices.end(), text) != choices.end();
 }
@@ -48,7 +38,7 @@ std::string Expected(const Option& option, double unit) {
     case OptionKind::kWhole:
       return ExpectedNumber(option, unit);
     case OptionKind::kChoice:
-      return "use " + JoinNames(Split(option.value.argument));
+      return "use " + JoinNames(Split(option.value.argument, '|'));
     case OptionKind::kFrames:
       return "use A:B, frames A to B-1 counted from 0; for instance 100:400, 100: or :400";
     case OptionKind::kAxis:
@@ -84,7 +74,7 @@ struct OptionReading {
   bool operator()(std::string* to) const {
     *to = text();
     return option.value.kind != OptionKind::kChoice ||
-           IsOneOf(Split(option.value.argument), text());
+           IsOneOf(Split(option.value.argument, '|'), text());
   }
   bool operator()(std::optional<std::string>* to) const { return operator()(&to->emplace()); }
   bool operator()(std::vector<std::string>* to) const {
@@ -133,9 +123,9 @@ double UnitOfAttribute(const Option& option) {
 }
 
 std::vector<std::string> Choices(Medium medium, const Option& option) {
-  if (option.value.kind == OptionKind::kChoice) return Split(option.value.argument);
+  if (option.value.kind == OptionKind::kChoice) return Split(option.value.argument, '|');
   if (option.value.kind != OptionKind::kSwitch || medium != Medium::kManifest) return {};
-  return Split(*option.value.argument == 0 ? "true|false" : option.value.argument);
+  return Split(*option.value.argument == 0 ? "true|false" : option.value.argument, '|');
 }
 
 std::string SetOption(const Option& option, const std::vector<std::string>& values, double unit) {

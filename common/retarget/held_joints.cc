@@ -117,12 +117,11 @@ void HoldIdleJoints(const Robot& robot, RobotBody* body) {
 
 void HoldJoints(const Robot& robot, const std::string& angles, RobotBody* body) {
   const std::vector<bool> legs = JointsOfLegs(robot.model, *body);
-  for (std::size_t at = 0; !angles.empty() && at <= angles.size();) {
-    const std::size_t comma = std::min(angles.find(',', at), angles.size());
-    HoldPattern(robot.model, legs, ParsePattern(angles.substr(at, comma - at)), body);
-    at = comma + 1;
+  if (angles.empty()) return;
+  for (const std::string& pattern : Split(angles, ',')) {
+    HoldPattern(robot.model, legs, ParsePattern(pattern), body);
   }
-  if (!angles.empty()) WatchContacts(robot, body);
+  WatchContacts(robot, body);
 }
 
 void PutHeldJoints(const RobotBody& body, Posture* posture) {

@@ -23,6 +23,9 @@ bool IsUtf8(std::string_view text);
 /// As XML can hold it: bytes that are not UTF-8 taken as Latin-1, control characters as blanks.
 std::string ToUtf8(std::string_view text);
 
+/// What is between separators, each trimmed; of an empty text one that is empty.
+std::vector<std::string> Split(std::string_view text, char separator);
+
 bool EqualIgnoringCase(std::string_view a, std::string_view b);
 
 /// A whole text as a number in C notation, white space around it allowed; "nan" and "inf" are

@@ -30,14 +30,8 @@ bool IsFile(const std::string& file) {
 }
 
 std::vector<std::string> NamesOf(const std::string& text) {
-  std::vector<std::string> names;
-  const std::string file = FileOfObjects(text);
-  for (std::size_t at = file.size() + 1; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    names.push_back(text.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return names;
+  const std::size_t names = FileOfObjects(text).size() + 1;
+  return names > text.size() ? std::vector<std::string>() : Split(text.substr(names), ',');
 }
 
 std::vector<MmmMotion> ObjectsOf(const std::string& file, const std::vector<std::string>& wanted) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace mmm_converter {
 namespace {
@@ -13,6 +14,12 @@ TEST(Text, TrimsBlanksAndNuls) {
   EXPECT_EQ(Trim("a b\r\n"), "a b");
   EXPECT_EQ(Trim("  "), "");
   EXPECT_EQ(Trim(""), "");
+}
+
+TEST(Text, SplitsAtSeparators) {
+  using Parts = std::vector<std::string>;
+  EXPECT_EQ(Split("a, b c ,", ','), (Parts{"a", "b c", ""}));
+  EXPECT_EQ(Split("", ','), Parts{""});
 }
 
 TEST(Text, ComparesWithoutCase) {
