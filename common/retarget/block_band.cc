@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "common/retarget/block_band.h"
 
-#include <Eigen/Cholesky>
+#include "common/math/dense.h"
 
 namespace mmm_converter {
 
 void BlockBand::Resize(int frames, int size) {
   const auto blocks = static_cast<std::size_t>(frames);
-  for (auto* list : {&diagonal, &factor_before, &factor_before2}) {
-    list->resize(blocks);
-    for (Eigen::MatrixXd& block : *list) block.resize(size, size);
-  }
+  diagonal.resize(blocks);
+  for (Eigen::MatrixXd& block : diagonal) block.resize(size, size);
   for (auto* list : {&before, &before2, &right}) {
     list->resize(blocks);
     for (Eigen::VectorXd& block : *list) block.resize(size);
   }
+  for (auto* list : {&factor, &factor_before, &factor_before2}) {
+    list->resize(blocks, PaddedMatrix(size, size));
+  }
+  column = PaddedMatrix(size, 1);
 }
 
 void BlockBand::SetZero() {
@@ -26,34 +28,41 @@ void BlockBand::SetZero() {
 
 bool SolveInPlace(BlockBand* band) {
   const int frames = band->num_frames();
+  auto x = band->column.view().col(0);
   for (int k = 0; k < frames; ++k) {
-    Eigen::MatrixXd& D = band->diagonal[k];
-    Eigen::VectorXd& b = band->right[k];
-    Eigen::MatrixXd& B1 = band->factor_before[k];
-    Eigen::MatrixXd& B2 = band->factor_before2[k];
-    // Blocks to the left, transposed: rows of the frames before.
+    PaddedMatrix& G = band->factor[k];
+    PaddedMatrix& G1 = band->factor_before[k];
+    PaddedMatrix& G2 = band->factor_before2[k];
+    G.view() = band->diagonal[k];
+    x = band->right[k];
     if (k >= 2) {
-      B2 = band->before2[k].asDiagonal();
-      band->diagonal[k - 2].triangularView<Eigen::Lower>().solveInPlace(B2);
-      D.selfadjointView<Eigen::Lower>().rankUpdate(B2.transpose(), -1);
-      b.noalias() -= B2.transpose() * band->right[k - 2];
+      G2.view() = band->before2[k].asDiagonal();
+      DivideByTransposed(band->factor[k - 2], &G2);
+      AddSquare(-1, G2, &G);
+      x.noalias() -= G2.view() * band->right[k - 2];
     }
     if (k >= 1) {
-      B1 = band->before[k].asDiagonal();
-      if (k >= 2) B1.noalias() -= band->factor_before[k - 1].transpose() * B2;
-      band->diagonal[k - 1].triangularView<Eigen::Lower>().solveInPlace(B1);
-      D.selfadjointView<Eigen::Lower>().rankUpdate(B1.transpose(), -1);
-      b.noalias() -= B1.transpose() * band->right[k - 1];
+      G1.SetZero();
+      if (k >= 2) MultiplyByTransposed(G2, band->factor_before[k - 1], &G1);
+      G1.view() = -G1.view();
+      G1.view().diagonal() += band->before[k];
+      DivideByTransposed(band->factor[k - 1], &G1);
+      AddSquare(-1, G1, &G);
+      x.noalias() -= G1.view() * band->right[k - 1];
     }
-    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> factor(D);
-    if (factor.info() != Eigen::Success) return false;
-    D.triangularView<Eigen::Lower>().solveInPlace(b);
+    Factorize(&G);
+    if (!(G.view().diagonal().minCoeff() > 0)) return false;
+    SolveLower(G, &band->column);
+    band->right[k] = x;
   }
   for (int k = frames - 1; k >= 0; --k) {
-    Eigen::VectorXd& b = band->right[k];
-    if (k + 1 < frames) b.noalias() -= band->factor_before[k + 1] * band->right[k + 1];
-    if (k + 2 < frames) b.noalias() -= band->factor_before2[k + 2] * band->right[k + 2];
-    band->diagonal[k].triangularView<Eigen::Lower>().transpose().solveInPlace(b);
+    x = band->right[k];
+    if (k + 1 < frames)
+      x.noalias() -= band->factor_before[k + 1].view().transpose() * band->right[k + 1];
+    if (k + 2 < frames)
+      x.noalias() -= band->factor_before2[k + 2].view().transpose() * band->right[k + 2];
+    SolveLowerTransposed(band->factor[k], &band->column);
+    band->right[k] = x;
   }
   return true;
 }

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/math/padded_matrix.h"
+
 namespace mmm_converter {
 
 /// Normal equations of a trajectory: a symmetric positive matrix of blocks, a row of blocks a
@@ -15,15 +17,16 @@ struct BlockBand {
   std::vector<Eigen::VectorXd> before2;   ///< with the second before it
   std::vector<Eigen::VectorXd> right;     ///< the right-hand side
   // Scratch: the factor's blocks.
-  std::vector<Eigen::MatrixXd> factor_before, factor_before2;
+  std::vector<PaddedMatrix> factor, factor_before, factor_before2;
+  PaddedMatrix column;
 
   void Resize(int frames, int size);
   void SetZero();
   int num_frames() const { return static_cast<int>(diagonal.size()); }
 };
 
-/// The solution in band->right, by a Cholesky factor in the place of the matrix; linear in the
-/// number of frames. False: the matrix is not positive.
+/// The solution in band->right, by a Cholesky factor; linear in the number of frames. False: the
+/// matrix is not positive.
 bool SolveInPlace(BlockBand* band);
 
 }  // namespace mmm_converter

@@ -14,8 +14,8 @@ namespace mmm_converter {
 namespace {
 
 constexpr int kFewestFrames = 3;
-constexpr int kFirstIterations = 3, kSecondIterations = 5;
-constexpr int kMore = 15;  // until limits are met
+constexpr FitEffort kFirstEffort = {3, 18, 0.05, false};
+constexpr FitEffort kLastEffort = {5, 40, 0.02, true};
 constexpr FootDeviations kSoft = {0.006, 0.03, 0.006, 0.1};
 constexpr FootDeviations kFirm = {0.0001, 0.001, 0.006, 0.1};
 
@@ -81,11 +81,11 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
   std::vector<Posture> start = StartTrajectory(
       problem, FirstPosture(result.human.bodies.front(), result.scale, robot, body));
-  FitResult fit = FitTrajectory(problem, std::move(start), kFirstIterations, body.feet ? 0 : kMore);
+  FitResult fit = FitTrajectory(problem, std::move(start), body.feet ? kFirstEffort : kLastEffort);
   if (body.feet) {
     feet = AnchoredFeet(result, body, FeetOf(robot.model, body, fit.postures, feet));
     problem = MakeProblem(result, robot, body, feet, kFirm);
-    fit = FitTrajectory(problem, std::move(fit.postures), kSecondIterations, kMore);
+    fit = FitTrajectory(problem, std::move(fit.postures), kLastEffort);
   }
   for (Posture& posture : fit.postures) PutHeldJoints(body, &posture);
   result.iterations = fit.iterations;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/math/rotation.h"
+#include "common/math/square.h"
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/body_posture.h"
 #include "common/retarget/held_joints.h"
@@ -89,6 +91,7 @@ RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
   const double left = (R_AF * FarthestOf(foot, {0, 1, -3})).y();
   const Vector3d ankle_W = X_WS[leg.distal.segment] * leg.distal.p_S;
   const Vector3d ankle = R_AF * (X_WS[foot.segment].inverse() * ankle_W);
+  foot.width = left - right;
   const double middle = 0.5 * (right + left);
   const auto place = [&](double x) {
     return Vector3d(foot.R_FA * Vector3d(x, middle, lowest.z()));
@@ -98,6 +101,21 @@ RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
   foot.toe = place((R_AF * FarthestOf(foot, {1, 0, -3})).x());
   foot.ankle_height = ankle.z() - lowest.z();
   return foot;
+}
+
+/// By pitch and roll: the edge that bears keeps its direction on the floor. With the roll last
+/// that is the edge of heel or toes, with the pitch last a side's; on a corner one becomes the
+/// other.
+Eigen::Matrix3d TurnOf(const RobotFoot& foot, double pitch, double roll) {
+  const Eigen::AngleAxisd of_roll(roll, Vector3d::UnitX()), of_pitch(pitch, Vector3d::UnitY());
+  const Eigen::Matrix3d roll_last = (of_roll * of_pitch).toRotationMatrix();
+  const double end =
+      (foot.toe - foot.heel).norm() * std::abs(std::sin(pitch));  // [m] that it rises
+  const double side = foot.width * std::abs(std::sin(roll));
+  if (side == 0) return roll_last;
+  const double on_side = 1 / (1 + Square(Square(end / side)));
+  const Eigen::Quaterniond between((of_pitch * of_roll).toRotationMatrix() * roll_last.transpose());
+  return Exp(on_side * Log(between)) * roll_last;
 }
 
 }  // namespace
@@ -112,10 +130,7 @@ double LowestOf(const RobotFoot& foot, const Eigen::Isometry3d& X_WF) {
 Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& place, double yaw,
                                double pitch, double roll) {
   const Eigen::Matrix3d R_WY = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
-  // Roll last: the edge of heel or toes keeps its direction on the floor.
-  const Eigen::Matrix3d R_YA =
-      (Eigen::AngleAxisd(roll, Vector3d::UnitX()) * Eigen::AngleAxisd(pitch, Vector3d::UnitY()))
-          .toRotationMatrix();
+  const Eigen::Matrix3d R_YA = TurnOf(foot, pitch, roll);
   const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() = R_WY * R_YA * R_AF;

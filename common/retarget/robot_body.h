@@ -24,6 +24,7 @@ struct RobotFoot {
   bool rolls = true;             ///< an ankle joint turns it about its length
   std::string said;              ///< Sole::said
   double ankle_height = 0;       ///< above the sole [m]
+  double width = 0;              ///< of the sole [m]
 };
 
 /// Height of its lowest point [m].

@@ -18,6 +18,7 @@ constexpr double kWindowBytes = 64 << 20;  // at most
 constexpr int kOverlap = 100;              // of them, that are solved again with those behind them
 constexpr int kFrameIterations = 3;
 constexpr double kFrameDamping = 20;
+constexpr double kUnhurried = 20;    // [1/rad^2] by which a frame's joints stay as those before it
 constexpr int kAnew = 12;            // postures from which a frame is begun anew
 constexpr int kMostAnew = 4;         // frames that are
 constexpr double kBetter = 0.7;      // of the cost, that makes another posture the better one
@@ -59,15 +60,19 @@ class FrameFit {
         H_(6 + problem.model->num_joints(), 6 + problem.model->num_joints()),
         b_(H_.rows()) {}
 
-  /// Returns the cost of what it began with in the last iteration.
-  double Fit(int frame, int iterations, double damping, Posture* posture) {
+  /// Returns the cost of what it began with in the last iteration. stays: how much the joints stay
+  /// where they were [1/rad^2].
+  double Fit(int frame, int iterations, double damping, double stays, Posture* posture) {
     const KinematicModel& model = *problem_.model;
+    const Eigen::VectorXd before = posture->joint_angles;
     double cost = 0;
     for (int i = 0; i < iterations; ++i) {
       H_.setZero();
       b_.setZero();
       cost = equations_.AddAims(frame, *posture, &H_, &b_);
       H_.diagonal().array() += damping;
+      H_.diagonal().tail(before.size()).array() += stays;
+      b_.tail(before.size()) += stays * (before - posture->joint_angles);
       Eigen::VectorXd step = H_.selfadjointView<Eigen::Lower>().llt().solve(b_);
       if (HoldAtLimits(model, *posture, step, &H_, &b_)) {
         step = H_.selfadjointView<Eigen::Lower>().llt().solve(b_);
@@ -93,7 +98,7 @@ class FrameFit {
         const double share = n == 0 ? 0 : n == 1 ? 0.3 : 0.7;
         tried.joint_angles[j] += share * (lower + part * (upper - lower) - tried.joint_angles[j]);
       }
-      const double cost = Fit(frame, 60, 5, &tried);
+      const double cost = Fit(frame, 60, 5, 0, &tried);
       if (cost < lowest) *best = tried;
       lowest = std::min(lowest, cost);
     }
@@ -116,7 +121,7 @@ std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Pos
   // Goes on from a frame as long as that is better than what there is.
   const auto go_on = [&](int from, int step, Posture posture) {
     for (int k = from; k >= 0 && k < problem.num_frames; k += step) {
-      const double cost = fit.Fit(k, kFrameIterations, kFrameDamping, &posture);
+      const double cost = fit.Fit(k, kFrameIterations, kFrameDamping, kUnhurried, &posture);
       if (cost >= kBetter * costs[k]) break;
       postures[k] = posture;
       costs[k] = cost;
@@ -139,7 +144,7 @@ std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Pos
 }
 
 FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> start,
-                        int iterations, int more) {
+                        const FitEffort& effort) {
   FitResult result;
   result.postures = std::move(start);
   CorrectJoints(problem, &result.postures);
@@ -153,11 +158,11 @@ FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> s
     const int end = std::min(begin + window_frames, problem.num_frames);
     window.Begin(begin, end);
     int done = 0;
-    while (done < iterations + more) {
+    while (done < effort.most) {
       const double longest = window.Step(&result.postures);
       ++done;
-      if (done < iterations && longest > kShortStep) continue;
-      if (window.IsWithinLimits(result.postures)) break;
+      if (longest > (done < effort.fewest ? kShortStep : effort.near)) continue;
+      if (!effort.meets_limits || window.IsWithinLimits(result.postures)) break;
     }
     result.iterations = std::max(result.iterations, done);
     is_solved &= window.is_solved();

@@ -50,6 +50,15 @@ struct TrajectoryProblem {
 /// where the first frame begins.
 std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Posture& first);
 
+/// How often a fit goes on: at least `fewest` iterations, at most `most`, until no joint moves by
+/// more than `near` [rad] and, where limits count, all are met.
+struct FitEffort {
+  int fewest = 5;
+  int most = 20;
+  double near = 0.02;
+  bool meets_limits = true;
+};
+
 struct FitResult {
   std::vector<Posture> postures;
   int iterations = 0;  ///< the most of a window
@@ -58,10 +67,9 @@ struct FitResult {
 };
 
 /// By Gauss and Newton over windows of frames, each with all of its frames at once (a banded
-/// Cholesky factor), with stiff springs at the limits, a little within them: `iterations`, and
-/// up to `more` until all limits are met. What is left of them is corrected (trajectory_limits.h).
-/// Linear in the number of frames.
+/// Cholesky factor), with stiff springs at the limits, a little within them. What is left of them
+/// is corrected (trajectory_limits.h). Linear in the number of frames.
 FitResult FitTrajectory(const TrajectoryProblem& problem, std::vector<Posture> start,
-                        int iterations, int more);
+                        const FitEffort& effort);
 
 }  // namespace mmm_converter

@@ -323,7 +323,7 @@ double TrajectoryWindow::Step(std::vector<Posture>* postures) {
     part *= 0.5;
     damping_ *= 4;
   }
-  return longest;
+  return part * longest;
 }
 
 bool TrajectoryWindow::IsWithinLimits(const std::vector<Posture>& postures) {

@@ -61,7 +61,7 @@ class TrajectoryWindow {
 
   /// Frames [begin, end).
   void Begin(int begin, int end);
-  /// One step of all of its frames; returns the longest of a joint [rad].
+  /// One step of all of its frames; returns how far it moved a joint at most [rad].
   double Step(std::vector<Posture>* postures);
   bool IsWithinLimits(const std::vector<Posture>& postures);
   bool is_solved() const { return is_solved_; }  ///< some step had a solution

@@ -178,6 +178,24 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
 
 // KIT's own poses of what a person pours from and into, at 10 Hz, beside a table that nobody takes
 // along. 10 mm: a palm's width is some 80.
+TEST(RealRetarget, WalkersFeetStandStillOnRobotsWithAndWithoutAnklesThatRoll) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string& folder = TestFolder();
+  for (const char* input :
+       {"field/nimble_Tiziana2019_markers.trc", "recordings/whole_body/pycgm_movement_trial.c3d"}) {
+    for (const char* robot : {"unitree_g1/g1_custom_collision_29dof.urdf", "unitree_h1/h1.urdf",
+                              "booster_t1/T1_23dof.urdf"}) {
+      const auto run = RunProgram({"retarget", testing::SharedData(input), "--robot",
+                                   testing::SharedData(std::string("robots/") + robot), "-o",
+                                   folder + "/walker.xml", "--summary", folder + "/walker.json"});
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+      const auto summary = nlohmann::json::parse(ReadText(folder + "/walker.json"));
+      EXPECT_LT(summary["slide"].get<double>(), 0.01) << input << " " << robot;
+      EXPECT_LT(summary["penetration_m"].get<double>(), 0.001) << input << " " << robot;
+    }
+  }
+}
+
 TEST(RealRetarget, HandsStayAtWhatTheyPourWith) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file =

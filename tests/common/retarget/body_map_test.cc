@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "common/retarget/foot_figures.h"
 #include "common/retarget/limb_chains.h"
 #include "common/retarget/robot_body.h"
 #include "common/support/atomic_file.h"
@@ -169,8 +173,31 @@ TEST(RobotBodyTest, AStandingFootTouchesTheFloorAndTurnsAboutItsEdges) {
     for (const double roll : {-0.2, 0.3}) {
       const Eigen::Isometry3d rolled = StandingFoot(foot, {1, 2}, 0.5, pitch, roll);
       EXPECT_NEAR(LowestOf(foot, rolled), 0, 1e-12) << pitch << " " << roll;
-      EXPECT_NEAR((rolled.linear().transpose() * X.linear()).trace(), 1 + 2 * std::cos(roll), 1e-9);
     }
+  }
+}
+
+TEST(RobotBodyTest, AFootThatLeansComesDownAndRisesWithoutSliding) {
+  const RobotFoot foot = (*FindRobotBody(MakeBiped({}), {}, {}).feet)[1];
+  struct Turn {
+    Eigen::Vector2d from, to;  // pitch and roll [rad]
+  };
+  constexpr int kSteps = 500;
+  for (const Turn& turn : std::vector<Turn>{{{-0.3, 0.25}, {0, 0.25}},    // a heel comes down
+                                            {{0, -0.25}, {0.5, -0.25}},   // a heel goes up
+                                            {{0, -0.25}, {0, 0.25}},      // over to the other side
+                                            {{0.4, 0.25}, {0.4, -0.25}},  // on the toes
+                                            {{-0.3, 0}, {-0.3, 0.25}}}) {
+    double most = 0;
+    Eigen::Isometry3d before = StandingFoot(foot, {1, 2}, 0.5, turn.from[0], turn.from[1]);
+    for (int i = 1; i <= kSteps; ++i) {
+      const Eigen::Vector2d at = turn.from + (turn.to - turn.from) * i / kSteps;
+      const Eigen::Isometry3d X = StandingFoot(foot, {1, 2}, 0.5, at[0], at[1]);
+      most = std::max(most, WayOf(foot, before, X));
+      before = X;
+    }
+    // 1 rad/s would be 5 mm/s.
+    EXPECT_LT(most * kSteps / (turn.to - turn.from).norm(), 0.005) << turn.from.transpose();
   }
 }
 

@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(RealCase{kG1, kWalk, 0.01, 2.5}, RealCase{kG1, kTurn, 0.01, 2.5},
                       RealCase{kG1, kWave, 0.01, 2.5}, RealCase{kT1, kWalk, 0.01, 2.5},
                       RealCase{kT1, kTurn, 0.01, 2.5}, RealCase{kT1, kWave, 0.01, 2.5},
-                      RealCase{kH1, kWalk, 0.02, 5}));
+                      RealCase{kH1, kWalk, 0.01, 5}, RealCase{kH1, kTurn, 0.01, 5}));
 
 /// Toes move as heels do.
 FootStates WholeFeet(const PointState& left, const PointState& right) {

@@ -126,7 +126,7 @@ TEST_P(FastSwingTest, VelocityLimitsHoldAndTheAimsAreReachedBesides) {
   TrajectoryProblem problem = SwingArm(robot, 200, most, weight);
   problem.velocity_limits.setConstant(5);
   const FitResult fit =
-      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), 5, 15);
+      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), {});
   EXPECT_TRUE(fit.has_converged);
   const int shoulder = robot.model.FindJoint("left_shoulder_pitch");
   EXPECT_LE(Fastest(fit.postures, problem.rate), 5);
@@ -158,7 +158,7 @@ TEST_P(AimlessTest, NoLimitIsBroken) {
     if (aim.is_direction) aim.target.colwise().normalize();
   }
   const FitResult fit =
-      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), 3, 3);
+      FitTrajectory(problem, StartTrajectory(problem, ZeroPosture(robot.model)), {3, 6});
   EXPECT_LE(Fastest(fit.postures, problem.rate), 3);
   for (const Posture& posture : fit.postures) {
     for (int j = 0; j < robot.model.num_joints(); ++j) {
@@ -204,8 +204,8 @@ TEST(TrajectoryFitTest, WindowsJoinAsIfTheyWereOne) {
     aim.weight = Eigen::Matrix3Xd(aim.weight.middleCols(500, 400));
   }
   const Posture zero = ZeroPosture(robot.model);
-  const FitResult whole = FitTrajectory(all, StartTrajectory(all, zero), 5, 15);
-  const FitResult middle = FitTrajectory(part, StartTrajectory(part, zero), 5, 15);
+  const FitResult whole = FitTrajectory(all, StartTrajectory(all, zero), {});
+  const FitResult middle = FitTrajectory(part, StartTrajectory(part, zero), {});
   for (int k = 100; k < 300; ++k) {
     const Eigen::VectorXd difference =
         whole.postures[500 + k].joint_angles - middle.postures[k].joint_angles;
