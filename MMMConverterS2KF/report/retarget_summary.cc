@@ -38,12 +38,16 @@ std::string DescribeFeet(const RetargetReport& report) {
             ? ""
             : fmt::format(" ({:.1f} % by the toe's rule at 30 Hz)", kPercent * figures.toe_slide));
     if (!std::isnan(figures.floating)) {
-      feet += fmt::format(", {:.1f} mm above the floor in contact", Millimetres(figures.floating));
+      feet += fmt::format(", {:.1f} mm above what they stand on in contact",
+                          Millimetres(figures.floating));
     }
     text += RetargetLine("feet", feet);
   }
   std::string floor = fmt::format("feet at most {:.1f} mm below it, at {:.2f} s",
                                   kMillimetres * figures.penetration, figures.penetration_time);
+  if (figures.highest_stance > 0) {
+    floor += fmt::format("; they stand on what is up to {:.2f} m above it", figures.highest_stance);
+  }
   if (figures.body_depth > 0) {
     floor += fmt::format("; {} {:.1f} mm at {:.2f} s", figures.deepest_body,
                          kMillimetres * figures.body_depth, figures.body_depth_time);
@@ -209,6 +213,7 @@ Json ToJson(const RetargetReport& report) {
                {"body_penetration_at_s", Number(figures.body_depth_time)},
                {"deepest_body", TextOrNull(figures.deepest_body)},
                {"floating_m", Number(figures.floating, 6)},
+               {"highest_stance_m", Number(figures.highest_stance, 4)},
                {"position_limits_broken", figures.position_breaks},
                {"velocity_limits_broken", figures.velocity_breaks},
                {"acceleration_rad_s2", Number(figures.acceleration)},

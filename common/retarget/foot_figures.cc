@@ -104,6 +104,11 @@ void MeasureFeet(const Retargeted& retargeted, const RobotBody& body, const Pose
       speed[k] = WayOf(foot, X_WS[k - 1][foot.segment], X) * rate;
       if (speed[k] > kSlideSpeed) ++counts.slides;
     }
+    for (int k = 0; k < frames; ++k) {
+      const double support = retargeted.scale * retargeted.states.support(i, k);
+      lowest[k] -= support;
+      if (contact[k]) figures->highest_stance = std::max(figures->highest_stance, support);
+    }
     CountFloating(contact, lowest, rate, &counts);
     CountOthersRule(retargeted.human.toes[i], toe, rate, &counts);
   }

@@ -25,7 +25,8 @@ Vector3d HumanSole(const HumanMotion& human, double ankle_height, std::size_t fo
 double SoleLevel(const Retargeted& retargeted, double ankle_height, std::size_t foot) {
   std::vector<double> standing, all;
   for (int k = 0; k < retargeted.human.num_frames(); ++k) {
-    all.push_back(HumanSole(retargeted.human, ankle_height, foot, k).z());
+    all.push_back(HumanSole(retargeted.human, ankle_height, foot, k).z() -
+                  retargeted.states.support(foot, k));
     if (retargeted.contacts[foot].heel[k]) standing.push_back(all.back());
   }
   return standing.empty() ? Percentile(all, 5) : Median(standing);
@@ -71,9 +72,11 @@ void DrawSwing(const FootTrack& pass, const FootTrack& anchored, int edge, int s
   }
 }
 
-/// Places of a stance's frames; the flat foot's place and direction are averages.
+/// Places of a stance's frames, on what is `support` above the floor [m]; the flat foot's place and
+/// direction are averages.
 void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<double>& pitch,
-            const std::vector<double>& roll, const Stance& stance, FootTrack* track) {
+            const std::vector<double>& roll, const Stance& stance, double support,
+            FootTrack* track) {
   const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
   std::complex<double> direction = 0;
   for (int k = stance.begin; k < stance.end; ++k) {
@@ -90,6 +93,7 @@ void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<doub
   }
   for (int k = stance.begin; k < stance.end; ++k) {
     track->X_WF[k] = StandingFoot(foot, place, yaw, pitch[k], roll[k]);
+    track->X_WF[k].translation().z() += support;
   }
 }
 
@@ -114,7 +118,8 @@ Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::si
   X.linear() = R_WA * foot.R_FA.transpose();
   X.translation() = place - X.linear() * foot.sole;
   const double lowest = LowestOf(foot, X);
-  if (of.pitch || lowest < 0) X.translation().z() -= lowest;
+  if (of.pitch) X.translation().z() += of.scale * of.support - lowest;
+  if (!of.pitch && lowest < 0) X.translation().z() -= lowest;
   return X;
 }
 
@@ -130,9 +135,13 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
                 true);
     }
     for (int k = 0; k < human.num_frames(); ++k) {
-      ScaledFoot of = {&human.bodies[k],        human.R_feet[i][k],
-                       retargeted.ankle_height, level,
-                       retargeted.scale,        {}};
+      ScaledFoot of = {&human.bodies[k],
+                       human.R_feet[i][k],
+                       retargeted.ankle_height,
+                       level,
+                       retargeted.scale,
+                       {},
+                       retargeted.states.support(i, k)};
       if (tracks[i].stands[k]) {
         const FootContacts& contacts = retargeted.contacts[i];
         of.pitch = GatedPitch(contacts.heel[k], contacts.toe[k], PitchOf(of.R_foot.col(0)));
@@ -166,7 +175,10 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
     roll = Smoothed(roll, kPitchSmoothing * rate);
     pitch = Smoothed(pitch, kPitchSmoothing * rate);
     const std::vector<Stance>& stances = retargeted.contacts[i].stances;
-    for (const Stance& stance : stances) Anchor(foot, pass, pitch, roll, stance, &track);
+    for (const Stance& stance : stances) {
+      const double support = retargeted.scale * retargeted.states.support(i, stance.begin);
+      Anchor(foot, pass, pitch, roll, stance, support, &track);
+    }
     std::vector<FootDifference> draws(frames, FootDifference::Zero());
     for (std::size_t n = 0; n < stances.size(); ++n) {
       const int next = n + 1 < stances.size() ? stances[n + 1].begin : frames;

@@ -14,7 +14,12 @@ constexpr double kOnSpeed = 0.3, kOffSpeed = 0.5;      // [m/s]
 constexpr double kShortest = 0.08;                     // [s]
 constexpr double kHalfSpan = 0.02;                     // [s] about a frame, of its speed
 constexpr double kStands = 0.1;                        // [m/s]
-constexpr double kAboveLowest = 0.06;                  // [m] of heights that tell the level
+constexpr double kAboveLowest = 0.06;  // [m] of heights that tell the level; more is another one
+// Of a foot that stands on what is not the floor: its ends rest, one not far above the other.
+constexpr double kRests = 0.2;     // [m/s]
+constexpr double kRestsFor = 0.1;  // [s]
+constexpr double kFlat = 0.08;     // [m]
+constexpr double kLowest = 1;      // [%] of heights that are none
 
 Eigen::Vector3d At(const Eigen::Matrix3Xd& path, double frame) {
   const auto last = static_cast<double>(path.cols() - 1);
@@ -64,6 +69,63 @@ std::vector<bool> FindOn(const PointState& point, double rate) {
   return on;
 }
 
+void MoveLevel(double level, PointState* point) {
+  point->height.array() += point->level - level;
+  point->level = level;
+}
+
+/// One floor for both feet: each point's level is its own where they differ by little.
+void ShareFloor(std::array<PointState, 2>* points) {
+  const double floor = std::min((*points)[0].level, (*points)[1].level);
+  for (PointState& point : *points) {
+    if (point.level > floor + kAboveLowest) MoveLevel(floor, &point);
+  }
+}
+
+/// How far whole feet go below the floor on which they stand.
+double StepsBelow(const FootStates& states) {
+  double below = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Eigen::VectorXd upper = states.heels[i].height.cwiseMax(states.toes[i].height);
+    if (upper.size() == 0) continue;
+    below = std::max(below,
+                     -Percentile({upper.data(), static_cast<std::size_t>(upper.size())}, kLowest));
+  }
+  return below > kAboveLowest ? below : 0;
+}
+
+/// Heights of points become those above what the foot stands on.
+Eigen::VectorXd FindSupports(PointState* heel, PointState* toe, double rate) {
+  const Eigen::Index frames = heel->height.size();
+  const Eigen::VectorXd z_heel = heel->height, z_toe = toe->height;
+  Eigen::VectorXd supports = Eigen::VectorXd::Zero(frames);
+  const auto rests = [&](Eigen::Index k) {
+    return std::min(z_heel[k], z_toe[k]) > kAboveLowest && heel->speed[k] < kRests &&
+           toe->speed[k] < kRests && std::abs(z_heel[k] - z_toe[k]) < kFlat;
+  };
+  for (Eigen::Index begin = 0; begin < frames;) {
+    Eigen::Index end = begin;
+    while (end < frames && rests(end)) ++end;
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (count > 0 && static_cast<double>(count) >= kRestsFor * rate) {
+      const double of_heel = Median({z_heel.data() + begin, count});
+      const double of_toe = Median({z_toe.data() + begin, count});
+      const auto take = [&](Eigen::Index k) {
+        const double off = std::min(std::abs(z_heel[k] - of_heel), std::abs(z_toe[k] - of_toe));
+        if (off > kOffHeight || supports[k] != 0) return false;
+        supports[k] = 0.5 * (of_heel + of_toe);
+        heel->height[k] -= of_heel;
+        toe->height[k] -= of_toe;
+        return true;
+      };
+      for (Eigen::Index k = begin - 1; k >= 0 && take(k);) --k;
+      for (Eigen::Index k = begin; k < frames && take(k);) ++k;
+    }
+    begin = end + 1;
+  }
+  return supports;
+}
+
 }  // namespace
 
 PointState StateOf(const Eigen::Matrix3Xd& path, double rate) {
@@ -89,6 +151,15 @@ FootStates StatesOf(const HumanMotion& motion) {
     states.heels[i] = StateOf(motion.heels[i], motion.rate);
     states.toes[i] = StateOf(motion.toes[i], motion.rate);
   }
+  ShareFloor(&states.heels);
+  ShareFloor(&states.toes);
+  const double below = StepsBelow(states);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (PointState* point : {&states.heels[i], &states.toes[i]}) {
+      MoveLevel(point->level - below, point);
+    }
+    states.supports[i] = FindSupports(&states.heels[i], &states.toes[i], motion.rate);
+  }
   return states;
 }
 
@@ -100,7 +171,8 @@ std::array<FootContacts, 2> FindFootContacts(const FootStates& states, double ra
     bool stands = false;
     for (int k = 0; k < static_cast<int>(feet[i].heel.size()); ++k) {
       const bool on = feet[i].heel[k] || feet[i].toe[k];
-      if (on && !stands) feet[i].stances.push_back({k, k});
+      const bool is_other = stands && states.support(i, k) != states.support(i, k - 1);
+      if (on && (!stands || is_other)) feet[i].stances.push_back({k, k});
       if (on) feet[i].stances.back().end = k + 1;
       stands = on;
     }

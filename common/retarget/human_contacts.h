@@ -11,7 +11,7 @@ namespace mmm_converter {
 
 /// How high and how fast a point of a person's foot is, for each frame.
 struct PointState {
-  Eigen::VectorXd height;  ///< above the point's own level while it stands [m]
+  Eigen::VectorXd height;  ///< above the point's own level, and FootStates::supports [m]
   Eigen::VectorXd speed;   ///< from 20 ms before to 20 ms behind [m/s]
   double level = 0;        ///< of the point where it stands, W [m]
 };
@@ -20,7 +20,15 @@ PointState StateOf(const Eigen::Matrix3Xd& path, double rate);
 /// Heel and toe of both feet.
 struct FootStates {
   std::array<PointState, 2> heels, toes;
+  /// Of what a foot stands on, a step say, above the floor [m] for each frame; none: the floor.
+  std::array<Eigen::VectorXd, 2> supports;
+
+  double support(std::size_t foot, int k) const {
+    return supports[foot].size() > 0 ? supports[foot][k] : 0;
+  }
 };
+/// The lowest place where a foot stands, or is, is the floor. A foot that is flat and slower than
+/// 0.1 m/s for 0.1 s more than 60 mm above it stands on something.
 FootStates StatesOf(const HumanMotion& motion);
 
 /// Frames [begin, end) in which a foot stands.

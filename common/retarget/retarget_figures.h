@@ -20,7 +20,7 @@ struct LimbFigures {
 
 /// A robot's foot in each frame.
 struct FootFigures {
-  Eigen::VectorXd height;  ///< of its lowest point [m]
+  Eigen::VectorXd height;  ///< of its lowest point above what it stands on, or the floor [m]
   Eigen::VectorXd speed;   ///< of what bears, from the frame before [m/s]; NaN: not in contact
 };
 
@@ -56,7 +56,8 @@ struct RetargetFigures {
   double toe_slide = 0;      ///< by the toe's rule at 30 Hz, as others count
   double penetration = 0;    ///< deepest [m]
   double penetration_time = 0;
-  double floating = 0;  ///< mean height in contact [m]
+  double floating = 0;        ///< mean height in contact [m]
+  double highest_stance = 0;  ///< of what a foot stands on, above the floor [m]
   std::array<FootFigures, 2> feet;
   int position_breaks = 0, velocity_breaks = 0;
   bool keeps_limits = true;  ///< Retargeted::keeps_limits

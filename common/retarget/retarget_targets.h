@@ -49,6 +49,7 @@ struct ScaledFoot {
   double level = 0;         ///< of the person's sole where it stands [m]
   double scale = 1;
   std::optional<double> pitch;  ///< of a foot that stands; nothing: it swings
+  double support = 0;           ///< of what the person's stands on, above the floor [m]
 };
 Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::size_t foot);
 

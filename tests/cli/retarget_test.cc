@@ -192,6 +192,11 @@ TEST(RealRetarget, WalkersFeetStandStillOnRobotsWithAndWithoutAnklesThatRoll) {
       const auto summary = nlohmann::json::parse(ReadText(folder + "/walker.json"));
       EXPECT_LT(summary["slide"].get<double>(), 0.01) << input << " " << robot;
       EXPECT_LT(summary["penetration_m"].get<double>(), 0.001) << input << " " << robot;
+      // The person goes down five steps of .19 m.
+      const bool has_steps = summary["highest_stance_m"] != 0;
+      EXPECT_EQ(has_steps, std::string(input).find("pycgm") != std::string::npos) << input;
+      EXPECT_NEAR(summary["highest_stance_m"].get<double>() / summary["scale"].get<double>(),
+                  has_steps ? 5 * 0.19 : 0, 0.02);
     }
   }
 }

@@ -241,6 +241,40 @@ TEST(HumanContactsTest, AStanceThatTheRecordingCutsOffMayBeShort) {
   EXPECT_EQ(feet[0].stances[1].begin, 56);
 }
 
+TEST(HumanContactsTest, AFootStandsOnStepsAndTheLowestIsTheFloor) {
+  constexpr double kRate = 100, kStep = 0.19;
+  constexpr int kSteps = 4, kStands = 50, kSwings = 50;  // frames of each
+  HumanMotion motion;
+  motion.rate = kRate;
+  // One foot stands while the other swings over two steps; its heel is worn higher than the
+  // other's.
+  const int frames = kSteps * (kStands + kSwings);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Eigen::Matrix3Xd path(3, frames);
+    for (int k = 0; k < frames; ++k) {
+      const int shifted = i == 0 ? k : std::max(k, kSwings) + kStands;
+      const int done = shifted / (kStands + kSwings), within = shifted % (kStands + kSwings);
+      const double part = std::max(0, within - kStands) / static_cast<double>(kSwings);
+      const double lifted = 0.1 * std::sin(std::numbers::pi * part);
+      path.col(k) << 0.6 * (done + part), 0, 2 * kStep * (done + part) + lifted;
+    }
+    if (i == 1) path.row(2).array() -= kStep;
+    motion.heels[i] = motion.toes[i] = path;
+    motion.heels[i].row(2).array() += i == 0 ? 0.05 : 0.08;
+    motion.toes[i].row(0).array() += 0.2;
+  }
+  const FootStates states = StatesOf(motion);
+  const auto feet = FindFootContacts(states, kRate);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::vector<Stance>& stances = feet[i].stances;
+    ASSERT_GE(stances.size(), 4U) << i;
+    for (std::size_t n = 0; n < 4; ++n) {
+      const double step = i == 0 ? 2.0 * static_cast<double>(n) : 2.0 * static_cast<double>(n) + 1;
+      EXPECT_NEAR(states.support(i, stances[n].begin), kStep * step, 0.02) << i << " " << n;
+    }
+  }
+}
+
 TEST(HumanContactsTest, AFootThatStaysLowIsNotOffForAMoment) {
   PointState low, high;
   for (PointState* point : {&low, &high}) {
