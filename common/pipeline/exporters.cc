@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 
 #include "common/angles/anatomical_angles.h"
@@ -11,6 +12,7 @@
 #include "common/io/tables/bvh_writer.h"
 #include "common/io/tables/covariance_npz.h"
 #include "common/io/tables/mot_writer.h"
+#include "common/io/tables/npz_writer.h"
 #include "common/io/tables/osim_tables.h"
 #include "common/io/tables/pose_table.h"
 #include "common/io/tables/trajectory_csv.h"
@@ -19,6 +21,7 @@
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/force_exports.h"
 #include "common/pipeline/pose_output.h"
+#include "common/retarget/keypoints.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -118,6 +121,28 @@ void WriteCovariances(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatCovarianceNpz(result.trajectory, result.covariances));
 }
 
+/// What holosoma retargets by itself: it takes 30 Hz for granted.
+void WriteKeypoints(const std::string& file, const ConversionReport& report) {
+  constexpr double kRate = 30;
+  constexpr double kLegs = 0.53;  // of the height (Winter 2009, figure 4.1)
+  const KinematicModel& model = *report.plan.setup.model;
+  const HumanBody body = FindHumanBody(model);
+  const double told = report.plan.person.height.value;
+  const double height = told > 0 ? told : body.leg_length() / kLegs;
+  const Eigen::MatrixXd points =
+      Keypoints(MoveHuman(model, body, report.result.trajectory), height, kRate);
+  const std::vector<std::string>& names = KeypointNames();
+  const auto n = static_cast<std::int64_t>(names.size());
+  const std::vector<NpyArray> arrays = {{"global_joint_positions",
+                                         {points.cols(), n, 3},
+                                         {points.data(), points.data() + points.size()},
+                                         {}},
+                                        {"height", {}, {height}, {}},
+                                        {"fps", {}, {kRate}, {}},
+                                        {"joint_names", {n}, {}, names}};
+  WriteFileAtomically(file, FormatNpz(arrays));
+}
+
 bool IsAny(const ExportFiles& files, bool Exporter::*is_so) {
   const std::vector<Exporter>& all = Exporters();
   return std::any_of(all.begin(), all.end(),
@@ -130,6 +155,14 @@ void CheckAnatomy(const std::string& file, const KinematicModel& model) {
       fmt::format("{}: pelvis, hips and knees are known of MMM's and OpenSim's models of persons, "
                   "not of {}",
                   file, model.name()));
+}
+
+void CheckLimbs(const std::string& file, const KinematicModel& model) {
+  try {
+    FindHumanBody(model);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file, error.what()));
+  }
 }
 
 void CheckTurns(const std::string& file, const KinematicModel& model) {
@@ -178,6 +211,10 @@ const std::vector<Exporter>& Exporters() {
        false, false, CheckTurns},
       {"bvh-m", "export-bvh-m", "bvh", "the same in metres", "the same in metres", WriteBvhInMetres,
        false, false, CheckTurns},
+      {"holosoma", "export-holosoma", "npz", "joint centres for holosoma's retargeting",
+       "joint centres at 30 Hz as holosoma's retargeting takes a person in (data format smplx): "
+       "global_joint_positions [m] of 22 joints, and height",
+       WriteKeypoints, false, false, CheckLimbs},
       {"covariance", "export-covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "

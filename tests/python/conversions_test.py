@@ -32,8 +32,9 @@ class Conversions(Case):
     def expect_the_programs(self, file, options, **keywords):
         """Converts in both ways. Returns Python's."""
         motion, csv, npz = (self.folder / f"program.{name}" for name in ("xml", "csv", "npz"))
-        self.run_program("convert", file, "-o", motion, "--export-csv", csv, "--export-poses", npz,
-                         "--summary", self.folder / "program.json", *options)
+        centres = self.folder / "holosoma.npz"
+        self.run_program("convert", file, "-o", motion, "--export-csv", csv, "--export-poses", npz, "--export-holosoma",
+                         centres, "--summary", self.folder / "program.json", *options)
         result = mmmconverter.convert(file, **keywords)
         for theirs in (motion, csv, npz):
             ours = self.folder / f"python{theirs.suffix}"
@@ -47,6 +48,11 @@ class Conversions(Case):
         root = list(poses["segments"]).index("root_joint")
         np.testing.assert_array_equal(result.root_positions, poses["segment_positions"][:, root])
         np.testing.assert_array_equal(result.times, poses["time"])
+        human = np.load(centres)
+        hips = [human["global_joint_positions"][0, list(human["joint_names"]).index(name)] for name in ("L_Hip", "R_Hip")]
+        for place, joint in zip(hips, ("LHx_joint", "RHx_joint")):
+            segment = list(poses["segments"]).index(joint)
+            np.testing.assert_allclose(place, poses["segment_positions"][0, segment], atol=1e-12)
         forward = result.model.forward(result)
         np.testing.assert_array_equal(forward.positions, poses["segment_positions"])
         return result
