@@ -13,10 +13,10 @@ constexpr double kOthersRate = 30;     // [Hz]
 constexpr double kOthersSlide = 0.01;  // [m] a frame
 
 std::vector<bool> ContactsOf(const Retargeted& retargeted, std::size_t foot) {
-  std::vector<bool> contact;
+  std::vector<bool> contact(retargeted.human.num_frames());
   for (int k = 0; k < retargeted.human.num_frames(); ++k) {
-    contact.push_back(IsInContact(retargeted.states.heels[foot], k) ||
-                      IsInContact(retargeted.states.toes[foot], k));
+    contact[k] = IsInContact(retargeted.states.heels[foot], k) ||
+                 IsInContact(retargeted.states.toes[foot], k);
   }
   return contact;
 }

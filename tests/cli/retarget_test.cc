@@ -201,6 +201,23 @@ TEST(RealRetarget, WalkersFeetStandStillOnRobotsWithAndWithoutAnklesThatRoll) {
   }
 }
 
+TEST(RealRetarget, ForearmsThatOneMarkerShowsDoNotTurnARobotsHands) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string motion = TestFolder() + "/untold.xml";
+  const auto run = RunProgram(
+      {"retarget", testing::SharedData("field/c3dio_evart.c3d"), "--robot",
+       testing::SharedData("robots/unitree_g1/g1_custom_collision_29dof.urdf"), "-o", motion});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the markers don't tell LEz_joint,"));
+  const PoseTrajectory robot = ReadMmmMotionFile(motion).motions.at(0).trajectory;
+  for (std::size_t j = 0; j < robot.joint_names.size(); ++j) {
+    if (robot.joint_names[j].find("wrist_roll") == std::string::npos) continue;
+    for (const Posture& posture : robot.postures) {
+      EXPECT_LT(std::abs(posture.joint_angles[static_cast<Eigen::Index>(j)]), 0.5);
+    }
+  }
+}
+
 TEST(RealRetarget, HandsStayAtWhatTheyPourWith) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file =

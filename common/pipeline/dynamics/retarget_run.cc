@@ -10,11 +10,14 @@
 #include "common/io/model_file.h"
 #include "common/io/recording/recording_formats.h"
 #include "common/judge/coverage.h"
+#include "common/math/statistics.h"
 #include "common/model/model_scaling.h"
+#include "common/model/posture.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -51,6 +54,33 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
   return all;
 }
 
+/// Joints that the markers don't tell rest: what errors of a few millimetres make of them would be
+/// a motion that nobody made.
+void RestUntoldJoints(const KinematicModel& model, const Eigen::MatrixXd& deviations,
+                      PoseTrajectory* motion, Warnings* warnings) {
+  constexpr double kTold = 45 / kDegrees, kUntold = 65 / kDegrees;
+  if (model.coordinates() || deviations.cols() == 0) return;
+  const Posture rest = ZeroPosture(model);
+  std::vector<std::string> untold;
+  for (std::size_t i = 0; i < motion->joint_names.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::VectorXd of_joint = deviations.row(6 + row);
+    const double deviation = Median({of_joint.data(), static_cast<std::size_t>(of_joint.size())});
+    const double part = std::clamp((deviation - kTold) / (kUntold - kTold), 0.0, 1.0);
+    if (part == 0) continue;
+    const double angle = rest.joint_angles[model.FindJoint(motion->joint_names[i])];
+    for (Posture& posture : motion->postures) {
+      posture.joint_angles[row] += part * (angle - posture.joint_angles[row]);
+    }
+    untold.push_back(motion->joint_names[i]);
+  }
+  if (untold.empty()) return;
+  warnings->Add(
+      fmt::format("the markers don't tell {} (standard deviations above {:.0f} degrees): "
+                  "they are drawn to where a standing person has them",
+                  fmt::join(untold, ", "), kTold * kDegrees));
+}
+
 void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
                     RetargetReport* report, Warnings* warnings) {
   report->retargeted = RetargetMotion(*model, motion, report->robot, report->body,
@@ -65,7 +95,10 @@ void RetargetConversion(const ConversionReport& converted, RetargetReport* repor
   report->motion_name = converted.plan.motion_name;
   report->conversion_verdict = converted.verdict;
   report->unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
-  RetargetPerson(converted.plan.setup.model, TrackedFrames(converted, warnings), report, warnings);
+  PoseTrajectory motion = TrackedFrames(converted, warnings);
+  RestUntoldJoints(*converted.plan.setup.model, converted.result.trajectory.standard_deviations,
+                   &motion, warnings);
+  RetargetPerson(converted.plan.setup.model, std::move(motion), report, warnings);
 }
 
 void RetargetFinished(CheckedMotion checked, RetargetReport* report, Warnings* warnings) {
