@@ -16,10 +16,11 @@ constexpr double kHalfSpan = 0.02;                     // [s] about a frame, of 
 constexpr double kStands = 0.1;                        // [m/s]
 constexpr double kAboveLowest = 0.06;  // [m] of heights that tell the level; more is another one
 // Of a foot that stands on what is not the floor: its ends rest, one not far above the other.
-constexpr double kRests = 0.2;     // [m/s]
-constexpr double kRestsFor = 0.1;  // [s]
-constexpr double kFlat = 0.08;     // [m]
-constexpr double kLowest = 1;      // [%] of heights that are none
+constexpr double kRests = 0.2;      // [m/s]
+constexpr double kRestsFor = 0.1;   // [s]
+constexpr double kFlat = 0.08;      // [m]
+constexpr double kLandsFor = 0.03;  // [s] on what is below all else
+constexpr double kLowest = 1;       // [%] of heights that are none
 
 Eigen::Vector3d At(const Eigen::Matrix3Xd& path, double frame) {
   const auto last = static_cast<double>(path.cols() - 1);
@@ -82,16 +83,22 @@ void ShareFloor(std::array<PointState, 2>* points) {
   }
 }
 
-/// How far whole feet go below the floor on which they stand.
-double StepsBelow(const FootStates& states) {
+/// How far below the floor on which they stand feet rest for a moment.
+double StepsBelow(const FootStates& states, double rate) {
   double below = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Eigen::VectorXd upper = states.heels[i].height.cwiseMax(states.toes[i].height);
-    if (upper.size() == 0) continue;
-    below = std::max(below,
-                     -Percentile({upper.data(), static_cast<std::size_t>(upper.size())}, kLowest));
+    const PointState &heel = states.heels[i], &toe = states.toes[i];
+    double least = INFINITY;  // of the frames that it has rested
+    int rested = 0;
+    for (Eigen::Index k = 0; k < heel.height.size(); ++k) {
+      const double depth = -std::max(heel.height[k], toe.height[k]);
+      const bool rests = depth > kAboveLowest && std::max(heel.speed[k], toe.speed[k]) < kRests;
+      rested = rests ? rested + 1 : 0;
+      least = rests ? std::min(least, depth) : INFINITY;
+      if (rested >= kLandsFor * rate && rested > 0) below = std::max(below, least);
+    }
   }
-  return below > kAboveLowest ? below : 0;
+  return below;
 }
 
 /// Heights of points become those above what the foot stands on.
@@ -153,7 +160,7 @@ FootStates StatesOf(const HumanMotion& motion) {
   }
   ShareFloor(&states.heels);
   ShareFloor(&states.toes);
-  const double below = StepsBelow(states);
+  const double below = StepsBelow(states, motion.rate);
   for (std::size_t i = 0; i < 2; ++i) {
     for (PointState* point : {&states.heels[i], &states.toes[i]}) {
       MoveLevel(point->level - below, point);

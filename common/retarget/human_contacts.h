@@ -27,8 +27,8 @@ struct FootStates {
     return supports[foot].size() > 0 ? supports[foot][k] : 0;
   }
 };
-/// The lowest place where a foot stands, or is, is the floor. A foot that is flat and slower than
-/// 0.1 m/s for 0.1 s more than 60 mm above it stands on something.
+/// The lowest place where a foot stands, if only for 30 ms, is the floor. A foot that is flat and
+/// slower than 0.1 m/s for 0.1 s more than 60 mm above it stands on something.
 FootStates StatesOf(const HumanMotion& motion);
 
 /// Frames [begin, end) in which a foot stands.

@@ -59,13 +59,15 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
 void RestUntoldJoints(const KinematicModel& model, const Eigen::MatrixXd& deviations,
                       PoseTrajectory* motion, Warnings* warnings) {
   constexpr double kTold = 45 / kDegrees, kUntold = 65 / kDegrees;
+  constexpr double kBest = 10;  // [%] of the frames: a limb that is hidden for long is told
   if (model.coordinates() || deviations.cols() == 0) return;
   const Posture rest = ZeroPosture(model);
   std::vector<std::string> untold;
   for (std::size_t i = 0; i < motion->joint_names.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::VectorXd of_joint = deviations.row(6 + row);
-    const double deviation = Median({of_joint.data(), static_cast<std::size_t>(of_joint.size())});
+    const double deviation =
+        Percentile({of_joint.data(), static_cast<std::size_t>(of_joint.size())}, kBest);
     const double part = std::clamp((deviation - kTold) / (kUntold - kTold), 0.0, 1.0);
     if (part == 0) continue;
     const double angle = rest.joint_angles[model.FindJoint(motion->joint_names[i])];
