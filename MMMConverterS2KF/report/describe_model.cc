@@ -63,9 +63,8 @@ std::vector<int> LowestEnds(const KinematicModel& model) {
     const Segment& segment = model.segments()[i];
     if (segment.joint >= 0) is_end[RigidRoot(model, segment.parent)] = false;
   }
-  Posture posture;
-  posture.joint_angles = RestAngles(model);
-  if (model.is_root_fixed()) posture = ZeroPosture(model);
+  Posture posture = ZeroPosture(model);
+  if (!model.is_root_fixed()) posture.joint_angles = RestAngles(model);
   const auto X_WS = SegmentPoses(model, posture);
   std::vector<int> ends;
   double lowest = 0;

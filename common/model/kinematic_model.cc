@@ -139,7 +139,8 @@ KinematicModel::KinematicModel(ModelDescription description)
       markers_(std::move(description.markers)),
       node_sets_(std::move(description.node_sets)),
       is_root_fixed_(description.is_root_fixed),
-      coordinates_(std::move(description.coordinates)) {
+      coordinates_(std::move(description.coordinates)),
+      standing_(description.standing) {
   if (description.segments.empty()) throw Error("the model has no nodes");
   const int num_segments = static_cast<int>(description.segments.size());
   for (const Segment& segment : description.segments) CheckSegment(segment, num_segments);
@@ -174,8 +175,8 @@ double KinematicModel::total_mass() const {
 }
 
 ModelDescription DescriptionOf(const KinematicModel& model) {
-  return {model.name(),      model.segments(),      model.markers(),
-          model.node_sets(), model.is_root_fixed(), model.coordinates()};
+  return {model.name(),          model.segments(),    model.markers(), model.node_sets(),
+          model.is_root_fixed(), model.coordinates(), model.standing()};
 }
 
 Eigen::Isometry3d JointTransform(const Segment& segment, double q) {

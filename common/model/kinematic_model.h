@@ -77,6 +77,8 @@ struct ModelDescription {
   bool is_root_fixed = false;
   /// Null: root pose and joint angles are all that files know.
   std::shared_ptr<const CoordinateMap> coordinates = {};
+  /// R_WS of a root that floats, where the body stands upright: of files whose z is not up.
+  Eigen::Quaterniond standing = Eigen::Quaterniond::Identity();
 };
 
 /// Into KinematicModel::markers().
@@ -97,6 +99,7 @@ class KinematicModel {
 
   bool is_root_fixed() const { return is_root_fixed_; }
   const std::shared_ptr<const CoordinateMap>& coordinates() const { return coordinates_; }
+  const Eigen::Quaterniond& standing() const { return standing_; }  ///< ModelDescription::standing
 
   /// Joints are the revolute and sliding segments with lower < upper, in segment order, but for
   /// those that follow a leader, whose joint is theirs.
@@ -118,6 +121,7 @@ class KinematicModel {
   std::vector<int> joint_segments_;
   bool is_root_fixed_;
   std::shared_ptr<const CoordinateMap> coordinates_;
+  Eigen::Quaterniond standing_;
 };
 
 /// What would make the same model again.

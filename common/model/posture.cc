@@ -11,6 +11,7 @@ namespace mmm_converter {
 
 Posture ZeroPosture(const KinematicModel& model) {
   Posture posture;
+  posture.orientation = model.standing();
   if (model.is_root_fixed()) {
     const Eigen::Isometry3d& X_WS = model.segments().front().X_PF;
     posture.position = X_WS.translation();

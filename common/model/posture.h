@@ -18,8 +18,8 @@ struct Posture {
   Eigen::VectorXd joint_angles;  ///< [rad], sliding [m], size num_joints()
 };
 
-/// The posture with identity root, or the fixed root where it is, and every joint at rest (0),
-/// clamped into its limits.
+/// The posture with the root at the origin and upright (KinematicModel::standing), or the fixed
+/// root where it is, and every joint at rest (0), clamped into its limits.
 Posture ZeroPosture(const KinematicModel& model);
 
 /// Where joints are that are not tracked [rad], sliding [m]; size num_joints().

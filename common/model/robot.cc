@@ -55,11 +55,15 @@ Eigen::Isometry3d PoseInRoot(const KinematicModel& model, int segment) {
   return X;
 }
 
-Eigen::Vector3d DownIn(const KinematicModel& model, int segment) {
-  Posture posture;
-  posture.joint_angles = RestAngles(model);
-  if (model.is_root_fixed()) posture = ZeroPosture(model);
-  return -SegmentPoses(model, posture)[segment].linear().row(2).transpose();
+std::vector<Eigen::Isometry3d> PosesAtRest(const KinematicModel& model) {
+  Posture posture = ZeroPosture(model);
+  if (!model.is_root_fixed()) posture.joint_angles = RestAngles(model);
+  return SegmentPoses(model, posture);
+}
+
+bool IsAtOrBelow(const KinematicModel& model, int segment, int root) {
+  while (segment != root && segment >= 0) segment = model.segments()[segment].parent;
+  return segment == root;
 }
 
 /// The name of the body that is the foot; of several the one nearest to the root.
@@ -70,12 +74,13 @@ std::string BodyName(const Robot& robot, int root) {
   return robot.model.segments()[root].name;
 }
 
-void AddShapes(const Robot& robot, Sole* sole) {
+/// Those of toes, too, as they are at rest.
+void AddShapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS, Sole* sole) {
   std::map<ContactShape::Kind, int> counts;
   for (const ContactShape& shape : robot.shapes) {
-    if (RigidRoot(robot.model, shape.segment) != sole->segment) continue;
+    if (!IsAtOrBelow(robot.model, shape.segment, sole->segment)) continue;
     ContactShape& added = sole->shapes.emplace_back(shape);
-    added.X_SG = PoseInRoot(robot.model, shape.segment) * shape.X_SG;
+    added.X_SG = X_WS[sole->segment].inverse() * X_WS[shape.segment] * shape.X_SG;
     added.segment = sole->segment;
     ++counts[shape.kind];
   }
@@ -148,13 +153,14 @@ std::optional<Sole> FindSole(const Robot& robot, int segment, std::optional<doub
                              std::string* reason) {
   Sole sole;
   sole.segment = RigidRoot(robot.model, segment);
-  sole.down_S = DownIn(robot.model, sole.segment);
+  const std::vector<Eigen::Isometry3d> X_WS = PosesAtRest(robot.model);
+  sole.down_S = -X_WS[sole.segment].linear().row(2).transpose();
   if (given_depth) {
     sole.source = Sole::Source::kGiven;
     sole.said = fmt::format("{:.0f} mm, as given", 1e3 * *given_depth);
     AddPoint(*given_depth * sole.down_S, &sole);
   } else {
-    AddShapes(robot, &sole);
+    AddShapes(robot, X_WS, &sole);
   }
   if (sole.shapes.empty()) {
     sole.source = Sole::Source::kNamed;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,8 @@ struct Robot {
   std::vector<int> mesh_segments;    ///< where touching meshes are, which are not read; ascending
   Eigen::VectorXd velocity_limits;   ///< of joints [rad/s, sliding m/s]; infinity: not known
   std::string format;                ///< "URDF" or "MJCF"
+  /// Segments that the file ties together, which nothing here does: loops.
+  std::vector<std::array<int, 2>> ties = {};
 };
 
 /// The segment that the segment is fixed to without any moving joint between, nearest the root.

@@ -19,10 +19,19 @@ BodyMapChoice MapChoiceOf(const RobotRequest& request) {
   return request.map_file.empty() ? BodyMapChoice{} : ReadBodyMapChoice(request.map_file);
 }
 
+/// Upright, too, if its file's z is not up.
+Robot ReadStandingRobot(const std::string& file, Warnings* warnings) {
+  Robot robot = ReadRobotFile(file, warnings);
+  ModelDescription standing = DescriptionOf(robot.model);
+  standing.standing = FindStanding(robot.model);
+  robot.model = KinematicModel(std::move(standing));
+  return robot;
+}
+
 }  // namespace
 
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
-  Robot robot = ReadRobotFile(request.file, warnings);
+  Robot robot = ReadStandingRobot(request.file, warnings);
   RobotBody body = FindRobotBody(robot, MapChoiceOf(request), request.sole_height);
   if (!request.objects.empty() && !body.feet) {
     throw Error(fmt::format("{}: {} needs a robot with legs, and this one has none", request.file,
@@ -33,8 +42,8 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
 }
 
 std::string DescribeRobotMap(const RobotRequest& request, Warnings* warnings) {
-  const Robot robot = ReadRobotFile(request.file, warnings);
-  const BodyMap map = FindBodyMap(robot.model, MapChoiceOf(request));
+  const Robot robot = ReadStandingRobot(request.file, warnings);
+  const BodyMap map = FindRobotMap(robot, MapChoiceOf(request));
   std::string text = FormatBodyMap(robot.model, map);
   for (const Side side : kSides) {
     if (!map.leg(side)) continue;

@@ -25,7 +25,9 @@ constexpr double kLeastFolding = 0.15;  // of a chain's length: what bends less 
 constexpr double kAlikeArms = 0.9;      // second pair that folds, over the first
 constexpr double kAlikeHeights =
     0.05;                           // of the robot's size, between the ends of two pairs of legs
+constexpr double kHangs = 0.7;      // cosine of a leg to the vertical
 constexpr double kLevelPart = 0.4;  // of a direction that votes
+constexpr std::size_t kFewestNamed = 3;  // joints of one side that are called a limb's
 
 /// A reason for where forward is, +1 or -1 along a direction.
 struct Vote {
@@ -47,8 +49,10 @@ int RoleByNames(const ZeroPose& zero, const std::vector<int>& chain) {
   };
   for (const int segment : chain) {
     const std::string name = ToLower(zero.model->segments()[segment].name);
-    if (has(name, {"hip", "knee", "ankle", "leg", "foot", "thigh", "shank"})) role += 1;
-    if (has(name, {"shoulder", "elbow", "wrist", "arm", "hand"})) role -= 1;
+    if (has(name,
+            {"hip", "knee", "ankle", "leg", "foot", "thigh", "shank", "femur", "tibia", "toe"}))
+      role += 1;
+    if (has(name, {"shoulder", "elbow", "wrist", "arm", "hand", "humerus", "radius"})) role -= 1;
   }
   return (role > 0 ? 1 : 0) - (role < 0 ? 1 : 0);
 }
@@ -157,10 +161,12 @@ Limbs ReadLimbs(const ZeroPose& zero, const LimbPairs& pairs) {
   for (const MirroredPair* pair : {pairs.legs, pairs.arms}) {
     if (pair == nullptr) continue;
     const bool is_leg = pair == pairs.legs;
-    limbs.pairs.push_back(
-        {ReadLimb(zero, pair->chains[0], -1, is_leg), ReadLimb(zero, pair->chains[1], -1, is_leg)});
-    const Vector3d& n = pair->normal;
-    limbs.normals.push_back(Vector3d(n.x(), n.y(), 0).normalized());
+    const Vector3d normal = Vector3d(pair->normal.x(), pair->normal.y(), 0).normalized();
+    limbs.pairs.push_back({ReadLimb(zero, pair->chains[0], -1, is_leg, normal),
+                           ReadLimb(zero, pair->chains[1], -1, is_leg, normal)});
+    limbs.normals.push_back(normal);
+    if (!is_leg) continue;
+    for (LimbReading& leg : limbs.pairs.back()) CutToes(zero, &leg);
   }
   return limbs;
 }
@@ -231,7 +237,7 @@ LimbReading ChosenLimb(const ZeroPose& zero, const LimbChoice& choice, bool is_l
     }
     fold = static_cast<int>(at - chain.begin());
   }
-  return ReadLimb(zero, chain, fold, is_leg);
+  return ReadLimb(zero, chain, fold, is_leg, Vector3d::UnitY());
 }
 
 /// The chosen pairs, left first.
@@ -247,13 +253,49 @@ Limbs ChosenLimbs(const ZeroPose& zero, const BodyMapChoice& choice, bool are_le
   return limbs;
 }
 
+/// Joints outside the limbs that are named as a leg's or an arm's, left and right.
+std::vector<std::string> NamedOutside(const ZeroPose& zero, const Limbs& limbs, int role) {
+  std::set<int> taken;
+  for (const auto& pair : limbs.pairs) {
+    for (const LimbReading& limb : pair) taken.insert(limb.chain.begin(), limb.chain.end());
+  }
+  std::vector<int> named;
+  for (int s = 0; s < static_cast<int>(zero.X_WS.size()); ++s) {
+    if (zero.Moves(s) && taken.count(s) == 0 && RoleByNames(zero, {s}) == role) named.push_back(s);
+  }
+  const auto name = [&](int segment) { return zero.model->segments()[segment].name; };
+  std::vector<std::string> lefts;
+  for (const int a : named) {
+    const bool has_other = std::any_of(named.begin(), named.end(),
+                                       [&](int b) { return SideByNames(name(a), name(b)) > 0; });
+    if (has_other) lefts.push_back(name(a));
+  }
+  return lefts;
+}
+
+/// What looks like no limb and is called one is not left standing still in silence.
+void CheckNoneIsLeft(const ZeroPose& zero, const LimbPairs& pairs, const Limbs& limbs) {
+  for (const bool is_leg : {true, false}) {
+    if ((is_leg ? pairs.legs : pairs.arms) != nullptr) continue;
+    const std::vector<std::string> names = NamedOutside(zero, limbs, is_leg ? 1 : -1);
+    if (names.size() < kFewestNamed) continue;
+    Refuse(zero, fmt::format("{} are named as {} are, but no two chains of them are images of each "
+                             "other that fold; say in a map what the limbs are (those that it "
+                             "leaves out are not used)",
+                             FirstNames(names), is_leg ? "legs" : "arms"));
+  }
+}
+
 /// What is chosen, and of the rest what the structure tells.
 Limbs FindLimbs(const ZeroPose& zero, const BodyMapChoice& choice) {
   Limbs legs = ChosenLimbs(zero, choice, true);
   const Limbs arms = ChosenLimbs(zero, choice, false);
   if (legs.pairs.empty() && arms.pairs.empty()) {
     const std::vector<MirroredPair> pairs = FindLimbPairs(zero);
-    return ReadLimbs(zero, ChoosePairs(zero, pairs));
+    const LimbPairs chosen = ChoosePairs(zero, pairs);
+    Limbs limbs = ReadLimbs(zero, chosen);
+    CheckNoneIsLeft(zero, chosen, limbs);
+    return limbs;
   }
   legs.pairs.insert(legs.pairs.end(), arms.pairs.begin(), arms.pairs.end());
   std::set<int> taken;
@@ -270,7 +312,33 @@ Limbs FindLimbs(const ZeroPose& zero, const BodyMapChoice& choice) {
   return legs;
 }
 
+/// Two pairs of limbs, of which the lowest hangs down and is called no arm.
+bool StandsOnLegs(const ZeroPose& zero) {
+  const std::vector<MirroredPair> pairs = FindLimbPairs(zero);
+  if (pairs.size() < 2) return false;
+  const std::vector<int>& chain =
+      std::min_element(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
+        return a.lowest < b.lowest;
+      })->chains[0];
+  const Vector3d way = zero.mass_centre[chain.back()] - zero.origin(chain.front());
+  return RoleByNames(zero, chain) >= 0 && way.normalized().z() < -kHangs;
+}
+
 }  // namespace
+
+Eigen::Quaterniond FindStanding(const KinematicModel& model) {
+  if (model.is_root_fixed() || model.num_joints() > kMostJoints) return model.standing();
+  if (StandsOnLegs(ZeroPose(model))) return model.standing();
+  std::vector<Eigen::Quaterniond> found;
+  for (const Vector3d& up_S : {Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(1, 0, 0),
+                               Vector3d(-1, 0, 0), Vector3d(0, 0, 1), Vector3d(0, 0, -1)}) {
+    ModelDescription turned = DescriptionOf(model);
+    turned.standing = Eigen::Quaterniond::FromTwoVectors(up_S, Vector3d::UnitZ());
+    const KinematicModel candidate(std::move(turned));
+    if (StandsOnLegs(ZeroPose(candidate))) found.push_back(candidate.standing());
+  }
+  return found.size() == 1 ? found.front() : model.standing();
+}
 
 std::string LimbName(bool is_leg, Side side) {
   return std::string(Name(side)) + (is_leg ? " leg" : " arm");

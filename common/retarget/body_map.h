@@ -77,6 +77,10 @@ struct BodyMapChoice {
 /// @throws Error naming the joints where two readings fit alike, or evidence contradicts itself.
 BodyMap FindBodyMap(const KinematicModel& model, const BodyMapChoice& choice);
 
+/// How its root is turned where the body stands on its legs: as the model says, or if its legs do
+/// not hang down then, by the one axis along which they do.
+Eigen::Quaterniond FindStanding(const KinematicModel& model);
+
 /// `<BodyMap forward="1 0 0"><Limb name="left leg" first="" fold="" last=""/>...</BodyMap>`; each
 /// limb and forward may be left out. @throws Error with all problems of the file.
 BodyMapChoice ReadBodyMapChoice(const std::string& file);

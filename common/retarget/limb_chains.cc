@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,8 +20,11 @@ namespace mmm_converter {
 namespace {
 
 constexpr std::size_t kFewestJoints = 3;
-constexpr double kMirrorTolerance = 0.006;  // [m] of places that files round
+constexpr double kMirrorTolerance = 0.006;  // [m] of axes that files round
+constexpr double kMirrorShare = 0.02;       // of a chain's length, of bodies measured on people
 constexpr double kLeastApart = 0.02;        // [m] of places that tell where the plane is
+constexpr double kSkewNormal = 0.5;         // |cos| to a root's axis that may be the normal
+constexpr double kParallel = 0.9;           // |cos| of axes that meet nowhere in particular
 constexpr double kFingersReach = 0.35;      // of the chain before them
 constexpr int kSweepSteps = 48;
 
@@ -56,6 +58,17 @@ std::vector<std::vector<int>> PathsToLeaves(const ZeroPose& zero) {
   return paths;
 }
 
+/// Longest way from a child's origin to one below it: of a finger without the palm.
+double ReachBeyond(const ZeroPose& zero, const std::vector<double>& reach, int segment) {
+  double most = 0;
+  for (std::size_t s = 0; s < reach.size(); ++s) {
+    if (zero.Moves(static_cast<int>(s)) && zero.moving_parent[s] == segment) {
+      most = std::max(most, reach[s]);
+    }
+  }
+  return most;
+}
+
 /// Ends a chain where several short ones begin: a hand.
 void CutFingers(const ZeroPose& zero, const std::vector<double>& reach,
                 const std::vector<int>& num_children, std::vector<int>* chain) {
@@ -63,7 +76,8 @@ void CutFingers(const ZeroPose& zero, const std::vector<double>& reach,
   for (std::size_t i = 0; i + 1 < chain->size(); ++i) {
     const int at = (*chain)[i];
     if (i > 0) length += (zero.origin(at) - zero.origin((*chain)[i - 1])).norm();
-    if (i + 1 >= kFewestJoints && num_children[at] > 1 && reach[at] < kFingersReach * length) {
+    if (i + 1 >= kFewestJoints && num_children[at] > 1 &&
+        ReachBeyond(zero, reach, at) < kFingersReach * length) {
       chain->resize(i + 1);
     }
   }
@@ -74,34 +88,70 @@ struct Plane {
   double offset;
 };
 
-std::optional<Plane> PlaneBetween(const ZeroPose& zero, const std::vector<int>& a,
-                                  const std::vector<int>& b) {
-  double farthest = kLeastApart;
-  std::optional<Plane> plane;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Eigen::Vector3d p = zero.origin(a[i]), q = zero.origin(b[i]);
-    if ((p - q).norm() <= farthest) continue;
-    farthest = (p - q).norm();
-    const Eigen::Vector3d normal = (p - q).normalized();
-    plane = Plane{normal, normal.dot(0.5 * (p + q))};
+double LengthOf(const ZeroPose& zero, const std::vector<int>& chain) {
+  double length = 0;
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    length += (zero.origin(chain[i]) - zero.origin(chain[i - 1])).norm();
   }
-  return plane;
+  return length;
+}
+
+/// Where the plane with that normal lies: origins may be anywhere along their axes.
+Plane PlaneAcross(const ZeroPose& zero, const Eigen::Vector3d& normal, const std::vector<int>& a,
+                  const std::vector<int>& b) {
+  std::vector<double> offsets;
+  for (const double most : {kParallel, 2.0}) {
+    for (std::size_t i = 0; i < a.size() && (most < 1 || offsets.empty()); ++i) {
+      if (std::abs(zero.axis(a[i]).dot(normal)) > most) continue;
+      offsets.push_back(0.5 * normal.dot(zero.origin(a[i]) + zero.origin(b[i])));
+    }
+  }
+  std::nth_element(offsets.begin(), offsets.begin() + offsets.size() / 2, offsets.end());
+  return {normal, offsets[offsets.size() / 2]};
+}
+
+/// Across the farthest origins; as these may lie askew along their axes, the root's axis near it,
+/// too.
+std::vector<Plane> PlanesBetween(const ZeroPose& zero, const std::vector<int>& a,
+                                 const std::vector<int>& b) {
+  double farthest = kLeastApart;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Eigen::Vector3d way = zero.origin(a[i]) - zero.origin(b[i]);
+    if (way.norm() <= farthest) continue;
+    farthest = way.norm();
+    normal = way.normalized();
+  }
+  if (normal.isZero()) return {};
+  std::vector<Plane> planes = {PlaneAcross(zero, normal, a, b)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d of_root = zero.X_WS[0].linear().col(axis);
+    const double cosine = of_root.dot(normal);
+    if (std::abs(cosine) < kSkewNormal) continue;
+    planes.push_back(PlaneAcross(zero, cosine > 0 ? of_root : Eigen::Vector3d(-of_root), a, b));
+  }
+  return planes;
 }
 
 bool AreMirrored(const ZeroPose& zero, const Plane& plane, const std::vector<int>& a,
                  const std::vector<int>& b) {
   const Eigen::Vector3d& n = plane.normal;
   if (std::abs(n.z()) > 0.2) return false;
+  const double tolerance =
+      std::max(kMirrorTolerance, kMirrorShare * std::min(LengthOf(zero, a), LengthOf(zero, b)));
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Segment& one = zero.model->segments()[a[i]];
     const Segment& other = zero.model->segments()[b[i]];
     if (one.type != other.type) return false;
+    const Eigen::Vector3d axis = zero.axis(a[i]), its_axis = zero.axis(b[i]);
+    const Eigen::Vector3d reflected = axis - 2 * n.dot(axis) * n;
+    if (std::abs(reflected.dot(its_axis)) < 0.99) return false;
     const Eigen::Vector3d p = zero.origin(a[i]);
     const Eigen::Vector3d image = p - 2 * (n.dot(p) - plane.offset) * n;
-    if ((image - zero.origin(b[i])).norm() > kMirrorTolerance) return false;
-    const Eigen::Vector3d axis = zero.axis(a[i]);
-    const Eigen::Vector3d reflected = axis - 2 * n.dot(axis) * n;
-    if (std::abs(reflected.dot(zero.axis(b[i]))) < 0.99) return false;
+    // Both turn about lines: where on them the origins lie tells nothing.
+    const Eigen::Vector3d between = image - zero.origin(b[i]);
+    const bool turns = other.type == JointType::kRevolute;
+    if ((turns ? between.cross(its_axis) : between).norm() > tolerance) return false;
   }
   return true;
 }
@@ -111,7 +161,7 @@ double DistanceToEnd(const ZeroPose& zero, const std::vector<int>& chain, int jo
   const int segment = chain[joint];
   const Eigen::Vector3d pivot = zero.origin(segment);
   const Eigen::Vector3d turned = Eigen::AngleAxisd(angle, zero.axis(segment)) * (end - pivot);
-  return (pivot + turned - zero.origin(chain.front())).norm();
+  return (pivot + turned - CentreBefore(zero, chain, joint)).norm();
 }
 
 }  // namespace
@@ -143,6 +193,28 @@ ZeroPose::ZeroPose(const KinematicModel& of) : model(&of) {
 
 Eigen::Vector3d ZeroPose::axis(int segment) const {
   return X_WS[segment].linear() * model->segments()[segment].axis;
+}
+
+Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                             const Eigen::Vector3d& q, const Eigen::Vector3d& b, double share) {
+  const double cosine = a.dot(b), sine2 = 1 - cosine * cosine;
+  const Eigen::Vector3d between = q - p;
+  const double s = (between.dot(a) - cosine * between.dot(b)) / sine2;
+  const double t = (cosine * between.dot(a) - between.dot(b)) / sine2;
+  return (1 - share) * (p + s * a) + share * (q + t * b);
+}
+
+Eigen::Vector3d CentreBefore(const ZeroPose& zero, const std::vector<int>& chain, int joint) {
+  if (joint == 0) return zero.origin(chain[0]);
+  const int last = chain[joint - 1], next = chain[joint];
+  const Eigen::Vector3d p = zero.origin(last), a = zero.axis(last);
+  for (int i = joint - 2; i >= 0; --i) {
+    if (std::abs(zero.axis(chain[i]).dot(a)) >= kParallel) continue;
+    return NearestPoint(zero.origin(chain[i]), zero.axis(chain[i]), p, a, 0.5);
+  }
+  if (std::abs(zero.axis(next).dot(a)) < kParallel)
+    return NearestPoint(p, a, zero.origin(next), zero.axis(next), 0);
+  return p + (zero.origin(next) - p).dot(a) * a;
 }
 
 FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain) {
@@ -187,8 +259,11 @@ std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero) {
       if (pair.chains[0].size() != pair.chains[1].size()) continue;
       if (pair.chains[0].size() < kFewestJoints) continue;
       if (known.contains({pair.chains[0].back(), pair.chains[1].back()})) continue;
-      const auto plane = PlaneBetween(zero, pair.chains[0], pair.chains[1]);
-      if (!plane || !AreMirrored(zero, *plane, pair.chains[0], pair.chains[1])) continue;
+      const auto planes = PlanesBetween(zero, pair.chains[0], pair.chains[1]);
+      const auto plane = std::find_if(planes.begin(), planes.end(), [&](const Plane& one) {
+        return AreMirrored(zero, one, pair.chains[0], pair.chains[1]);
+      });
+      if (plane == planes.end()) continue;
       known.emplace(pair.chains[0].back(), pair.chains[1].back());
       pair.normal = plane->normal;
       pair.most_folding = SweepChain(zero, pair.chains[0]).change.maxCoeff();
@@ -200,8 +275,19 @@ std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero) {
   return pairs;
 }
 
+namespace {
+
+/// In small letters; joints of robots are often numbered through.
+std::string WithoutNumbers(const std::string& name) {
+  std::string text = ToLower(name);
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return text;
+}
+
+}  // namespace
+
 int SideByNames(const std::string& first, const std::string& second) {
-  const std::string a = ToLower(first), b = ToLower(second);
+  const std::string a = WithoutNumbers(first), b = WithoutNumbers(second);
   const auto replaced = [](std::string text, std::string_view from, std::string_view to) {
     const std::size_t at = text.find(from);
     if (at != std::string::npos) text.replace(at, from.size(), to);

@@ -37,8 +37,16 @@ struct MirroredPair {
   double lowest = 0;  ///< height of the ends [m]
 };
 
-/// What bends a chain: by how much the distance from its first joint to its end changes while each
-/// joint goes through its limits [m], the others standing at zero; a column a joint.
+/// The place on two lines p + t a where they are nearest, share 0 on the first and 1 on the second.
+Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                             const Eigen::Vector3d& q, const Eigen::Vector3d& b, double share);
+
+/// About which the joints of the chain before that one turn it, W: where the last two axes that are
+/// not parallel come nearest. Where origins lie along their axes tells nothing.
+Eigen::Vector3d CentreBefore(const ZeroPose& zero, const std::vector<int>& chain, int joint);
+
+/// What bends a chain: by how much the distance of its end from CentreBefore changes while each
+/// joint goes through its limits [m], the others standing at zero; a row a joint.
 struct FoldSweep {
   Eigen::VectorXd change;
   Eigen::VectorXd straight;  ///< where the distance is largest [rad]
@@ -49,7 +57,8 @@ FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain);
 std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero);
 
 /// +1: the first is on the left and the second on the right by their names ("left_knee",
-/// "R_Elbow", "l1"), which differ in that alone; -1: the other way; 0: they do not tell.
+/// "R_Elbow", "l1"), which differ in that and in numbers alone; -1: the other way; 0: they do not
+/// tell.
 int SideByNames(const std::string& first, const std::string& second);
 
 }  // namespace mmm_converter

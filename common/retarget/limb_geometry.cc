@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "common/support/error.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -19,46 +23,37 @@ constexpr double kAlong = 0.7;         // |cos| of a joint's axis that turns a l
 constexpr double kLeastBeyond = 0.02;  // [m] of the next centre from the fold's
 constexpr double kAlikeFolds = 0.85;   // second of two joints that fold a chain, over the first
 constexpr double kAlikeSides = 0.75;   // shorter of the ways from straight to the limits
+constexpr double kToesShare = 0.2;     // of the shank, from the ankle to an axis of toes
 constexpr double kLevel = 0.4;         // horizontal part of a direction that tells where it points
 
 const std::string& NameOf(const ZeroPose& zero, int segment) {
   return zero.model->segments()[segment].name;
 }
 
-/// Middle of the shortest way between two lines p + t a.
-Vector3d NearestPoint(const Vector3d& p, const Vector3d& a, const Vector3d& q, const Vector3d& b) {
-  const double cosine = a.dot(b), sine2 = 1 - cosine * cosine;
-  const Vector3d between = q - p;
-  const double s = (between.dot(a) - cosine * between.dot(b)) / sine2;
-  const double t = (cosine * between.dot(a) - between.dot(b)) / sine2;
-  return 0.5 * (p + s * a + q + t * b);
-}
-
-Vector3d ProximalCentre(const ZeroPose& zero, const LimbReading& limb) {
-  if (limb.fold == 0) return zero.origin(limb.chain[0]);
-  const int last = limb.chain[limb.fold - 1];
-  for (int i = limb.fold - 2; i >= 0; --i) {
-    const int other = limb.chain[i];
-    if (std::abs(zero.axis(other).dot(zero.axis(last))) >= kParallel) continue;
-    return NearestPoint(zero.origin(other), zero.axis(other), zero.origin(last), zero.axis(last));
-  }
-  return zero.origin(last);
-}
-
 struct DistalCentre {
   Vector3d p_W = Vector3d::Zero();
-  bool is_joint = false;
+  int joint = -1;  ///< of the chain; -1: it has none, this is the last link's centre of mass
 };
+
+/// On the joint's axis, where that of the next joint which is not parallel is nearest.
+Vector3d CentreOn(const ZeroPose& zero, const std::vector<int>& chain, std::size_t joint) {
+  const Vector3d p = zero.origin(chain[joint]), a = zero.axis(chain[joint]);
+  for (std::size_t i = joint + 1; i < chain.size(); ++i) {
+    if (std::abs(zero.axis(chain[i]).dot(a)) >= kParallel) continue;
+    return NearestPoint(p, a, zero.origin(chain[i]), zero.axis(chain[i]), 0);
+  }
+  return p;
+}
 
 DistalCentre FindDistalCentre(const ZeroPose& zero, const LimbReading& limb) {
   const Vector3d middle = zero.origin(limb.chain[limb.fold]);
   for (std::size_t i = limb.fold + 1; i < limb.chain.size(); ++i) {
-    const Vector3d along = zero.origin(limb.chain[i]) - middle;
+    const Vector3d centre = CentreOn(zero, limb.chain, i), along = centre - middle;
     if (along.norm() < kLeastBeyond) continue;
     if (std::abs(along.normalized().dot(zero.axis(limb.chain[i]))) >= kAlong) continue;
-    return {zero.origin(limb.chain[i]), true};
+    return {centre, static_cast<int>(i)};
   }
-  return {zero.mass_centre[limb.chain.back()], false};
+  return {zero.mass_centre[limb.chain.back()]};
 }
 
 BodyPoint Fix(const ZeroPose& zero, int segment, const Vector3d& p_W) {
@@ -74,23 +69,65 @@ Vector3d StraightLower(const ZeroPose& zero, const LimbReading& limb) {
   return Eigen::AngleAxisd(limb.straight - now, zero.axis(fold)) * lower;
 }
 
+/// Of joints that fold alike those whose names say so, if any does: a shoulder behind a clavicle
+/// folds an arm as an elbow.
+void KeepNamed(const ZeroPose& zero, const std::vector<int>& chain, const char* name,
+               std::vector<int>* alike) {
+  std::vector<int> named;
+  std::copy_if(alike->begin(), alike->end(), std::back_inserter(named), [&](int joint) {
+    return ToLower(NameOf(zero, chain[joint])).find(name) != std::string::npos;
+  });
+  if (!named.empty()) *alike = named;
+}
+
+/// Of the joints that fold the chain as much as the one that does most: where they turn about one
+/// centre, that whose axis lies most across the way the body faces. -1: they do not tell.
+int MostAcross(const ZeroPose& zero, const std::vector<int>& chain, const std::vector<int>& alike,
+               const Vector3d& normal) {
+  const Vector3d facing = normal.cross(Vector3d::UnitZ());
+  const auto along = [&](int joint) { return std::abs(zero.axis(chain[joint]).dot(facing)); };
+  const int chosen = *std::min_element(alike.begin(), alike.end(),
+                                       [&](int a, int b) { return along(a) < along(b); });
+  for (const int other : alike) {
+    if (other == chosen) continue;
+    const double apart = (zero.origin(chain[other]) - zero.origin(chain[chosen])).norm();
+    if (apart > kLeastBeyond || along(other) < along(chosen) + kLevel) return -1;
+  }
+  return chosen;
+}
+
+/// Of an elbow whose limits allow both: +1 where its end goes up as it turns against its axis, or
+/// that does not tell, to the middle of the body.
+int SenseAside(const ZeroPose& zero, const LimbReading& limb) {
+  const int fold = limb.chain[limb.fold];
+  const Vector3d way = -zero.axis(fold).cross(StraightLower(zero, limb).normalized());
+  const Vector3d inwards = zero.origin(0) - zero.origin(fold);
+  if (std::abs(way.z()) > kLevel) return way.z() > 0 ? 1 : -1;
+  return way.dot(inwards) > 0 ? 1 : -1;
+}
+
 }  // namespace
 
-LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fold, bool is_leg) {
+LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fold, bool is_leg,
+                     const Vector3d& normal) {
   const FoldSweep sweep = SweepChain(zero, chain);
   LimbReading limb{chain, fold, is_leg};
   if (fold < 0) {
     Eigen::Index most = 0;
     sweep.change.maxCoeff(&most);
-    for (Eigen::Index i = 0; i < sweep.change.size(); ++i) {
-      if (i == most || sweep.change[i] < kAlikeFolds * sweep.change[most]) continue;
+    std::vector<int> alike;
+    for (int i = 0; i < sweep.change.size(); ++i) {
+      if (sweep.change[i] >= kAlikeFolds * sweep.change[most]) alike.push_back(i);
+    }
+    KeepNamed(zero, chain, is_leg ? "knee" : "elbow", &alike);
+    limb.fold = MostAcross(zero, chain, alike, normal);
+    if (limb.fold < 0) {
       throw Error(
           fmt::format("the robot {}: {} and {} fold the same limb alike; say in a map "
                       "which is the {}",
-                      zero.model->name(), NameOf(zero, chain[most]), NameOf(zero, chain[i]),
-                      is_leg ? "knee" : "elbow"));
+                      zero.model->name(), NameOf(zero, chain[alike[0]]),
+                      NameOf(zero, chain[alike[1]]), is_leg ? "knee" : "elbow"));
     }
-    limb.fold = static_cast<int>(most);
   }
   const Segment& joint = zero.model->segments()[chain[limb.fold]];
   limb.straight = sweep.straight[limb.fold];
@@ -100,6 +137,20 @@ LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fo
   if (!is_full_turn && below < kAlikeSides * above) limb.sense = 1;
   if (!is_full_turn && above < kAlikeSides * below) limb.sense = -1;
   return limb;
+}
+
+void CutToes(const ZeroPose& zero, LimbReading* leg) {
+  const DistalCentre ankle = FindDistalCentre(zero, *leg);
+  if (ankle.joint < 0) return;
+  const double shank = (ankle.p_W - zero.origin(leg->chain[leg->fold])).norm();
+  for (std::size_t i = ankle.joint + 1; i < leg->chain.size(); ++i) {
+    const Vector3d a = zero.axis(leg->chain[i]), to = zero.origin(leg->chain[i]) - ankle.p_W;
+    const Vector3d away = to - to.dot(a) * a;
+    const bool is_ahead = away.head<2>().norm() > std::abs(away.z());
+    if (away.norm() < kToesShare * shank || !is_ahead) continue;
+    leg->chain.resize(i);
+    return;
+  }
 }
 
 Vector3d FoldsTowards(const ZeroPose& zero, const LimbReading& limb) {
@@ -139,13 +190,15 @@ LimbMap MakeLimb(const ZeroPose& zero, const LimbReading& limb, const Vector3d& 
   if (sense == 0) {
     const double back = left.cross(StraightLower(zero, limb).normalized()).dot(forward);
     if (std::abs(back) > kLevel) sense = back < 0 ? 1 : -1;
+    // An arm that folds neither way forward may as well fold upwards or to the middle.
+    if (sense == 0 && !limb.is_leg) sense = SenseAside(zero, limb);
   }
   if (sense == 0) {
     throw Error(fmt::format("the robot {}: the limits of {} do not tell which way it folds",
                             zero.model->name(), NameOf(zero, fold)));
   }
   left *= sense;
-  const Vector3d proximal = ProximalCentre(zero, limb), middle = zero.origin(fold);
+  const Vector3d proximal = CentreBefore(zero, limb.chain, limb.fold), middle = zero.origin(fold);
   const DistalCentre distal = FindDistalCentre(zero, limb);
   map.proximal = Fix(zero, before, proximal);
   map.middle = Fix(zero, before, middle);

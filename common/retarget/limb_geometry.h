@@ -19,8 +19,13 @@ struct LimbReading {
   double straight = 0;  ///< where the limb is longest [rad]
 };
 
+/// normal: level, across the way the body faces, W.
 /// @throws Error naming the joints where two fold the chain alike and none is given (fold < 0).
-LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fold, bool is_leg);
+LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fold, bool is_leg,
+                     const Eigen::Vector3d& normal);
+
+/// Ends the chain of a leg at its foot: joints in front of the ankle are toes.
+void CutToes(const ZeroPose& zero, LimbReading* leg);
 
 /// Where the end goes horizontally from the straight limb as it folds, W, of length 1 where that is
 /// level; 0: its sense is not known.

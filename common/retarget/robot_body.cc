@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <set>
+#include <vector>
 
 #include "common/math/rotation.h"
 #include "common/math/square.h"
@@ -118,6 +121,40 @@ Eigen::Matrix3d TurnOf(const RobotFoot& foot, double pitch, double roll) {
   return Exp(on_side * Log(between)) * roll_last;
 }
 
+/// Joints of the limb that are in the loop which the tie closes.
+std::vector<int> JointsInLoop(const KinematicModel& model, const LimbMap& limb,
+                              const std::array<int, 2>& tie) {
+  std::set<int> once;  // above one of both, not above both
+  for (const int end : tie) {
+    for (int at = end; at >= 0; at = model.segments()[at].parent) {
+      if (!once.insert(at).second) once.erase(at);
+    }
+  }
+  std::vector<int> joints;
+  std::copy_if(limb.chain.begin(), limb.chain.end(), std::back_inserter(joints),
+               [&](int segment) { return once.count(segment) > 0; });
+  return joints;
+}
+
+/// A knee that a rod ties to another joint of its leg would move where the leg can't.
+void CheckLoops(const Robot& robot, const BodyMap& map) {
+  for (const auto* limbs : {&map.legs, &map.arms}) {
+    for (const auto& limb : *limbs) {
+      for (const std::array<int, 2>& tie : robot.ties) {
+        if (!limb) continue;
+        const std::vector<int> joints = JointsInLoop(robot.model, *limb, tie);
+        const bool has_fold = std::count(joints.begin(), joints.end(), limb->chain[limb->fold]) > 0;
+        if (!has_fold || joints.size() < 2) continue;
+        throw Error(fmt::format(
+            "the robot {}: its file ties {} and {} together (<equality>), and limbs with such "
+            "loops are not moved; give a file in which the limb is one chain, or a map without it",
+            robot.model.name(), robot.model.segments()[joints[0]].name,
+            robot.model.segments()[joints[1]].name));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double LowestOf(const RobotFoot& foot, const Eigen::Isometry3d& X_WF) {
@@ -147,6 +184,12 @@ Eigen::Isometry3d StandingFoot(const RobotFoot& foot, const Eigen::Vector2d& pla
   return X;
 }
 
+BodyMap FindRobotMap(const Robot& robot, const BodyMapChoice& choice) {
+  BodyMap map = FindBodyMap(robot.model, choice);
+  CheckLoops(robot, map);
+  return map;
+}
+
 RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
                         std::optional<double> sole_height) {
   if (sole_height && *sole_height != 0 &&
@@ -158,7 +201,7 @@ RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
         kMostSoleHeight, kMillimetres * kLeastSoleHeight, kMillimetres * kMostSoleHeight));
   }
   RobotBody body;
-  body.map = FindBodyMap(robot.model, choice);
+  body.map = FindRobotMap(robot, choice);
   const auto X_WS = SegmentPoses(robot.model, ZeroPosture(robot.model));
   if (body.map.has_legs()) {
     body.feet = {MakeFoot(robot, X_WS, body.map, Side::kLeft, sole_height),

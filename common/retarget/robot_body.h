@@ -50,6 +50,10 @@ struct RobotBody {
   std::vector<int> held;           ///< joints that stay there (held_joints.h)
 };
 
+/// FindBodyMap. @throws Error as that, and where the file ties a knee or an elbow to another joint
+/// of the limb.
+BodyMap FindRobotMap(const Robot& robot, const BodyMapChoice& choice);
+
 /// sole_height: of the last segment's origin above the sole, where the file does not tell it [m].
 /// @throws Error as FindBodyMap, and where it is not known where a sole is.
 RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -66,6 +67,7 @@ class MjcfDocumentReader {
   MjcfDocument document_;
   std::set<std::string> body_names_{"world"}, joint_names_, site_names_;
   std::vector<std::string> without_mass_;
+  std::vector<ContactShape> looks_;  // of geoms that touch nothing
   std::size_t num_joints_ = 0, num_shapes_ = 0;
 };
 
@@ -215,9 +217,9 @@ void MjcfDocumentReader::ReadGeom(const XmlElement& element, const Place& place,
   const int of_class = defaults_.ClassOf(element, place.childclass, "class");
   const MjcfAttributes attributes = Attributes(element, of_class);
   MjcfGeom geom = ReadMjcfGeom(attributes, place.X_BF, element, &text_);
-  if (geom.touches && geom.shape) {
+  if (geom.shape) {
     geom.shape->segment = place.body;
-    document_.shapes.push_back(*geom.shape);
+    (geom.touches ? document_.shapes : looks_).push_back(*geom.shape);
   } else if (geom.touches) {
     ++BodyAt(place.body).num_meshes;
   }
@@ -268,6 +270,7 @@ void MjcfDocumentReader::ReadEquality(const XmlElement& element) {
   if (!element.Is("joint")) {
     text_.Warn(element, fmt::format("<equality><{}> is not kept: what it ties together moves apart",
                                     element.name));
+    document_.ties.push_back({attributes.Word("body1", ""), attributes.Word("body2", "")});
     return;
   }
   MjcfCoupling coupling;
@@ -298,6 +301,14 @@ MjcfDocument MjcfDocumentReader::Read() {
     for (const XmlElement& child : equality->children) ReadEquality(child);
   }
   ScaleMasses();
+  const bool has_meshes = std::any_of(document_.bodies.begin(), document_.bodies.end(),
+                                      [](const MjcfBody& body) { return body.num_meshes > 0; });
+  if (document_.shapes.empty() && !has_meshes && !looks_.empty()) {
+    text_.Warn(
+        "no geom of it touches anything (contype and conaffinity are 0), so all its boxes, "
+        "spheres, capsules and cylinders count as touching");
+    document_.shapes = std::move(looks_);
+  }
   if (!without_mass_.empty()) {
     text_.Warn(fmt::format("the masses of meshes are not known, so those of {} are not whole",
                            FirstNames(without_mass_)));

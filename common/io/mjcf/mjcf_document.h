@@ -48,6 +48,9 @@ struct MjcfCoupling {
   std::array<double, 5> polynomial = {0, 1, 0, 0, 0};
 };
 
+/// `<equality><connect>` or `<weld>` of two bodies: a loop, which is not followed.
+using MjcfTie = std::array<std::string, 2>;
+
 /// The bodies of an MJCF, depth first, in the order of the file, which is that of MuJoCo.
 struct MjcfDocument {
   std::string name;  ///< empty: none
@@ -55,6 +58,7 @@ struct MjcfDocument {
   std::vector<ContactShape> shapes;  ///< `segment` is the index of a body
   std::vector<Robot::Site> sites;    ///< so, too
   std::vector<MjcfCoupling> couplings;
+  std::vector<MjcfTie> ties;
 };
 
 /// Reads what moves, touches and has mass. Errors are of the text: what would move the robot in

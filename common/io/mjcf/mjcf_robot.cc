@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -26,6 +27,7 @@ constexpr std::size_t kMaxPartBytes = std::size_t{8} << 20;  // as of other mode
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWidestRange = 4 * EIGEN_PI;  // [rad]; beyond it a limit limits nothing
 constexpr double kSlideReach = 1;              // [m], of slides without limits
+constexpr double kUpright = 0.7;               // cosine of the lean of a body whose z is up
 constexpr std::string_view kMarkerSuffix = "_marker";
 
 class MjcfRobotBuilder {
@@ -44,6 +46,7 @@ class MjcfRobotBuilder {
   int ChooseFloating(const std::vector<int>& floating, const std::vector<int>& joints);
   void AddBodies(const std::vector<int>& tops);
   void AddBody(int index);
+  void SetStanding(const Eigen::Matrix3d& R_WB);
   Segment& AddSegment(const std::string& name, int parent, const Eigen::Isometry3d& X_PF);
   void SetJoint(const MjcfJoint& joint, Segment* segment);
   void Couple(const MjcfCoupling& coupling);
@@ -149,6 +152,13 @@ void MjcfRobotBuilder::SetJoint(const MjcfJoint& joint, Segment* segment) {
   }
 }
 
+/// A start pose that is turned upright tells which way is up; one that only leans is a start.
+void MjcfRobotBuilder::SetStanding(const Eigen::Matrix3d& R_WB) {
+  const Eigen::Vector3d up_B = R_WB.row(2).transpose();
+  if (up_B.z() > kUpright) return;
+  description_.standing = Eigen::Quaterniond::FromTwoVectors(up_B, Eigen::Vector3d::UnitZ());
+}
+
 /// A segment for each joint, at its anchor; the last one is the body.
 void MjcfRobotBuilder::AddBody(int index) {
   const MjcfBody& body = BodyAt(index);
@@ -162,7 +172,10 @@ void MjcfRobotBuilder::AddBody(int index) {
     parent = carrier.segment;
     X = carrier.X_SL * X;
   }
-  if (parent < 0) X.setIdentity();  // floats
+  if (parent < 0) {  // floats
+    SetStanding(X.linear());
+    X.setIdentity();
+  }
   for (const MjcfJoint& joint : body.joints) {
     Segment& segment = AddSegment(joint.name, parent, X * Eigen::Translation3d(joint.anchor));
     SetJoint(joint, &segment);
@@ -277,6 +290,16 @@ Robot MjcfRobotBuilder::Build() {
       meshes.insert(meshes.end(), static_cast<std::size_t>(document_.bodies[i].num_meshes),
                     link->segment);
   }
+  std::vector<std::array<int, 2>> ties;
+  for (const MjcfTie& tie : document_.ties) {
+    std::array<int, 2> tied = {-1, -1};
+    for (const Robot::Link& link : robot_links_) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (link.name == tie[i]) tied[i] = link.segment;
+      }
+    }
+    if (tied[0] >= 0 && tied[1] >= 0) ties.push_back(tied);
+  }
   text_.ThrowIfErrors();
   KinematicModel model(std::move(description_));
   const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(model.num_joints(), kInfinity);
@@ -286,7 +309,8 @@ Robot MjcfRobotBuilder::Build() {
           std::move(shapes),
           std::move(meshes),
           unknown,
-          "MJCF"};
+          "MJCF",
+          std::move(ties)};
 }
 
 }  // namespace

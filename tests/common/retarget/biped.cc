@@ -34,22 +34,32 @@ std::string LegText(const BipedShape& shape, const std::string& side, double y) 
 <geometry><box size="0.2 0.08 0.02"/></geometry></collision>)"
                                                : "";
   const auto link = [&](const char* name) { return side + name + "_link"; };
-  const double v = shape.hip_velocity;
+  const double v = shape.hip_velocity, slip = y > 0 ? shape.slip : 0;
+  const double thigh = y > 0 ? 0.36 : shape.right_thigh;
   return JointAndLink({side + "hip_yaw", "pelvis", fmt::format("0 {} 0", y), "0 0 1", -1, 1, v},
                       here) +
-         JointAndLink({side + "hip_roll", link("hip_yaw"), here, "1 0 0", -0.6, 0.6, v}, here) +
-         JointAndLink({side + "hip_pitch", link("hip_roll"), here, "0 1 0", -2, 2, v},
+         JointAndLink({side + "hip_roll", link("hip_yaw"), fmt::format("{} 0 0", slip), "1 0 0",
+                       -0.6, 0.6, v},
+                      here) +
+         JointAndLink({side + "hip_pitch", link("hip_roll"), fmt::format("{} 0 0", -slip), "0 1 0",
+                       -2, 2, v},
                       "0 0 -0.18") +
-         JointAndLink({side + "knee", link("hip_pitch"), "0 0 -0.36", "0 1 0", shape.knee_lower,
-                       shape.knee_upper, 20},
+         JointAndLink({side + "knee", link("hip_pitch"), fmt::format("0 0 {}", -thigh), "0 1 0",
+                       shape.knee_lower, shape.knee_upper, 20},
                       "0 0 -0.18") +
          JointAndLink({side + "ankle_pitch", link("knee"), "0 0 -0.36", "0 1 0", -1, 1, 20}, here) +
          JointAndLink({side + "ankle_roll", link("ankle_pitch"), here, "1 0 0", -0.5, 0.5, 20},
-                      "0.02 0 -0.04", foot);
+                      "0.02 0 -0.04", foot) +
+         (shape.has_toes ? JointAndLink({side + "toes", link("ankle_roll"), "0.12 0 -0.06", "0 1 0",
+                                         -1, 1, 20},
+                                        "0.02 0 0", R"(<collision><origin xyz="0.05 0 -0.01"/>
+<geometry><box size="0.1 0.08 0.02"/></geometry></collision>)")
+                         : "");
 }
 
-std::string HandText(const std::string& side) {
-  const std::string hand = side + "wrist_link", at = "0 0.02 -0.08", mass = "0 0 -0.02";
+std::string HandText(const BipedShape& shape, const std::string& side) {
+  const std::string hand = side + "wrist_link", mass = "0 0 -0.02";
+  const std::string at = fmt::format("0 0.02 {}", -shape.palm);
   return JointAndLink({side + "wrist", side + "elbow_link", "0 0 -0.22", "0 1 0", -1, 1, 20},
                       "0 0 -0.05") +
          JointAndLink({side + "finger_1", hand, at, "0 1 0", 0.1, 1.5, 5}, mass) +
@@ -60,19 +70,33 @@ std::string HandText(const std::string& side) {
 std::string ArmText(const BipedShape& shape, const std::string& side, double y) {
   const std::string here = "0 0 0";
   const auto link = [&](const char* name) { return side + name + "_link"; };
-  return JointAndLink({side + "shoulder_pitch", "waist_link", fmt::format("0 {} 0.4", y), "0 1 0",
-                       -3, 3, 20},
-                      here) +
-         JointAndLink(
-             {side + "shoulder_roll", link("shoulder_pitch"), here, "1 0 0", -kPi, kPi, 20}, here) +
-         JointAndLink({side + "shoulder_yaw", link("shoulder_roll"), here, "0 0 1", -2, 2, 20},
-                      "0 0 -0.12") +
-         JointAndLink({side + "elbow", link("shoulder_yaw"), "0 0 -0.25", "0 1 0",
-                       shape.elbow_lower, shape.elbow_upper, 20},
-                      "0 0 -0.22",
-                      shape.has_bodies ? R"(<collision><origin xyz="0 0 -0.13"/>
+  const double slip = y > 0 ? shape.slip : -shape.slip;
+  std::string text, chest = "waist_link", place = fmt::format("0 {} 0.4", y - slip);
+  if (shape.has_clavicles) {
+    const std::string middle = fmt::format("0 {} 0.4", 0.2 * y);
+    text = JointAndLink({side + "clavicle_z", chest, middle, "0 0 1", -0.3, 0.3, 20}, here) +
+           JointAndLink({side + "clavicle_x", link("clavicle_z"), here, "1 0 0", -0.3, 0.3, 20},
+                        fmt::format("0 {} 0", 0.4 * y));
+    chest = link("clavicle_x");
+    place = fmt::format("0 {} 0", 0.8 * y - slip);
+  }
+  text += JointAndLink({side + "shoulder_pitch", chest, place, "0 1 0", -3, 3, 20}, here) +
+          JointAndLink({side + "shoulder_roll", link("shoulder_pitch"), fmt::format("0 {} 0", slip),
+                        "1 0 0", -kPi, kPi, 20},
+                       here);
+  text += JointAndLink({side + "shoulder_yaw", link("shoulder_roll"), here, "0 0 1", -2, 2, 20},
+                       "0 0 -0.12") +
+          JointAndLink({side + "elbow", link("shoulder_yaw"), "0 0 -0.25", shape.elbow_axis,
+                        shape.elbow_lower, shape.elbow_upper, 20},
+                       "0 0 -0.22",
+                       shape.has_bodies ? R"(<collision><origin xyz="0 0 -0.13"/>
 <geometry><box size="0.05 0.05 0.2"/></geometry></collision>)"
-                                       : "");
+                                        : "");
+  if (shape.elbow_bends_twice) {
+    text +=
+        JointAndLink({side + "elbow_x", link("elbow"), here, "1 0 0", -2.4, 2.4, 20}, "0 0 -0.22");
+  }
+  return text;
 }
 
 }  // namespace
@@ -94,7 +118,7 @@ std::string BipedText(const BipedShape& shape) {
 <geometry><box size="0.2 0.24 0.4"/></geometry></collision>)"
                                         : "");
   text += ArmText(shape, shape.sides[0], 0.2) + ArmText(shape, shape.sides[1], -0.2);
-  if (shape.has_fingers) text += HandText(shape.sides[0]) + HandText(shape.sides[1]);
+  if (shape.has_fingers) text += HandText(shape, shape.sides[0]) + HandText(shape, shape.sides[1]);
   return text + "</robot>";
 }
 

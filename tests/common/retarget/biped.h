@@ -19,6 +19,14 @@ struct BipedShape {
   bool has_sole = true;
   bool has_bodies = false;   ///< trunk and forearms are boxes that touch
   bool has_fingers = false;  ///< two beyond a wrist, 0.1 to 1.5 rad, and a thumb, -1 to 1
+  double palm = 0.08;        ///< from the wrist to the fingers
+  bool has_toes = false;     ///< a joint about y 0.12 in front of the ankle
+  bool has_clavicles = false;
+  /// Origins along their axes: of the left hip roll, and of both shoulder pitches [m].
+  double slip = 0;
+  double right_thigh = 0.36;
+  std::string elbow_axis = "0 1 0";
+  bool elbow_bends_twice = false;  ///< another joint there, about x
 };
 
 /// A URDF.

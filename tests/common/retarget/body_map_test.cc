@@ -102,6 +102,80 @@ TEST(BodyMapTest, LimitsThatSayNothingAreRefusedUnlessNamesOrAMapDecide) {
   EXPECT_EQ(NameOf(robot, FindBodyMap(robot.model, choice).leg(Side::kLeft)), "b_knee");
 }
 
+TEST(BodyMapTest, OriginsMayLieAnywhereAlongTheirAxes) {
+  BipedShape shape;
+  shape.slip = 0.24;
+  const Robot robot = MakeBiped(shape);
+  const BodyMap map = FindBodyMap(robot.model, {});
+  ASSERT_TRUE(map.has_legs());
+  EXPECT_EQ(NameOf(robot, map.leg(Side::kLeft)), "left_knee");
+  EXPECT_EQ(NameOf(robot, map.arm(Side::kRight)), "right_elbow");
+  for (const auto& leg : map.legs) EXPECT_NEAR(leg->upper.length, 0.36, 1e-9);
+  for (const auto& arm : map.arms) EXPECT_NEAR(arm->upper.length, 0.25, 1e-9);
+}
+
+TEST(BodyMapTest, ClaviclesAreNoUpperArms) {
+  BipedShape shape;
+  shape.has_clavicles = true;
+  const Robot robot = MakeBiped(shape);
+  const BodyMap map = FindBodyMap(robot.model, {});
+  EXPECT_EQ(NameOf(robot, map.arm(Side::kLeft)), "left_elbow");
+  EXPECT_NEAR(map.arms[0]->upper.length, 0.25, 1e-9);
+}
+
+TEST(BodyMapTest, LegsThatAreNoImagesAreRefusedNotLeftOut) {
+  BipedShape shape;
+  shape.right_thigh = 0.3;
+  EXPECT_THAT(RefusalOf(shape), HasSubstr("left_knee"));
+  EXPECT_THAT(RefusalOf(shape), HasSubstr("named as legs"));
+  shape.right_thigh = 0.352;  // as of people
+  EXPECT_EQ(RefusalOf(shape), "");
+}
+
+TEST(BodyMapTest, HandsAndToesEndTheirChains) {
+  BipedShape shape;
+  shape.has_fingers = shape.has_toes = true;
+  shape.palm = 0.3;
+  const Robot robot = MakeBiped(shape);
+  const BodyMap map = FindBodyMap(robot.model, {});
+  EXPECT_EQ(robot.model.segments()[map.arms[0]->end].name, "left_wrist");
+  EXPECT_EQ(robot.model.segments()[map.legs[0]->end].name, "left_ankle_roll");
+}
+
+TEST(BodyMapTest, AnElbowWithTwoAxesFoldsAcross) {
+  BipedShape shape;
+  shape.elbow_bends_twice = true;
+  const Robot robot = MakeBiped(shape);
+  EXPECT_EQ(NameOf(robot, FindBodyMap(robot.model, {}).arm(Side::kLeft)), "left_elbow");
+}
+
+TEST(BodyMapTest, ElbowsWithoutLimitsMayFoldAside) {
+  BipedShape shape;
+  shape.elbow_axis = "1 0 0";
+  shape.elbow_lower = -3.14;
+  shape.elbow_upper = 3.14;
+  const Robot robot = MakeBiped(shape);
+  const BodyMap map = FindBodyMap(robot.model, {});
+  EXPECT_EQ(NameOf(robot, map.arm(Side::kLeft)), "left_elbow");
+  // Images of each other: y is along the axis, to the other side of it.
+  EXPECT_NEAR(map.arms[0]->lower.R_SL(0, 1), -map.arms[1]->lower.R_SL(0, 1), 1e-9);
+}
+
+TEST(BodyMapTest, ARobotWhoseFileHasYUpStands) {
+  EXPECT_TRUE(FindStanding(MakeBiped({}).model).isApprox(Eigen::Quaterniond::Identity()));
+  const Eigen::Quaterniond standing(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitX()));
+  ModelDescription lying = DescriptionOf(MakeBiped({}).model);
+  for (Segment& segment : lying.segments) {
+    if (segment.parent == 0) segment.X_PF = standing.inverse() * segment.X_PF;
+  }
+  const KinematicModel model(lying);
+  EXPECT_TRUE(FindStanding(model).isApprox(standing, 1e-9));
+  lying.standing = standing;
+  const BodyMap map = FindBodyMap(KinematicModel(lying), {});
+  EXPECT_NEAR(map.legs[0]->upper.length, 0.36, 1e-9);
+  EXPECT_TRUE(map.R_WA.isApprox(Eigen::Matrix3d::Identity(), 1e-9));
+}
+
 TEST(BodyMapTest, AFixedTrunkHasArmsAlone) {
   BipedShape shape;
   shape.has_legs = false;
@@ -142,6 +216,7 @@ TEST(SideByNamesTest, OneLetterOrWordTells) {
   EXPECT_EQ(SideByNames("left_knee", "right_knee"), 1);
   EXPECT_EQ(SideByNames("R_Elbow", "L_Elbow"), -1);
   EXPECT_EQ(SideByNames("leg_l1_joint", "leg_r1_joint"), 1);
+  EXPECT_EQ(SideByNames("J03_KNEE_L", "J09_KNEE_R"), 1);
   EXPECT_EQ(SideByNames("a_knee", "b_knee"), 0);
   EXPECT_EQ(SideByNames("left_knee", "right_hip"), 0);
 }
@@ -159,6 +234,28 @@ TEST(RobotBodyTest, TheSoleIsFoundOrAskedFor) {
   EXPECT_NEAR(FindRobotBody(MakeBiped(shape), {}, 0.1).size, 0.82, 1e-9);
   for (const double none : {-0.1, 7.0, std::nan("")}) {
     EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, none), Error) << none;
+  }
+}
+
+TEST(RobotBodyTest, ToesBelongToTheSole) {
+  BipedShape shape;
+  shape.has_toes = true;
+  const RobotFoot foot = (*FindRobotBody(MakeBiped(shape), {}, {}).feet)[0];
+  EXPECT_NEAR(foot.heel.x(), -0.06, 1e-9);
+  EXPECT_NEAR(foot.toe.x(), 0.22, 1e-9);
+}
+
+TEST(RobotBodyTest, AKneeThatIsTiedToItsHipIsRefused) {
+  Robot robot = MakeBiped({});
+  const auto segment = [&](const char* name) { return robot.model.FindSegment(name); };
+  robot.ties = {{segment("left_knee"), segment("left_ankle_roll")}};  // ankles have rods
+  FindRobotMap(robot, {});
+  robot.ties = {{segment("left_hip_roll"), segment("left_ankle_pitch")}};
+  try {
+    FindRobotMap(robot, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("left_knee"));
   }
 }
 
