@@ -19,6 +19,8 @@ constexpr double kLegDirection = 0.05;
 constexpr double kLegTwist = 0.3;
 constexpr double kArmDirection = 0.04;
 constexpr double kArmTwist = 0.4;
+constexpr int kWholeArm = 3;      // joints before the elbow that point a forearm anywhere
+constexpr double kPoorArm = 0.2;  // direction of arms with fewer, which would drag the trunk
 constexpr double kHandTurn = 0.3;
 constexpr double kHoldPlace = 0.003;  // of a hand at what it holds
 constexpr double kHoldTurn = 0.1;
@@ -63,12 +65,13 @@ void AddArms(const BodyMap& map, PersonAims* aims) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!map.arms[i]) continue;
     const LimbMap& arm = *map.arms[i];
+    const double direction = arm.fold < kWholeArm ? kPoorArm : kArmDirection;
     const auto upper = [i](const BodyPosture& p) { return p.arms[i].R_upper; };
     const auto lower = [i](const BodyPosture& p) { return p.arms[i].R_lower; };
     const auto end = [i](const BodyPosture& p) { return p.arms[i].R_end; };
-    aims->Turn(arm.upper.segment, arm.upper.R_SL, 2, kArmDirection, upper);
+    aims->Turn(arm.upper.segment, arm.upper.R_SL, 2, direction, upper);
     aims->Turn(arm.upper.segment, arm.upper.R_SL, 1, kArmTwist, upper);
-    aims->Turn(arm.lower.segment, arm.lower.R_SL, 2, kArmDirection, lower);
+    aims->Turn(arm.lower.segment, arm.lower.R_SL, 2, direction, lower);
     if (!arm.has_wrist) continue;
     aims->Turn(arm.end, arm.R_ED, 2, kHandTurn, end);
     aims->Turn(arm.end, arm.R_ED, 1, kHandTurn, end);

@@ -29,7 +29,8 @@ using Eigen::Vector3d;
 
 constexpr double kTilts[] = {0.3, 1};  // of directions in which the sole's ends are the lowest
 constexpr int kAround = 8;             // of these
-constexpr double kSamePlace = 1e-4;    // [m]
+constexpr double kLeastSpread = 0.05, kMostSpread = 1;  // [rad] of a leg at the zero pose
+constexpr double kSamePlace = 1e-4;                     // [m]
 
 void AddBall(int segment, const Vector3d& p_S, double radius, std::vector<FloorBall>* balls) {
   const bool is_known = std::any_of(balls->begin(), balls->end(), [&](const FloorBall& ball) {
@@ -70,6 +71,19 @@ Vector3d FarthestOf(const RobotFoot& foot, const Vector3d& direction_A) {
   return farthest;
 }
 
+/// Turns legs that are spread at the zero pose about the way they face until the knee's axis is
+/// level: then feet are flat.
+Eigen::Matrix3d LevelKnee(const std::vector<Eigen::Isometry3d>& X_WS, const BodyMap& map,
+                          const LimbMap& leg) {
+  const Vector3d left =
+      map.R_WA.transpose() * X_WS[leg.lower.segment].linear() * leg.lower.R_SL.col(1);
+  const double tilt = std::atan2(left.z(), left.y());
+  if (std::abs(tilt) < kLeastSpread || std::abs(tilt) > kMostSpread) {
+    return Eigen::Matrix3d::Identity();
+  }
+  return Eigen::AngleAxisd(-tilt, map.R_WA.col(0)).toRotationMatrix();
+}
+
 RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS,
                    const BodyMap& map, Side side, std::optional<double> sole_height) {
   const LimbMap& leg = *map.leg(side);
@@ -86,7 +100,7 @@ RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
   foot.said = sole->said;
   foot.rolls = static_cast<int>(leg.chain.size()) - leg.fold > 2;
   foot.shapes = sole->shapes;
-  foot.R_FA = X_WS[foot.segment].linear().transpose() * map.R_WA;
+  foot.R_FA = (LevelKnee(X_WS, map, leg) * X_WS[foot.segment].linear()).transpose() * map.R_WA;
   for (const ContactShape& shape : foot.shapes) AddBalls(foot, shape, &foot.balls);
   const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
   const Vector3d lowest = R_AF * FarthestOf(foot, -Vector3d::UnitZ());
