@@ -98,6 +98,11 @@ LimbPairs ChoosePairs(const ZeroPose& zero, const std::vector<MirroredPair>& pai
   const bool stands = !zero.model->is_root_fixed();
   const auto lowest = std::min_element(
       pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.lowest < b.lowest; });
+  if (!stands && RoleByNames(zero, lowest->chains[0]) > 0) {
+    Refuse(zero, fmt::format("{} are named as legs are, and its file fixes it to the world; give "
+                             "its root a free joint (<freejoint/>), or a map of its arms alone",
+                             Describe(zero, lowest->chains[0])));
+  }
   const bool is_arm = pairs.size() == 1 && RoleByNames(zero, lowest->chains[0]) < 0;
   if (stands && !is_arm) chosen.legs = &*lowest;
   for (const MirroredPair& pair : pairs) {

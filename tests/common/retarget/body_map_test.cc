@@ -184,6 +184,17 @@ TEST(BodyMapTest, AFixedTrunkHasArmsAlone) {
   EXPECT_TRUE(map.has_arms());
 }
 
+TEST(BodyMapTest, LegsThatCannotWalkAreRefused) {
+  ModelDescription fixed = DescriptionOf(MakeBiped({}).model);
+  fixed.is_root_fixed = true;
+  try {
+    FindBodyMap(KinematicModel(fixed), {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("<freejoint/>"));
+  }
+}
+
 TEST(BodyMapTest, AMapFileDecides) {
   const std::string file = TestFolder() + "/map.xml";
   WriteFileAtomically(file, std::string(R"(<BodyMap forward="1 0 0">

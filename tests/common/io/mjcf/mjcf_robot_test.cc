@@ -177,6 +177,38 @@ TEST(MjcfRobot, WithoutAFreeJointItStandsOnTheWorld) {
             Eigen::Vector3d(0, 1, 1));
 }
 
+TEST(MjcfRobot, AStartPoseThatIsTurnedUprightTellsWhereUpIs) {
+  const auto standing = [](const char* euler) {
+    return ParseWith({}, std::string("<mujoco><worldbody><body euler='") + euler +
+                             "'><freejoint/><geom size='1'/><body><joint/><geom size='1'/></body>"
+                             "</body></worldbody></mujoco>")
+        .model.standing();
+  };
+  EXPECT_TRUE((standing("90 0 0") * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(standing("0 20 0").isApprox(Eigen::Quaterniond::Identity()));
+  EXPECT_TRUE(standing("0 0 90").isApprox(Eigen::Quaterniond::Identity()));
+}
+
+TEST(MjcfRobot, WhereNothingTouchesAllShapesDo) {
+  const std::string shapes =
+      "<geom size='1' contype='0' conaffinity='0'/><body><joint/><geom "
+      "size='0.1' contype='0' conaffinity='0'/>";
+  Warnings warnings;
+  EXPECT_EQ(ParseWith({}, Floating(shapes + "</body>"), &warnings).shapes.size(), 2u);
+  EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("count as touching")));
+  EXPECT_EQ(ParseWith({}, Floating(shapes + "<geom size='0.2'/></body>")).shapes.size(), 1u);
+}
+
+TEST(MjcfRobot, LoopsNameTheirSegments) {
+  const Robot robot = ParseWith(
+      {}, Floating("<geom size='1'/><body name='a'><joint name='q'/><geom size='1'/></body><body "
+                   "name='b'><joint name='r'/><geom size='1'/></body>",
+                   "", "<equality><connect body1='a' body2='b' anchor='0 0 0'/></equality>"));
+  ASSERT_EQ(robot.ties.size(), 1u);
+  EXPECT_EQ(robot.ties[0][0], robot.model.FindSegment("q"));
+  EXPECT_EQ(robot.ties[0][1], robot.model.FindSegment("r"));
+}
+
 TEST(MjcfRobot, EqualJointsFollowAndOtherEqualitiesAreNamed) {
   Warnings warnings;
   const Robot robot = ParseWith(
