@@ -21,7 +21,7 @@ constexpr int kMostJoints = 200;  // of robots with hands some 100
 using Eigen::Vector3d;
 using Chains = std::array<std::vector<int>, 2>;
 
-constexpr double kLeastFolding = 0.15;  // of a chain's length: what bends less is no limb
+constexpr double kLeastFolding = 0.15;  // of a chain's reach: what bends less is no limb
 constexpr double kAlikeArms = 0.9;      // second pair that folds, over the first
 constexpr double kAlikeHeights =
     0.05;                           // of the robot's size, between the ends of two pairs of legs
@@ -64,14 +64,8 @@ int RoleByNames(const ZeroPose& zero, const std::vector<int>& chain) {
 /// The pairs that bend as limbs do; of those that begin alike only the longest.
 std::vector<MirroredPair> FindLimbPairs(const ZeroPose& zero) {
   std::vector<MirroredPair> pairs = FindMirroredPairs(zero);
-  std::erase_if(pairs, [&](const MirroredPair& pair) {
-    const std::vector<int>& chain = pair.chains[0];
-    double length = 0;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      length += (zero.origin(chain[i]) - zero.origin(chain[i - 1])).norm();
-    }
-    length += (zero.mass_centre[chain.back()] - zero.origin(chain.back())).norm();
-    return pair.most_folding < kLeastFolding * length;
+  std::erase_if(pairs, [](const MirroredPair& pair) {
+    return pair.most_folding < kLeastFolding * pair.reach;
   });
   std::stable_sort(pairs.begin(), pairs.end(), [](const MirroredPair& a, const MirroredPair& b) {
     return a.most_folding > b.most_folding;

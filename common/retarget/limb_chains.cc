@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -23,7 +24,8 @@ constexpr std::size_t kFewestJoints = 3;
 constexpr double kMirrorTolerance = 0.006;  // [m] of axes that files round
 constexpr double kMirrorShare = 0.02;       // of a chain's length, of bodies measured on people
 constexpr double kLeastApart = 0.02;        // [m] of places that tell where the plane is
-constexpr double kSkewNormal = 0.5;         // |cos| to a root's axis that may be the normal
+constexpr double kSteepNormal = 0.2;        // vertical part of what is no normal
+constexpr double kSameNormal = 0.99999;     // cosine
 constexpr double kParallel = 0.9;           // |cos| of axes that meet nowhere in particular
 constexpr double kFingersReach = 0.35;      // of the chain before them
 constexpr int kSweepSteps = 48;
@@ -96,39 +98,47 @@ double LengthOf(const ZeroPose& zero, const std::vector<int>& chain) {
   return length;
 }
 
-/// Where the plane with that normal lies: origins may be anywhere along their axes.
-Plane PlaneAcross(const ZeroPose& zero, const Eigen::Vector3d& normal, const std::vector<int>& a,
-                  const std::vector<int>& b) {
+/// With that normal, from b to a; nothing if they are not apart along it. Where along their axes
+/// origins lie tells nothing.
+std::optional<Plane> PlaneAcross(const ZeroPose& zero, const Eigen::Vector3d& normal,
+                                 const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<double> offsets;
-  for (const double most : {kParallel, 2.0}) {
-    for (std::size_t i = 0; i < a.size() && (most < 1 || offsets.empty()); ++i) {
-      if (std::abs(zero.axis(a[i]).dot(normal)) > most) continue;
-      offsets.push_back(0.5 * normal.dot(zero.origin(a[i]) + zero.origin(b[i])));
-    }
+  double apart = 0;  // of the first joints, as the ends may cross
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::abs(zero.axis(a[i]).dot(normal)) > kParallel) continue;
+    const double p = normal.dot(zero.origin(a[i])), q = normal.dot(zero.origin(b[i]));
+    offsets.push_back(0.5 * (p + q));
+    if (std::abs(apart) < kLeastApart) apart = p - q;
   }
-  std::nth_element(offsets.begin(), offsets.begin() + offsets.size() / 2, offsets.end());
-  return {normal, offsets[offsets.size() / 2]};
+  if (std::abs(apart) < kLeastApart) return {};
+  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+  std::nth_element(offsets.begin(), middle, offsets.end());
+  return apart > 0 ? Plane{normal, *middle} : Plane{-normal, -*middle};
 }
 
-/// Across the farthest origins; as these may lie askew along their axes, the root's axis near it,
-/// too.
+/// Axes that are images of each other tell the normal: it is along them, or between them.
 std::vector<Plane> PlanesBetween(const ZeroPose& zero, const std::vector<int>& a,
                                  const std::vector<int>& b) {
-  double farthest = kLeastApart;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> normals;
+  const auto add = [&](const Eigen::Vector3d& way) {
+    if (way.norm() < kLeastApart) return;
+    const Eigen::Vector3d normal = way.normalized();
+    if (std::abs(normal.z()) > kSteepNormal) return;
+    const bool is_known = std::any_of(normals.begin(), normals.end(), [&](const auto& other) {
+      return std::abs(other.dot(normal)) > kSameNormal;
+    });
+    if (!is_known) normals.push_back(normal);
+  };
+  for (int axis = 0; axis < 3; ++axis) add(zero.X_WS[0].linear().col(axis));
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Eigen::Vector3d way = zero.origin(a[i]) - zero.origin(b[i]);
-    if (way.norm() <= farthest) continue;
-    farthest = way.norm();
-    normal = way.normalized();
+    add(zero.axis(a[i]));
+    add(zero.axis(a[i]) - zero.axis(b[i]));
+    add(zero.axis(a[i]) + zero.axis(b[i]));
+    add(zero.origin(a[i]) - zero.origin(b[i]));
   }
-  if (normal.isZero()) return {};
-  std::vector<Plane> planes = {PlaneAcross(zero, normal, a, b)};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d of_root = zero.X_WS[0].linear().col(axis);
-    const double cosine = of_root.dot(normal);
-    if (std::abs(cosine) < kSkewNormal) continue;
-    planes.push_back(PlaneAcross(zero, cosine > 0 ? of_root : Eigen::Vector3d(-of_root), a, b));
+  std::vector<Plane> planes;
+  for (const Eigen::Vector3d& normal : normals) {
+    if (const auto plane = PlaneAcross(zero, normal, a, b)) planes.push_back(*plane);
   }
   return planes;
 }
@@ -136,7 +146,6 @@ std::vector<Plane> PlanesBetween(const ZeroPose& zero, const std::vector<int>& a
 bool AreMirrored(const ZeroPose& zero, const Plane& plane, const std::vector<int>& a,
                  const std::vector<int>& b) {
   const Eigen::Vector3d& n = plane.normal;
-  if (std::abs(n.z()) > 0.2) return false;
   const double tolerance =
       std::max(kMirrorTolerance, kMirrorShare * std::min(LengthOf(zero, a), LengthOf(zero, b)));
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -219,7 +228,8 @@ Eigen::Vector3d CentreBefore(const ZeroPose& zero, const std::vector<int>& chain
 
 FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain) {
   const auto count = static_cast<Eigen::Index>(chain.size());
-  FoldSweep sweep{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(count);
+  FoldSweep sweep{none, none, none};
   for (int i = 0; i < count; ++i) {
     const Segment& segment = zero.model->segments()[chain[i]];
     if (segment.type != JointType::kRevolute) continue;
@@ -235,6 +245,7 @@ FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain) {
       longest = std::max(longest, distance);
     }
     sweep.change[i] = longest - shortest;
+    sweep.longest[i] = longest;
   }
   return sweep;
 }
@@ -266,7 +277,10 @@ std::vector<MirroredPair> FindMirroredPairs(const ZeroPose& zero) {
       if (plane == planes.end()) continue;
       known.emplace(pair.chains[0].back(), pair.chains[1].back());
       pair.normal = plane->normal;
-      pair.most_folding = SweepChain(zero, pair.chains[0]).change.maxCoeff();
+      const FoldSweep sweep = SweepChain(zero, pair.chains[0]);
+      Eigen::Index most = 0;
+      pair.most_folding = sweep.change.maxCoeff(&most);
+      pair.reach = sweep.longest[most];
       pair.lowest = std::min(zero.origin(pair.chains[0].back()).z(),
                              zero.mass_centre[pair.chains[0].back()].z());
       pairs.push_back(std::move(pair));

@@ -32,8 +32,9 @@ struct ZeroPose {
 struct MirroredPair {
   std::array<std::vector<int>, 2> chains;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the plane, from chain 1 to chain 0, W
-  /// How far the joint that folds most brings the ends nearer to the first joints [m].
+  /// How far the joint that folds most brings the ends nearer to the centre before it [m].
   double most_folding = 0;
+  double reach = 0;   ///< from the centre about which that joint folds them to the ends [m]
   double lowest = 0;  ///< height of the ends [m]
 };
 
@@ -50,6 +51,7 @@ Eigen::Vector3d CentreBefore(const ZeroPose& zero, const std::vector<int>& chain
 struct FoldSweep {
   Eigen::VectorXd change;
   Eigen::VectorXd straight;  ///< where the distance is largest [rad]
+  Eigen::VectorXd longest;   ///< that distance [m]
 };
 FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain);
 

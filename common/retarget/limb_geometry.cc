@@ -47,8 +47,10 @@ Vector3d CentreOn(const ZeroPose& zero, const std::vector<int>& chain, std::size
 
 DistalCentre FindDistalCentre(const ZeroPose& zero, const LimbReading& limb) {
   const Vector3d middle = zero.origin(limb.chain[limb.fold]);
+  const Vector3d fold = zero.axis(limb.chain[limb.fold]);
   for (std::size_t i = limb.fold + 1; i < limb.chain.size(); ++i) {
-    const Vector3d centre = CentreOn(zero, limb.chain, i), along = centre - middle;
+    const Vector3d centre = CentreOn(zero, limb.chain, i);
+    const Vector3d along = centre - middle - (centre - middle).dot(fold) * fold;
     if (along.norm() < kLeastBeyond) continue;
     if (std::abs(along.normalized().dot(zero.axis(limb.chain[i]))) >= kAlong) continue;
     return {centre, static_cast<int>(i)};
