@@ -121,7 +121,7 @@ LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fo
     for (int i = 0; i < sweep.change.size(); ++i) {
       if (sweep.change[i] >= kAlikeFolds * sweep.change[most]) alike.push_back(i);
     }
-    KeepNamed(zero, chain, is_leg ? "knee" : "elbow", &alike);
+    if (!is_leg) KeepNamed(zero, chain, "elbow", &alike);
     limb.fold = MostAcross(zero, chain, alike, normal);
     if (limb.fold < 0) {
       throw Error(
