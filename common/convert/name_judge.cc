@@ -66,6 +66,7 @@ void NameJudge::Run(bool places_clusters) {
   const double height = FindHeight();
   Pose(height, {});
   if (places_clusters && (!clusters_.empty() || IsAnyFar())) ExchangeSides(height);
+  ChooseSegments();
   const std::vector<Hypothesis> none;
   const std::vector<Hypothesis>& clusters = places_clusters ? clusters_ : none;
   if (!clusters.empty()) Pose(height, clusters);
@@ -114,7 +115,9 @@ void NameJudge::MakeModel() {
       const auto place = PlaceOf(reading, table_, reference_);
       if (is_place) {
         one.markers.push_back(place && IsPlace(reading) ? add(*place) : -1);
-      } else if (place && reading.landmark == label.readings.front().landmark) {
+      } else if (!place || IsPlace(reading)) {
+        one.markers.insert(one.markers.end(), kClusterMarkers, -1);
+      } else {
         one.markers.push_back(add(*place));
         for (const Vector3d& p :
              {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
@@ -186,7 +189,7 @@ void NameJudge::Pose(double height, const std::vector<Hypothesis>& clusters) {
   const auto named = scales.size();
   std::vector<int> worn;
   for (const Hypothesis& one : clusters) {
-    if (one.markers.size() < kClusterMarkers) continue;
+    if (one.markers[FirstMarkerOf(one)] < 0) continue;
     worn.push_back(one.label);
     markers.emplace_back(one.markers[FirstMarkerOf(one)]);
     scales.conservativeResize(scales.size() + 1);

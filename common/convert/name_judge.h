@@ -16,7 +16,7 @@ namespace mmm_converter {
 struct Hypothesis {
   int label = 0;  ///< of the named markers and of the recording
   /// Of its readings, of the judge's model; -1: the model has none. Of a cluster, five (its place,
-  /// origin and axes of its segment) of the first reading, and of the one that mirrors it.
+  /// origin and axes of its segment) of each.
   std::vector<int> markers;
   std::size_t chosen = 0;  ///< of the readings
   bool is_out = false;
@@ -25,9 +25,7 @@ struct Hypothesis {
 constexpr std::size_t kClusterMarkers = 5;
 
 /// Of a cluster, the first marker of the reading that was chosen.
-inline std::size_t FirstMarkerOf(const Hypothesis& one) {
-  return one.chosen > 0 && one.markers.size() > kClusterMarkers ? kClusterMarkers : 0;
-}
+inline std::size_t FirstMarkerOf(const Hypothesis& one) { return kClusterMarkers * one.chosen; }
 
 /// Postures of some frames of a recording, fitted to what the labels' names mean, and what they say
 /// of the names; see UnderstandLabels.
@@ -85,6 +83,8 @@ class NameJudge {
   /// The reading that mirrors the one that is chosen; the same where there is none.
   std::size_t MirroredReading(const Hypothesis& one) const;
 
+  /// Clusters whose names can mean several segments are on the one that is nearest.
+  void ChooseSegments();
   /// Of the labels that are far from their places, the farther half gets other meanings or none.
   bool Reconsider();
   bool Reconsider(Hypothesis* one);

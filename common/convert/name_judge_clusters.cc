@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "common/convert/name_judge.h"
 #include "common/math/statistics.h"
@@ -19,10 +20,26 @@ constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such
 
 }  // namespace
 
+void NameJudge::ChooseSegments() {
+  for (Hypothesis& one : clusters_) {
+    const std::vector<LabelReading>& readings = named_.labels[Ix(one.label)].readings;
+    const LabelReading named = Chosen(one);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      const int marker = one.markers[kClusterMarkers * r];
+      if (marker < 0 || readings[r].side != named.side) continue;
+      const double distance = Distance(one.label, marker);
+      if (!(distance < least)) continue;
+      least = distance;
+      one.chosen = r;
+    }
+  }
+}
+
 void NameJudge::PlaceClusters(double height) {
   for (const Hypothesis& one : clusters_) {
-    if (one.markers.size() < kClusterMarkers) continue;
     const std::size_t first = FirstMarkerOf(one);
+    if (one.markers[first] < 0) continue;
     std::vector<Vector3d> places;
     for (std::size_t f = 0; f < frames_.size(); ++f) {
       const Vector3d p = recording_.frame(frames_[f]).col(one.label);

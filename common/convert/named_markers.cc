@@ -62,6 +62,11 @@ int NamedMarkers::num_used() const {
                                         [](const NamedLabel& one) { return !one.marker.empty(); }));
 }
 
+int NamedMarkers::num_without_side() const {
+  return static_cast<int>(std::count_if(labels.begin(), labels.end(),
+                                        [](const NamedLabel& one) { return one.lacks_side; }));
+}
+
 std::string DescribeReading(const LabelReading& reading, const LandmarkTable& table) {
   return WithSide(LandmarkOf(reading, table).name, reading.side);
 }

@@ -31,6 +31,10 @@ struct NamedMarkers {
   std::vector<NamedLabel> labels;
 
   int num_used() const;
+  /// Labels of one limb whose names tell no side.
+  int num_without_side() const;
+  /// Whether they are several, of which the body tells the side; one or two are of something else.
+  bool are_of_one_side() const { return num_without_side() >= 3; }
 };
 
 /// "left heel"

@@ -41,9 +41,7 @@ NamedMarkers UnderstandLabels(const MarkerLabels& labels, const MarkerSequence& 
                               const KinematicModel& reference, const LandmarkTable& table,
                               const NameOptions& options) {
   NamedMarkers named = ComposeNamedMarkers(labels, reference, table);
-  const bool lack_side = std::any_of(named.labels.begin(), named.labels.end(),
-                                     [](const NamedLabel& one) { return one.lacks_side; });
-  if (!lack_side) {
+  if (!named.are_of_one_side()) {
     Judge(reference, recording, table, options, &named);
     return named;
   }

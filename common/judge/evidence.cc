@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "common/convert/exchanged_sides.h"
@@ -31,6 +32,14 @@ std::string OtherSide(const std::string& limb) {
   if (limb.starts_with("left ")) return "right " + limb.substr(5);
   if (limb.starts_with("right ")) return "left " + limb.substr(6);
   return "";
+}
+
+std::string LettersOf(const std::string& label) {
+  std::string letters;
+  for (const char c : label) {
+    if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c < 0) letters += c;
+  }
+  return letters;
 }
 
 }  // namespace
@@ -92,9 +101,20 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
 }
 
 void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons) {
-  std::vector<std::string> contradicted;
+  std::vector<std::string> contradicted, unknown;
+  std::set<std::string> kinds;
   for (const NamedLabel& one : names.labels) {
     if (one.is_contradicted) contradicted.push_back(fmt::format("{} ({})", one.label, one.note));
+    if (!one.readings.empty() || !one.note.empty()) continue;
+    // Of points without names ("U1", "*17") none is missed.
+    const std::string kind = LettersOf(one.label);
+    if (kind.size() > 1 && kinds.insert(kind).second) unknown.push_back(one.label);
+  }
+  if (static_cast<int>(unknown.size()) > names.num_used()) {
+    reasons->Add(Level::kCheck,
+                 WithAdvice(fmt::format("most labels have names that are not understood: {}",
+                                        FirstNames(unknown, 6)),
+                            Remedy::kMarkerSet));
   }
   if (contradicted.empty()) return;
   reasons->Add(

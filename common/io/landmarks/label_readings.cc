@@ -2,186 +2,61 @@
 #include "common/io/landmarks/label_readings.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
+
+#include "common/io/landmarks/label_parser.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kLongestName = 60;  // names of landmarks are shorter
 constexpr int kSeveral = 3;
-constexpr BodySide kSides[] = {BodySide::kLeft, BodySide::kRight};
 
-BodySide Other(BodySide side) {
-  return side == BodySide::kLeft ? BodySide::kRight : BodySide::kLeft;
+enum class Limbs { kNone, kArms, kLegs };
+
+Limbs LimbsOf(const std::string& part) {
+  for (const char* one : {"upper arm", "forearm", "hand"}) {
+    if (part == one) return Limbs::kArms;
+  }
+  for (const char* one : {"thigh", "shank", "ankle", "foot"}) {
+    if (part == one) return Limbs::kLegs;
+  }
+  return Limbs::kNone;
 }
-
-bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-/// In another alphabet than ASCII all are small.
-bool IsLower(char c) { return (c >= 'a' && c <= 'z') || c < 0; }
-
-/// "p:WaistLFront_study" is waist, l, front, study: apart where punctuation parts them, or small
-/// from capital letters.
-std::vector<std::string> WordsOfLabel(std::string_view label) {
-  std::vector<std::string> words(1);
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    const char c = label[i];
-    const bool is_letter = IsUpper(c) || IsLower(c);
-    const char before = i > 0 ? label[i - 1] : ' ';
-    const char next = i + 1 < label.size() ? label[i + 1] : ' ';
-    const bool is_new = (!is_letter && !IsDigit(c)) || (IsUpper(c) && IsLower(before)) ||
-                        (IsUpper(c) && IsUpper(before) && IsLower(next));
-    if (is_new && !words.back().empty()) words.emplace_back();
-    if (is_letter || IsDigit(c)) {
-      words.back() += static_cast<char>(IsUpper(c) ? c - 'A' + 'a' : c);
-    }
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
-}
-
-std::string JoinWords(const std::vector<std::string>& words, std::size_t without) {
-  std::string whole;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i != without) whole += words[i];
-  }
-  return whole;
-}
-
-/// Numbers as "#".
-std::string WithoutNumbers(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (!IsDigit(c)) text += c;
-    if (IsDigit(c) && !text.ends_with('#')) text += '#';
-  }
-  return text;
-}
-
-struct Candidate {
-  LabelReading reading;
-  /// Names of the same on the other side; empty: it has no side, or a word says it.
-  std::vector<std::string> counterparts = {};
-  bool needs_counterpart = false;  ///< else it is wrong
-};
-
-/// Finds what a label can mean, and what that needs.
-class LabelParser {
- public:
-  LabelParser(std::string_view label, const LandmarkTable& table) : table_(table) {
-    label = label.substr(label.rfind(':') + 1);
-    if (label.size() > kLongestName) return;
-    words_ = WordsOfLabel(label);
-    is_computed_ = std::any_of(words_.begin(), words_.end(),
-                               [&](const std::string& word) { return table_.IsComputed(word); });
-    std::vector<std::string> said;
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-      const bool may_leave = words_[i].size() > 1 || i == 0;
-      if (!may_leave || !table_.IsLeftOut(words_[i])) said.push_back(words_[i]);
-    }
-    if (!said.empty()) words_ = std::move(said);
-    whole_ = JoinWords(words_, words_.size());
-  }
-
-  bool is_computed() const { return is_computed_; }
-  const std::string& whole() const { return whole_; }
-
-  std::vector<Candidate> Candidates() {
-    if (whole_.empty() || is_computed_) return {};
-    Add(whole_, false, {});
-    for (std::size_t i = 0; i < words_.size() && words_.size() > 1; ++i) AddSideWord(i);
-    for (const BodySide side : kSides) AddAtEnd(side, false);
-    for (const BodySide side : kSides) AddAtEnd(side, true);
-    Add(whole_, true, {});
-    if (found_.empty()) {
-      for (const int landmark : table_.Find(WithoutNumbers(whole_), false)) {
-        found_.push_back({{landmark, BodySide::kNone}});
-      }
-    }
-    return std::move(found_);
-  }
-
- private:
-  void Add(const std::string& name, bool is_sided, Candidate candidate) {
-    for (const int landmark : Meanings(name, is_sided)) {
-      candidate.reading.landmark = landmark;
-      const auto same = [&](const Candidate& one) { return one.reading == candidate.reading; };
-      if (std::none_of(found_.begin(), found_.end(), same)) found_.push_back(candidate);
-    }
-  }
-
-  std::vector<int> Meanings(const std::string& name, bool is_sided) const {
-    std::vector<int> exact = table_.Find(name, is_sided);
-    if (!exact.empty() || !is_sided) return exact;
-    return table_.Find(WithoutNumbers(name), is_sided);
-  }
-
-  void AddSideWord(std::size_t i) {
-    const std::string& word = words_[i];
-    for (const BodySide side : kSides) {
-      const auto& words = table_.side_words(side);
-      if (std::find(words.begin(), words.end(), word) != words.end()) {
-        Add(JoinWords(words_, i), true, {{-1, side}});
-      }
-      if (word.size() == 1 && table_.side_letters(side).find(word) != std::string::npos) {
-        std::vector<std::string> counterparts;
-        for (const char letter : table_.side_letters(Other(side))) {
-          std::vector<std::string> other = words_;
-          other[i] = letter;
-          counterparts.push_back(JoinWords(other, other.size()));
-        }
-        Add(JoinWords(words_, i), true, {{-1, side}, counterparts, true});
-      }
-    }
-  }
-
-  void AddAtEnd(BodySide side, bool at_end) {
-    for (const std::string& word : table_.side_words(side)) {
-      if (whole_.size() <= word.size()) continue;
-      if (at_end ? !whole_.ends_with(word) : !whole_.starts_with(word)) continue;
-      const std::string rest =
-          at_end ? whole_.substr(0, whole_.size() - word.size()) : whole_.substr(word.size());
-      std::vector<std::string> counterparts;
-      for (const std::string& other : table_.side_words(Other(side))) {
-        counterparts.push_back(at_end ? rest + other : other + rest);
-      }
-      Add(rest, true, {{-1, side}, counterparts, at_end});
-    }
-  }
-
-  const LandmarkTable& table_;
-  std::vector<std::string> words_;
-  std::string whole_;
-  bool is_computed_ = false;
-  std::vector<Candidate> found_;
-};
 
 /// "r asis#2": another point of the same name in its file.
 bool IsCopy(const std::string& label) {
   const std::size_t mark = label.rfind('#');
   return mark != std::string::npos && mark > 0 && mark + 1 < label.size() &&
-         std::all_of(label.begin() + static_cast<std::ptrdiff_t>(mark) + 1, label.end(), IsDigit);
+         std::all_of(label.begin() + static_cast<std::ptrdiff_t>(mark) + 1, label.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Origin and axes of a segment, stored as points: "LTIO", "LTIA", "LTIL" and "LTIP".
+bool IsOfAxes(const std::string& name, const std::set<std::string>& all) {
+  constexpr std::string_view kEnds = "oalp";
+  if (name.size() != 4 || kEnds.find(name.back()) == std::string_view::npos) return false;
+  return std::all_of(kEnds.begin(), kEnds.end(),
+                     [&](char end) { return all.contains(name.substr(0, 3) + end); });
 }
 
 /// The labels of a person on their way to one meaning each.
 class LabelsOfPerson {
  public:
   LabelsOfPerson(const std::vector<std::string>& labels, const std::vector<bool>& seen,
-                 const LandmarkTable& table)
+                 const LandmarkTable& table, const std::vector<std::string>& prefix)
       : table_(table), read_(labels.size()), is_used_(labels.size(), true) {
     std::vector<LabelParser> parsers;
     std::set<std::string> all;
     for (const std::string& label : labels) {
-      parsers.emplace_back(label, table);
+      parsers.emplace_back(label, table, prefix);
       all.insert(parsers.back().whole());
     }
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (!seen.empty() && !seen[i]) is_used_[i] = false;
       if (IsCopy(labels[i])) {
         read_[i].why_left_out = "another point of the same name";
-      } else if (parsers[i].is_computed()) {
+      } else if (parsers[i].is_computed() || IsOfAxes(parsers[i].whole(), all)) {
         read_[i].why_left_out = "a computed point";
       } else {
         Take(parsers[i], all, &read_[i]);
@@ -190,9 +65,14 @@ class LabelsOfPerson {
     }
   }
 
+  int num_used() const {
+    return static_cast<int>(std::count(is_used_.begin(), is_used_.end(), true));
+  }
+
   std::vector<ReadLabel> Read() {
     TakeAloneWithoutSide();
     SortReadings(AreKeypoints());
+    PreferShownLimbs();
     TakeFree();
     LeaveOutJointsOfMarkers();
     return std::move(read_);
@@ -203,9 +83,11 @@ class LabelsOfPerson {
   /// labels have no side.
   void Take(LabelParser& parser, const std::set<std::string>& all, ReadLabel* label) {
     const std::string& whole = parser.whole();
-    const bool is_lumbar = whole.size() == 2 && whole[0] == 'l' && IsDigit(whole[1]);
-    bool has_side = false, is_alone = false;
+    const bool is_lumbar =
+        whole.size() == 2 && whole[0] == 'l' && whole[1] >= '0' && whole[1] <= '9';
+    bool has_side = false, is_attached = false, is_pair = false;
     std::vector<LabelReading> without_side;
+    std::vector<std::pair<std::size_t, LabelReading>> by_doubt;
     for (const Candidate& one : parser.Candidates()) {
       const bool is_sided = table_.landmarks()[Index(one.reading)].is_sided;
       if (!is_sided && is_lumbar && all.contains("r" + whole.substr(1))) continue;
@@ -217,14 +99,22 @@ class LabelsOfPerson {
         without_side.push_back(one.reading);
         continue;
       }
-      label->readings.push_back(one.reading);
+      const bool is_part = !others.empty();
+      constexpr std::size_t kNoPair = 100;
+      const std::size_t doubt = !is_part ? 0 : has_other ? one.side_length : kNoPair;
+      by_doubt.emplace_back(doubt, one.reading);
       has_side |= is_sided;
-      is_alone |= !others.empty() && !has_other;
+      is_attached |= is_part;
+      is_pair |= has_other;
     }
+    // LIEL, beside RIEL, is no left EL.
+    std::stable_sort(by_doubt.begin(), by_doubt.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [unused, reading] : by_doubt) label->readings.push_back(reading);
     if (!has_side && label->readings.empty()) {
       if (!without_side.empty()) ++num_without_side_;
       label->readings = std::move(without_side);
-    } else if (is_alone && !without_side.empty()) {
+    } else if (is_attached && !is_pair && !without_side.empty()) {
       alone_.emplace_back(label, without_side);
     }
   }
@@ -270,6 +160,29 @@ class LabelsOfPerson {
                          const bool b_is_joint = KindOf(b) == LandmarkKind::kJoint;
                          return a_is_joint != b_is_joint && a_is_joint == are_keypoints;
                        });
+    }
+  }
+
+  /// Arms or legs that no other label names are not there.
+  void PreferShownLimbs() {
+    const auto is_of = [&](const LabelReading& one, Limbs limbs) {
+      return LimbsOf(table_.landmarks()[Index(one)].part) == limbs;
+    };
+    const auto count = [&](Limbs limbs) {
+      int labels = 0;
+      for (std::size_t i = 0; i < read_.size(); ++i) {
+        const auto& readings = read_[i].readings;
+        labels += is_used_[i] && std::all_of(readings.begin(), readings.end(),
+                                             [&](const auto& one) { return is_of(one, limbs); });
+      }
+      return labels;
+    };
+    const int arms = count(Limbs::kArms), legs = count(Limbs::kLegs);
+    if ((arms == 0) == (legs == 0)) return;
+    const Limbs absent = arms == 0 ? Limbs::kArms : Limbs::kLegs;
+    for (ReadLabel& label : read_) {
+      std::stable_partition(label.readings.begin(), label.readings.end(),
+                            [&](const auto& one) { return !is_of(one, absent); });
     }
   }
 
@@ -336,7 +249,11 @@ std::vector<LabelReading> ReadingsOf(std::string_view label, const LandmarkTable
 
 std::vector<ReadLabel> ReadLabels(const std::vector<std::string>& labels,
                                   const std::vector<bool>& seen, const LandmarkTable& table) {
-  return LabelsOfPerson(labels, seen, table).Read();
+  LabelsOfPerson person(labels, seen, table, {});
+  const std::vector<std::string> prefix = CommonPrefix(labels);
+  if (prefix.empty()) return person.Read();
+  LabelsOfPerson shortened(labels, seen, table, prefix);
+  return shortened.num_used() > person.num_used() ? shortened.Read() : person.Read();
 }
 
 }  // namespace mmm_converter

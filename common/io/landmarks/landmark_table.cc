@@ -27,6 +27,7 @@ constexpr double kFarthestLandmark = 10;  // [m]; no segment is longer
 constexpr double kSmallestSpread = 1;     // [mm]
 constexpr double kLargestSpread = 1000;   // [mm]
 constexpr std::size_t kMostSpellings = 200'000;
+constexpr const char* kNumber = "n";  // the word that stands for any
 
 std::vector<std::string> SplitWords(std::string_view text) {
   std::vector<std::string> words;
@@ -84,6 +85,14 @@ class LandmarkReader {
     words_[Text(element, "name")] = SplitWords(Text(element, "spellings"));
   }
 
+  std::vector<std::string> words() const {
+    std::vector<std::string> all;
+    for (const auto& [name, spellings] : words_) {
+      if (name != kNumber) all.insert(all.end(), spellings.begin(), spellings.end());
+    }
+    return all;
+  }
+
   void Fail(const XmlElement& element, const std::string& message) {
     diagnostics_.AddError(element.line, message);
   }
@@ -123,7 +132,7 @@ class LandmarkReader {
   }
 
   Diagnostics diagnostics_;
-  std::map<std::string, std::vector<std::string>> words_ = {{"n", {"#"}}};
+  std::map<std::string, std::vector<std::string>> words_ = {{kNumber, {"#"}}};
   std::size_t count_ = 0;
 };
 
@@ -206,6 +215,8 @@ LandmarkTable::LandmarkTable(const std::string& path) : file_(path) {
   }
   if (landmarks_.empty()) reader.Fail(root, "there is no <Landmark>");
   reader.diagnostics().ThrowIfErrors();
+  place_words_ = reader.words();
+  SortByLength(&place_words_);
   SortByLength(&left_);
   SortByLength(&right_);
 }

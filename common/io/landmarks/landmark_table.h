@@ -49,6 +49,9 @@ class LandmarkTable {
   /// Single letters that stand for sides in some languages only.
   const std::string& side_letters(BodySide side) const;
 
+  /// Spellings of all <Word>s, which tell places on landmarks; longer ones first.
+  const std::vector<std::string>& place_words() const { return place_words_; }
+
   bool IsLeftOut(const std::string& word) const { return Contains(leave_, word); }
   bool IsComputed(const std::string& word) const { return Contains(computed_, word); }
 
@@ -60,7 +63,7 @@ class LandmarkTable {
   std::unordered_map<std::string, std::vector<int>> sided_, middle_;
   std::vector<std::string> left_, right_;
   std::string left_letters_, right_letters_;
-  std::vector<std::string> leave_, computed_;
+  std::vector<std::string> leave_, computed_, place_words_;
 };
 
 /// The shipped table, read once. @throws Error as LandmarkTable.

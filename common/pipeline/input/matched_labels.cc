@@ -18,14 +18,16 @@ namespace {
 /// Null: a marker set is asked for, or knows as much, or names say too little.
 std::shared_ptr<const NamedMarkers> FindNames(const MarkerLabels& labels, const Input& input,
                                               const ConverterConfig& config) {
-  constexpr int kFewest = 4, kFewestOfObject = 8;
+  constexpr int kFewest = 4, kFewestOfLimb = 6, kFewestOfObject = 8;
   const Recording& recording = input.recording;
   const bool may_be_object = recording.mmm && !recording.mmm->is_of_person;
   const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
   if (!is_free || !input.model->is_reference) return nullptr;
   const LandmarkTable& table = ShippedLandmarks();
   NamedMarkers named = ComposeNamedMarkers(labels, *input.reference, table);
-  if (named.num_used() < (may_be_object ? kFewestOfObject : kFewest)) return nullptr;
+  const bool is_limb =
+      named.are_of_one_side() && named.num_used() + named.num_without_side() >= kFewestOfLimb;
+  if (named.num_used() < (may_be_object ? kFewestOfObject : kFewest) && !is_limb) return nullptr;
   const auto known = FindKnownSet(labels, *input.reference);
   if (known && !TellMore(named, *known, labels, table)) return nullptr;
   if (recording.markers.num_frames() > 0) {

@@ -5,169 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 
 #include "common/convert/understood_labels.h"
 #include "common/fit/posture_search.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
+#include "tests/common/convert/vocabularies.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter {
 namespace {
-
-/// The names of KIT's markers, "L" and "R" being "%" where there are sides, in a vocabulary; a
-/// marker that it does not have is not worn.
-struct Vocabulary {
-  const char* name;
-  const char* left;
-  const char* right;
-  std::map<std::string, std::string> labels;
-};
-
-const std::vector<Vocabulary>& Vocabularies() {
-  static const std::vector<Vocabulary> vocabularies = {
-      {"CAST",
-       "L_",
-       "R_",
-       {{"%FHD", "%HDF"}, {"%BHD", "%HDB"}, {"C7", "CV7"},    {"CLAV", "SNJ"},  {"STRN", "SXS"},
-        {"T10", "TV10"},  {"L3", "LV3"},    {"%SHO", "%SAJ"}, {"%AEL", "%HLE"}, {"%WTS", "%RSP"},
-        {"%WPS", "%USP"}, {"%HTS", "%HM2"}, {"%ASI", "%IAS"}, {"%PSI", "%IPS"}, {"%HIP", "%FTC"},
-        {"%KNE", "%FLE"}, {"%ANK", "%FAL"}, {"%HEE", "%FCC"}, {"%MT1", "%FM1"}, {"%MT5", "%FM5"}}},
-      {"IOR",
-       "L",
-       "R",
-       {{"C7", "C7"},
-        {"CLAV", "IJ"},
-        {"STRN", "PX"},
-        {"T10", "T10"},
-        {"L3", "L3"},
-        {"%SHO", "%A"},
-        {"%AEL", "%LHE"},
-        {"%WTS", "%RS"},
-        {"%WPS", "%US"},
-        {"%ASI", "%ASIS"},
-        {"%PSI", "%PSIS"},
-        {"%HIP", "%GT"},
-        {"%KNE", "%LFE"},
-        {"%ANK", "%LM"},
-        {"%HEE", "%CA"},
-        {"%MT1", "%FMH"},
-        {"%MT5", "%VMH"},
-        {"%FHD", "%TEMP"}}},
-      {"OpenSim",
-       "L.",
-       "R.",
-       {{"%FHD", "%Temple"},
-        {"C7", "C7"},
-        {"CLAV", "Clavicle"},
-        {"%SHO", "%Acromium"},
-        {"%AEL", "%Elbow.Lat"},
-        {"%WTS", "%Wrist.Lat"},
-        {"%WPS", "%Wrist.Med"},
-        {"%ASI", "%ASIS"},
-        {"%PSI", "%PSIS"},
-        {"%KNE", "%Knee.Lat"},
-        {"%ANK", "%Ankle.Lat"},
-        {"%HEE", "%Heel"},
-        {"%MT1", "%Toe.Med"},
-        {"%MT5", "%Toe.Lat"},
-        {"%TOE", "%Toe.Tip"},
-        {"STRN", "Xiphoid"}}},
-      {"OpenCap",
-       "L_",
-       "r_",
-       {{"C7", "C7_study"},
-        {"%SHO", "%shoulder_study"},
-        {"%AEL", "%lelbow_study"},
-        {"%WTS", "%lwrist_study"},
-        {"%WPS", "%mwrist_study"},
-        {"%ASI", "%ASIS_study"},
-        {"%PSI", "%PSIS_study"},
-        {"%KNE", "%knee_study"},
-        {"%ANK", "%ankle_study"},
-        {"%HEE", "%calc_study"},
-        {"%MT5", "%5meta_study"},
-        {"%MT1", "%1meta_study"}}},
-      {"Motive",
-       "L",
-       "R",
-       {{"%FHD", "%HeadFront"},
-        {"C7", "BackTop"},
-        {"CLAV", "ChestTop"},
-        {"STRN", "ChestLow"},
-        {"%SHO", "%ShoulderTop"},
-        {"%AEL", "%ElbowOut"},
-        {"%WTS", "%WristIn"},
-        {"%WPS", "%WristOut"},
-        {"%HTS", "%HandIn"},
-        {"%ASI", "Waist%Front"},
-        {"%PSI", "Waist%Back"},
-        {"%KNE", "%KneeOut"},
-        {"%ANK", "%AnkleOut"},
-        {"%HEE", "%Heel"},
-        {"%MT1", "%ToeIn"},
-        {"%MT5", "%ToeOut"},
-        {"%TOE", "%ToeTip"}}},
-      {"Xsens",
-       "Left",
-       "Right",
-       {{"C7", "pC7SpinalProcess"},
-        {"CLAV", "pIJ"},
-        {"STRN", "pPX"},
-        {"%SHO", "p%Acromion"},
-        {"%AEL", "p%ArmLatEpicondyle"},
-        {"%AOL", "p%Olecranon"},
-        {"%WTS", "p%RadialStyloid"},
-        {"%WPS", "p%UlnarStyloid"},
-        {"%ASI", "p%ASI"},
-        {"%PSI", "p%PSI"},
-        {"%HIP", "p%GreaterTrochanter"},
-        {"%KNE", "p%KneeLatEpicondyle"},
-        {"%ANK", "p%LatMalleolus"},
-        {"%HEE", "p%HeelFoot"},
-        {"%MT1", "p%FirstMetatarsal"},
-        {"%MT5", "p%FifthMetatarsal"}}},
-      {"French",
-       "gauche",
-       "droite",
-       {{"C7", "Anna:C7"},
-        {"CLAV", "Anna:CLAV"},
-        {"STRN", "Anna:XIPH"},
-        {"T10", "Anna:T10"},
-        {"%SHO", "Anna:acromion_%"},
-        {"%AEL", "Anna:coude_lat_%"},
-        {"%WTS", "Anna:styl_rad %"},
-        {"%WPS", "Anna:ulna_%"},
-        {"%ASI", "Anna:EIAS_%"},
-        {"%PSI", "Anna:EIPS_%"},
-        {"%KNE", "Anna:genou_%"},
-        {"%ANK", "Anna:cheville_%"},
-        {"%HEE", "Anna:talon_%"},
-        {"%MT1", "Anna:MT1_%"},
-        {"%MT5", "Anna:MT5_%"}}},
-      {"Rajagopal",
-       "L",
-       "R",
-       {{"%FHD", "%FHD"},
-        {"%BHD", "%BHD"},
-        {"C7", "C7"},
-        {"CLAV", "CLAV"},
-        {"%SHO", "%ACR"},
-        {"%AEL", "%LEL"},
-        {"%WTS", "%FAradius"},
-        {"%WPS", "%FAulna"},
-        {"%ASI", "%ASI"},
-        {"%PSI", "%PSI"},
-        {"%KNE", "%LFC"},
-        {"%ANK", "%LMAL"},
-        {"%HEE", "%CAL"},
-        {"%MT5", "%MT5"},
-        {"%MT1", "%MT1"}}}};
-  return vocabularies;
-}
 
 enum class BodyPart { kFull, kLegs, kThoraxAndLegs, kUpperBody };
 
@@ -337,6 +186,22 @@ TEST_F(NamedPersons, WhoseThighsWearClustersAloneAreBelieved) {
     for (const NamedLabel& one : named.labels) {
       EXPECT_FALSE(one.is_contradicted) << seed << " " << one.label << ": " << one.note;
       EXPECT_FALSE(one.marker.empty()) << seed << " " << one.label << ": " << one.note;
+    }
+  }
+}
+
+// "THA" is a thigh to some, the upper front of a tibia to others.
+TEST_F(NamedPersons, WhoseClustersCanBeOfTwoSegmentsWearThemOnTheNearer) {
+  Vocabulary vocabulary = Vocabularies()[0];
+  vocabulary.labels["%TIP"] = "%THA";
+  std::vector<std::string> kit;
+  const MarkerSequence legs = Rename(Record(21), vocabulary, BodyPart::kLegs, &kit);
+  const NamedMarkers named =
+      UnderstandLabels(LabelsOf(legs), legs, reference_, table_, {joints_, true});
+  for (const NamedLabel& one : named.labels) {
+    EXPECT_FALSE(one.is_contradicted) << one.label << ": " << one.note;
+    if (one.label == "L_THA") {
+      EXPECT_EQ(one.part, "left shank");
     }
   }
 }

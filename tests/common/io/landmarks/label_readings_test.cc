@@ -52,6 +52,11 @@ TEST(LabelReadings, LettersAtTheEndNeedTheOtherSide) {
   EXPECT_THAT(Meanings({"HeelL", "HeelR"}), ElementsAre("left heel", "right heel"));
   EXPECT_THAT(Meanings({"heel_g", "heel_d"}), ElementsAre("left heel", "right heel"));
   EXPECT_THAT(Meanings({"heel_g"}), ElementsAre("-"));
+  EXPECT_THAT(Meanings({"MLG", "MLD", "EASG", "EASD"}),
+              ElementsAre("left lateral malleolus", "right lateral malleolus",
+                          "left anterior iliac spine", "right anterior iliac spine"));
+  EXPECT_THAT(Meanings({"EASG"}), ElementsAre("-"));
+  EXPECT_THAT(Meanings({"FRTHI", "FLTHI"}), ElementsAre("right thigh", "left thigh"));
   EXPECT_THAT(Meanings({"RKNEL"}), ElementsAre("right lateral epicondyle of the femur"));
 }
 
@@ -71,6 +76,45 @@ TEST(LabelReadings, LettersOfNamesAreNoSides) {
   EXPECT_THAT(Meanings({"L3", "R3"}), ElementsAre("-", "-"));
   EXPECT_THAT(Meanings({"LK", "LN", "LQ", "x52", "Marker7", "U12", "*3", ""}),
               ElementsAre("-", "-", "-", "-", "-", "-", "-", "-"));
+}
+
+// "LI" is left in German only where the other side is "RE".
+TEST(LabelReadings, PairsTellWhichLettersAreTheSide) {
+  EXPECT_THAT(
+      Meanings({"LIEL", "RIEL", "LIWR", "RIWR"}),
+      ElementsAre("left medial epicondyle of the humerus", "right medial epicondyle of the humerus",
+                  "left radial styloid", "right radial styloid"));
+  EXPECT_THAT(Meanings({"LIELB", "REELB"}), ElementsAre("left lateral epicondyle of the humerus",
+                                                        "right lateral epicondyle of the humerus"));
+  EXPECT_THAT(Meanings({"LTIC", "RTIC"}), ElementsAre("left shank", "right shank"));
+}
+
+TEST(LabelReadings, WordsOfPlaceLeaveTheSegment) {
+  EXPECT_THAT(
+      Meanings({"L.Thigh.Post.Sup", "R.Shank.Bottom.Lateral", "R_TH_CLUS1", "LeftThighCap"}),
+      ElementsAre("left thigh", "right shank", "right thigh", "-"));
+}
+
+TEST(LabelReadings, WhatAllNamesBeginWithTellsNothing) {
+  EXPECT_THAT(Meanings({"w1_Ann_LASI", "w1_Ann_RASI", "w1_Ann_C7", "w1_Ann_RKnee"}),
+              ElementsAre("left anterior iliac spine", "right anterior iliac spine",
+                          "seventh cervical vertebra", "right lateral epicondyle of the femur"));
+  EXPECT_THAT(
+      Meanings({"Knee_L_lat", "Knee_L_med", "Knee_R_lat", "Knee_R_med"}),
+      ElementsAre("left lateral epicondyle of the femur", "left medial epicondyle of the femur",
+                  "right lateral epicondyle of the femur", "right medial epicondyle of the femur"));
+}
+
+TEST(LabelReadings, OriginAndAxesOfASegmentAreNoMarkers) {
+  EXPECT_THAT(Meanings({"LTIO", "LTIA", "LTIL", "LTIP", "RTIP"}),
+              ElementsAre("-", "-", "-", "-", "right shank"));
+}
+
+// Epicondyles are those of the limbs that other labels name.
+TEST(LabelReadings, LimbsThatNothingNamesAreAbsent) {
+  EXPECT_EQ(Meanings({"LLE", "LLM", "LHEE"})[0], "left lateral epicondyle of the femur");
+  EXPECT_EQ(Meanings({"LLE", "LRSP", "LUSP"})[0], "left lateral epicondyle of the humerus");
+  EXPECT_EQ(Meanings({"LLEP", "LLFC", "LRSP"})[0], "left lateral epicondyle of the humerus");
 }
 
 // Of one arm without sides, LARM is no left one.
@@ -199,6 +243,24 @@ TEST(LabelReadings, PublishedSetsAreUnderstood) {
        {"pelvis", "left_hip", "right_hip", "spine1", "left_knee", "spine2", "left_ankle", "spine3",
         "left_foot", "neck", "left_collar", "head", "left_shoulder", "left_elbow", "left_wrist",
         "left_hand"}},
+      {"Human Body Model",
+       {"LGTRO", "LLEK", "LLM", "LLEE", "LMEE", "LLW", "LMW", "XYPH", "NAVE", "LDELT", "FRTHI",
+        "FLTHI", "RATI", "THEAD", "FHEAD", "BBAC"}},
+      {"RRIS40",
+       {"RTEMP", "RHEAD", "RACR", "RHLE", "RHME", "RRSP", "RUSP", "RCAP", "RHMC2", "RFLE", "RFME",
+        "RTAM", "RFAL", "RFCC", "RFMT1", "RFMT5", "STER", "XPRO"}},
+      {"Oxford foot",
+       {"LHFB", "LTUB", "LSHN", "LMMA", "LPCA", "LLCA", "LSTL", "LP1M", "LP5M", "LD1M", "LD5M",
+        "LHLX", "LKNM"}},
+      {"Shogun",
+       {"ARIEL", "LFSH", "LBSH", "LIEL", "LIWR", "LOWR", "LIHAND", "LOHAND", "LFWT", "LBWT", "MBWT",
+        "LKNI", "LHEL", "LRSTBEEF"}},
+      {"French segments",
+       {"CLD",  "CMD",  "TFIBD", "FHAD", "THAD",   "MT5D", "CALD", "ACD",   "BHPD", "ELD",   "EMD",
+        "PSRD", "PSUD", "MC2D",  "COTD", "SCAPDH", "CLG",  "CMG",  "TFIBG", "FHAG", "THAG",  "MT5G",
+        "CALG", "ACG",  "BHPG",  "ELG",  "EMG",    "PSRG", "PSUG", "MC2G",  "COTG", "SCAPGH"}},
+      {"Azure Kinect",
+       {"PELVIS", "SPINE_NAVEL", "CLAVICLE_LEFT", "HAND_LEFT", "HANDTIP_LEFT", "KNEE_LEFT"}},
       {"MediaPipe",
        {"nose", "left_eye_inner", "left_eye", "left_eye_outer", "left_ear", "mouth_left",
         "left_shoulder", "left_elbow", "left_wrist", "left_pinky", "left_index", "left_thumb",

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/io/landmarks/label_readings.h"
+
+namespace mmm_converter {
+
+/// A meaning of a label, and what it needs to be right.
+struct Candidate {
+  LabelReading reading;
+  /// Names of the same on the other side; empty: it has no side, or a word says it.
+  std::vector<std::string> counterparts = {};
+  bool needs_counterpart = false;  ///< else it is wrong
+  std::size_t side_length = 0;     ///< of what says it, where that is a part of a word
+};
+
+/// Finds what a label can mean, and what that needs.
+class LabelParser {
+ public:
+  /// prefix: words that all names of a file begin with, of no meaning here.
+  LabelParser(std::string_view label, const LandmarkTable& table,
+              const std::vector<std::string>& prefix = {});
+
+  bool is_computed() const { return is_computed_; }
+  /// The name without what tells nothing, in small letters and digits.
+  const std::string& whole() const { return whole_; }
+
+  std::vector<Candidate> Candidates();
+
+ private:
+  void AddAll();
+  void Add(const std::string& name, bool is_sided, Candidate candidate);
+  std::vector<int> Meanings(const std::string& name, bool is_sided) const;
+  /// Where on a segment a marker of a cluster is worn may be said in any words: "thighpostsup2".
+  std::vector<int> SegmentsOf(const std::string& name, bool is_sided, int num_words) const;
+  void AddSideWord(std::size_t i);
+  void AddAtEnd(BodySide side, bool at_end);
+  /// "MLG" and "MLD".
+  void AddLetterAtEnd(BodySide side);
+  /// "FRTHI" and "FLTHI".
+  void AddLetterInside();
+  /// Single letters that stand for a side in any language.
+  std::string LettersOf(BodySide side) const;
+
+  const LandmarkTable& table_;
+  std::vector<std::string> words_;
+  std::string whole_;
+  bool is_computed_ = false;
+  bool only_segments_ = false;  ///< whatever more their names say
+  std::vector<Candidate> found_;
+};
+
+/// Words that nearly all names begin with, as "Body_RKnee" and "251112_KUO_LASI".
+std::vector<std::string> CommonPrefix(const std::vector<std::string>& labels);
+
+}  // namespace mmm_converter
