@@ -85,8 +85,9 @@ std::vector<Candidate> LabelParser::Candidates() {
   AddAll();
   if (found_.empty()) AddLetterInside();
   if (found_.empty()) {
-    only_segments_ = true;
+    looking_ = Looking::kAtSegments;
     AddAll();
+    looking_ = Looking::kAnywhere;
   }
   if (found_.empty()) {
     for (const int landmark : table_.Find(WithoutNumbers(whole_), false)) {
@@ -94,6 +95,23 @@ std::vector<Candidate> LabelParser::Candidates() {
     }
   }
   return std::move(found_);
+}
+
+std::vector<LabelReading> LabelParser::Bones() {
+  if (whole_.empty() || is_computed_) return {};
+  found_.clear();
+  looking_ = Looking::kAtBones;
+  AddAll();
+  looking_ = Looking::kAnywhere;
+  std::vector<LabelReading> bones;
+  for (const Candidate& one : found_) {
+    const bool is_sided =
+        table_.landmarks()[static_cast<std::size_t>(one.reading.landmark)].is_sided;
+    const bool has_side = one.reading.side != BodySide::kNone;
+    if (!one.needs_counterpart && is_sided == has_side) bones.push_back(one.reading);
+  }
+  found_.clear();
+  return bones;
 }
 
 void LabelParser::AddAll() {
@@ -114,7 +132,8 @@ void LabelParser::Add(const std::string& name, bool is_sided, Candidate candidat
 }
 
 std::vector<int> LabelParser::Meanings(const std::string& name, bool is_sided) const {
-  if (only_segments_) return SegmentsOf(name, is_sided, 0);
+  if (looking_ == Looking::kAtSegments) return SegmentsOf(name, is_sided, 0);
+  if (looking_ == Looking::kAtBones) return table_.FindBone(name, is_sided);
   std::vector<int> exact = table_.Find(name, is_sided);
   if (!exact.empty() || !is_sided) return exact;
   return table_.Find(WithoutNumbers(name), is_sided);

@@ -31,6 +31,8 @@ class LabelParser {
   const std::string& whole() const { return whole_; }
 
   std::vector<Candidate> Candidates();
+  /// What it means if it is the name of a skeleton's bone: the joint that this begins at.
+  std::vector<LabelReading> Bones();
 
  private:
   void AddAll();
@@ -51,7 +53,8 @@ class LabelParser {
   std::vector<std::string> words_;
   std::string whole_;
   bool is_computed_ = false;
-  bool only_segments_ = false;  ///< whatever more their names say
+  enum class Looking { kAnywhere, kAtSegments, kAtBones };
+  Looking looking_ = Looking::kAnywhere;
   std::vector<Candidate> found_;
 };
 

@@ -62,6 +62,7 @@ class LabelsOfPerson {
         Take(parsers[i], all, &read_[i]);
       }
       if (read_[i].readings.empty()) is_used_[i] = false;
+      bones_.push_back(parsers[i].Bones());
     }
   }
 
@@ -71,6 +72,7 @@ class LabelsOfPerson {
 
   std::vector<ReadLabel> Read() {
     TakeAloneWithoutSide();
+    if (AreBones()) TakeBones();
     SortReadings(AreKeypoints());
     PreferShownLimbs();
     TakeFree();
@@ -135,6 +137,32 @@ class LabelsOfPerson {
   bool HasKind(const ReadLabel& label, LandmarkKind kind) const {
     return std::any_of(label.readings.begin(), label.readings.end(),
                        [&](const auto& reading) { return KindOf(reading) == kind; });
+  }
+
+  /// Names of a skeleton's bones, one point each, and none of what markers are put on.
+  bool AreBones() const {
+    constexpr int kFewest = 8;
+    std::set<std::pair<int, BodySide>> sided;
+    int bones = 0;
+    for (std::size_t i = 0; i < read_.size(); ++i) {
+      if (!is_used_[i]) continue;
+      const LabelReading& marker = read_[i].readings[0];
+      const Landmark& landmark = table_.landmarks()[Index(marker)];
+      if (bones_[i].empty()) {
+        const bool is_limb = LimbsOf(landmark.part) != Limbs::kNone && landmark.part != "foot";
+        if (is_limb || (landmark.part == "pelvis" && landmark.is_sided)) return false;
+      } else if (landmark.is_sided) {
+        ++bones;
+        sided.emplace(bones_[i][0].landmark, bones_[i][0].side);
+      }
+    }
+    return bones >= kFewest && static_cast<int>(sided.size()) == bones;
+  }
+
+  void TakeBones() {
+    for (std::size_t i = 0; i < read_.size(); ++i) {
+      if (!bones_[i].empty() && is_used_[i]) read_[i].readings = bones_[i];
+    }
   }
 
   /// Joints by name, and nothing that only a marker can be on but the head and the feet.
@@ -232,6 +260,7 @@ class LabelsOfPerson {
   const LandmarkTable& table_;
   std::vector<ReadLabel> read_;
   std::vector<bool> is_used_;
+  std::vector<std::vector<LabelReading>> bones_;  ///< what labels mean as names of bones
   int num_without_side_ = 0;  ///< labels that tell the side of no sided landmark
   /// Whose side may be a part of their name, and what they mean then.
   std::vector<std::pair<ReadLabel*, std::vector<LabelReading>>> alone_;

@@ -138,7 +138,7 @@ class LandmarkReader {
 
 Landmark ReadLandmark(const XmlElement& element, LandmarkReader* reader) {
   reader->Check(element, {"name", "kind", "part", "sided", "marker", "segment", "x_mm", "y_mm",
-                          "z_mm", "deviation_mm"});
+                          "z_mm", "deviation_mm", "bones"});
   Landmark landmark;
   landmark.name = reader->Text(element, "name");
   landmark.part = reader->Text(element, "part");
@@ -207,6 +207,9 @@ LandmarkTable::LandmarkTable(const std::string& path) : file_(path) {
         std::vector<int>& meanings = spellings[one];
         if (meanings.empty() || meanings.back() != index) meanings.push_back(index);
       }
+      const std::string* bones = child.FindAttribute("bones");
+      auto& of_bones = landmarks_.back().is_sided ? sided_bones_ : middle_bones_;
+      for (const auto& bone : SplitWords(bones ? *bones : "")) of_bones[bone].push_back(index);
     } else {
       reader.Fail(child, fmt::format("<{}>: only <Side>, <Leave>, <Computed>, <Word> and "
                                      "<Landmark> are allowed here",
@@ -221,11 +224,18 @@ LandmarkTable::LandmarkTable(const std::string& path) : file_(path) {
   SortByLength(&right_);
 }
 
-const std::vector<int>& LandmarkTable::Find(const std::string& spelling, bool is_sided) const {
+const std::vector<int>& LandmarkTable::Find(const Meanings& meanings, const std::string& spelling) {
   static const std::vector<int> none;
-  const auto& spellings = is_sided ? sided_ : middle_;
-  const auto found = spellings.find(spelling);
-  return found == spellings.end() ? none : found->second;
+  const auto found = meanings.find(spelling);
+  return found == meanings.end() ? none : found->second;
+}
+
+const std::vector<int>& LandmarkTable::Find(const std::string& spelling, bool is_sided) const {
+  return Find(is_sided ? sided_ : middle_, spelling);
+}
+
+const std::vector<int>& LandmarkTable::FindBone(const std::string& spelling, bool is_sided) const {
+  return Find(is_sided ? sided_bones_ : middle_bones_, spelling);
 }
 
 const std::vector<std::string>& LandmarkTable::side_words(BodySide side) const {

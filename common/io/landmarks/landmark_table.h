@@ -44,6 +44,9 @@ class LandmarkTable {
   /// of the file.
   const std::vector<int>& Find(const std::string& spelling, bool is_sided) const;
 
+  /// The joints that a bone of that name begins at; a skeleton's bone has the name of a segment.
+  const std::vector<int>& FindBone(const std::string& spelling, bool is_sided) const;
+
   /// Words for left and right; longer ones first.
   const std::vector<std::string>& side_words(BodySide side) const;
   /// Single letters that stand for sides in some languages only.
@@ -56,11 +59,13 @@ class LandmarkTable {
   bool IsComputed(const std::string& word) const { return Contains(computed_, word); }
 
  private:
+  using Meanings = std::unordered_map<std::string, std::vector<int>>;
+  static const std::vector<int>& Find(const Meanings& meanings, const std::string& spelling);
   static bool Contains(const std::vector<std::string>& words, const std::string& word);
 
   std::string file_;
   std::vector<Landmark> landmarks_;
-  std::unordered_map<std::string, std::vector<int>> sided_, middle_;
+  Meanings sided_, middle_, sided_bones_, middle_bones_;
   std::vector<std::string> left_, right_;
   std::string left_letters_, right_letters_;
   std::vector<std::string> leave_, computed_, place_words_;

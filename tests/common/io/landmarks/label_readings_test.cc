@@ -140,6 +140,21 @@ TEST(LabelReadings, NamesOfJointsAreKeypointsWhereNothingIsOnTheSkinAlone) {
   EXPECT_EQ(Meanings(markers)[5], "left greater trochanter");
 }
 
+// Bones begin at joints; a skeleton has no knees.
+TEST(LabelReadings, NamesOfBonesAreJointsWhereNothingElseIsOnLimbs) {
+  std::vector<std::string> bones = {"Hips", "Spine", "Neck", "Head"};
+  for (const std::string side : {"Left", "Right"}) {
+    for (const char* bone : {"UpLeg", "Leg", "Foot", "Arm", "ForeArm", "Hand", "Shoulder"}) {
+      bones.push_back(side + bone);
+    }
+  }
+  EXPECT_EQ(Meanings(bones)[5], "left centre of the knee joint");
+  EXPECT_EQ(Meanings(bones)[9], "left centre of the wrist joint");
+  EXPECT_EQ(Meanings(bones)[17], "right collar");
+  bones.emplace_back("LeftKnee");
+  EXPECT_EQ(Meanings(bones)[5], "left shank");
+}
+
 TEST(LabelReadings, WhatIsComputedIsLeftOut) {
   const std::vector<std::string> labels = {"LLFC",        "LMFC",         "LKJC", "RKJC",
                                            "LKneeAngles", "CentreOfMass", "LASI", "RASI",
