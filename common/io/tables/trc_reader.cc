@@ -50,9 +50,35 @@ TrcHeader ReadHeader(std::string_view keys_line, std::string_view values_line) {
   return header;
 }
 
+/// "LASI_X" is LASI, as are "LASI_Y" and "LASI_Z"; empty: it does not name that coordinate.
+std::string_view NameOfCoordinate(std::string_view cell, char coordinate) {
+  constexpr std::string_view kSeparators = "_.-: ";
+  if (cell.size() < 3 || (cell.back() | 0x20) != coordinate) return {};
+  cell.remove_suffix(1);
+  if (kSeparators.find(cell.back()) == std::string_view::npos) return {};
+  return cell.substr(0, cell.size() - 1);
+}
+
+/// Names that stand over each of their coordinates; none, where they do not.
+MarkerColumns ReadNamesOfCoordinates(const std::vector<std::string_view>& cells) {
+  MarkerColumns columns;
+  for (std::size_t i = kFirstLabelColumn; i < cells.size(); i += 3) {
+    if (cells[i].empty()) break;
+    const std::string_view name = NameOfCoordinate(cells[i], 'x');
+    const bool is_whole = i + 2 < cells.size() && !name.empty() &&
+                          NameOfCoordinate(cells[i + 1], 'y') == name &&
+                          NameOfCoordinate(cells[i + 2], 'z') == name;
+    if (!is_whole) return {};
+    columns.Add(name, i);
+  }
+  return columns;
+}
+
 /// Names and where their x stands. Names belong to every third column; some files list them
 /// densely.
 MarkerColumns ReadLabels(const std::vector<std::string_view>& cells) {
+  MarkerColumns of_coordinates = ReadNamesOfCoordinates(cells);
+  if (!of_coordinates.labels.empty()) return of_coordinates;
   std::size_t in_place = 0;
   std::vector<std::size_t> named;
   for (std::size_t i = kFirstLabelColumn; i < cells.size(); ++i) {

@@ -128,6 +128,23 @@ TEST(TrcReader, MarkersWithoutLabelsAreCalledByNumber) {
   }
 }
 
+TEST(TrcReader, NamesMayStandOverEachCoordinate) {
+  const std::string head = "PathFileType\t4\t(X/Y/Z)\ta.trc\n";
+  const MarkerTable trc = ParseTrc(head +
+                                       "Frame#\tTime\tLASI_X\tLASI_Y\tLASI_Z\tC7.x\tC7.y\tC7.z\n\n"
+                                       "1\t0\tnan\tnan\tnan\t4\t5\t6\n2\t0.01\t1\t2\t3\t4\t5\t7\n",
+                                   "a.trc", nullptr);
+  EXPECT_EQ(trc.markers.labels(), (std::vector<std::string>{"LASI", "C7"}));
+  EXPECT_EQ(trc.markers.frame(1)(2, 0), 3);
+  EXPECT_EQ(trc.markers.frame(1)(2, 1), 7);
+  const MarkerTable dense =
+      ParseTrc(head +
+                   "Frame#\tTime\tLow_X\tTop_Y\tMid_Z\n1\t0\t1\t2\t3\t4\t5\t6\t7\t8\t9\n"
+                   "2\t0.01\t1\t2\t3\t4\t5\t6\t7\t8\t9\n",
+               "a.trc", nullptr);
+  EXPECT_EQ(dense.markers.labels(), (std::vector<std::string>{"Low_X", "Top_Y", "Mid_Z"}));
+}
+
 TEST(TrcReader, FramesThatAreMissingAreAGap) {
   Warnings warnings;
   const MarkerTable trc = ParseTrc(
