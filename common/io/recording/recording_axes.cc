@@ -42,10 +42,12 @@ struct Box {
   int seen = 0;
 };
 
-Box BoxOf(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
+/// without: by label; empty: none is left out.
+Box BoxOf(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std::vector<bool>& without = {}) {
   Box box;
   for (int i = 0; i < frame.cols(); ++i) {
     if (!IsSeen(frame.col(i))) continue;
+    if (!without.empty() && without[static_cast<std::size_t>(i)]) continue;
     box.low = box.low.min(frame.col(i).array());
     box.high = box.high.max(frame.col(i).array());
     ++box.seen;
@@ -55,10 +57,10 @@ Box BoxOf(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
 
 /// Median over frames of the diagonal of the box around all markers [file units]; 0: no frame has
 /// three.
-double SizeOf(const MarkerSequence& markers) {
+double SizeOf(const MarkerSequence& markers, const std::vector<bool>& without) {
   std::vector<double> sizes;
   for (const int k : SampleFrames(markers)) {
-    const Box box = BoxOf(markers.frame(k));
+    const Box box = BoxOf(markers.frame(k), without);
     if (box.seen >= 3) sizes.push_back((box.high - box.low).matrix().norm());
   }
   return sizes.empty() ? 0 : Quantile(std::move(sizes), 0.5);
@@ -100,9 +102,10 @@ Eigen::Vector3d Mean(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std:
 /// From low to high markers in each sampled frame, from the best pair of regions that is there.
 std::vector<Eigen::Vector3d> BodyAxes(const MarkerSequence& markers) {
   constexpr std::pair<BodyRegion, BodyRegion> kHighLow[] = {
-      {BodyRegion::kHead, BodyRegion::kFeet},   {BodyRegion::kShoulders, BodyRegion::kFeet},
-      {BodyRegion::kHead, BodyRegion::kPelvis}, {BodyRegion::kShoulders, BodyRegion::kPelvis},
-      {BodyRegion::kPelvis, BodyRegion::kFeet}, {BodyRegion::kShoulders, BodyRegion::kThorax}};
+      {BodyRegion::kHead, BodyRegion::kFeet},       {BodyRegion::kShoulders, BodyRegion::kFeet},
+      {BodyRegion::kHead, BodyRegion::kPelvis},     {BodyRegion::kShoulders, BodyRegion::kPelvis},
+      {BodyRegion::kPelvis, BodyRegion::kFeet},     {BodyRegion::kHead, BodyRegion::kThorax},
+      {BodyRegion::kShoulders, BodyRegion::kThorax}};
   const auto regions = BodyRegionsOf(markers.labels());
   const std::vector<int> frames = SampleFrames(markers);
   std::vector<Eigen::Vector3d> best;
@@ -238,11 +241,13 @@ UnitDecision ParseUnit(const std::string& text) {
 }
 
 UnitDecision DecideUnit(const MarkerSequence& markers, const std::string& said) {
-  const double size = SizeOf(markers);
   const auto regions = BodyRegionsOf(markers.labels());
-  const int known = static_cast<int>(std::count_if(
-      regions.begin(), regions.end(), [](const auto& region) { return region.has_value(); }));
-  const bool person = known >= 8;
+  std::vector<bool> unknown(regions.size());
+  std::transform(regions.begin(), regions.end(), unknown.begin(),
+                 [](const auto& region) { return !region.has_value(); });
+  const bool person = std::count(unknown.begin(), unknown.end(), false) >= 8;
+  // Things beside a person may be far off.
+  const double size = SizeOf(markers, person ? unknown : std::vector<bool>{});
   const auto plausible = [&](double metres) {
     return person ? size * metres >= 0.5 && size * metres <= 3
                   : size * metres >= 0.02 && size * metres <= 10;

@@ -171,6 +171,16 @@ TEST(Recording, WeighsWhatIsSaidOfUpAgainstTheMarkers) {
   EXPECT_THAT(decision.warning, HasSubstr("+z is taken"));
 }
 
+// A head above a thorax tells more than shoulders behind it; a wheelchair's wheels are far off.
+TEST(Recording, AnUpperBodyTellsItsAxisAndUnitBesideOtherThings) {
+  MarkerSequence upper({"C7", "T10", "STRN", "CLAV", "LFHD", "RFHD", "LSHO", "RSHO", "wheel"}, 1,
+                       100, 0);
+  upper.frame(0) << 0, 0, 0.1, 0.1, 0.1, 0.1, -0.2, -0.2, 4,  //
+      0.2, 0, 0, 0.2, 0.3, 0.3, 0.15, 0.15, -1, 0, 0, 0, 0, 0.1, -0.1, 0.2, -0.2, 0;
+  EXPECT_EQ(DecideUpAxis(upper, 1, {}).axis, UpAxis::kY);
+  EXPECT_FALSE(DecideUnit(upper, "m").is_doubtful);
+}
+
 TEST(Recording, AnUnusualUpAxisIsOneWithGround) {
   MarkerSequence markers = Acrobat(0, UpAxis::kX);
   UpAxisDecision decision = DecideUpAxis(markers, 1, {.usual = {UpAxis::kZ}});
