@@ -8,6 +8,7 @@
 namespace mmm_converter {
 namespace {
 
+constexpr int kMostPlaceWords = 4;
 constexpr std::size_t kLongestName = 60;  // names of landmarks are shorter
 constexpr BodySide kSides[] = {BodySide::kLeft, BodySide::kRight};
 
@@ -83,7 +84,8 @@ LabelParser::LabelParser(std::string_view label, const LandmarkTable& table,
 std::vector<Candidate> LabelParser::Candidates() {
   if (whole_.empty() || is_computed_) return {};
   AddAll();
-  if (found_.empty()) AddLetterInside();
+  for (std::size_t at = 1; at + 1 < whole_.size() && found_.empty(); ++at) AddLetter(at);
+  if (found_.empty()) AddBesideSegment();
   if (found_.empty()) {
     looking_ = Looking::kAtSegments;
     AddAll();
@@ -119,7 +121,7 @@ void LabelParser::AddAll() {
   for (std::size_t i = 0; i < words_.size() && words_.size() > 1; ++i) AddSideWord(i);
   for (const BodySide side : kSides) AddAtEnd(side, false);
   for (const BodySide side : kSides) AddAtEnd(side, true);
-  for (const BodySide side : kSides) AddLetterAtEnd(side);
+  AddLetter(whole_.size() - 1);
   Add(whole_, true, {});
 }
 
@@ -141,14 +143,13 @@ std::vector<int> LabelParser::Meanings(const std::string& name, bool is_sided) c
 
 std::vector<int> LabelParser::SegmentsOf(const std::string& name, bool is_sided,
                                          int num_words) const {
-  constexpr int kMostWords = 4;
   constexpr std::size_t kShortest = 3;  // shorter ones are parts of other words
   std::vector<int> segments;
   for (const int landmark : table_.Find(name, is_sided)) {
     const auto kind = table_.landmarks()[static_cast<std::size_t>(landmark)].kind;
     if (kind == LandmarkKind::kSegment) segments.push_back(landmark);
   }
-  if (!segments.empty() || num_words == kMostWords) return segments;
+  if (!segments.empty() || num_words == kMostPlaceWords) return segments;
   const std::size_t number = name.find_last_not_of("0123456789") + 1;
   if (number > 0 && number < name.size()) {
     return SegmentsOf(name.substr(0, number), is_sided, num_words + 1);
@@ -198,29 +199,44 @@ void LabelParser::AddAtEnd(BodySide side, bool at_end) {
   }
 }
 
-void LabelParser::AddLetterAtEnd(BodySide side) {
-  if (whole_.size() < 2 || table_.side_letters(side).find(whole_.back()) == std::string::npos) {
-    return;
+void LabelParser::AddLetter(std::size_t at) {
+  const std::string before = whole_.substr(0, at), after = whole_.substr(at + 1);
+  for (const BodySide side : kSides) {
+    if (LettersOf(side).find(whole_[at]) == std::string::npos) continue;
+    std::vector<std::string> counterparts;
+    for (const char letter : LettersOf(Other(side))) {
+      counterparts.push_back(before + letter + after);
+    }
+    Add(before + after, true, {{-1, side}, counterparts, true, 1});
   }
-  const std::string rest = whole_.substr(0, whole_.size() - 1);
-  std::vector<std::string> counterparts;
-  for (const char letter : table_.side_letters(Other(side))) counterparts.push_back(rest + letter);
-  Add(rest, true, {{-1, side}, counterparts, true, 1});
 }
 
-void LabelParser::AddLetterInside() {
-  for (std::size_t at = 1; at + 1 < whole_.size(); ++at) {
-    for (const BodySide side : kSides) {
-      const std::string letters = LettersOf(side);
-      if (letters.find(whole_[at]) == std::string::npos) continue;
-      const std::string before = whole_.substr(0, at), after = whole_.substr(at + 1);
-      std::vector<std::string> counterparts;
-      for (const char letter : LettersOf(Other(side))) {
-        counterparts.push_back(before + letter + after);
-      }
-      Add(before + after, true, {{-1, side}, counterparts, true, 1});
-    }
+std::string LabelParser::PartOf(const std::string& word) const {
+  for (const Landmark& one : table_.landmarks()) {
+    if (one.part == word) return word;
   }
+  const std::vector<int> segments = SegmentsOf(word, true, kMostPlaceWords);
+  return segments.empty() ? "" : table_.landmarks()[static_cast<std::size_t>(segments[0])].part;
+}
+
+void LabelParser::AddBesideSegment() {
+  const std::vector<std::string> words = words_;
+  const std::string whole = whole_;
+  for (std::size_t i = 0; i < words.size() && words.size() > 1 && found_.empty(); ++i) {
+    const std::string part = PartOf(words[i]);
+    if (part.empty()) continue;
+    words_ = words;
+    words_.erase(words_.begin() + static_cast<std::ptrdiff_t>(i));
+    whole_ = JoinWords(words_, words_.size());
+    AddAll();
+    std::erase_if(found_, [&](const Candidate& one) {
+      const std::string& of =
+          table_.landmarks()[static_cast<std::size_t>(one.reading.landmark)].part;
+      return of != part && !(of == "ankle" && (part == "shank" || part == "foot"));
+    });
+  }
+  words_ = words;
+  whole_ = whole;
 }
 
 std::string LabelParser::LettersOf(BodySide side) const {

@@ -42,10 +42,12 @@ class LabelParser {
   std::vector<int> SegmentsOf(const std::string& name, bool is_sided, int num_words) const;
   void AddSideWord(std::size_t i);
   void AddAtEnd(BodySide side, bool at_end);
-  /// "MLG" and "MLD".
-  void AddLetterAtEnd(BodySide side);
-  /// "FRTHI" and "FLTHI".
-  void AddLetterInside();
+  /// The side is one letter of the name: "MLG" and "MLD", "FRTHI" and "FLTHI".
+  void AddLetter(std::size_t at);
+  /// The part of the body that a segment's name means; empty: it is none.
+  std::string PartOf(const std::string& word) const;
+  /// "pelvis-RASIS", "Foot_R_Heel": the segment is said, too.
+  void AddBesideSegment();
   /// Single letters that stand for a side in any language.
   std::string LettersOf(BodySide side) const;
 

@@ -95,6 +95,13 @@ TEST(LabelReadings, WordsOfPlaceLeaveTheSegment) {
       ElementsAre("left thigh", "right shank", "right thigh", "-"));
 }
 
+TEST(LabelReadings, TheSegmentMayBeSaidBesideTheLandmark) {
+  EXPECT_THAT(
+      Meanings({"pelvis-RASIS", "femur-LEC-r", "tibiafibula-MM-l", "Foot_R_Heel", "Foot_R_Knee"}),
+      ElementsAre("right anterior iliac spine", "right lateral epicondyle of the femur",
+                  "left medial malleolus", "right heel", "-"));
+}
+
 TEST(LabelReadings, WhatAllNamesBeginWithTellsNothing) {
   EXPECT_THAT(Meanings({"w1_Ann_LASI", "w1_Ann_RASI", "w1_Ann_C7", "w1_Ann_RKnee"}),
               ElementsAre("left anterior iliac spine", "right anterior iliac spine",
