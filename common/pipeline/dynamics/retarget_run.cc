@@ -59,7 +59,7 @@ PoseTrajectory TrackedFrames(const ConversionReport& report, Warnings* warnings)
 void RestUntoldJoints(const KinematicModel& model, const Eigen::MatrixXd& deviations,
                       PoseTrajectory* motion, Warnings* warnings) {
   constexpr double kTold = 45 / kDegrees, kUntold = 65 / kDegrees;
-  constexpr double kBest = 10;  // [%] of the frames: a limb that is hidden for long is told
+  constexpr double kBest = 25;  // [%] of the frames: a limb that is hidden for long is told
   if (model.coordinates() || deviations.cols() == 0) return;
   const Posture rest = ZeroPosture(model);
   std::vector<std::string> untold;
