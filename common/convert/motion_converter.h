@@ -112,7 +112,7 @@ class MotionConverterFactory {
 /// these are is tested (interface_layout_test.cc). Behind it stands how the compiler laid them out.
 /// Not inline: a plugin must not be given the host's when it is loaded.
 constexpr auto kConverterInterfaceText = InterfaceText(
-    "MMMConverterS2KF-8",
+    "MMMConverterS2KF-9",
     LayoutHash<MotionConverter, MotionConverterFactory, FrameEstimate, FrameDiagnostic,
                ConversionResult, PoseCovariance, PoseTrajectory, Posture, MarkerIncident,
                MarkerSequence, TrackingSetup, MarkerMapping, MarkerAssignment, KinematicModel,
