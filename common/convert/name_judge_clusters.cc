@@ -60,10 +60,12 @@ void NameJudge::PlaceCluster(const Hypothesis& one, const std::vector<Vector3d>&
   Vector3d place;
   for (int a = 0; a < 3; ++a) {
     std::vector<double> values;
+    values.reserve(places.size());
     for (const Vector3d& p : places) values.push_back(p[a]);
     place[a] = Median(values);
   }
   std::vector<double> strays;
+  strays.reserve(places.size());
   for (const Vector3d& p : places) strays.push_back(height * (p - place).norm());
   const double stray = Median(strays);
   NamedLabel& label = named_.labels[Ix(one.label)];

@@ -37,7 +37,8 @@ struct DistalCentre {
 
 /// On the joint's axis, where that of the next joint which is not parallel is nearest.
 Vector3d CentreOn(const ZeroPose& zero, const std::vector<int>& chain, std::size_t joint) {
-  const Vector3d p = zero.origin(chain[joint]), a = zero.axis(chain[joint]);
+  Vector3d p = zero.origin(chain[joint]);
+  const Vector3d a = zero.axis(chain[joint]);
   for (std::size_t i = joint + 1; i < chain.size(); ++i) {
     if (std::abs(zero.axis(chain[i]).dot(a)) >= kParallel) continue;
     return NearestPoint(p, a, zero.origin(chain[i]), zero.axis(chain[i]), 0);

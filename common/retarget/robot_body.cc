@@ -125,7 +125,7 @@ RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
 /// other.
 Eigen::Matrix3d TurnOf(const RobotFoot& foot, double pitch, double roll) {
   const Eigen::AngleAxisd of_roll(roll, Vector3d::UnitX()), of_pitch(pitch, Vector3d::UnitY());
-  const Eigen::Matrix3d roll_last = (of_roll * of_pitch).toRotationMatrix();
+  Eigen::Matrix3d roll_last = (of_roll * of_pitch).toRotationMatrix();
   const double end =
       (foot.toe - foot.heel).norm() * std::abs(std::sin(pitch));  // [m] that it rises
   const double side = foot.width * std::abs(std::sin(roll));

@@ -205,7 +205,8 @@ void LabelParser::AddLetter(std::size_t at) {
     if (LettersOf(side).find(whole_[at]) == std::string::npos) continue;
     std::vector<std::string> counterparts;
     for (const char letter : LettersOf(Other(side))) {
-      counterparts.push_back(before + letter + after);
+      std::string& counterpart = counterparts.emplace_back(whole_);
+      counterpart[at] = letter;
     }
     Add(before + after, true, {{-1, side}, counterparts, true, 1});
   }

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/model/forward_kinematics.h"
+#include "common/motion/marker_synthesis.h"
 #include "common/motion/pose_trajectory.h"
 #include "tests/common/retarget/squat.h"
 
