@@ -14,7 +14,7 @@ void BlockBand::Resize(int frames, int size) {
     for (Eigen::VectorXd& block : *list) block.resize(size);
   }
   for (auto* list : {&factor, &factor_before, &factor_before2}) {
-    list->resize(blocks, PaddedMatrix(size, size));
+    list->assign(blocks, PaddedMatrix(size, size));
   }
   column = PaddedMatrix(size, 1);
 }
@@ -28,14 +28,17 @@ void BlockBand::SetZero() {
 
 bool SolveInPlace(BlockBand* band) {
   const int frames = band->num_frames();
+  band->column.SetZero();
   auto x = band->column.view().col(0);
   for (int k = 0; k < frames; ++k) {
     PaddedMatrix& G = band->factor[k];
     PaddedMatrix& G1 = band->factor_before[k];
     PaddedMatrix& G2 = band->factor_before2[k];
+    G.SetZero();
     G.view() = band->diagonal[k];
     x = band->right[k];
     if (k >= 2) {
+      G2.SetZero();
       G2.view() = band->before2[k].asDiagonal();
       DivideByTransposed(band->factor[k - 2], &G2);
       AddSquare(-1, G2, &G);

@@ -216,7 +216,8 @@ int FindJointNamed(const ZeroPose& zero, const std::string& name) {
   return segment;
 }
 
-LimbReading ChosenLimb(const ZeroPose& zero, const LimbChoice& choice, bool is_leg) {
+LimbReading ChosenLimb(const ZeroPose& zero, const LimbChoice& choice, bool is_leg,
+                       const Vector3d& normal) {
   const int first = FindJointNamed(zero, choice.first), last = FindJointNamed(zero, choice.last);
   std::vector<int> chain;
   for (int at = last; at >= 0; at = zero.moving_parent[at]) {
@@ -236,7 +237,7 @@ LimbReading ChosenLimb(const ZeroPose& zero, const LimbChoice& choice, bool is_l
     }
     fold = static_cast<int>(at - chain.begin());
   }
-  return ReadLimb(zero, chain, fold, is_leg, Vector3d::UnitY());
+  return ReadLimb(zero, chain, fold, is_leg, normal);
 }
 
 /// The chosen pairs, left first.
@@ -244,11 +245,13 @@ Limbs ChosenLimbs(const ZeroPose& zero, const BodyMapChoice& choice, bool are_le
   Limbs limbs;
   const auto& two = are_legs ? choice.legs : choice.arms;
   if (!two[0] || !two[1]) return limbs;
-  limbs.pairs.push_back({ChosenLimb(zero, *two[0], are_legs), ChosenLimb(zero, *two[1], are_legs)});
-  Vector3d n =
-      zero.origin(limbs.pairs[0][0].chain.back()) - zero.origin(limbs.pairs[0][1].chain.back());
+  Vector3d n = zero.origin(FindJointNamed(zero, two[0]->last)) -
+               zero.origin(FindJointNamed(zero, two[1]->last));
   n.z() = 0;
-  limbs.normals.push_back(n.normalized());
+  n.normalize();
+  limbs.pairs.push_back(
+      {ChosenLimb(zero, *two[0], are_legs, n), ChosenLimb(zero, *two[1], are_legs, n)});
+  limbs.normals.push_back(n);
   return limbs;
 }
 

@@ -95,8 +95,11 @@ void MeasureFeet(const Retargeted& retargeted, const RobotBody& body, const Pose
       lowest[k] = LowestOf(foot, X);
       toe.col(k) = X * foot.toe;
       if (contact[k]) ++counts.contacts;
-      if (-lowest[k] > figures->penetration) {
-        figures->penetration = -lowest[k];
+      // Into the floor, or what it stands on.
+      const double support = retargeted.scale * retargeted.states.support(i, k);
+      const double depth = (contact[k] ? support : 0) - lowest[k];
+      if (depth > figures->penetration) {
+        figures->penetration = depth;
         figures->penetration_time = retargeted.motion.time(k);
       }
       if (k == 0 || !contact[k] || !contact[k - 1]) continue;

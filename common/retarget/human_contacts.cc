@@ -16,11 +16,12 @@ constexpr double kHalfSpan = 0.02;                     // [s] about a frame, of 
 constexpr double kStands = 0.1;                        // [m/s]
 constexpr double kAboveLowest = 0.06;  // [m] of heights that tell the level; more is another one
 // Of a foot that stands on what is not the floor: its ends rest, one not far above the other.
-constexpr double kRests = 0.2;      // [m/s]
-constexpr double kRestsFor = 0.1;   // [s]
-constexpr double kFlat = 0.08;      // [m]
-constexpr double kLandsFor = 0.03;  // [s] on what is below all else
-constexpr double kLowest = 1;       // [%] of heights that are none
+constexpr double kRests = 0.2;     // [m/s]
+constexpr double kRestsFor = 0.1;  // [s]
+constexpr double kFlat = 0.08;     // [m]
+constexpr double kUpright = 0.7;   // of its up axis along the world's
+// [s], and frames at least, on what is below all else.
+constexpr double kLandsFor = 0.03, kLandsFrames = 3;
 
 Eigen::Vector3d At(const Eigen::Matrix3Xd& path, double frame) {
   const auto last = static_cast<double>(path.cols() - 1);
@@ -85,44 +86,70 @@ void ShareFloor(std::array<PointState, 2>* points) {
 
 /// How far below the floor on which they stand feet rest for a moment.
 double StepsBelow(const FootStates& states, double rate) {
+  const double least_frames = std::max(kLandsFrames, kLandsFor * rate);
   double below = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const PointState &heel = states.heels[i], &toe = states.toes[i];
-    double least = INFINITY;  // of the frames that it has rested
+    double least = INFINITY, most = 0;  // of the frames that it has rested
     int rested = 0;
     for (Eigen::Index k = 0; k < heel.height.size(); ++k) {
       const double depth = -std::max(heel.height[k], toe.height[k]);
       const bool rests = depth > kAboveLowest && std::max(heel.speed[k], toe.speed[k]) < kRests;
       rested = rests ? rested + 1 : 0;
       least = rests ? std::min(least, depth) : INFINITY;
-      if (rested >= kLandsFor * rate && rested > 0) below = std::max(below, least);
+      most = rests ? std::max(most, depth) : 0;
+      if (rested >= least_frames && most - least < kOnHeight) below = std::max(below, least);
     }
   }
   return below;
 }
 
-/// Heights of points become those above what the foot stands on.
-Eigen::VectorXd FindSupports(PointState* heel, PointState* toe, double rate) {
-  const Eigen::Index frames = heel->height.size();
-  const Eigen::VectorXd z_heel = heel->height, z_toe = toe->height;
-  Eigen::VectorXd supports = Eigen::VectorXd::Zero(frames);
-  const auto rests = [&](Eigen::Index k) {
-    return std::min(z_heel[k], z_toe[k]) > kAboveLowest && heel->speed[k] < kRests &&
-           toe->speed[k] < kRests && std::abs(z_heel[k] - z_toe[k]) < kFlat;
+/// Heights of a foot's ends on what it stands on; NaN: it stands on the floor, or nowhere.
+struct Support {
+  Eigen::VectorXd heel, toe;
+};
+
+/// Of a foot that is level and rests above the floor: it stands where the other one swings
+/// meanwhile, or rests as high. Whoever stands on one leg holds the other foot up.
+Support FindSupport(const FootStates& states, const HumanMotion& motion, std::size_t foot) {
+  const Eigen::VectorXd &heel = states.heels[foot].height, &toe = states.toes[foot].height;
+  const std::size_t other = 1 - foot;
+  const auto speed = [&](std::size_t i, Eigen::Index k) {
+    return std::max(states.heels[i].speed[k], states.toes[i].speed[k]);
   };
+  const auto height = [&](std::size_t i, Eigen::Index k) {
+    return 0.5 * (states.heels[i].height[k] + states.toes[i].height[k]);
+  };
+  const auto rests = [&](Eigen::Index k) {
+    const bool is_upright = motion.R_feet[foot].empty() || motion.R_feet[foot][k](2, 2) > kUpright;
+    return std::min(heel[k], toe[k]) > kAboveLowest && speed(foot, k) < kRests &&
+           std::abs(heel[k] - toe[k]) < kFlat && is_upright;
+  };
+  const auto bears = [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index k = begin; k < end; ++k) {
+      if (speed(other, k) > kOnSpeed) return true;
+      if (std::abs(height(other, k) - height(foot, k)) < kOffHeight) return true;
+    }
+    return false;
+  };
+  const Eigen::Index frames = heel.size();
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(frames, NAN);
+  Support support = {none, none};
   for (Eigen::Index begin = 0; begin < frames;) {
     Eigen::Index end = begin;
     while (end < frames && rests(end)) ++end;
     const auto count = static_cast<std::size_t>(end - begin);
-    if (count > 0 && static_cast<double>(count) >= kRestsFor * rate) {
-      const double of_heel = Median({z_heel.data() + begin, count});
-      const double of_toe = Median({z_toe.data() + begin, count});
+    const bool lasts = count > 0 && static_cast<double>(count) >= kRestsFor * motion.rate;
+    if (lasts && bears(begin, end)) {
+      const double of_heel = Median({heel.data() + begin, count});
+      const double of_toe = Median({toe.data() + begin, count});
       const auto take = [&](Eigen::Index k) {
-        const double off = std::min(std::abs(z_heel[k] - of_heel), std::abs(z_toe[k] - of_toe));
-        if (off > kOffHeight || supports[k] != 0) return false;
-        supports[k] = 0.5 * (of_heel + of_toe);
-        heel->height[k] -= of_heel;
-        toe->height[k] -= of_toe;
+        const double off = std::min(std::abs(heel[k] - of_heel), std::abs(toe[k] - of_toe));
+        const double middle = 0.5 * (of_heel + of_toe), z = height(foot, k);
+        if (off > kOffHeight || std::abs(z - middle) > std::abs(z)) return false;
+        if (!std::isnan(support.heel[k])) return false;
+        support.heel[k] = of_heel;
+        support.toe[k] = of_toe;
         return true;
       };
       for (Eigen::Index k = begin - 1; k >= 0 && take(k);) --k;
@@ -130,7 +157,17 @@ Eigen::VectorXd FindSupports(PointState* heel, PointState* toe, double rate) {
     }
     begin = end + 1;
   }
-  return supports;
+  return support;
+}
+
+/// Heights become those above what the foot stands on.
+Eigen::VectorXd TakeSupport(const Support& support, PointState* heel, PointState* toe) {
+  const auto known = [](const Eigen::VectorXd& heights) -> Eigen::VectorXd {
+    return heights.array().isNaN().select(0, heights);
+  };
+  heel->height -= known(support.heel);
+  toe->height -= known(support.toe);
+  return 0.5 * (known(support.heel) + known(support.toe));
 }
 
 }  // namespace
@@ -165,7 +202,11 @@ FootStates StatesOf(const HumanMotion& motion) {
     for (PointState* point : {&states.heels[i], &states.toes[i]}) {
       MoveLevel(point->level - below, point);
     }
-    states.supports[i] = FindSupports(&states.heels[i], &states.toes[i], motion.rate);
+  }
+  const std::array<Support, 2> found = {FindSupport(states, motion, 0),
+                                        FindSupport(states, motion, 1)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    states.supports[i] = TakeSupport(found[i], &states.heels[i], &states.toes[i]);
   }
   return states;
 }

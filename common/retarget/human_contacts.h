@@ -27,8 +27,9 @@ struct FootStates {
     return supports[foot].size() > 0 ? supports[foot][k] : 0;
   }
 };
-/// The lowest place where a foot stands, if only for 30 ms, is the floor. A foot that is flat and
-/// slower than 0.1 m/s for 0.1 s more than 60 mm above it stands on something.
+/// The lowest place where a foot stands, if only for 30 ms, is the floor. A foot that is level and
+/// slower than 0.2 m/s for 0.1 s more than 60 mm above it stands on something, if the other one
+/// swings meanwhile or rests as high.
 FootStates StatesOf(const HumanMotion& motion);
 
 /// Frames [begin, end) in which a foot stands.

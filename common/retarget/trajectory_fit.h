@@ -50,8 +50,8 @@ struct TrajectoryProblem {
 /// where the first frame begins.
 std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Posture& first);
 
-/// How often a fit goes on: at least `fewest` iterations, at most `most`, until no joint moves by
-/// more than `near` [rad] and, where limits count, all are met.
+/// How often a fit goes on: at least `fewest` iterations unless nothing moves, at most `most`,
+/// until no joint moves by more than `near` [rad] and, where limits count, all are met.
 struct FitEffort {
   int fewest = 5;
   int most = 20;

@@ -75,17 +75,21 @@ TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
   EXPECT_THAT(ReadText(File("o.html")), AllOf(HasSubstr("on biped</title>"), HasSubstr("player")));
 }
 
+// jacobian_pull: a converter that knows no deviations.
 TEST_F(RetargetCommand, ConvertsARecordingFirst) {
-  const auto run =
-      RunProgram({"retarget", testing::Handstand(), "--height", "1.8", "--frames", "0:60",
-                  "--robot", robot_, "-o", File("r.xml"), "--summary", File("r.json")});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto summary = nlohmann::json::parse(ReadText(File("r.json")));
-  EXPECT_EQ(summary["conversion_verdict"]["level"], "good");
-  EXPECT_TRUE(summary["not_shown"].is_null());
-  EXPECT_EQ(summary["frames"], 60);
-  EXPECT_EQ(summary["velocity_limits_broken"], 0);
-  EXPECT_LT(summary["penetration_m"].get<double>(), 0.001);
+  for (const std::string config : {"s2kf_offline", "jacobian_pull"}) {
+    const auto run =
+        RunProgram({"retarget", testing::Handstand(), "--height", "1.8", "--frames", "0:60", "-c",
+                    config, "--robot", robot_, "-o", File("r.xml"), "--summary", File("r.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto summary = nlohmann::json::parse(ReadText(File("r.json")));
+    EXPECT_EQ(summary["conversion_verdict"]["level"], "good") << config;
+    EXPECT_TRUE(summary["not_shown"].is_null());
+    EXPECT_EQ(summary["frames"], 60);
+    EXPECT_EQ(summary["velocity_limits_broken"], 0);
+    EXPECT_LT(summary["penetration_m"].get<double>(), 0.001) << config;
+    EXPECT_LT(summary["direction_rad"].get<double>(), 0.1) << config;
+  }
 }
 
 TEST_F(RetargetCommand, PrintsWhichJointsAreTheLimbs) {
@@ -177,8 +181,6 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
               HasSubstr("contradict"));
 }
 
-// KIT's own poses of what a person pours from and into, at 10 Hz, beside a table that nobody takes
-// along. 10 mm: a palm's width is some 80.
 TEST(RealRetarget, WalkersFeetStandStillOnRobotsWithAndWithoutAnklesThatRoll) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string& folder = TestFolder();
@@ -221,6 +223,8 @@ TEST(RealRetarget, ForearmsThatOneMarkerShowsDoNotTurnARobotsHands) {
   }
 }
 
+// KIT's own poses of what a person pours from and into, at 10 Hz, beside a table that nobody takes
+// along. 10 mm: a palm's width is some 80.
 TEST(RealRetarget, HandsStayAtWhatTheyPourWith) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file =

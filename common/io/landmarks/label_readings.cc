@@ -91,7 +91,7 @@ class LabelsOfPerson {
     std::vector<LabelReading> without_side;
     std::vector<std::pair<std::size_t, LabelReading>> by_doubt;
     for (const Candidate& one : parser.Candidates()) {
-      const bool is_sided = table_.landmarks()[Index(one.reading)].is_sided;
+      const bool is_sided = Of(one.reading).is_sided;
       if (!is_sided && is_lumbar && all.contains("r" + whole.substr(1))) continue;
       const auto& others = one.counterparts;
       const bool has_other = std::any_of(others.begin(), others.end(),
@@ -126,17 +126,13 @@ class LabelsOfPerson {
     for (auto& [label, readings] : alone_) label->readings = std::move(readings);
   }
 
-  static std::size_t Index(const LabelReading& reading) {
-    return static_cast<std::size_t>(reading.landmark);
-  }
-
-  LandmarkKind KindOf(const LabelReading& reading) const {
-    return table_.landmarks()[Index(reading)].kind;
+  const Landmark& Of(const LabelReading& reading) const {
+    return table_.landmarks()[static_cast<std::size_t>(reading.landmark)];
   }
 
   bool HasKind(const ReadLabel& label, LandmarkKind kind) const {
     return std::any_of(label.readings.begin(), label.readings.end(),
-                       [&](const auto& reading) { return KindOf(reading) == kind; });
+                       [&](const auto& reading) { return Of(reading).kind == kind; });
   }
 
   /// Names of a skeleton's bones, one point each, and none of what markers are put on.
@@ -147,7 +143,7 @@ class LabelsOfPerson {
     for (std::size_t i = 0; i < read_.size(); ++i) {
       if (!is_used_[i]) continue;
       const LabelReading& marker = read_[i].readings[0];
-      const Landmark& landmark = table_.landmarks()[Index(marker)];
+      const Landmark& landmark = Of(marker);
       if (bones_[i].empty()) {
         const bool is_limb = LimbsOf(landmark.part) != Limbs::kNone && landmark.part != "foot";
         if (is_limb || (landmark.part == "pelvis" && landmark.is_sided)) return false;
@@ -174,7 +170,7 @@ class LabelsOfPerson {
       joints += HasKind(label, LandmarkKind::kJoint) ? 1 : 0;
       const bool may_be_keypoint =
           HasKind(label, LandmarkKind::kJoint) || HasKind(label, LandmarkKind::kPoint);
-      const std::string& part = table_.landmarks()[Index(label.readings[0])].part;
+      const std::string& part = Of(label.readings[0]).part;
       if (!may_be_keypoint && part != "head" && part != "foot" && part != "hand") return false;
     }
     return joints >= 4;
@@ -184,8 +180,8 @@ class LabelsOfPerson {
     for (ReadLabel& label : read_) {
       std::stable_sort(label.readings.begin(), label.readings.end(),
                        [&](const auto& a, const auto& b) {
-                         const bool a_is_joint = KindOf(a) == LandmarkKind::kJoint;
-                         const bool b_is_joint = KindOf(b) == LandmarkKind::kJoint;
+                         const bool a_is_joint = Of(a).kind == LandmarkKind::kJoint;
+                         const bool b_is_joint = Of(b).kind == LandmarkKind::kJoint;
                          return a_is_joint != b_is_joint && a_is_joint == are_keypoints;
                        });
     }
@@ -194,7 +190,7 @@ class LabelsOfPerson {
   /// Arms or legs that no other label names are not there.
   void PreferShownLimbs() {
     const auto is_of = [&](const LabelReading& one, Limbs limbs) {
-      return LimbsOf(table_.landmarks()[Index(one)].part) == limbs;
+      return LimbsOf(Of(one).part) == limbs;
     };
     const auto count = [&](Limbs limbs) {
       int labels = 0;
@@ -221,14 +217,21 @@ class LabelsOfPerson {
     for (std::size_t i = 0; i < read_.size(); ++i) {
       if (is_used_[i] && read_[i].readings.size() == 1) taken.insert(key(read_[i].readings[0]));
     }
-    for (std::size_t i = 0; i < read_.size(); ++i) {
-      auto& readings = read_[i].readings;
-      if (!is_used_[i] || readings.size() < 2) continue;
-      const auto free =
-          std::stable_partition(readings.begin(), readings.end(), [&](const auto& one) {
-            return KindOf(one) == LandmarkKind::kSegment || !taken.contains(key(one));
-          });
-      if (free != readings.begin()) taken.insert(key(readings[0]));
+    // LELB is at the elbow in any case, LLE may be at the knee.
+    for (const bool of_one_part : {true, false}) {
+      for (std::size_t i = 0; i < read_.size(); ++i) {
+        auto& readings = read_[i].readings;
+        if (!is_used_[i] || readings.size() < 2) continue;
+        const bool is_of_one = std::all_of(readings.begin(), readings.end(), [&](const auto& one) {
+          return Of(one).part == Of(readings[0]).part;
+        });
+        if (is_of_one != of_one_part) continue;
+        const auto free =
+            std::stable_partition(readings.begin(), readings.end(), [&](const auto& one) {
+              return Of(one).kind == LandmarkKind::kSegment || !taken.contains(key(one));
+            });
+        if (free != readings.begin()) taken.insert(key(readings[0]));
+      }
     }
   }
 
@@ -239,7 +242,7 @@ class LabelsOfPerson {
       for (std::size_t i = 0; i < read_.size(); ++i) {
         if (!is_used_[i] || !read_[i].why_left_out.empty()) continue;
         const LabelReading& one = read_[i].readings[0];
-        const Landmark& landmark = table_.landmarks()[Index(one)];
+        const Landmark& landmark = Of(one);
         const bool is_there = landmark.part == part && landmark.kind == LandmarkKind::kSkin &&
                               (part == "pelvis" || one.side == side);
         markers += is_there ? 1 : 0;
@@ -247,9 +250,9 @@ class LabelsOfPerson {
       return markers;
     };
     for (std::size_t i = 0; i < read_.size(); ++i) {
-      if (!is_used_[i] || KindOf(read_[i].readings[0]) != LandmarkKind::kJoint) continue;
+      if (!is_used_[i] || Of(read_[i].readings[0]).kind != LandmarkKind::kJoint) continue;
       const LabelReading& one = read_[i].readings[0];
-      const std::string& part = table_.landmarks()[Index(one)].part;
+      const std::string& part = Of(one).part;
       if (part == "head" || part == "neck" || part == "thorax") continue;
       if (count(part, one.side) >= (part == "pelvis" ? 3 : 1)) {
         read_[i].why_left_out = "a joint's centre beside its markers";

@@ -52,7 +52,7 @@ class LandmarkTable {
   /// Single letters that stand for sides in some languages only.
   const std::string& side_letters(BodySide side) const;
 
-  /// Spellings of all <Word>s, which tell places on landmarks; longer ones first.
+  /// Spellings of all elements Word, which tell places on landmarks; longer ones first.
   const std::vector<std::string>& place_words() const { return place_words_; }
 
   bool IsLeftOut(const std::string& word) const { return Contains(leave_, word); }

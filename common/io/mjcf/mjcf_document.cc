@@ -58,6 +58,7 @@ class MjcfDocumentReader {
   void SetMass(const Masses& masses, MjcfBody* body);
   void ScaleMasses();
   void ReadEquality(const XmlElement& element);
+  std::string TiedBody(const MjcfAttributes& attributes, const std::string& which) const;
   std::string NameOf(const XmlElement& element, const char* kind, std::size_t number,
                      std::set<std::string>* taken);
 
@@ -263,6 +264,18 @@ void MjcfDocumentReader::ScaleMasses() {
   }
 }
 
+/// The body that an <equality> names, itself or by a site of it; empty: none.
+std::string MjcfDocumentReader::TiedBody(const MjcfAttributes& attributes,
+                                         const std::string& which) const {
+  const std::string site = attributes.Word("site" + which, "");
+  for (const Robot::Site& one : document_.sites) {
+    if (!site.empty() && one.name == site && one.segment >= 0) {
+      return document_.bodies[one.segment].name;
+    }
+  }
+  return attributes.Word("body" + which, "");
+}
+
 /// Joints that follow others. What else is equal closes loops of bodies or tendons.
 void MjcfDocumentReader::ReadEquality(const XmlElement& element) {
   const MjcfAttributes attributes = Attributes(element);
@@ -270,7 +283,7 @@ void MjcfDocumentReader::ReadEquality(const XmlElement& element) {
   if (!element.Is("joint")) {
     text_.Warn(element, fmt::format("<equality><{}> is not kept: what it ties together moves apart",
                                     element.name));
-    document_.ties.push_back({attributes.Word("body1", ""), attributes.Word("body2", "")});
+    document_.ties.push_back({TiedBody(attributes, "1"), TiedBody(attributes, "2")});
     return;
   }
   MjcfCoupling coupling;

@@ -63,7 +63,7 @@ std::string_view NameOfCoordinate(std::string_view cell, char coordinate) {
 MarkerColumns ReadNamesOfCoordinates(const std::vector<std::string_view>& cells) {
   MarkerColumns columns;
   for (std::size_t i = kFirstLabelColumn; i < cells.size(); i += 3) {
-    if (cells[i].empty()) break;
+    if (cells[i].empty()) continue;
     const std::string_view name = NameOfCoordinate(cells[i], 'x');
     const bool is_whole = i + 2 < cells.size() && !name.empty() &&
                           NameOfCoordinate(cells[i + 1], 'y') == name &&

@@ -69,7 +69,7 @@ void RestUntoldJoints(const KinematicModel& model, const Eigen::MatrixXd& deviat
     const double deviation =
         Percentile({of_joint.data(), static_cast<std::size_t>(of_joint.size())}, kBest);
     const double part = std::clamp((deviation - kTold) / (kUntold - kTold), 0.0, 1.0);
-    if (part == 0) continue;
+    if (!(part > 0)) continue;  // not of a converter that does not know them
     const double angle = rest.joint_angles[model.FindJoint(motion->joint_names[i])];
     for (Posture& posture : motion->postures) {
       posture.joint_angles[row] += part * (angle - posture.joint_angles[row]);
@@ -98,8 +98,9 @@ void RetargetConversion(const ConversionReport& converted, RetargetReport* repor
   report->conversion_verdict = converted.verdict;
   report->unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
   PoseTrajectory motion = TrackedFrames(converted, warnings);
-  RestUntoldJoints(*converted.plan.setup.model, converted.result.trajectory.standard_deviations,
-                   &motion, warnings);
+  const Eigen::MatrixXd& all = converted.result.trajectory.standard_deviations;
+  const Eigen::Index seen = std::min<Eigen::Index>(all.cols(), motion.num_frames());
+  RestUntoldJoints(*converted.plan.setup.model, all.rightCols(seen), &motion, warnings);
   RetargetPerson(converted.plan.setup.model, std::move(motion), report, warnings);
 }
 

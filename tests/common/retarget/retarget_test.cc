@@ -4,13 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/robot_file.h"
 #include "common/io/urdf/urdf_robot.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/motion/synthetic_motion.h"
 #include "common/retarget/retarget_figures.h"
 #include "common/retarget/robot_follower.h"
 #include "common/support/error.h"
@@ -273,6 +276,18 @@ TEST(HumanContactsTest, AFootStandsOnStepsAndTheLowestIsTheFloor) {
       EXPECT_NEAR(states.support(i, stances[n].begin), kStep * step, 0.02) << i << " " << n;
     }
   }
+}
+
+TEST(HumanContactsTest, WhoeverStandsOnOneLegHoldsTheOtherFootUp) {
+  const KinematicModel person = testing::Person(1.75);
+  const HumanMotion motion = MoveHuman(person, FindHumanBody(person), MakeRaisedKnee(person));
+  const FootStates states = StatesOf(motion);
+  double highest = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(states.supports[i].cwiseAbs().maxCoeff(), 0) << i;
+    highest = std::max(highest, states.toes[i].height.maxCoeff());
+  }
+  EXPECT_GT(highest, 0.1);  // it is up
 }
 
 TEST(HumanContactsTest, AFootThatStaysLowIsNotOffForAMoment) {

@@ -122,6 +122,9 @@ TEST(LabelReadings, LimbsThatNothingNamesAreAbsent) {
   EXPECT_EQ(Meanings({"LLE", "LLM", "LHEE"})[0], "left lateral epicondyle of the femur");
   EXPECT_EQ(Meanings({"LLE", "LRSP", "LUSP"})[0], "left lateral epicondyle of the humerus");
   EXPECT_EQ(Meanings({"LLEP", "LLFC", "LRSP"})[0], "left lateral epicondyle of the humerus");
+  const auto both = Meanings({"LLE", "LME", "LELB", "LMEL", "LRSP", "LUSP", "LLM", "LMM"});
+  EXPECT_EQ(both[0], "left lateral epicondyle of the femur");
+  EXPECT_EQ(both[1], "left medial epicondyle of the femur");
 }
 
 // Of one arm without sides, LARM is no left one.
