@@ -104,7 +104,7 @@ double StepsBelow(const FootStates& states, double rate) {
   return below;
 }
 
-/// Heights of a foot's ends on what it stands on; NaN: it stands on the floor, or nowhere.
+/// Heights of a foot's ends on what it stands on [m]; 0: it stands on the floor, or nowhere.
 struct Support {
   Eigen::VectorXd heel, toe;
 };
@@ -133,8 +133,7 @@ Support FindSupport(const FootStates& states, const HumanMotion& motion, std::si
     return false;
   };
   const Eigen::Index frames = heel.size();
-  const Eigen::VectorXd none = Eigen::VectorXd::Constant(frames, NAN);
-  Support support = {none, none};
+  Support support = {Eigen::VectorXd::Zero(frames), Eigen::VectorXd::Zero(frames)};
   for (Eigen::Index begin = 0; begin < frames;) {
     Eigen::Index end = begin;
     while (end < frames && rests(end)) ++end;
@@ -147,7 +146,7 @@ Support FindSupport(const FootStates& states, const HumanMotion& motion, std::si
         const double off = std::min(std::abs(heel[k] - of_heel), std::abs(toe[k] - of_toe));
         const double middle = 0.5 * (of_heel + of_toe), z = height(foot, k);
         if (off > kOffHeight || std::abs(z - middle) > std::abs(z)) return false;
-        if (!std::isnan(support.heel[k])) return false;
+        if (support.heel[k] != 0) return false;
         support.heel[k] = of_heel;
         support.toe[k] = of_toe;
         return true;
@@ -158,16 +157,6 @@ Support FindSupport(const FootStates& states, const HumanMotion& motion, std::si
     begin = end + 1;
   }
   return support;
-}
-
-/// Heights become those above what the foot stands on.
-Eigen::VectorXd TakeSupport(const Support& support, PointState* heel, PointState* toe) {
-  const auto known = [](const Eigen::VectorXd& heights) -> Eigen::VectorXd {
-    return heights.array().isNaN().select(0, heights);
-  };
-  heel->height -= known(support.heel);
-  toe->height -= known(support.toe);
-  return 0.5 * (known(support.heel) + known(support.toe));
 }
 
 }  // namespace
@@ -206,7 +195,9 @@ FootStates StatesOf(const HumanMotion& motion) {
   const std::array<Support, 2> found = {FindSupport(states, motion, 0),
                                         FindSupport(states, motion, 1)};
   for (std::size_t i = 0; i < 2; ++i) {
-    states.supports[i] = TakeSupport(found[i], &states.heels[i], &states.toes[i]);
+    states.heels[i].height -= found[i].heel;
+    states.toes[i].height -= found[i].toe;
+    states.supports[i] = 0.5 * (found[i].heel + found[i].toe);
   }
   return states;
 }
