@@ -15,6 +15,7 @@ namespace {
 
 /// Of each coordinate of a place of the model from where the marker is worn [m]: noise scale 1.
 constexpr double kModelDeviation = 0.028;
+constexpr double kLeastNoiseScale = 0.3;  ///< skin moves by as much as the best places are known to
 
 const Landmark& LandmarkOf(const LabelReading& reading, const LandmarkTable& table) {
   return table.landmarks()[static_cast<std::size_t>(reading.landmark)];
@@ -33,26 +34,6 @@ std::string OnTheRight(const std::string& left) {
     return mirrored.empty() ? left : std::string(prefix) + mirrored;
   }
   return left;
-}
-
-/// More labels of a part than these tell little more of it.
-int MostOf(const std::string& part) {
-  return part == "pelvis" || part == "thorax" || part == "head" ? 3 : 2;
-}
-
-/// The part, with side, of each marker of the model that is a landmark.
-std::map<std::string, std::string> PartsOfMarkers(const LandmarkTable& table) {
-  std::map<std::string, std::string> parts;
-  for (const Landmark& one : table.landmarks()) {
-    if (one.marker.empty()) continue;
-    if (!one.is_sided) {
-      parts.emplace(one.marker, one.part);
-      continue;
-    }
-    parts.emplace(one.marker, WithSide(one.part, BodySide::kLeft));
-    parts.emplace(OnTheRight(one.marker), WithSide(one.part, BodySide::kRight));
-  }
-  return parts;
 }
 
 }  // namespace
@@ -78,20 +59,20 @@ std::optional<ModelMarker> PlaceOf(const LabelReading& reading, const LandmarkTa
   const auto of_side = [&](const std::string& name) {
     return is_right && landmark.is_sided ? OnTheRight(name) : name;
   };
-  if (!landmark.marker.empty()) {
-    const int marker = model.FindMarker(of_side(landmark.marker));
-    if (marker < 0) return std::nullopt;
-    return model.markers()[static_cast<std::size_t>(marker)];
+  const int segment =
+      landmark.segment.empty() ? -1 : model.FindSegment(of_side(landmark.segment));
+  if (segment >= 0) {
+    ModelMarker place{"", segment, landmark.p_SM};
+    if (is_right && landmark.is_sided) place.p_SM.x() = -place.p_SM.x();
+    return place;
   }
-  const int segment = model.FindSegment(of_side(landmark.segment));
-  if (segment < 0) return std::nullopt;
-  ModelMarker marker{"", segment, landmark.p_SM};
-  if (is_right && landmark.is_sided) marker.p_SM.x() = -marker.p_SM.x();
-  return marker;
+  const int marker = landmark.marker.empty() ? -1 : model.FindMarker(of_side(landmark.marker));
+  if (marker < 0) return std::nullopt;
+  return model.markers()[static_cast<std::size_t>(marker)];
 }
 
 double NoiseScaleOf(const Landmark& landmark) {
-  return std::max(1.0, landmark.deviation / kModelDeviation);
+  return std::max(kLeastNoiseScale, landmark.deviation / kModelDeviation);
 }
 
 NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
@@ -180,35 +161,33 @@ NamedMarkers PairByLandmarks(const MarkerLabels& labels, const KinematicModel& m
     const Landmark& landmark = LandmarkOf(reading, table);
     for (std::size_t m = 0; m < markers.size(); ++m) {
       const bool is_same = !meant[m].readings.empty() && meant[m].readings.front() == reading;
-      if (is_same && landmark.kind != LandmarkKind::kSegment) pair(m, NoiseScaleOf(landmark), &one);
+      // Where the model has its own markers nobody else's places count.
+      const double noise_scale = std::max(1.0, NoiseScaleOf(landmark));
+      if (is_same && landmark.kind != LandmarkKind::kSegment) pair(m, noise_scale, &one);
     }
     if (one.marker.empty()) one.note = "no marker of the model is named after it";
   }
   return named;
 }
 
-bool TellMore(const NamedMarkers& named, const MarkerSet& set, const MarkerLabels& labels,
-              const LandmarkTable& table) {
-  const std::map<std::string, std::string> parts = PartsOfMarkers(table);
-  std::map<std::string, std::string> target_of;  // by label
+bool IsOfSet(const NamedMarkers& named, const MarkerSet& set) {
+  constexpr double kLeastShare = 0.5;  // of the markers of a laboratory's set
+  constexpr int kOneOf = 20;           // a label that nobody else has makes no other set
+  std::set<std::string> known, targets, mapped;
+  for (const MarkerPair& pair : set.pairs) known.insert(NormalizeLabel(pair.source));
+  int others = 0;
+  std::set<std::string> labels;
+  for (const NamedLabel& one : named.labels) {
+    const std::string label = NormalizeLabel(one.label);
+    others += !one.marker.empty() && !known.contains(label);
+    labels.insert(label);
+  }
   for (const MarkerPair& pair : set.pairs) {
-    target_of.emplace(NormalizeLabel(pair.source), pair.target);
+    targets.insert(pair.target);
+    if (labels.contains(NormalizeLabel(pair.source))) mapped.insert(pair.target);
   }
-  std::map<std::string, int> by_set, by_names;
-  std::set<std::string> targets;
-  for (std::size_t i = 0; i < labels.names.size(); ++i) {
-    if (!labels.seen.empty() && !labels.seen[i]) continue;
-    if (!named.labels[i].marker.empty()) ++by_names[named.labels[i].part];
-    const auto target = target_of.find(NormalizeLabel(labels.names[i]));
-    if (target == target_of.end() || !targets.insert(target->second).second) continue;
-    const auto part = parts.find(target->second);
-    if (part != parts.end()) ++by_set[part->second];
-  }
-  return std::any_of(by_names.begin(), by_names.end(), [&](const auto& one) {
-    const std::string& part = one.first;
-    const std::string bare = part.substr(part.find_last_of(' ') + 1);
-    return std::min(one.second, MostOf(bare)) > std::min(by_set[part], MostOf(bare));
-  });
+  const double least = set.file.empty() ? 0 : kLeastShare * static_cast<double>(targets.size());
+  return kOneOf * others <= named.num_used() && static_cast<double>(mapped.size()) >= least;
 }
 
 }  // namespace mmm_converter

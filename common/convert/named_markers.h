@@ -45,7 +45,8 @@ std::string DescribeReading(const LabelReading& reading, const LandmarkTable& ta
 std::optional<ModelMarker> PlaceOf(const LabelReading& reading, const LandmarkTable& table,
                                    const KinematicModel& model);
 
-/// The noise scale of a landmark: its deviation over that of the model's markers.
+/// The noise scale of a landmark: its deviation over that of the model's markers, within what skin
+/// does.
 double NoiseScaleOf(const Landmark& landmark);
 
 /// Labels that mean landmarks (ReadLabels), each as the model's marker there or, where there is
@@ -63,9 +64,8 @@ NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
 NamedMarkers PairByLandmarks(const MarkerLabels& labels, const KinematicModel& model,
                              const LandmarkTable& table);
 
-/// Whether names tell more of the body than a set does: a part of which more labels are understood,
-/// as far as more of them tell more of it.
-bool TellMore(const NamedMarkers& named, const MarkerSet& set, const MarkerLabels& labels,
-              const LandmarkTable& table);
+/// Whether labels are those of a set, whose makers say where each of them is worn: it knows all
+/// whose names mean landmarks, and a laboratory's has half of its markers there.
+bool IsOfSet(const NamedMarkers& named, const MarkerSet& set);
 
 }  // namespace mmm_converter

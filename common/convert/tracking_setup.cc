@@ -70,7 +70,8 @@ HeightEstimate EstimateHeight(const TrackingSetup& setup, const KinematicModel& 
 KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person) {
   if (!person.size) return reference;
   KinematicModel scaled = ScaleWinter(reference, *person.size);
-  return person.subject ? FitToSubject(scaled, *person.subject) : scaled;
+  if (person.subject) return FitToSubject(scaled, *person.subject);
+  return person.landmarks ? WithLandmarkBody(scaled, *person.landmarks) : scaled;
 }
 
 void ScaleToPerson(const PersonScaling& person, TrackingSetup* setup) {

@@ -41,6 +41,9 @@ struct TrackingSetup {
 struct PersonScaling {
   std::optional<WinterScaling> size;            ///< nothing: the model is as large as it is
   std::shared_ptr<const Subject> subject = {};  ///< what is known beyond the size; null: nothing
+  /// What distances between landmarks show, where no subject is known (FindLandmarkBody); null:
+  /// nothing.
+  std::shared_ptr<const Subject> landmarks = {};
 };
 
 /// The joint tasks of a setup for fits of its tracked joints.
@@ -64,7 +67,7 @@ HeightEstimate EstimateHeight(const TrackingSetup& setup, const KinematicModel& 
                               const MarkerSequence& recording,
                               const std::vector<Posture>* track = nullptr);
 
-/// The reference by ScaleWinter and FitToSubject. @throws Error as these.
+/// The reference by ScaleWinter, and by FitToSubject or WithLandmarkBody. @throws Error as these.
 KinematicModel ScaleModel(const KinematicModel& reference, const PersonScaling& person);
 
 /// Scales the model of a setup that MatchMarkers made. @throws Error as ScaleModel.

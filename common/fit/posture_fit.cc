@@ -30,6 +30,13 @@ PostureFit::PostureFit(const MarkerKinematics& kinematics)
       start_(natural_),
       equations_(kinematics) {
   trial_.joint_angles.setZero(kinematics.num_joints());
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    bool is_moved = kinematics.IsEndless(j);
+    for (int m = 0; m < kinematics.num_markers() && !is_moved; ++m) {
+      is_moved = kinematics.Moves(j, m);
+    }
+    if (!is_moved) resting_.push_back(j);
+  }
 }
 
 PostureFit::Result PostureFit::Evaluate(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,
@@ -104,6 +111,7 @@ PostureFit::Result PostureFit::Solve(const Ref<const Matrix3Xd>& z, const Vector
   constexpr double kMostDamping = 1e6;
   posture->joint_angles =
       posture->joint_angles.cwiseMax(kinematics_.lower()).cwiseMin(kinematics_.upper());
+  for (const int j : resting_) posture->joint_angles[j] = natural_[j];
   double damping = 1e-3;
   Result best = Evaluate(z, noise_scale, options, *posture);
   int iteration = 0;

@@ -80,6 +80,7 @@ class PostureFit {
 
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;
+  std::vector<int> resting_;  // joints that move no marker: nothing tells where they are
   Eigen::VectorXd start_;  // joint angles
   NormalEquations equations_;
   Posture trial_;

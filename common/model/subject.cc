@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/support/error.h"
@@ -63,6 +64,45 @@ KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject
                     fmt::join(unknown, ", "), scaled.name(), subject.model));
   }
   return KinematicModel(std::move(fitted));
+}
+
+KinematicModel WithLandmarkBody(const KinematicModel& scaled, const Subject& body) {
+  ModelDescription fitted = DescriptionOf(FitToSubject(scaled, body));
+  for (std::size_t m = 0; m < fitted.markers.size(); ++m) {
+    fitted.markers[m].deviation = scaled.markers()[m].deviation;
+  }
+  return KinematicModel(std::move(fitted));
+}
+
+Subject JoinSubjects(const Subject& body, const Subject& calibrated, const KinematicModel& scaled) {
+  Subject joined = calibrated;
+  const auto scale_of = [](const Subject& subject, const std::string& segment) {
+    for (const SegmentScale& one : subject.scales) {
+      if (one.segment == segment) return one.scale;
+    }
+    return 1.0;
+  };
+  for (SegmentScale& one : joined.scales) one.scale *= scale_of(body, one.segment);
+  for (const SegmentScale& one : body.scales) {
+    const bool is_there = std::any_of(joined.scales.begin(), joined.scales.end(),
+                                      [&](const auto& own) { return own.segment == one.segment; });
+    if (!is_there) joined.scales.push_back(one);
+  }
+  for (const MarkerOffset& one : body.offsets) {
+    const auto own = std::find_if(joined.offsets.begin(), joined.offsets.end(),
+                                  [&](const auto& other) { return other.marker == one.marker; });
+    const int marker = scaled.FindMarker(one.marker);
+    const int segment = scaled.markers()[static_cast<std::size_t>(marker)].segment;
+    const double scale =
+        scale_of(calibrated, scaled.segments()[static_cast<std::size_t>(segment)].name);
+    if (own != joined.offsets.end()) {
+      own->offset += scale * one.offset;
+    } else {
+      joined.offsets.push_back(one);
+      joined.offsets.back().offset *= scale;
+    }
+  }
+  return joined;
 }
 
 }  // namespace mmm_converter

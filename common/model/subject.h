@@ -77,4 +77,11 @@ double Deviation(const MarkerOffset& offset);
 /// @throws Error naming the segments and markers that the model does not have.
 KinematicModel FitToSubject(const KinematicModel& scaled, const Subject& subject);
 
+/// The model with the scales and offsets of a body that landmarks show (FindLandmarkBody); its
+/// markers are no more certain for it. @throws Error as FitToSubject.
+KinematicModel WithLandmarkBody(const KinematicModel& scaled, const Subject& body);
+
+/// A subject that was calibrated on WithLandmarkBody(scaled, body), relative to `scaled`.
+Subject JoinSubjects(const Subject& body, const Subject& calibrated, const KinematicModel& scaled);
+
 }  // namespace mmm_converter

@@ -35,8 +35,8 @@ void SelfCalibrate(const std::function<bool(int, int)>& progress, ConversionRepo
                         }
                       });
   plan.person.subject = std::make_shared<Subject>(plan.calibration->subject);
-  setup.model =
-      std::make_shared<KinematicModel>(FitToSubject(*setup.model, plan.calibration->subject));
+  setup.model = std::make_shared<KinematicModel>(
+      ScaleModel(*plan.input.reference, ScalingOf(plan.person, plan.converter.config)));
 }
 
 void CheckHasSubject(const ConversionRequest& request, const ConversionPlan& plan) {

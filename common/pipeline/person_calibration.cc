@@ -161,6 +161,9 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
   result.subject.height = person.height.value;
   result.subject.mass = person.mass.value;
   result.subject.hand_length = person.hand_length;
+  if (person.landmarks) {
+    result.subject = JoinSubjects(*person.landmarks, result.subject, scaled);
+  }
   CheckProportions(result.subject);
   const std::string file = FormatSubject(result.subject, SubjectProgram());
   result.subject = ParseSubject(file, "the estimated subject", scaled);
@@ -189,8 +192,8 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
                       });
   report.warnings.AppendNew(warnings);
   report.person.subject = std::make_shared<Subject>(report.result.subject);
-  report.model =
-      std::make_shared<KinematicModel>(FitToSubject(*setup.model, report.result.subject));
+  report.model = std::make_shared<KinematicModel>(
+      ScaleModel(*first.reference, ScalingOf(report.person, config)));
   CalibrationEvidence evidence = {report.result, ScalingOf(report.person, config), {}};
   for (const CalibrationInput& one : report.recordings) {
     evidence.recordings.push_back(

@@ -39,8 +39,8 @@ MatrixXd HalfSamples(const S2kfSettings& settings, int n) {
   return MatrixXd(n, 0);
 }
 
-// Of a root that does not move, each coordinate [m, rad]: as good as 0, and no pivot is.
-constexpr double kFixedRoot = 1e-9;
+// Of what does not move, each coordinate [m, rad]: as good as 0, and no pivot is.
+constexpr double kFixed = 1e-9;
 
 MotionModel MakeMotionModel(const S2kfSettings& settings, const JointLimitTransform& transform,
                             const MarkerKinematics& kinematics) {
@@ -114,13 +114,33 @@ void MarkerFilter::StartAt(const Posture& posture, Belief* belief) const {
   const auto set = [&](auto&& diagonal, double position, double orientation, double parameter) {
     diagonal.template head<3>().setConstant(position * position);
     diagonal.template segment<3>(3).setConstant(orientation * orientation);
-    if (is_fixed) diagonal.template head<6>().setConstant(kFixedRoot * kFixedRoot);
+    if (is_fixed) diagonal.template head<6>().setConstant(kFixed * kFixed);
     diagonal.tail(diagonal.size() - 6).setConstant(parameter * parameter);
   };
   set(belief->P.diagonal().head(n), kPosition, kOrientation, kParameter);
   if (motion_model_.velocity) {
     belief->rate.setZero(n);
     set(belief->P.diagonal().tail(n), kVelocity, kRate, kRate);
+  }
+  Rest(belief);
+}
+
+/// Joints that move no marker are where they rest, whatever samples of others make of them.
+void MarkerFilter::Rest(Belief* belief) const {
+  const Eigen::Index n = belief->num_states();
+  for (int j = 0; j < kinematics_.num_joints(); ++j) {
+    bool is_moved = kinematics_.IsEndless(j);
+    for (int m = 0; m < kinematics_.num_markers() && !is_moved; ++m) {
+      is_moved = kinematics_.Moves(j, m);
+    }
+    if (is_moved) continue;
+    belief->parameters[j] = motion_model_.natural[j];
+    for (Eigen::Index i = 6 + j; i < belief->P.rows(); i += n) {
+      belief->P.row(i).setZero();
+      belief->P.col(i).setZero();
+      belief->P(i, i) = kFixed * kFixed;
+      if (i >= n) belief->rate[i - n] = 0;
+    }
   }
 }
 
@@ -155,6 +175,7 @@ void MarkerFilter::StartAsPaper(const Ref<const Matrix3Xd>& z, Belief* belief) c
 void MarkerFilter::Predict(double dt, Belief* belief) {
   Fold(measurement_model_.transform(), belief);
   motion_model_.Predict(dt, settings_.root, belief);
+  Rest(belief);
   for (const JointPull& pull : pulls_) Pull(pull, belief);
 }
 

@@ -58,6 +58,7 @@ class MarkerFilter {
   /// Takes z into z_, and sets noise_ by how far each marker is from expected_.
   void Weigh(const Eigen::Ref<const Eigen::Matrix3Xd>& z, UpdateOutcome* outcome);
   void Pull(const JointPull& pull, Belief* belief);
+  void Rest(Belief* belief) const;
   void FactorizeCovariance(const Belief& belief);
   /// L_, and the moments about the belief.
   void Expect(const Belief& belief, MeasurementMoments* moments);

@@ -166,10 +166,11 @@ void ReportedCovariance::Invert(const VectorXd* until_look, const MarkerJacobian
   variance_ = 0;
   for (int m = 0; m < num_markers; ++m) {
     const double place = place_deviation_[m];
-    const double hidden_from_residuals = size_effects_.num_effects() > 0 ? 0.0
-                                         : std::isnan(place) ? settings_.length_share * slow_
-                                                             : place * place;
     const double scale = noise_scale_[m] * noise_scale_[m];
+    const double hidden_from_residuals = size_effects_.num_effects() > 0 ? 0.0
+                                         : std::isnan(place)
+                                             ? settings_.length_share * scale * slow_
+                                             : place * place;
     const double variance = scale * (slow_ + white_share_ * white_) + hidden_from_residuals +
                             told_deviation_[m] * told_deviation_[m];
     double age = age_[m];
@@ -300,12 +301,16 @@ MatrixXd ReportedCovariance::Covariance() const {
 double ReportedCovariance::ShareOf(const VectorXd& own) const {
   const auto A = A_.view();
   const double look = filter_variance_ / variance_;
+  constexpr double kResting = 1e-6;  // of a joint that no marker shows [rad]
   double sum = 0;
+  int count = 0;
   for (Eigen::Index i = 0; i < own.size(); ++i) {
+    if (own[i] < kResting) continue;
     const double of_look = look * A(i, i) * unit_[i] * unit_[i];
     sum += std::min(1.0, own[i] * own[i] / of_look);
+    ++count;
   }
-  return sum / static_cast<double>(own.size());
+  return count > 0 ? sum / count : 1;
 }
 
 bool ReportedCovariance::IsDue() const { return frames_ <= 2 || since_compute_ >= kInterval; }

@@ -158,7 +158,7 @@ Landmark ReadLandmark(const XmlElement& element, LandmarkReader* reader) {
   landmark.deviation = reader->Number(element, "deviation_mm", kSmallestSpread, kLargestSpread);
   if (element.FindAttribute("marker") != nullptr) {
     landmark.marker = reader->Text(element, "marker");
-    return landmark;
+    if (element.FindAttribute("segment") == nullptr) return landmark;
   }
   const double most = kMillimetres * kFarthestLandmark;
   landmark.segment = reader->Text(element, "segment");

@@ -24,8 +24,8 @@ struct Landmark {
   LandmarkKind kind = LandmarkKind::kSkin;
   std::string part;  ///< of the body: "head", "upper arm", "pelvis"
   bool is_sided = false;
-  std::string marker;                              ///< of the model; empty: `segment` and `p_SM`
-  std::string segment;                             ///< of the model of 1 m
+  std::string marker;                              ///< of the model, named after it; may be empty
+  std::string segment;                             ///< of the model of 1 m; empty: the marker's
   Eigen::Vector3d p_SM = Eigen::Vector3d::Zero();  ///< in axes of the segment [m]
   double deviation = 0;  ///< of worn markers from there, on each axis, of a person [m]
 };

@@ -29,7 +29,7 @@ std::shared_ptr<const NamedMarkers> FindNames(const MarkerLabels& labels, const 
       named.are_of_one_side() && named.num_used() + named.num_without_side() >= kFewestOfLimb;
   if (named.num_used() < (may_be_object ? kFewestOfObject : kFewest) && !is_limb) return nullptr;
   const auto known = FindKnownSet(labels, *input.reference);
-  if (known && !TellMore(named, *known, labels, table)) return nullptr;
+  if (known && IsOfSet(named, *known)) return nullptr;
   if (recording.markers.num_frames() > 0) {
     named = UnderstandLabels(labels, recording.markers, *input.reference, table,
                              {ResolveJoints(config, *input.reference), !input.keeps_usual_places});

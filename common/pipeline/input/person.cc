@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "common/calibrate/landmark_body.h"
 #include "common/calibrate/person_height.h"
 #include "common/convert/converter_config.h"
 #include "common/io/mmm/processor_config.h"
@@ -163,8 +164,8 @@ std::string WhyUnscaled(const ConverterConfig& config) {
 
 PersonScaling ScalingOf(const Person& person, const ConverterConfig& config) {
   if (config.model_processor == "None") return {std::nullopt, person.subject};
-  return {WinterScaling{person.height.value, person.mass.value, person.hand_length},
-          person.subject};
+  return {WinterScaling{person.height.value, person.mass.value, person.hand_length}, person.subject,
+          person.landmarks};
 }
 
 Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
@@ -172,7 +173,15 @@ Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
                   const NamedMarkers* names) {
   if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
   const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, names, person); };
-  return Find(request, *setup.model, recording, config, estimate, names != nullptr, warnings);
+  Person person =
+      Find(request, *setup.model, recording, config, estimate, names != nullptr, warnings);
+  if (names != nullptr && !person.subject) {
+    TrackingSetup scaled = setup;
+    ScaleToPerson(ScalingOf(person, config), &scaled);
+    person.landmarks =
+        std::make_shared<const Subject>(FindLandmarkBody(scaled, *names, recording.markers));
+  }
+  return person;
 }
 
 Person FindPersonOfPoints(const PersonRequest& request, const KinematicModel& reference,

@@ -42,6 +42,8 @@ struct Person {
   std::optional<double> hand_length;
   std::shared_ptr<const Subject> subject;  ///< null: height and mass are all that is known
   std::string subject_file;                ///< empty: none
+  /// Without a subject, what distances between landmarks show; null: no name is a landmark's.
+  std::shared_ptr<const Subject> landmarks = {};
 };
 
 /// For messages: metres, their deviation where the markers tell them, and where they are from.

@@ -85,8 +85,8 @@ LiveCalibration CalibrateLive(const ConversionPlan& plan, const MarkerSequence& 
       CalibratePerson(*setup.model, setup.joints, {{"the stream", &frames, setup.assignments()}},
                       plan.person, plan.motion_name, &calibration.warnings);
   calibration.person.subject = std::make_shared<Subject>(calibration.result.subject);
-  setup.model =
-      std::make_shared<KinematicModel>(FitToSubject(*setup.model, calibration.result.subject));
+  setup.model = std::make_shared<KinematicModel>(
+      ScaleModel(*plan.input.reference, ScalingOf(calibration.person, plan.converter.config)));
   return calibration;
 }
 
