@@ -93,6 +93,12 @@ VectorXd OwnShares(const std::vector<CalibrationFrame>& frames, double skin_time
   return repeated.cwiseInverse();
 }
 
+/// A place that is known well has no better skin.
+VectorXd SkinDeviationsOf(const CalibrationOptions& options, const VectorXd& noise_scale) {
+  if (!options.places_by_noise) return options.skin_deviation * noise_scale;
+  return VectorXd::Constant(noise_scale.size(), options.skin_deviation);
+}
+
 class BodyFit {
  public:
   BodyFit(BodyKinematics* kinematics, const CalibrationOptions& options,
@@ -102,7 +108,7 @@ class BodyFit {
         frames_(*frames),
         body_(*body),
         trial_body_(*body),
-        offset_prior_(*kinematics, options),
+        offset_prior_(*kinematics, options, PlaceDeviations(options, noise_scale)),
         scale_prior_(ScalePrior(kinematics->lengths(), options)),
         trial_(frames->size()),
         costs_(static_cast<Eigen::Index>(frames->size())),
@@ -114,7 +120,7 @@ class BodyFit {
     equations_.reserve(frames->size());
     const VectorXd shares = OwnShares(*frames, options.skin_time);
     for (std::size_t k = 0; k < frames->size(); ++k) {
-      equations_.emplace_back(*kinematics, (*frames)[k].z, options.skin_deviation * noise_scale,
+      equations_.emplace_back(*kinematics, (*frames)[k].z, SkinDeviationsOf(options, noise_scale),
                               shares[static_cast<Eigen::Index>(k)]);
     }
   }
@@ -276,6 +282,11 @@ BodyFitResult BodyFit::Solve() {
 }
 
 }  // namespace
+
+VectorXd PlaceDeviations(const CalibrationOptions& options, const VectorXd& noise_scale) {
+  if (options.places_by_noise) return options.marker_deviation * noise_scale;
+  return VectorXd::Constant(noise_scale.size(), options.marker_deviation);
+}
 
 BodyFitResult FitBody(BodyKinematics* kinematics, const CalibrationOptions& options,
                       const VectorXd& noise_scale, std::vector<CalibrationFrame>* frames,

@@ -25,11 +25,16 @@ struct BodyFitResult {
   double common_scale = 0, common_deviation = 0;
 };
 
+/// Of each used marker's place before any recording is seen [m].
+Eigen::VectorXd PlaceDeviations(const CalibrationOptions& options,
+                                const Eigen::VectorXd& noise_scale);
+
 /// The body and all postures together, as their most likely values where a marker is where its
 /// segment has it but for its skin's movement (Cauchy, heavier tails than normal), with the priors
 /// of the options and joint angles inside their limits. Levenberg-Marquardt; each step eliminates
 /// the postures first (Schur complement), so that its cost grows with the number of frames only.
-/// noise_scale: factor on skin_deviation, by used marker. frames and body: start and result.
+/// noise_scale: by used marker, a factor on skin_deviation and, of places_by_noise, on
+/// marker_deviation. frames and body: start and result.
 BodyFitResult FitBody(BodyKinematics* kinematics, const CalibrationOptions& options,
                       const Eigen::VectorXd& noise_scale, std::vector<CalibrationFrame>* frames,
                       Body* body);

@@ -139,8 +139,7 @@ void LeaveOutUnseen(const std::vector<CalibrationFrame>& frames, Body* body) {
 }
 
 Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const BodyFitResult& fit,
-                    const std::vector<CalibrationFrame>& frames,
-                    const CalibrationOptions& options) {
+                    const std::vector<CalibrationFrame>& frames, const VectorXd& place_deviations) {
   Subject subject;
   const KinematicModel& model = kinematics.model();
   subject.model = model.name();
@@ -157,7 +156,7 @@ Subject MakeSubject(const BodyKinematics& kinematics, const Body& body, const Bo
     offset.marker = model.markers()[kinematics.markers()[m]].name;
     offset.offset = body.offsets.col(m);
     offset.standard_deviations = fit.deviations.offsets.col(m);
-    offset.prior_deviation = options.marker_deviation;
+    offset.prior_deviation = place_deviations[m];
     offset.frames = static_cast<int>(seen);
     subject.offsets.push_back(offset);
   }
@@ -256,10 +255,13 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   result.stands = !CheckMovement(model, joints, frames, options.may_stand, warnings);
   body.offsets = first.offsets;
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
-  const BodyFitResult fit =
-      FitBody(kinematics, options, NoiseScales(recordings, markers), &chosen, &body);
+  const VectorXd noise_scales = NoiseScales(recordings, markers);
+  // The median offsets of a posture that is not known are no better start than known places.
+  if (options.places_by_noise) body.offsets.setZero();
+  const BodyFitResult fit = FitBody(kinematics, options, noise_scales, &chosen, &body);
 
-  result.subject = MakeSubject(*kinematics, body, fit, chosen, options);
+  result.subject =
+      MakeSubject(*kinematics, body, fit, chosen, PlaceDeviations(options, noise_scales));
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const auto taken = std::count_if(chosen.begin(), chosen.end(), [&](const auto& frame) {
       return frame.recording == static_cast<int>(r);

@@ -35,6 +35,9 @@ struct CalibrationOptions {
   double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
   double skin_time = 0.3;          ///< in which the skin moves on: nearer frames repeat it [s]
   bool may_stand = false;          ///< one posture is enough: the model's markers tell it
+  /// A marker's place is known by marker_deviation times its noise scale, as landmarks are; else
+  /// all are known alike, and noise scales are of the skin.
+  bool places_by_noise = false;
   /// Is called often while it is computed; what it throws ends the estimate. May be empty.
   std::function<void()> between_steps = {};
 };

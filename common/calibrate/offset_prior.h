@@ -11,12 +11,14 @@
 namespace mmm_converter {
 
 /// Where markers are worn before any recording is seen: about the model's places, by
-/// marker_deviation, nearer them across a pair's line; as far off on one side of the body as on the
+/// a deviation of each, nearer them across a pair's line; as far off on one side of the body as on the
 /// other by side_correlation, as whoever placed the model's markers placed both alike. Tails are
 /// Cauchy's, as some are worn far off.
 class OffsetPrior {
  public:
-  OffsetPrior(const BodyKinematics& kinematics, const CalibrationOptions& options);
+  /// deviations: of each used marker's place [m].
+  OffsetPrior(const BodyKinematics& kinematics, const CalibrationOptions& options,
+              const Eigen::VectorXd& deviations);
 
   /// -2 log of the density, but for a constant. offsets: 3 x used markers [m].
   double Cost(const Eigen::Matrix3Xd& offsets) const;

@@ -76,6 +76,7 @@ PersonHeight EstimatePersonHeight(const TrackingSetup& setup, const MarkerSequen
   CalibrationOptions options = Options();
   if (frames.empty()) return {guess.height, guess.deviation, guess.frames};
   if (with_ordinary_height) options.height_deviation = kHeightDeviation;
+  options.places_by_noise = with_ordinary_height;
   const KinematicModel scaled = ScaleWinter(*setup.model, {guess.height, kAnyMass, {}});
   BodyKinematics kinematics(scaled, setup.joints, MarkerIndices(setup.assignments()));
   FindPostures(kinematics.kinematics(), &frames);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/fit/rigid_shape.h"
+#include "common/judge/body_limits.h"
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
 #include "common/judge/told_distances.h"
@@ -76,6 +77,7 @@ class Judge {
     JudgeTrack();
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
+    JudgeBodyLimits(evidence_.setup, evidence_.result.trajectory, &reasons_);
     JudgeHeight(is_far);
     if (is_far || evidence_.names != nullptr) {
       JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);

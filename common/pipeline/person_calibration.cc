@@ -155,6 +155,8 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
                                   const std::function<void()>& between_steps) {
   CalibrationOptions options;
   options.between_steps = between_steps;
+  options.places_by_noise = person.landmarks != nullptr;
+  options.may_stand = options.places_by_noise;
   CalibrationResult result = CalibrateSubject(scaled, joints, recordings, options, warnings);
   result.subject.name = name;
   result.subject.model = scaled.name();

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "common/judge/body_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/model/forward_kinematics.h"
+#include "common/model/marker_kinematics.h"
+#include "common/motion/marker_synthesis.h"
+#include "common/support/text.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+// Share of the frames: joints of right recordings at most 0.03.
+constexpr Limit kBodyAtLimit = {0.05, kNever};
+constexpr double kAtLimitWithin = 0.5 / kDegrees;
+// A limit this near the joint's rest is how people stand.
+constexpr double kNearRest = 5 / kDegrees;
+// Who walks on hands is not upright; who kicks is not so for long.
+constexpr Limit kAnkleAboveHip = {0.2, kNever};
+constexpr double kUpright = 0.7;  // cosine of 45 degrees
+constexpr int kMostPostures = 500;
+constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
+
+
+void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
+                 VerdictReasons* reasons) {
+  const KinematicModel& model = *setup.model;
+  const MarkerKinematics kinematics(model, setup.joints, MarkerIndices(setup.assignments()));
+  std::vector<std::string> standing;
+  double most = 0;
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    int moved = 0;
+    for (int m = 0; m < kinematics.num_markers(); ++m) moved += kinematics.Moves(j, m) ? 1 : 0;
+    const Segment& joint = model.joint(setup.joints[static_cast<std::size_t>(j)]);
+    if (moved < kFewestShowing || HasNoLimits(joint)) continue;
+    double frames = 0;
+    for (const Posture& posture : trajectory.postures) {
+      const double angle = posture.joint_angles[j];
+      const bool is_low = angle < joint.lower + kAtLimitWithin && joint.lower < joint.rest - kNearRest;
+      const bool is_high = angle > joint.upper - kAtLimitWithin && joint.upper > joint.rest + kNearRest;
+      frames += is_low || is_high ? 1 : 0;
+    }
+    const double share = frames / static_cast<double>(trajectory.postures.size());
+    if (!kBodyAtLimit.IsBeyond(share)) continue;
+    standing.push_back(fmt::format("{} ({:.0f} %)", joint.name, kPercent * share));
+    most = std::max(most, share);
+  }
+  reasons->AddBeyond(kBodyAtLimit, most,
+                     fmt::format("joints stand at their limits, in more than {:.0f} % of the "
+                                 "frames: {}; are their markers where their names say?",
+                                 kPercent * kBodyAtLimit.check, FirstNames(standing, 6)));
+}
+
+void JudgeLegs(const KinematicModel& model, const PoseTrajectory& trajectory,
+               VerdictReasons* reasons) {
+  for (const auto& [side, hip, ankle] : {std::tuple("left", "LHx_joint", "LAx_joint"),
+                                         std::tuple("right", "RHx_joint", "RAx_joint")}) {
+    const int above = model.FindSegment(hip), below = model.FindSegment(ankle);
+    if (above < 0 || below < 0) continue;
+    double upright = 0, folded = 0;
+    const int step = 1 + trajectory.num_frames() / kMostPostures;
+    for (int k = 0; k < trajectory.num_frames(); k += step) {
+      const auto X_WS = SegmentPoses(model, ModelPosture(model, trajectory, k));
+      if (X_WS.front().linear()(2, 2) < kUpright) continue;
+      ++upright;
+      const double hip_height = X_WS[static_cast<std::size_t>(above)].translation().z();
+      folded += X_WS[static_cast<std::size_t>(below)].translation().z() > hip_height ? 1 : 0;
+    }
+    if (upright == 0) continue;
+    reasons->AddBeyond(kAnkleAboveHip, folded / upright,
+                       fmt::format("the {} ankle is above its hip in {:.0f} % of the frames in "
+                                   "which the pelvis is upright: is it a leg's marker?",
+                                   side, kPercent * folded / upright));
+  }
+}
+
+}  // namespace
+
+void JudgeBodyLimits(const TrackingSetup& setup, const PoseTrajectory& trajectory,
+                     VerdictReasons* reasons) {
+  // Of the reference model: robots and OpenSim's bodies have limits of their own kinds.
+  if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return;
+  JudgeJoints(setup, trajectory, reasons);
+  JudgeLegs(*setup.model, trajectory, reasons);
+}
+
+}  // namespace mmm_converter

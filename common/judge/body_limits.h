@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/convert/tracking_setup.h"
+#include "common/judge/evidence.h"
+#include "common/motion/pose_trajectory.h"
+
+namespace mmm_converter {
+
+/// What no body does for long: joints that stand at a limit which is not their rest (a knee is
+/// straight at one), but for those that hardly a marker shows; an ankle above its hip where the pelvis
+/// is upright.
+void JudgeBodyLimits(const TrackingSetup& setup, const PoseTrajectory& trajectory,
+                     VerdictReasons* reasons);
+
+}  // namespace mmm_converter
