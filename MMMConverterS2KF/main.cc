@@ -19,6 +19,7 @@
 #include "MMMConverterS2KF/terminal/printable.h"
 #include "common/math/instruction_set.h"
 #include "common/pipeline/conversion_options.h"
+#include "common/support/opened_files.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 
@@ -32,6 +33,7 @@ int RunCommand(const Command& command, const std::vector<std::string>& words) {
   const Manual manual = command.manual();
   const Arguments arguments =
       ParseArguments(command.name, manual.options, words, manual.several_inputs);
+  const OpenedFiles opened;  // which the command must not replace
   if (!arguments.Has("help")) return command.run(arguments);
   std::cout << FormatHelp(manual);
   return 0;

@@ -24,7 +24,10 @@
 #include "MMMConverterS2KF/batch/persons.h"
 #include "MMMConverterS2KF/terminal/interruption.h"
 #include "common/pipeline/robot.h"
+#include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
+#include "common/support/output_plan.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -138,7 +141,7 @@ class BatchRunner {
       if (const JournalRecord* crash = FindCrash(entry, "")) return NoteCrash(*crash);
       persons_.WaitFor(entry);
       const ReadBefore read_before = inputs_.ReadFor(entry.request);
-      record.fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
+      record.fingerprint = inputs_.Fingerprint(entry, read_before);
       if (const JournalRecord* crash = FindCrash(entry, record.fingerprint)) {
         return NoteCrash(*crash);
       }
@@ -202,7 +205,7 @@ class BatchRunner {
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     if (options_.reports.all) outputs.push_back(PagePath(entry.id));
     return record.result.converted() && record.fingerprint == fingerprint &&
-           AreModelsUnchanged(entry, record) && folder_.IsComplete(record, outputs) &&
+           AreInputsUnchanged(entry, record) && folder_.IsComplete(record, outputs) &&
            IsRecordingUnchanged(entry, record);
   }
 
@@ -217,6 +220,7 @@ class BatchRunner {
 
   void Convert(const BatchEntry& entry, const ReadBefore& read_before, JournalRecord* record,
                CrashNote* note, Clock::time_point start) {
+    const OpenedFiles opened;
     const ConversionRequest request = RequestOf(entry, folder_);
     const std::string& file = request.input.file;
     record->recording = InspectFile(file);
@@ -227,20 +231,32 @@ class BatchRunner {
     std::vector<std::string> outputs = folder_.OutputsOf(entry);
     ConversionReport report = ConvertEntry(request, read_before, [this] { return !IsEnding(); });
     std::optional<RetargetReport> robot = RetargetEntry(entry, folder_, report);
-    folder_.Remove(PagePath(entry.id));  // it would show the conversion before
+    record->inputs = InspectInputs(entry, opened.files(), inputs_.FilesOf(entry, read_before));
+    CheckOutputs(entry, outputs);
+    FilesTogether files;
     WriteConversion(request, &report);
     if (robot) WriteRobotOutputs(entry, folder_, &*robot);
-    for (const std::string& output : outputs) folder_.Remove(output + kOutdated);
-    folder_.Remove(PagePath(entry.id) + kOutdated);
+    folder_.Remove(PagePath(entry.id));  // it would show the conversion before
     if (options_.reports.all) {
       WritePage(entry, report, robot, &folder_);
       outputs.push_back(PagePath(entry.id));
     }
-    record->models =
-        InspectNamedModels(report, robot ? robot->objects : std::vector<RecordedObject>());
+    files.Commit();
+    for (const std::string& output : outputs) folder_.Remove(output + kOutdated);
+    folder_.Remove(PagePath(entry.id) + kOutdated);
     record->outputs = folder_.Inspect(outputs);
     record->result = Converted(report, robot ? &*robot : nullptr, SecondsSince(start));
     NoteConverted(*record);
+  }
+
+  // All is read by now.
+  void CheckOutputs(const BatchEntry& entry, const std::vector<std::string>& outputs) const {
+    OutputPlan plan;
+    for (const std::string& output : outputs) {
+      plan.Rewrite(folder_.Full(output), entry.request.input.file);
+    }
+    plan.WriteIntoFolder(folder_.Full(PagePath(entry.id)));
+    plan.Check();
   }
 
   void NoteUnchanged() {

@@ -7,6 +7,7 @@
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/retarget_page.h"
 #include "common/support/atomic_file.h"
+#include "common/support/data_directory.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -57,28 +58,36 @@ void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, Retar
   }
 }
 
-std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report,
-                                                    const std::vector<RecordedObject>& objects) {
-  std::map<std::string, FileState> models;
-  for (const RecordedObject& object : objects) {
-    const std::string named = NamedModel(object);
-    if (!named.empty()) models[fs::absolute(named).string()] = InspectFile(named);
-  }
-  const Recording& recording = report.plan.input.recording;
-  if (!report.plan.object || !recording.mmm || recording.mmm->model_path.empty()) return models;
-  const fs::path folder = fs::path(recording.file).parent_path();
-  const std::string named = (folder / recording.mmm->model_path).lexically_normal().string();
-  if (report.plan.input.model_file == named) {
-    models[recording.mmm->model_path] = InspectFile(named);
-  }
-  return models;
+namespace {
+
+fs::path FolderOf(const BatchEntry& entry) {
+  std::error_code failure;
+  const fs::path recording = fs::weakly_canonical(entry.request.input.file, failure);
+  return recording.parent_path();
 }
 
-bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record) {
-  const fs::path folder = fs::path(entry.request.input.file).parent_path();
+}  // namespace
+
+std::map<std::string, FileState> InspectInputs(const BatchEntry& entry,
+                                               const std::set<std::string>& opened,
+                                               const std::set<std::string>& fingerprinted) {
+  const fs::path folder = FolderOf(entry);
+  std::error_code failure;
+  const std::string shipped = fs::weakly_canonical(DataDirectory(), failure).string() + "/";
+  std::map<std::string, FileState> inputs;
+  for (const std::string& file : opened) {
+    const bool is_known = fingerprinted.count(file) > 0 || file.starts_with(shipped) ||
+                          fs::equivalent(file, entry.request.input.file, failure);
+    if (!is_known) inputs[fs::path(file).lexically_relative(folder).string()] = InspectFile(file);
+  }
+  return inputs;
+}
+
+bool AreInputsUnchanged(const BatchEntry& entry, const JournalRecord& record) {
+  const fs::path folder = FolderOf(entry);
   try {
-    return std::all_of(record.models.begin(), record.models.end(), [&](const auto& model) {
-      return IsUnchanged((folder / model.first).string(), model.second);
+    return std::all_of(record.inputs.begin(), record.inputs.end(), [&](const auto& input) {
+      return IsUnchanged((folder / input.first).string(), input.second);
     });
   } catch (const Error&) {
     return false;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "MMMConverterS2KF/batch/batch_outputs.h"
@@ -30,15 +31,14 @@ std::optional<RetargetReport> RetargetEntry(const BatchEntry& entry, const Batch
 /// Writes the robot's motion and its exports. @throws WriteError
 void WriteRobotOutputs(const BatchEntry& entry, const BatchFolder& folder, RetargetReport* robot);
 
-/// The model that the recording of an object names, by path relative to the recording's folder, and
-/// those that a robot's objects name: what a fingerprint does not have, as only reading these files
-/// tells.
-/// @throws Error where it can't be read.
-std::map<std::string, FileState> InspectNamedModels(const ConversionReport& report,
-                                                    const std::vector<RecordedObject>& objects);
+/// JournalRecord::inputs of the files that were opened. fingerprinted: what the fingerprint is of.
+/// @throws Error where one can't be read.
+std::map<std::string, FileState> InspectInputs(const BatchEntry& entry,
+                                               const std::set<std::string>& opened,
+                                               const std::set<std::string>& fingerprinted);
 
 /// Whether these are as they were; one that is gone is not.
-bool AreModelsUnchanged(const BatchEntry& entry, const JournalRecord& record);
+bool AreInputsUnchanged(const BatchEntry& entry, const JournalRecord& record);
 
 /// Writes the page of a conversion, or of the robot's motion where there is one.
 /// @throws WriteError

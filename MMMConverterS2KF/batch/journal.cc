@@ -33,7 +33,7 @@ std::optional<JournalRecord> ParseRecord(std::string_view line) {
     record.time = ParseTime(json.at("time_ms"));
     record.fingerprint = json.at("fingerprint").get<std::string>();
     record.recording = ParseFileState(json.at("recording"));
-    if (json.contains("models")) record.models = ParseFileStates(json.at("models"));
+    if (json.contains("inputs")) record.inputs = ParseFileStates(json.at("inputs"));
     record.outputs = ParseFileStates(json.at("outputs"));
     record.result = ParseEntryResult(json.at("result"));
     record.crashed = json.value("crashed", false);
@@ -109,7 +109,7 @@ std::string FormatJournalLine(const JournalRecord& record) {
                {"recording", ToJson(record.recording)},
                {"outputs", ToJson(record.outputs)},
                {"result", ToJson(record.result)}};
-  if (!record.models.empty()) line["models"] = ToJson(record.models);
+  if (!record.inputs.empty()) line["inputs"] = ToJson(record.inputs);
   if (record.crashed) line["crashed"] = true;
   return FormatJsonLine(line);
 }

@@ -18,9 +18,9 @@ struct JournalRecord {
   std::int64_t time = 0;    ///< when it ended [ms since 1970]
   std::string fingerprint;  ///< see SharedInputs
   FileState recording;      ///< of converted ones
-  /// Models that the recording or its objects name, and that were used; by path, where it is not
-  /// absolute relative to the recording's folder.
-  std::map<std::string, FileState> models;
+  /// Other files that were opened and that the fingerprint is not of, as only reading tells which:
+  /// those that inputs name. By path from the recording's folder.
+  std::map<std::string, FileState> inputs;
   std::map<std::string, FileState> outputs;  ///< by path in the output folder
   EntryResult result;
   bool crashed = false;  ///< the process ended while it ran; of failed ones

@@ -159,7 +159,7 @@ void BatchPersons::WaitFor(const BatchEntry& entry) {
 void BatchPersons::Run(const BatchPerson& person, const std::function<bool()>& goes_on) {
   const ReadBefore read_before = tools_.inputs->ReadFor(person.settings.request);
   const ConverterChoice& choice = *read_before.choice.value;
-  const std::string fingerprint = tools_.inputs->Fingerprint(person.settings, choice);
+  const std::string fingerprint = tools_.inputs->Fingerprint(person.settings, read_before);
   const std::string file = PersonPath(person);
   tools_.folder->MakeReady(file);
   if (resume_ && IsDone(person, fingerprint)) return;

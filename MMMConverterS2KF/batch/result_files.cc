@@ -58,9 +58,9 @@ class ResultsWriter {
     if (!record.result.converted()) return &record;
     try {
       const ReadBefore read_before = inputs_.ReadFor(entry.request);
-      const std::string fingerprint = inputs_.Fingerprint(entry, *read_before.choice.value);
+      const std::string fingerprint = inputs_.Fingerprint(entry, read_before);
       const bool is_current = record.fingerprint == fingerprint &&
-                              AreModelsUnchanged(entry, record) &&
+                              AreInputsUnchanged(entry, record) &&
                               folder_.IsComplete(record, BatchFolder::OutputsOf(entry));
       return is_current ? &record : nullptr;
     } catch (const Error&) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include "MMMConverterS2KF/batch/manifest.h"
@@ -20,22 +21,31 @@ class SharedInputs {
   /// @throws Error where one of them can't be read.
   ReadBefore ReadFor(const ConversionRequest& request);
 
-  /// Hash of all that the outputs of an entry depend on, except the recording's bytes: this program
-  /// with its libraries and marker sets, the plugin, the configuration, the model, the subject, the
-  /// attributes.
+  /// Hash of what the outputs of an entry depend on before its recording is read: this program with
+  /// its libraries and data, the attributes, and FilesOf.
   /// @throws Error where a file can't be read.
-  std::string Fingerprint(const BatchEntry& entry, const ConverterChoice& choice);
+  std::string Fingerprint(const BatchEntry& entry, const ReadBefore& read_before);
+
+  /// The files of model, converter and robot with all that they name, and those that the request
+  /// names, except the recording; absolute, links resolved.
+  std::set<std::string> FilesOf(const BatchEntry& entry, const ReadBefore& read_before);
 
  private:
   std::string FileHash(const std::string& path);
-  /// With what an MJCF includes.
-  std::string RobotHash(const std::string& path);
+  /// With what it includes.
+  std::set<std::string> FilesOfRobot(const std::string& path);
 
   std::string program_;  // hash
   std::mutex mutex_;
-  std::map<std::string, WithWarnings<std::shared_ptr<const LoadedModel>>> models_;
-  std::map<std::string, WithWarnings<std::shared_ptr<const ConverterChoice>>> choices_;
-  std::map<std::string, std::string> hashes_, robots_;
+  template <typename T>
+  struct Shared {
+    WithWarnings<std::shared_ptr<const T>> value;
+    std::set<std::string> opened;  // files that it was read of
+  };
+  std::map<std::string, Shared<LoadedModel>> models_;
+  std::map<std::string, Shared<ConverterChoice>> choices_;
+  std::map<std::string, std::string> hashes_;
+  std::map<std::string, std::set<std::string>> robots_;
 };
 
 }  // namespace mmm_converter

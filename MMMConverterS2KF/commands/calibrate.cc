@@ -132,12 +132,13 @@ void CheckOsimOptions(const Arguments& arguments) {
 }
 
 int WriteOsim(const Arguments& arguments, const OsimScalingReport& report,
-              const std::string& output) {
+              const std::string& output, FilesTogether* files) {
   LogWarnings(report.warnings);
   WriteFileAtomically(output, report.scaled.content);
   if (const auto file = arguments.Get("summary")) {
     WriteFileAtomically(*file, FormatJson(ToJson(report, output)));
   }
+  files->Commit();
   std::cout << FormatOsimScalingSummary(report, output);
   return report.verdict ? ExitCodeOf(arguments, {report.verdict->level}) : 0;
 }
@@ -157,14 +158,16 @@ int ScaleOsimModel(const Arguments& arguments, const std::string& setup_file) {
   plan.Write(arguments.Get("summary").value_or(""));
   plan.Check();
   const OsimScalingReport report = RunOsimScaling(request);
-  return WriteOsim(arguments, report, output);
+  plan.Check();
+  FilesTogether files;
+  return WriteOsim(arguments, report, output, &files);
 }
 
 int CalibrateOsimModel(const Arguments& arguments, const CalibrationRequest& request) {
   CheckOsimOptions(arguments);
   const std::string output = CalibrateOutputFile(arguments, kOsimEnding);
   Warnings of_choice;
-  ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
+  const ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
   OutputPlan plan;
   for (const InputRequest& input : request.inputs) NameInputs(input, &plan);
   NameInputs(choice, &plan);
@@ -174,14 +177,16 @@ int CalibrateOsimModel(const Arguments& arguments, const CalibrationRequest& req
   plan.Check();
   ProgressBar bar("recordings read");
   const OsimScalingReport report =
-      RunOsimCalibration(request, {std::move(choice.config), std::move(of_choice)},
+      RunOsimCalibration(request, {choice.config, std::move(of_choice)},
                          [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
+  plan.Check();
+  FilesTogether files;
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatCalibrationReport(arguments, report.recordings, report.model,
                                                        *report.result, "the model of that size"));
   }
-  return WriteOsim(arguments, report, output);
+  return WriteOsim(arguments, report, output, &files);
 }
 
 }  // namespace
@@ -203,14 +208,16 @@ int RunCalibrate(const Arguments& arguments) {
   if (IsOsimModel(request.inputs.front())) return CalibrateOsimModel(arguments, request);
   const std::string output = CalibrateOutputFile(arguments, kSubjectEnding);
   Warnings of_choice;
-  ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
+  const ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
   CheckOutputs(arguments, request, choice);
   ProgressBar bar("recordings read");
   const CalibrationReport report =
-      RunCalibration(request, {std::move(choice.config), std::move(of_choice)},
+      RunCalibration(request, {choice.config, std::move(of_choice)},
                      [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
+  CheckOutputs(arguments, request, choice);
   LogWarnings(report.warnings);
+  FilesTogether files;
   const std::string& model_file = report.recordings.front().input.model_file;
   const Subject& subject = report.result.subject;
   if (const auto file = arguments.Get("model-out")) {
@@ -225,6 +232,7 @@ int RunCalibrate(const Arguments& arguments) {
         *file, FormatCalibrationReport(arguments, report.recordings, report.model, report.result,
                                        "the model scaled by height"));
   }
+  files.Commit();
   std::cout << FormatCalibrationSummary(report, output);
   return ExitCodeOf(arguments, {report.verdict.level});
 }

@@ -69,10 +69,11 @@ void WriteFiles(const Arguments& arguments, const DynamicsReport& report) {
   const std::string summary = arguments.Get("summary").value_or("");
   const std::string page = arguments.Get("report").value_or("");
   const CheckedMotion& motion = report.motion;
+  FilesTogether files;
   if (!summary.empty()) WriteFileAtomically(summary, FormatJson(ToJson(report)));
-  if (page.empty()) return;
   const std::string title = std::filesystem::path(motion.file).filename().string();
-  WriteFileAtomically(page, FormatDynamicsPage(title, report));
+  if (!page.empty()) WriteFileAtomically(page, FormatDynamicsPage(title, report));
+  files.Commit();
 }
 
 }  // namespace
@@ -101,6 +102,7 @@ int RunCheckDynamics(const Arguments& arguments) {
   plan.Read(motion.model_file);
   plan.Check();
   const DynamicsReport report = CheckDynamics(std::move(motion), options);
+  plan.Check();
   LogWarnings(report.motion.warnings);
   WriteFiles(arguments, report);
   std::cout << FormatDynamicsSummary(report);

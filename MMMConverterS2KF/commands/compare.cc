@@ -107,6 +107,7 @@ int RunCompare(const Arguments& arguments) {
   for (Contender& contender : contenders) UseMarkerSet(inputs.front(), &contender.config);
   CheckOutputs(arguments, inputs, contenders);
   std::vector<Trial> trials = MakeTrials(arguments, inputs, contenders.front().config);
+  CheckOutputs(arguments, inputs, contenders);
   MakeNamesUnique(&trials, &contenders);
   ProgressBar bar("runs");
   const Comparison comparison = Compare(std::move(trials), std::move(contenders), options,

@@ -29,6 +29,7 @@ void NameOutputs(const Arguments& arguments, OutputPlan* plan) {
 
 void WriteComparison(const Arguments& arguments, const std::string& title,
                      const Comparison& comparison) {
+  FilesTogether files;
   if (const auto file = arguments.Get("json")) {
     WriteFileAtomically(*file, FormatJson(ToJson(comparison)));
   }
@@ -42,6 +43,7 @@ void WriteComparison(const Arguments& arguments, const std::string& title,
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatReport(title, {{title, "", &comparison}}));
   }
+  files.Commit();
 }
 
 std::string FormatPageOfRuns(const std::string& title, const std::string& text,

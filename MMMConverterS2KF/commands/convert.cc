@@ -191,6 +191,7 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
     return true;
   });
   bar.Clear();
+  FilesTogether files;
   WriteAllMotions(request, &all);
   LogWarningsOf(all);
   std::vector<std::string> failures;
@@ -205,6 +206,7 @@ int ConvertAllMotions(const Arguments& arguments, const ConversionRequest& reque
   if (const auto file = arguments.Get("report"); file && !reports.empty()) {
     WriteFileAtomically(*file, FormatConversionPage(reports, failures));
   }
+  files.Commit();
   std::cout << FormatAllMotions(all);
   for (const std::string& failure : failures) LogError(failure);
   std::vector<Verdict::Level> verdicts;
@@ -234,6 +236,7 @@ int RunConvert(const Arguments& arguments) {
   };
   ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
   bar.Clear();
+  FilesTogether files;
   WriteConversion(request, &report);
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
@@ -245,6 +248,7 @@ int RunConvert(const Arguments& arguments) {
   if (const auto file = arguments.Get("marker-set-out")) {
     WriteFileAtomically(*file, FormatUsedSet(report.plan));
   }
+  files.Commit();
   std::cout << FormatSummary(report);
   return ExitCodeOf(arguments, {report.verdict.level});
 }

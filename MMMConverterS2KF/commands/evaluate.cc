@@ -70,6 +70,7 @@ void CheckOutputs(const Arguments& arguments, const std::string& folder) {
 }
 
 void WriteFiles(const std::string& folder, const std::vector<Experiment>& experiments) {
+  FilesTogether files;
   std::vector<ReportSection> sections;
   Json json = Json::object();
   for (const Experiment& experiment : experiments) {
@@ -81,6 +82,7 @@ void WriteFiles(const std::string& folder, const std::vector<Experiment>& experi
   }
   WriteFileAtomically(FiguresFile(folder), FormatJson(json));
   WriteFileAtomically(PageFile(folder), FormatReport("Evaluation", sections));
+  files.Commit();
 }
 
 }  // namespace
@@ -101,6 +103,7 @@ int RunEvaluate(const Arguments& arguments) {
   request.runs = arguments.GetInteger("repeat", 1, 100000).value_or(request.runs);
   request.jobs = arguments.GetInteger("jobs", 1, 1024).value_or(0);
   request.others = ReadOthers(arguments);
+  CheckOutputs(arguments, folder);
   ProgressBar bar("runs");
   const std::vector<Experiment> experiments = Evaluate(
       request, [&](const std::string& stage, int done, int all) { bar.Show(done, all, stage); });

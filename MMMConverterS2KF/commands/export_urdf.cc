@@ -59,6 +59,7 @@ int RunExportUrdf(const Arguments& arguments) {
   ConverterConfig config;
   MatchModel(request, &input, &config);
   const Person person = FindKnownPerson(request.person, *input.reference, config, &warnings);
+  plan.Check();
   const KinematicModel model = ScaleModel(*input.reference, ScalingOf(person, config));
   const UrdfText urdf = FormatUrdf(model, Describe(input.model_file, person), &warnings);
   LogWarnings(warnings);

@@ -86,6 +86,7 @@ int RunLabel(const Arguments& arguments) {
     return true;
   });
   bar.Clear();
+  FilesTogether files;
   if (!report.output.empty()) WriteLabelled(report);
   LogWarnings(report.warnings);
   if (const auto file = arguments.Get("summary")) {
@@ -94,6 +95,7 @@ int RunLabel(const Arguments& arguments) {
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatLabelPage(report));
   }
+  files.Commit();
   std::cout << FormatLabelSummary(report);
   return ExitCodeOf(arguments, {report.verdict.level});
 }

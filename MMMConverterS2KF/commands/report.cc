@@ -110,9 +110,12 @@ int RunReport(const Arguments& arguments) {
   plan.Write(output);
   plan.Check();
   const Comparison comparison = CompareSolutions(arguments);
+  plan.Check();
   const std::string title = comparison.trials.front().name;
+  FilesTogether files;
   WriteComparison(arguments, title, comparison);
   WriteFileAtomically(output, FormatReport(title, {{title, "", &comparison}}));
+  files.Commit();
   std::cout << FormatComparisonTable(comparison) << output << '\n';
   return 0;
 }

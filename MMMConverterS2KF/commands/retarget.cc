@@ -100,6 +100,7 @@ RetargetRequest MakeRetargetRequest(const Arguments& arguments) {
     const auto file = arguments.Get(format.option);
     if (!file) continue;
     for (std::string& one : FilesOf(format, *file)) {
+      if (one != *file) CheckIsOwn(one, kRobotNamesBegin);
       request.conversion.more_outputs.push_back(std::move(one));
     }
   }
@@ -156,6 +157,7 @@ int RunRetarget(const Arguments& arguments) {
   });
   bar.Clear();
   for (const RobotExport& one : exports) CheckRobotExport(*one.format, robot, report);
+  FilesTogether files;
   WriteRobotMotion(&report);
   for (const RobotExport& one : exports) WriteRobotExport(*one.format, one.file, robot, &report);
   LogWarnings(report.warnings);
@@ -165,6 +167,7 @@ int RunRetarget(const Arguments& arguments) {
   if (const auto file = arguments.Get("report")) {
     WriteFileAtomically(*file, FormatRetargetPage(report));
   }
+  files.Commit();
   if (arguments.Has("print-map")) {
     std::cout << FormatBodyMap(report.robot.model, report.body.map);
   }

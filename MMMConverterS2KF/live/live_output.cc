@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "common/convert/tracking_start.h"
+#include "common/io/tables/osim_tables.h"
 #include "common/live/source_address.h"
 #include "common/model/posture.h"
+#include "common/pipeline/force_exports.h"
 #include "common/pipeline/live/live_bodies.h"
 #include "common/pipeline/live/live_plan.h"
 #include "common/pipeline/motion_output.h"
@@ -48,7 +50,11 @@ std::vector<std::string> FirstMotions(const LiveRequest& request) {
   return files;
 }
 
-LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
+LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) { CheckFiles(); }
+
+// plan: of a motion that begins; null: none does yet.
+void LiveOutput::CheckFiles(const ConversionPlan* plan) const {
+  const LiveRequest& request = request_;
   OutputPlan outputs;
   InputRequest inputs = request.input;
   inputs.file = FileOfSource(request.input.file);
@@ -60,9 +66,15 @@ LiveOutput::LiveOutput(const LiveRequest& request) : request_(request) {
     outputs.Write(JournalOf(file));
   }
   outputs.Write(request.subject_output);
-  for (const auto& [unused, file] : request.exports) outputs.Write(file);
+  NameOutputs(request.exports, &outputs);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   for (const std::string& file : request.other_objects) outputs.Read(file);
+  if (plan != nullptr) {
+    outputs.Read(plan->opened);
+    outputs.WriteBeside(DeviationsOutput(*plan), kOsimDeviations);
+    const std::vector<std::string> first = FirstMotions(request);
+    if (std::count(first.begin(), first.end(), plan->output) == 0) outputs.Write(plan->output);
+  }
   outputs.Check();
 }
 
@@ -97,6 +109,7 @@ std::unique_ptr<PoseSink> LiveOutput::Begin(const ConversionPlan& plan, const Li
         return earlier.body == body.index;
       }));
   motion.file = motion.plan.output = FileOf(motion);
+  CheckFiles(&motion.plan);
   JournalHeader header;
   header.output = motion.file;
   header.format = plan.output_format;

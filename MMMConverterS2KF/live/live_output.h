@@ -25,6 +25,9 @@ class LiveOutput {
   /// written.
   explicit LiveOutput(const LiveRequest& request);
 
+  /// The same, of what has been read meanwhile.
+  void CheckFiles() const { CheckFiles(nullptr); }
+
   /// The journal for this plan, where the body is a new one.
   std::unique_ptr<PoseSink> Begin(const ConversionPlan& plan, const LiveBody& body);
 
@@ -39,6 +42,7 @@ class LiveOutput {
   void Update(const ConversionPlan& plan, int body);
 
  private:
+  void CheckFiles(const ConversionPlan* plan) const;
   struct Motion {
     ConversionPlan plan;
     int body = 0;

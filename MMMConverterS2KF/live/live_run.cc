@@ -63,6 +63,7 @@ class LiveRun {
             request, Open(request, observer),
             [this](const auto& body, const auto& pose) { Give(body, pose); },
             [this](bool is_warning, std::string text) { news_.Add(is_warning, std::move(text)); }) {
+    output_.CheckFiles();  // a robot is read by now, and what it names
     report_.objects.resize(bodies_.size() - 1);
     {
       // Threads of sinks begin with it.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 
 namespace mmm_converter::python {
 
@@ -19,7 +20,7 @@ using Progress = std::function<bool(int, int)>;
 
 /// Computes work(progress) in a thread of its own while this one, without the interpreter's lock,
 /// looks for Ctrl-C and calls `callback` with (done, all), which may be None. What either raises
-/// ends the work.
+/// ends the work. A result's `opened` becomes the files that it was made of (OpenedFiles).
 template <typename Work>
 auto InBackground(const pybind11::object& callback, Work work) {
   std::atomic<bool> is_cancelled = false;
@@ -32,7 +33,12 @@ auto InBackground(const pybind11::object& callback, Work work) {
   std::future<decltype(work(progress))> result;
   {
     const pybind11::gil_scoped_release release;
-    result = std::async(std::launch::async, [&] { return work(progress); });
+    result = std::async(std::launch::async, [&] {
+      const OpenedFiles opened;
+      auto made = work(progress);
+      if constexpr (requires { made.opened; }) made.opened = opened.files();
+      return made;
+    });
     long shown = 0;
     bool is_ready = false;
     while (!is_ready) {

@@ -12,7 +12,9 @@
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
 #include "common/convert/marker_incidents.h"
+#include "common/io/tables/osim_tables.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/force_exports.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
@@ -32,13 +34,18 @@ Conversion Convert(const py::dict& options, const py::object& progress) {
   });
 }
 
-void CheckOneOutput(const Conversion& conversion, const std::string& file, bool is_motion) {
+void CheckOneOutput(const Conversion& conversion, const std::string& file, bool is_motion,
+                    const std::string& exporter = "") {
   OutputPlan plan;
+  plan.Read(conversion.report.plan.opened);
   NameInputs(conversion.request.input, &plan);
   NameInputs(conversion.report.plan.converter, &plan);
   plan.Read(conversion.report.plan.person.subject_file);
   if (is_motion) {
     plan.Rewrite(file, conversion.request.input.file);
+    plan.WriteBeside(DeviationsOutput(conversion.report.plan), kOsimDeviations);
+  } else if (!exporter.empty()) {
+    NameOutputs({{exporter, file}}, &plan);
   } else {
     plan.Write(file);
   }
@@ -50,14 +57,18 @@ void Save(Conversion* conversion, const std::string& file) {
   conversion->request.output = file;
   ChooseMotionOutput(conversion->request, false, &conversion->report.plan);
   CheckOneOutput(*conversion, file, true);
+  FilesTogether files;
   WriteObjectModel(conversion->report.plan);
   WriteMotions(conversion->request, {&conversion->report});
+  files.Commit();
 }
 
 void Export(const Conversion& conversion, const std::string& name, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckOneOutput(conversion, file, false);
+  CheckOneOutput(conversion, file, false, name);
+  FilesTogether files;
   WriteExports({{name, file}}, conversion.report);
+  files.Commit();
 }
 
 void WritePage(const Conversion& conversion, const std::string& file) {

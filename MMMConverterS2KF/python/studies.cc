@@ -35,6 +35,7 @@
 #include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
+#include "common/support/opened_files.h"
 
 namespace mmm_converter::python {
 
@@ -50,11 +51,12 @@ std::vector<InputRequest> InputRequestsOf(const py::list& inputs) {
 }
 
 // An output that may not be one of the inputs.
-void WriteBeside(const std::vector<InputRequest>& inputs, const std::string& file,
-                 const TextPieces& content) {
+void WriteBeside(const std::vector<InputRequest>& inputs, const std::set<std::string>& opened,
+                 const std::string& file, const TextPieces& content) {
   const py::gil_scoped_release release;
   OutputPlan plan;
   for (const InputRequest& input : inputs) NameInputs(input, &plan);
+  plan.Read(opened);
   plan.Write(file);
   plan.Check();
   WriteFileAtomically(file, content);
@@ -68,6 +70,7 @@ struct Calibration {
   CalibrationRequest request;
   CalibrationReport report;
   std::string output;  ///< where the subject was saved; empty: nowhere
+  std::set<std::string> opened = {};
 };
 
 Calibration Calibrate(const py::list& inputs, const py::dict& options, const py::object& progress) {
@@ -88,19 +91,21 @@ Calibration Calibrate(const py::list& inputs, const py::dict& options, const py:
 
 void SaveSubject(Calibration* calibration, const std::string& file) {
   const Subject& subject = calibration->report.result.subject;
-  WriteBeside(calibration->request.inputs, file, Whole(FormatSubject(subject, SubjectProgram())));
+  WriteBeside(calibration->request.inputs, calibration->opened, file,
+              Whole(FormatSubject(subject, SubjectProgram())));
   calibration->output = file;
 }
 
 void SaveSubjectsModel(const Calibration& calibration, const std::string& file) {
   const std::string& model = calibration.report.recordings.front().input.model_file;
-  WriteBeside(calibration.request.inputs, file,
+  WriteBeside(calibration.request.inputs, calibration.opened, file,
               Whole(ReadModelForSubject(model, calibration.report.result.subject)));
 }
 
 struct Comparing {
   std::vector<InputRequest> inputs;
   Comparison comparison;
+  std::set<std::string> opened = {};
 };
 
 Comparing CompareAll(const py::list& inputs, const std::vector<std::string>& configs,
@@ -132,6 +137,7 @@ Comparing CompareAll(const py::list& inputs, const std::vector<std::string>& con
 struct LabelledRecording {
   LabelRequest request;
   LabelReport report;
+  std::set<std::string> opened = {};
 };
 
 LabelledRecording LabelPoints(const py::dict& options, const py::object& progress) {
@@ -151,6 +157,7 @@ void SaveLabelled(LabelledRecording* labelled, const std::string& file) {
   CheckKeepsRecording(file, labelled->report.input.recording);
   OutputPlan plan;
   NameInputs(labelled->request.input, &plan);
+  plan.Read(labelled->opened);
   for (const std::string& hint : FilesOf(labelled->request.hints)) plan.Read(hint);
   plan.Rewrite(file, labelled->request.input.file);
   plan.Check();
@@ -168,6 +175,7 @@ ReadRecordingResult RecordingOf(const LabelledRecording& labelled) {
 struct CheckedDynamics {
   InputRequest request;
   DynamicsReport report;
+  std::set<std::string> opened = {};
 };
 
 MmmMotion MotionOf(const py::dict& arrays) {
@@ -210,6 +218,7 @@ CheckedDynamics CheckMotion(const py::object& motion, const py::dict& options,
 struct Learning {
   LearnRequest request;
   LearnReport report;
+  std::set<std::string> opened = {};
 };
 
 Learning Learn(const py::list& inputs, const py::dict& options, const py::object& progress) {
@@ -226,13 +235,14 @@ Learning Learn(const py::list& inputs, const py::dict& options, const py::object
 void SaveMarkerSet(Learning* learning, const std::string& file) {
   LearnReport& report = learning->report;
   if (learning->request.name.empty()) report.name = std::filesystem::path(file).stem().string();
-  WriteBeside(learning->request.inputs, file, Whole(FormatLearnedSet(report)));
+  WriteBeside(learning->request.inputs, learning->opened, file, Whole(FormatLearnedSet(report)));
   report.output = file;
 }
 
 struct RetargetedMotion {
   RetargetRequest request;
   RetargetReport report;
+  std::set<std::string> opened = {};
 };
 
 // motion: as of CheckMotion.
@@ -264,6 +274,7 @@ RetargetedMotion Retarget(const py::object& motion, const py::dict& options, con
 void CheckOutputs(const RetargetedMotion& motion, const std::vector<std::string>& files) {
   OutputPlan plan;
   NameInputs(motion.request, &plan);
+  plan.Read(motion.opened);
   for (const std::string& file : files) plan.Write(file);
   plan.Check();
 }
@@ -314,7 +325,7 @@ void BindStudies(py::module_* module) {
       .def_property_readonly("text",
                              [](const Comparing& c) { return FormatComparisonTable(c.comparison); })
       .def("report", [](const Comparing& c, const std::string& file) {
-        WriteBeside(c.inputs, file,
+        WriteBeside(c.inputs, c.opened, file,
                     Whole(FormatReport("Comparison", {{"Comparison", "", &c.comparison}})));
       });
   py::class_<LabelledRecording>(*module, "LabelledRecording")
@@ -327,7 +338,7 @@ void BindStudies(py::module_* module) {
       .def_property_readonly("recording", &RecordingOf)
       .def("save", &SaveLabelled)
       .def("report", [](const LabelledRecording& l, const std::string& file) {
-        WriteBeside({l.request.input}, file, Whole(FormatLabelPage(l.report)));
+        WriteBeside({l.request.input}, l.opened, file, Whole(FormatLabelPage(l.report)));
       });
   py::class_<CheckedDynamics>(*module, "Dynamics")
       .def_property_readonly("summary",
@@ -341,7 +352,7 @@ void BindStudies(py::module_* module) {
           "warnings", [](const CheckedDynamics& d) { return d.report.motion.warnings.texts(); })
       .def("report", [](const CheckedDynamics& d, const std::string& file) {
         const std::string title = std::filesystem::path(d.report.motion.file).filename().string();
-        WriteBeside({d.request}, file, Whole(FormatDynamicsPage(title, d.report)));
+        WriteBeside({d.request}, d.opened, file, Whole(FormatDynamicsPage(title, d.report)));
       });
   py::class_<Learning>(*module, "LearnedMarkers")
       .def_property_readonly("summary",

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
@@ -18,6 +20,7 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr unsigned kLineLength = 100;
+constexpr std::string_view kNames[] = {"FILE", "FOLDER", "DIR", "RECORDING"};  // of arguments
 
 std::string LongName(const OptionSpec& option) {
   return option.name.substr(0, option.name.find(','));
@@ -136,8 +139,12 @@ Arguments ParseArguments(const std::string& command, const std::vector<OptionGro
                          const std::vector<std::string>& words, bool several_positionals) {
   std::map<std::string, std::string> long_names;  // also of aliases
   std::set<std::string> repeatable;
+  std::set<std::string> files;
   for (const OptionGroup& group : groups) {
     for (const OptionSpec& option : group.options) {
+      if (std::count(std::begin(kNames), std::end(kNames), option.argument) > 0) {
+        files.insert(LongName(option));
+      }
       long_names[LongName(option)] = LongName(option);
       if (option.repeatable) repeatable.insert(LongName(option));
       if (!option.alias.empty()) long_names[option.alias] = LongName(option);
@@ -156,6 +163,12 @@ Arguments ParseArguments(const std::string& command, const std::vector<OptionGro
       continue;
     }
     const std::string& name = long_names.at(option.string_key);
+    if (value.empty() && files.count(name) > 0) {
+      throw UsageError(
+          fmt::format("{}: --{} names nothing: its value is empty; give a name or leave "
+                      "the option out",
+                      command, option.string_key));
+    }
     std::vector<std::string>& values = arguments.values_[name];
     if (!values.empty() && repeatable.count(name) == 0) {
       throw UsageError(fmt::format("{}: --{} is given twice", command, option.string_key));

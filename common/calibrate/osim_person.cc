@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 
 #include "common/convert/coordinate_tasks.h"
 #include "common/fit/posture_search.h"
@@ -66,6 +66,21 @@ double MeanDistance(const MarkerSequence& recording, const FrameRange& range, in
     ++count;
   }
   return sum / count;
+}
+
+constexpr std::size_t kMostPlacedJoints = 500;  // the work grows with their cube
+
+/// Those that move one of the markers, or that a task draws to a value, in ascending order.
+std::vector<int> JointsThatCount(const KinematicModel& model, const std::vector<MarkerIx>& markers,
+                                 const std::vector<JointTask>& tasks) {
+  std::set<int> joints;
+  for (const JointTask& task : tasks) joints.insert(task.joint);
+  for (const MarkerIx marker : markers) {
+    for (int s = model.markers()[marker].segment; s >= 0; s = model.segments()[s].parent) {
+      if (model.segments()[s].joint >= 0) joints.insert(model.segments()[s].joint);
+    }
+  }
+  return {joints.begin(), joints.end()};
 }
 
 /// Set-ups name bodies of other models too.
@@ -212,22 +227,35 @@ std::vector<OsimMarker> PersonScaler::PlaceMarkers(const OsimDocument& document,
                                                    double* distance) const {
   const Matrix3Xd mean = MeanFrame();
   const Target target = FindTarget(model, mean);
-  std::vector<int> joints(model.num_joints());
-  std::iota(joints.begin(), joints.end(), 0);
+  const std::vector<JointTask> tasks =
+      ResolveCoordinateTasks(setup_.tasks.coordinates, model, warnings_);
+  const std::vector<int> joints = JointsThatCount(model, target.markers, tasks);
+  if (joints.size() > kMostPlacedJoints) {
+    throw Error(
+        fmt::format("{}: {} joints move the markers that are to be placed, more than the "
+                    "{} that are fitted",
+                    setup_file_, joints.size(), kMostPlacedJoints));
+  }
   const MarkerKinematics kinematics(model, joints, target.markers);
   // As near to the minimum as numbers let it come, wherever the markers determine it.
   PostureFitOptions options;
   options.max_iterations = 2000;
   options.tolerance = 1e-13;
   options.natural_weight = 0;
-  for (const JointTask& task : ResolveCoordinateTasks(setup_.tasks.coordinates, model, warnings_)) {
-    options.pulls.push_back({task.joint, task.value, task.weight});
+  for (const JointTask& task : tasks) {
+    const auto at = std::lower_bound(joints.begin(), joints.end(), task.joint);
+    options.pulls.push_back({static_cast<int>(at - joints.begin()), task.value, task.weight});
   }
-  Posture posture = RestPosture(model);
+  const Posture rest = RestPosture(model);
+  Posture posture = rest;
+  posture.joint_angles = rest.joint_angles(joints);
   PostureSearch search(kinematics);
   search.Assemble(target.places, target.noise_scale, options, 0, &posture);
   search.fit().Solve(target.places, target.noise_scale, options, &posture);
-  const std::vector<Eigen::Isometry3d> poses = SegmentPoses(model, posture);
+  Posture placed = posture;
+  placed.joint_angles = rest.joint_angles;
+  placed.joint_angles(joints) = posture.joint_angles;
+  const std::vector<Eigen::Isometry3d> poses = SegmentPoses(model, placed);
   double squares = 0;
   for (std::size_t i = 0; i < target.markers.size(); ++i) {
     const ModelMarker& marker = model.markers()[target.markers[i]];

@@ -150,9 +150,7 @@ TextPieces FormatExternalLoadsTable(const ExternalLoads& loads, const std::strin
 }
 
 std::string FormatExternalLoadsXml(const ExternalLoads& loads, const std::string& table) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenSimDocument Version=\"40000\">\n"
-      "  <ExternalLoads name=\"forces\">\n    <objects>\n";
+  std::string text = kExternalLoadsBegin;
   const std::vector<PlateAndBearer> pairs = PairsOf(loads);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Bearer bearer = pairs[i].bearer;

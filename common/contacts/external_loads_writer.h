@@ -23,6 +23,11 @@ struct ExternalLoads {
 /// @throws Error where a loaded sample has no number.
 TextPieces FormatExternalLoadsTable(const ExternalLoads& loads, const std::string& file_name);
 
+/// How such XML begins.
+inline constexpr const char* kExternalLoadsBegin =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<OpenSimDocument Version=\"40000\">\n"
+    "  <ExternalLoads name=\"forces\">\n    <objects>\n";
+
 /// table: name of the table's file, beside the XML.
 std::string FormatExternalLoadsXml(const ExternalLoads& loads, const std::string& table);
 

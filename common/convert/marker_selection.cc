@@ -5,6 +5,7 @@
 
 #include "common/convert/converter_config.h"
 #include "common/convert/marker_set.h"
+#include "common/support/advice.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
 #include "common/support/suggestion.h"
@@ -28,11 +29,13 @@ const MarkerSet& FindSet(const std::vector<MarkerSet>& sets, const ConverterConf
   }
   const std::string closest = ClosestName(config.marker_set, names);
   names.emplace_back("auto");
-  throw Error(
-      fmt::format("{}:{}: <MarkerMapping>: there is no marker set \"{}\"{}; use {}, or a file "
-                  "(*.xml)",
-                  config.file, config.marker_set_line, config.marker_set,
-                  closest.empty() ? "" : " (did you mean " + closest + "?)", JoinNames(names)));
+  const std::string asked =
+      config.marker_set_line > 0
+          ? fmt::format("{}:{}: <MarkerMapping>", config.file, config.marker_set_line)
+          : OptionText("marker-set");
+  throw Error(fmt::format(
+      "{}: there is no marker set \"{}\"{}; use {}, or a file (*.xml)", asked, config.marker_set,
+      closest.empty() ? "" : " (did you mean " + closest + "?)", JoinNames(names)));
 }
 
 /// As far as the model has their markers, and the model's own names.

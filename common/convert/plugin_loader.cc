@@ -17,6 +17,7 @@
 #include "common/support/error.h"
 #include "common/support/folder.h"
 #include "common/support/line_file.h"
+#include "common/support/opened_files.h"
 #include "common/support/suggestion.h"
 #include "common/support/text.h"
 
@@ -95,6 +96,7 @@ LoadedPlugin::LoadedPlugin(const std::string& path) : path_(fs::absolute(path).s
     throw Error(fmt::format("{}: no such plugin file", path));
   }
   CheckIsWhole(path_);
+  OpenedFiles::Note(path_);
   library_ = std::make_unique<Library>(path_);
   auto* get_version = library_->Find<GetVersionFunction>("getVersion");
   auto* get_factory = library_->Find<GetFactoryFunction>("getFactory");

@@ -5,6 +5,7 @@
 
 #include "common/fit/rigid_shape.h"
 #include "common/math/seeded_random.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 
@@ -122,7 +123,11 @@ PostureFit::Result PostureSearch::Assemble(const Ref<const Matrix3Xd>& z,
   polish.tolerance *= 0.01;
   trial_.joint_angles = kinematics_.rest();
   Unwind(trial_.joint_angles, posture);
-  return fit_.Solve(z, noise_scale, polish, posture);
+  const PostureFit::Result result = fit_.Solve(z, noise_scale, polish, posture);
+  if (std::isfinite(result.cost)) return result;
+  throw Error(
+      "no posture of the model has a distance from the markers that is a number; look at the "
+      "model's lengths and limits and at the unit of the markers");
 }
 
 }  // namespace mmm_converter

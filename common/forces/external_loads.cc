@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "common/forces/plate_checks.h"
 #include "common/io/bytes/file_content.h"
@@ -13,7 +17,10 @@
 #include "common/io/xml/xml_document.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
+#include "common/model/body_bounds.h"
+#include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -21,10 +28,14 @@ namespace {
 
 constexpr double kUneven = 0.5;  // of a step: how far a time may be from an even grid
 
+/// Columns of x, y and z.
+using Triple = std::array<Eigen::Index, 3>;
+
 /// Where the columns of a force stand, and what it acts on.
 struct LoadColumns {
   std::string name, body;
-  Eigen::Index force = -1, point = -1, torque = -1;  // of x; y and z follow. torque -1: none
+  Triple force = {};
+  std::optional<Triple> point, torque;
 };
 
 Eigen::Index FindColumn(const StorageTable& table, const std::string& name) {
@@ -34,21 +45,39 @@ Eigen::Index FindColumn(const StorageTable& table, const std::string& name) {
   return -1;
 }
 
-/// Of the only three columns that begin so; -1: there are none.
-Eigen::Index ColumnsOf(const StorageTable& table, const std::string& identifier,
-                       const std::string& file) {
-  std::vector<Eigen::Index> found;
+/// The columns NAMEx, NAMEy and NAMEz, wherever they stand; nothing: there is no NAMEx.
+std::optional<Triple> FindTriple(const StorageTable& table, const std::string& name,
+                                 const std::string& file) {
+  Triple found;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string column = name + "xyz"[i];
+    found[i] = FindColumn(table, column);
+    if (found[i] >= 0) continue;
+    if (i == 0) return std::nullopt;
+    throw Error(fmt::format("{}: has a column {}x, but none {}; x, y and z are expected", file,
+                            name, column));
+  }
+  return found;
+}
+
+/// Of the only three columns that begin so, which end with x, y and z in any order; nothing: the
+/// identifier is none.
+std::optional<Triple> ColumnsOf(const StorageTable& table, const std::string& identifier,
+                                const std::string& file, int line) {
+  if (identifier.empty() || EqualIgnoringCase(identifier, "Unassigned")) return std::nullopt;
+  Triple found = {-1, -1, -1};
+  int count = 0;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (!identifier.empty() && table.columns[i].starts_with(identifier)) {
-      found.push_back(static_cast<Eigen::Index>(i));
-    }
+    if (!table.columns[i].starts_with(identifier)) continue;
+    ++count;
+    const std::size_t axis = std::string_view("xyz123").find(ToLower(table.columns[i]).back());
+    if (axis != std::string_view::npos) found[axis % 3] = static_cast<Eigen::Index>(i);
   }
-  if (found.empty()) return -1;
-  if (found.size() != 3 || found[2] != found[0] + 2) {
-    throw Error(fmt::format("{}: {} columns begin with \"{}\"; x, y and z are expected", file,
-                            found.size(), identifier));
-  }
-  return found[0];
+  if (count == 3 && *std::min_element(found.begin(), found.end()) >= 0) return found;
+  throw Error(
+      fmt::format("{}:{}: \"{}\" begins the names of {} columns of the table; three are "
+                  "expected, which end with x, y and z",
+                  file, line, identifier, count));
 }
 
 std::string Replaced(std::string text, const std::string& what, const std::string& by) {
@@ -57,19 +86,19 @@ std::string Replaced(std::string text, const std::string& what, const std::strin
 }
 
 /// What the names of the columns tell.
-std::vector<LoadColumns> LoadsByNames(const StorageTable& table) {
+std::vector<LoadColumns> LoadsByNames(const StorageTable& table, const std::string& file) {
   std::vector<LoadColumns> loads;
   for (const std::string& column : table.columns) {
     if (!column.ends_with("vx")) continue;
     const std::string prefix = column.substr(0, column.size() - 2);
     LoadColumns load;
     load.name = column.substr(0, column.size() - 1);
-    load.force = FindColumn(table, column);
-    load.point = FindColumn(table, prefix + "px");
+    load.force = *FindTriple(table, prefix + "v", file);
+    load.point = FindTriple(table, prefix + "p", file);
     for (const std::string& torque :
-         {Replaced(prefix, "force", "torque") + "x", Replaced(prefix, "force", "moment") + "x",
-          Replaced(prefix, "force", "moment") + "mx", prefix + "mx", prefix + "tx"}) {
-      if (load.torque < 0) load.torque = FindColumn(table, torque);
+         {Replaced(prefix, "force", "torque"), Replaced(prefix, "force", "moment"),
+          Replaced(prefix, "force", "moment") + "m", prefix + "m", prefix + "t"}) {
+      if (!load.torque && !torque.empty()) load.torque = FindTriple(table, torque, file);
     }
     loads.push_back(std::move(load));
   }
@@ -112,14 +141,16 @@ std::vector<LoadColumns> LoadsByXml(const XmlElement& loads, const StorageTable&
     LoadColumns load;
     load.name = called;
     load.body = TextOf(*one, "applied_to_body");
-    const std::string force = TextOf(*one, "force_identifier");
-    load.force = ColumnsOf(table, force, file);
-    load.point = ColumnsOf(table, TextOf(*one, "point_identifier"), file);
-    load.torque = ColumnsOf(table, TextOf(*one, "torque_identifier"), file);
-    if (load.force < 0) {
-      throw Error(fmt::format("{}:{}: no column of {} begins with \"{}\"", file, one->line,
-                              TextOf(loads, "datafile"), force));
+    const auto columns = [&](const char* identifier) {
+      return ColumnsOf(table, TextOf(*one, identifier), file, one->line);
+    };
+    const auto force = columns("force_identifier");
+    if (!force) {
+      throw Error(fmt::format("{}:{}: {} has no <force_identifier>", file, one->line, called));
     }
+    load.force = *force;
+    load.point = columns("point_identifier");
+    load.torque = columns("torque_identifier");
     found.push_back(std::move(load));
   }
   return found;
@@ -130,12 +161,18 @@ void ReadTimes(const StorageTable& table, const std::string& file, RecordedForce
   const auto times = table.rows.col(0);
   const Eigen::Index last = times.size() - 1;
   const double step = last > 0 ? (times[last] - times[0]) / static_cast<double>(last) : 0;
-  if (!(step > 0) || !std::isfinite(1 / step)) {
+  if (!(step > 0)) {
     throw Error(file + ": needs rows of at least two moments, in the order of time");
   }
   for (Eigen::Index k = 0; k <= last; ++k) {
     if (std::abs(times[k] - (times[0] + static_cast<double>(k) * step)) < kUneven * step) continue;
     throw Error(fmt::format("{}: the times are not even: {:g} s in row {}", file, times[k], k + 1));
+  }
+  if (!IsFrameRate(1 / step)) {
+    throw Error(
+        fmt::format("{}: its rows are {:g} s apart; forces have from 1 to 100000 rows a "
+                    "second",
+                    file, step));
   }
   forces->rate = 1 / step;
   forces->first_time = times[0];
@@ -143,21 +180,26 @@ void ReadTimes(const StorageTable& table, const std::string& file, RecordedForce
 
 PlateForces ForcesOf(const LoadColumns& load, const StorageTable& table, const Eigen::Vector3d& up,
                      const std::string& file) {
-  const auto columns = [&](Eigen::Index first) -> Eigen::Matrix3Xd {
-    if (first + 3 > table.rows.cols()) throw Error(file + ": x, y and z of a force are expected");
-    return table.rows.middleCols(first, 3).transpose();
+  const auto columns = [&](const Triple& at) {
+    Eigen::Matrix3Xd rows(3, table.rows.rows());
+    for (Eigen::Index i = 0; i < 3; ++i) rows.row(i) = table.rows.col(at[i]).transpose();
+    if ((rows.array().isNaN() || rows.array().abs() <= kLargestForce).all()) return rows;
+    throw Error(
+        fmt::format("{}: {} has numbers above {:g}; newtons, metres and newton metres are "
+                    "expected",
+                    file, load.name, kLargestForce));
   };
   PlateForces forces;
   forces.applied_to = load.body.empty() ? load.name : load.body;
   forces.force = columns(load.force);
   const Eigen::Index samples = forces.force.cols();
-  forces.plate.has_moments = load.point >= 0;
+  forces.plate.has_moments = load.point.has_value();
   forces.plate.corners.setConstant(kNaN);
   forces.plate.R_WP = RotationBetween(-Eigen::Vector3d::UnitZ(), up);
   forces.cop = Eigen::Matrix3Xd::Constant(3, samples, kNaN);
-  if (load.point >= 0) forces.cop = columns(load.point);
+  if (load.point) forces.cop = columns(*load.point);
   forces.free_moment = Eigen::Matrix3Xd::Zero(3, samples);
-  if (load.torque >= 0) forces.free_moment = columns(load.torque);
+  if (load.torque) forces.free_moment = columns(*load.torque);
   forces.moment = forces.free_moment;
   for (Eigen::Index k = 0; k < samples; ++k) {
     const Eigen::Vector3d cop = forces.cop.col(k);
@@ -184,13 +226,14 @@ RecordedForces ReadExternalLoads(const std::string& path, const Eigen::Vector3d&
     const std::string data = TextOf(*loads, "datafile");
     if (data.empty()) throw Error(path + ": ExternalLoads names no datafile");
     file = (fs::path(path).parent_path() / data).string();
-    content = ReadFileContent(file);
+    content = NamedBy(path, [&] { return ReadFileContent(file); });
   }
-  const StorageTable table = ParseStorage(content, file);
+  const auto parse = [&] { return ParseStorage(content, file); };
+  const StorageTable table = loads != nullptr ? NamedBy(path, parse) : parse();
   RecordedForces forces;
   ReadTimes(table, file, &forces);
   const std::vector<LoadColumns> columns =
-      loads != nullptr ? LoadsByXml(*loads, table, path, warnings) : LoadsByNames(table);
+      loads != nullptr ? LoadsByXml(*loads, table, path, warnings) : LoadsByNames(table, file);
   if (columns.empty()) {
     throw Error(
         fmt::format("{}: has no force: columns such as ground_force_1_vx, ..._vy, ..._vz", path));
@@ -199,7 +242,7 @@ RecordedForces ReadExternalLoads(const std::string& path, const Eigen::Vector3d&
     PlateForces one = ForcesOf(load, table, up, file);
     one.plate.number = static_cast<int>(forces.plates.size()) + 1;
     JudgeLoads(forces.rate, &one, warnings);
-    if (load.point < 0) {
+    if (!load.point) {
       Warn(warnings,
            fmt::format("{} has no point; its force is read, but no centre of pressure", load.name));
     }

@@ -149,7 +149,7 @@ TextPieces FormatJointForcesSto(const JointForces& found) {
 TextPieces FormatJointForcesCsv(const JointForces& found) {
   return [&found](const TextSink& sink) {
     PieceWriter pieces(sink);
-    const std::vector<std::string> names = NamesWith(found, "_Nm", "_N");
+    const std::vector<std::string> names = CsvColumnNames(NamesWith(found, "_Nm", "_N"));
     *pieces.text() += fmt::format("time_s,{}", fmt::join(names, ","));
     if (found.deviations.size() > 0)
       *pieces.text() += ",sd_" + fmt::format("{}", fmt::join(names, ",sd_"));

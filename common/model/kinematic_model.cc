@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "common/model/body_bounds.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -28,12 +29,52 @@ bool IsFinite(const Segment& s) {
          (s.function == nullptr || s.function->IsFinite());
 }
 
+/// Of a joint that follows another, or moves by a function of its coordinate: where its range ends,
+/// and at rest.
+bool IsFunctionWithin(const Segment& s) {
+  if (s.function == nullptr) return true;
+  const double reach = s.reach > 0 ? s.reach : EIGEN_PI;
+  const double lower = std::isfinite(s.lower) ? s.lower : s.rest - reach;
+  const double upper = std::isfinite(s.upper) ? s.upper : s.rest + reach;
+  for (const double q : {lower, s.rest, 0.5 * (lower + upper), upper}) {
+    double slope = 0;
+    if (!IsWithin(s.function->Value(q, &slope), kFarthestTurn)) return false;
+    if (!IsWithin(slope, kLargestMultiplier)) return false;
+  }
+  return true;
+}
+
+void CheckBounds(const Segment& s) {
+  const auto fail = [&s](const char* what, double most, const char* unit) {
+    throw Error(
+        fmt::format("model node '{}': {} more than {:g}{}, which no body has; look for a "
+                    "slip or another unit",
+                    s.name, what, most, unit));
+  };
+  if (!IsWithin(s.X_PF.translation().norm(), kLongestLength)) {
+    fail("it is away from its parent by", kLongestLength, " m");
+  }
+  if (!IsWithin(s.p_SB.norm(), kLongestLength)) {
+    fail("its centre of mass is away by", kLongestLength, " m");
+  }
+  if (!IsWithin(s.mass, kHeaviestBody)) fail("its mass is", kHeaviestBody, " kg");
+  if (!IsWithin(s.inertia.cwiseAbs().maxCoeff(), kLargestInertia)) {
+    fail("its inertia is", kLargestInertia, " kg m^2");
+  }
+  if (!IsWithin(s.rest, kFarthestTurn)) fail("at rest its joint is at", kFarthestTurn, "");
+  if (!IsFunctionWithin(s)) {
+    fail("it follows its coordinate by numbers beyond what a body can do, multiplied by",
+         kLargestMultiplier, "");
+  }
+}
+
 void CheckSegment(const Segment& s, int num_segments) {
   if (s.name.empty()) throw Error("a node of the model has no name");
   const auto fail = [&s](const std::string& what) {
     throw Error(fmt::format("model node '{}': {}", s.name, what));
   };
   if (!IsFinite(s)) fail("one of its numbers is not finite");
+  CheckBounds(s);
   if (s.parent < -1 || s.parent >= num_segments) fail("its parent does not exist");
   if (s.leader < -1 || s.leader >= num_segments) fail("its leader does not exist");
   if (s.lower > s.upper) {
@@ -151,6 +192,12 @@ KinematicModel::KinematicModel(ModelDescription description)
   for (ModelMarker& marker : markers_) {
     if (marker.segment < 0 || marker.segment >= num_segments || !marker.p_SM.allFinite()) {
       throw Error(fmt::format("marker '{}' has no node or no finite offset", marker.name));
+    }
+    if (!IsWithin(marker.p_SM.norm(), kLongestLength)) {
+      throw Error(
+          fmt::format("marker '{}' is more than {:g} m from its body, which is of another "
+                      "unit",
+                      marker.name, kLongestLength));
     }
     marker.segment = new_index[marker.segment];
   }

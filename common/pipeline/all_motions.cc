@@ -10,7 +10,9 @@
 
 #include "common/pipeline/motion_output.h"
 #include "common/support/advice.h"
+#include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 
 namespace mmm_converter {
 namespace {
@@ -103,11 +105,13 @@ std::vector<const ConversionReport*> ReportsOf(const AllMotions& all) {
 
 AllMotions RunAllMotions(const ConversionRequest& request,
                          const std::function<bool(int, int)>& progress) {
+  const OpenedFiles opened;
   AllMotions all;
   std::vector<WithWarnings<Recording>> recordings =
       ReadAllMotions(request.input.file, request.input.reading, &all.warnings);
   CheckNames(recordings);
-  ReadBefore read_before = {ReadModelOnce(request.input), ChooseOnce(request.converter), {}};
+  ReadBefore read_before = {ReadModelOnce(request.input), ChooseOnce(request.converter)};
+  read_before.opened = opened.files();
   std::set<std::string> models;
   std::vector<PlannedMotion> motions;
   motions.reserve(recordings.size());
@@ -136,6 +140,7 @@ AllMotions RunAllMotions(const ConversionRequest& request,
 }
 
 void WriteAllMotions(const ConversionRequest& request, AllMotions* all) {
+  FilesTogether files;
   std::vector<ConversionReport*> reports;
   for (MotionOutcome& outcome : all->motions) {
     if (!outcome.report) continue;
@@ -143,6 +148,7 @@ void WriteAllMotions(const ConversionRequest& request, AllMotions* all) {
     reports.push_back(&*outcome.report);
   }
   WriteMotions(request, reports);
+  files.Commit();
 }
 
 }  // namespace mmm_converter

@@ -9,6 +9,7 @@
 #include "common/calibrate/joint_doubts.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
+#include "common/io/tables/osim_tables.h"
 #include "common/judge/conversion_verdict.h"
 #include "common/pipeline/force_exports.h"
 #include "common/pipeline/input/matched_labels.h"
@@ -16,6 +17,7 @@
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 #include "common/support/output_plan.h"
 
 namespace mmm_converter {
@@ -87,11 +89,24 @@ void WritePerson(const ConversionPlan& plan) {
   }
 }
 
+// What can't be tracked by the configuration names it; faults of the plugin name that.
+std::unique_ptr<MotionConverter> MakeOwnConverter(const ConversionPlan& plan) {
+  const ConverterChoice& choice = plan.converter;
+  try {
+    return choice.plugin->factory().Create(plan.setup, choice.config);
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    if (what.starts_with(choice.plugin->path()) || what.starts_with(choice.config.file)) throw;
+    throw Error(fmt::format("{}: {} ({})", choice.config.file, what, plan.input.model_file),
+                error.remedy());
+  }
+}
+
 // Errors name the file.
 ConversionResult Track(const ConversionPlan& plan, const std::function<bool(int, int)>& progress) {
   const Recording& recording = plan.input.recording;
   const int frames = recording.markers.num_frames();
-  const auto converter = plan.converter.plugin->factory().Create(plan.setup, plan.converter.config);
+  const auto converter = MakeOwnConverter(plan);
   const bool wants_covariances = plan.keeps_covariances || plan.takes_covariances;
   const bool has_covariances = wants_covariances && converter->KeepCovariances();
   if (plan.keeps_covariances && !has_covariances) {
@@ -115,6 +130,7 @@ const std::string& LabelOf(const ConversionPlan& plan, int assignment) {
 ReadBefore LabelFirst(const ConversionRequest& request, ReadBefore read_before,
                       const std::function<bool(int, int)>& progress) {
   if (!request.label) return read_before;
+  const OpenedFiles opened;
   LabelRequest labels;
   labels.input = request.input;
   labels.converter = request.converter;
@@ -126,6 +142,7 @@ ReadBefore LabelFirst(const ConversionRequest& request, ReadBefore read_before,
   MarkerSequence& markers = named->input.recording.markers;
   markers = Relabelled(PointsOfPerson(named->labels), markers);
   read_before.named = {std::move(named), std::move(report.warnings)};
+  read_before.opened.insert(opened.files().begin(), opened.files().end());
   return read_before;
 }
 
@@ -148,6 +165,8 @@ void PlanBody(const ConversionRequest& request, const MarkerLabels& labels, Conv
 }
 
 ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore& read_before) {
+  const OpenedFiles opened;
+  OpenedFiles::Note(read_before.opened);
   ConversionPlan plan;
   Warnings* warnings = &plan.warnings;
   const NamedRecording* named = read_before.named.value.get();
@@ -185,6 +204,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   CheckForces(request.exports, &plan);
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   plan.takes_covariances = TakeCovariances(request.exports);
+  plan.opened = opened.files();
   return plan;
 }
 
@@ -192,25 +212,16 @@ void CheckOutputs(const ConversionRequest& request,
                   const std::vector<const ConversionPlan*>& plans) {
   OutputPlan outputs;
   NameInputs(request.input, &outputs);
-  if (request.label) {
-    if (request.label) {
-      for (const std::string& file : FilesOf(request.label_hints)) outputs.Read(file);
-    }
-  }
   for (const ConversionPlan* plan : plans) {
-    NameInputs(plan->converter, &outputs);
-    outputs.Read(plan->person.subject_file);
-    if (plan->object && plan->object->is_built()) {
-      outputs.WriteIntoFolder(plan->input.model_file);
-    } else {
-      outputs.Read(plan->input.model_file);
-    }
+    outputs.Read(plan->opened);
+    const bool is_built = plan->object && plan->object->is_built();
+    if (is_built) outputs.WriteIntoFolder(plan->input.model_file);
   }
   outputs.Rewrite(plans.front()->output, request.input.file);
-  outputs.Write(DeviationsOutput(*plans.front()));
+  outputs.WriteBeside(DeviationsOutput(*plans.front()), kOsimDeviations);
   outputs.Write(request.subject_output);
   outputs.Write(request.model_output);
-  for (const std::string& file : FilesOf(request.exports)) outputs.Write(file);
+  NameOutputs(request.exports, &outputs);
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   outputs.Check();
 }
@@ -260,11 +271,13 @@ void WriteObjectModel(const ConversionPlan& plan) {
 }
 
 void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
+  FilesTogether files;
+  CompareForces(request.exports, report);
   WriteObjectModel(report->plan);
   WriteMotions(request, {report});
   WritePerson(report->plan);
-  CompareForces(request.exports, report);
   WriteExports(request.exports, *report);
+  files.Commit();
 }
 
 }  // namespace mmm_converter

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,7 @@ struct ConversionPlan {
   bool keeps_covariances = false;
   bool takes_covariances = false;                ///< where the converter has them
   std::shared_ptr<const RecordedForces> forces;  ///< where an export is made of them
+  std::set<std::string> opened;                  ///< files; see OpenedFiles
   Warnings warnings;
 };
 

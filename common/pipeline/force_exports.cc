@@ -20,6 +20,8 @@
 #include "common/support/advice.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
+#include "common/support/output_plan.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -112,7 +114,8 @@ void WriteGrf(const std::string& file, const ConversionReport& report) {
   const ExternalLoads loads = {ground->forces.get(), &ground->contacts, motion.first_time,
                                motion.time(motion.num_frames() - 1)};
   const std::string name = fs::path(file).filename().string();
-  WriteFileAtomically(file, FormatExternalLoadsTable(loads, name));
+  WriteFileAtomically(file, OfFile(ForcesFile(report.plan.input),
+                                   [&] { return Join(FormatExternalLoadsTable(loads, name)); }));
   const std::string beside = LoadsFile(file);
   if (!beside.empty()) WriteFileAtomically(beside, FormatExternalLoadsXml(loads, name));
 }
@@ -135,6 +138,13 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
   if (!NeedForces(files)) return;
   auto ground = std::make_shared<GroundStudy>(*StudyGround(*report));
   report->ground = ground;
+  const auto table = files.find(kGrf);
+  if (table != files.end() && ground->contacts.loads.empty()) {
+    report->warnings.Add(
+        fmt::format("{}: no force plate is loaded while the person is tracked: {} "
+                    "has times and no forces",
+                    ForcesFile(report->plan.input), table->second));
+  }
   const auto joint_forces = files.find(kJointForces);
   if (joint_forces != files.end()) {
     ground->joint_forces = JointForcesOf(*report, *ground, HasDeviations(joint_forces->second));
@@ -180,16 +190,16 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
     throw Error(plan->input.model_file + ": has no masses, hence no dynamics");
   }
   plan->forces = std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
-  if (needs_plates) CheckHasPlates(*plan->forces, plan->input);
+  if (!needs_plates) return;
+  CheckHasPlates(*plan->forces, plan->input);
+  CheckHasForces(*plan->forces, plan->input, &plan->warnings);
 }
 
-std::vector<std::string> FilesOf(const ExportFiles& files) {
-  std::vector<std::string> all;
+void NameOutputs(const ExportFiles& files, OutputPlan* plan) {
   for (const auto& [name, file] : files) {
-    all.push_back(file);
-    if (name == kGrf) all.push_back(LoadsFile(file));
+    plan->Write(file);
+    if (name == kGrf) plan->WriteBeside(LoadsFile(file), kExternalLoadsBegin);
   }
-  return all;
 }
 
 }  // namespace mmm_converter

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "common/pipeline/exporters.h"
 
 namespace mmm_converter {
 
 struct ConversionPlan;
+class OutputPlan;
 
 // Exports that are made of where feet stand and of what force plates measured.
 
@@ -34,7 +34,7 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan);
 /// was given, or where motion and forces do not fit together.
 void CompareForces(const ExportFiles& files, ConversionReport* report);
 
-/// All files that exports write.
-std::vector<std::string> FilesOf(const ExportFiles& files);
+/// Says in the plan which files exports write.
+void NameOutputs(const ExportFiles& files, OutputPlan* plan);
 
 }  // namespace mmm_converter

@@ -19,6 +19,7 @@
 #include "common/pipeline/conversion.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -175,11 +176,47 @@ bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs&
   return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
 }
 
+/// A table of other times tells nothing, and is as long as it likes.
+void CheckIsOfRecording(const RecordedForces& forces, const Input& input) {
+  const MarkerSequence& markers = input.recording.markers;
+  if (forces.plates.empty() || markers.num_frames() == 0) return;
+  const auto rows = static_cast<double>(forces.plates.front().force.cols());
+  const double last = forces.first_time + (rows - 1) / forces.rate;
+  const double end = markers.time(markers.num_frames() - 1);
+  const double frame = 1 / markers.rate();
+  if (forces.first_time <= end + frame && last >= markers.first_time() - frame) return;
+  throw Error(
+      fmt::format("{}: its forces are of {:g} s to {:g} s, the recording's frames of {:g} s "
+                  "to {:g} s; they have to be of one recording and begin alike",
+                  input.forces_file, forces.first_time, last, markers.first_time(), end));
+}
+
 }  // namespace
 
 RecordedForces GroundForces(const Input& input, Warnings* warnings) {
   if (input.forces_file.empty()) return ForcesOf(input.recording, warnings);
-  return ForcesOf(input.forces_file, input.recording.up_axis, warnings);
+  RecordedForces forces = ForcesOf(input.forces_file, input.recording.up_axis, warnings);
+  CheckIsOfRecording(forces, input);
+  return forces;
+}
+
+void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* warnings) {
+  std::vector<std::string> dead;
+  for (const PlateForces& plate : forces.plates) {
+    const bool has_forces = plate.force.colwise().sum().array().isFinite().any();
+    if (!has_forces) dead.push_back(std::to_string(plate.plate.number));
+  }
+  if (dead.empty()) return;
+  const std::string text = fmt::format(
+      "{}: force plate {}: none of its forces is a number; look at its calibration "
+      "matrix and its samples",
+      ForcesFile(input), JoinNames(dead, " and "));
+  if (dead.size() == forces.plates.size()) throw Error(text);
+  Warn(warnings, text);
+}
+
+const std::string& ForcesFile(const Input& input) {
+  return input.forces_file.empty() ? input.recording.file : input.forces_file;
 }
 
 void CheckHasPlates(const RecordedForces& forces, const Input& input) {

@@ -32,6 +32,12 @@ RecordedForces GroundForces(const Input& input, Warnings* warnings);
 /// @throws Error where the recording has no plates.
 void CheckHasPlates(const RecordedForces& forces, const Input& input);
 
+/// Warns of plates without any force that is a number. @throws Error where all are so.
+void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* warnings);
+
+/// Of which file the forces are.
+const std::string& ForcesFile(const Input& input);
+
 /// That of the report where it has one. warnings: of plates that were not read before; may be null.
 /// @throws Error where the model has no feet (HasFeet), and as GroundForces.
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,

@@ -83,6 +83,7 @@ LearnReport RunLearning(const LearnRequest& request,
   }
   for (const Input& input : report.inputs) recordings.push_back(&input.recording.markers);
   MatchModel(request.inputs.front(), &report.inputs.front(), &choice.config);
+  outputs.Check();
   const Input& first = report.inputs.front();
   report.person = FindWearer(request, first, choice.config, warnings);
   const PersonScaling scaling = ScalingOf(report.person, choice.config);

@@ -66,6 +66,7 @@ OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
   const std::string model = ReadFileContent(file, kMaxOsimBytes);
   Diagnostics diagnostics(file);
   const OsimDocument document = ParseOsimDocument(model, first.marker_file, &diagnostics, nullptr);
+  CheckIsSmallEnough(file, static_cast<int>(document.bodies.size()) - 1, "bodies");
   const TrackingSetup& setup = inputs.front().setup;
   CalibrationOptions options = OsimCalibrationOptions();
   const auto all = static_cast<int>(inputs.size());

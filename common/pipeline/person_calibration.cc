@@ -38,6 +38,7 @@ CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
   one.input.keeps_usual_places = true;
   one.setup =
       MatchLabels(LabelsOf(recording.markers, recording.file), &one.input, config, warnings);
+  CheckIsSmallEnough(one.input.model_file, static_cast<int>(one.setup.joints.size()), "joints");
   return one;
 }
 
@@ -109,6 +110,13 @@ void CheckProportions(const Subject& subject) {
                         "for exchanged labels, another person's markers and the unit",
                         markers.size(), subject.offsets.size(), kMillimetres * kLargestMarkerOffset,
                         FirstNames(markers)));
+}
+
+void CheckIsSmallEnough(const std::string& model_file, int count, const char* what) {
+  constexpr int kMost = 400;  // 21 s; the work grows with the cube
+  if (count <= kMost) return;
+  throw Error(fmt::format("{}: has {} {}; persons are calibrated with at most {}", model_file,
+                          count, what, kMost));
 }
 
 std::vector<CalibrationInput> ReadCalibrationInputs(const CalibrationRequest& request,

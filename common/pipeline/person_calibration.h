@@ -39,6 +39,9 @@ struct CalibrationReport {
   Warnings warnings;
 };
 
+/// @throws Error where a calibration of so many joints or bodies would take too long.
+void CheckIsSmallEnough(const std::string& model_file, int count, const char* what);
+
 /// The recordings of the request with their markers matched: what names of one of them mean, they
 /// mean in all. config: gets what belongs to the model. @throws Error
 std::vector<CalibrationInput> ReadCalibrationInputs(const CalibrationRequest& request,

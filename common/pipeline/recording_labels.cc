@@ -382,6 +382,7 @@ LabelReport RunLabelling(const LabelRequest& request,
   for (const std::string& file : request.more_outputs) outputs.Write(file);
   outputs.Check();
   LabelReport report = LabelPoints(request, read_before, progress);
+  outputs.Check();
   const Recording& recording = report.input.recording;
   const FoundLabels& found = report.found;
   const bool is_calibrated = found.person.subject != nullptr;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/io/xml/xml_document.h"
+#include "common/model/body_bounds.h"
 #include "common/retarget/body_map.h"
 #include "common/support/diagnostics.h"
 #include "common/support/text.h"
@@ -27,7 +28,9 @@ std::optional<Eigen::Vector3d> ParseForward(const std::string& text) {
     if (!number) return {};
     numbers.push_back(*number);
   }
-  if (numbers.size() != 3 || std::hypot(numbers[0], numbers[1]) < 0.1) return {};
+  if (numbers.size() != 3 || !IsWithin(numbers[2], kLongestDirection)) return {};
+  const double level = std::hypot(numbers[0], numbers[1]);
+  if (!(level >= 0.1) || !IsWithin(level, kLongestDirection)) return {};
   return Eigen::Vector3d(numbers[0], numbers[1], 0).normalized();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/retarget/trajectory_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,7 @@
 #include "common/math/rotation.h"
 #include "common/retarget/trajectory_limits.h"
 #include "common/retarget/trajectory_window.h"
+#include "common/support/error.h"
 
 namespace mmm_converter {
 namespace {
@@ -100,9 +103,13 @@ class FrameFit {
       }
       const double cost = Fit(frame, 60, 5, 0, &tried);
       if (cost < lowest) *best = tried;
-      lowest = std::min(lowest, cost);
+      if (cost < lowest) lowest = cost;
     }
-    return lowest;
+    if (std::isfinite(lowest)) return lowest;
+    throw Error(
+        fmt::format("the robot {}: no posture of it has a distance from the person's in frame "
+                    "{} that is a number; look at its lengths, its limits and the map",
+                    problem_.model->name(), frame));
   }
 
  private:
@@ -122,7 +129,7 @@ std::vector<Posture> StartTrajectory(const TrajectoryProblem& problem, const Pos
   const auto go_on = [&](int from, int step, Posture posture) {
     for (int k = from; k >= 0 && k < problem.num_frames; k += step) {
       const double cost = fit.Fit(k, kFrameIterations, kFrameDamping, kUnhurried, &posture);
-      if (cost >= kBetter * costs[k]) break;
+      if (!(cost < kBetter * costs[k])) break;
       postures[k] = posture;
       costs[k] = cost;
     }

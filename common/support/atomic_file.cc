@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -42,6 +43,8 @@ fs::path FinalTarget(const std::string& path) {
   Fail(path, ELOOP);
 }
 
+}  // namespace
+
 /// An open file that is closed at the end of its scope, and removed unless it has been kept.
 class ScratchFile {
  public:
@@ -63,6 +66,8 @@ class ScratchFile {
   int descriptor_;
   std::string name_;  // empty: not removed
 };
+
+namespace {
 
 /// Writes pieces to a file as they come.
 class Output {
@@ -97,17 +102,40 @@ class Output {
   off_t storing_ = 0;
 };
 
-void WriteDirectly(const std::string& path, const TextPieces& content) {
-  ScratchFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK), "");
-  if (file.descriptor() < 0 && errno == ENXIO) {
+/// Pipes that are open until they are written, by path.
+std::map<std::string, int> held_pipes;
+std::mutex held_pipes_mutex;
+
+int OpenDirectly(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0 && errno == ENXIO) {
     throw Error(
         fmt::format("{}: can't be written: nobody reads this pipe; start its reader first", path));
   }
-  if (file.descriptor() < 0) Fail(path, errno);
+  if (descriptor < 0) Fail(path, errno);
+  return descriptor;
+}
+
+int TakeHeldPipe(const std::string& path) {
+  const std::scoped_lock lock(held_pipes_mutex);
+  const auto held = held_pipes.find(path);
+  if (held == held_pipes.end()) return -1;
+  const int descriptor = held->second;
+  held_pipes.erase(held);
+  return descriptor;
+}
+
+void WriteDirectly(const std::string& path, const TextPieces& content) {
+  const int held = TakeHeldPipe(path);
+  ScratchFile file(held >= 0 ? held : OpenDirectly(path), "");
   ::fcntl(file.descriptor(), F_SETFL, O_WRONLY);  // a slow reader is waited for
   Output output(path, file.descriptor());
   content([&](std::string_view piece) { output.Write(piece); });
   if (!file.Close()) Fail(path, errno);
+}
+
+fs::path FolderOf(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
 struct Created {
@@ -183,7 +211,60 @@ void TidyOnce(const fs::path& folder) {
   if (tidied.insert(folder).second) RemoveAbandonedFiles(folder);
 }
 
+thread_local FilesTogether* together = nullptr;
+
 }  // namespace
+
+/// A file that is whole but has not yet its name.
+class FilesTogether::Held {
+ public:
+  /// Of what is no regular file, which is written at the end.
+  Held(std::string path, std::string content)
+      : path_(std::move(path)), content_(std::move(content)), scratch_(-1, "") {}
+  Held(std::string path, fs::path target, const Created& created)
+      : path_(std::move(path)),
+        target_(std::move(target)),
+        scratch_(created.descriptor, created.name) {}
+
+  void Name() {
+    if (target_.empty()) {
+      return WriteDirectly(path_, [this](const TextSink& sink) { sink(content_); });
+    }
+    if (scratch_.name().empty())
+      scratch_.SetName(GiveName(scratch_.descriptor(), FolderOf(target_)));
+    if (scratch_.name().empty() || !scratch_.Close() ||
+        ::rename(scratch_.name().c_str(), target_.c_str()) != 0) {
+      Fail(path_, errno);
+    }
+    scratch_.Keep();
+  }
+
+ private:
+  std::string path_;
+  std::string content_;
+  fs::path target_;  // empty: is written directly
+  ScratchFile scratch_;
+};
+
+FilesTogether::FilesTogether() : is_outermost_(together == nullptr) {
+  if (is_outermost_) together = this;
+}
+
+FilesTogether::~FilesTogether() {
+  if (is_outermost_) together = nullptr;
+}
+
+void FilesTogether::Commit() {
+  for (const auto& one : held_) one->Name();
+  held_.clear();
+}
+
+void HoldPipe(const std::string& path) {
+  std::error_code failure;
+  if (!fs::is_fifo(path, failure)) return;
+  const std::scoped_lock lock(held_pipes_mutex);
+  if (held_pipes.count(path) == 0) held_pipes[path] = OpenDirectly(path);
+}
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
   WriteFileAtomically(path, [content](const TextSink& sink) { sink(content); });
@@ -197,10 +278,14 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
   if (exists && S_ISDIR(old.st_mode)) {
     throw Error(fmt::format("{}: is a folder; give the name of a file", path));
   }
-  if (exists && !S_ISREG(old.st_mode)) return WriteDirectly(path, content);
+  if (exists && !S_ISREG(old.st_mode)) {
+    if (together == nullptr) return WriteDirectly(path, content);
+    together->held_.push_back(std::make_unique<FilesTogether::Held>(path, Join(content)));
+    return;
+  }
   if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) Fail(path, errno);
 
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  const fs::path folder = FolderOf(target);
   TidyOnce(folder);
   const int nameless = CreateNameless(folder);
   const Created created = nameless >= 0 ? Created{nameless, ""} : CreateIn(folder);
@@ -208,17 +293,13 @@ void WriteFileAtomically(const std::string& path, const TextPieces& content) {
     throw Error(fmt::format("{}: can't be written: there is no folder {}", path, folder.string()));
   }
   if (created.descriptor < 0) Fail(path, errno);
-  ScratchFile scratch(created.descriptor, created.name);
+  auto held = std::make_unique<FilesTogether::Held>(path, target, created);
   if (exists && ::fchmod(created.descriptor, old.st_mode & 07777) != 0) Fail(path, errno);
   Output output(path, created.descriptor);
   content([&](std::string_view piece) { output.Write(piece); });
   if (::fdatasync(created.descriptor) != 0) Fail(path, errno);
-  if (scratch.name().empty()) scratch.SetName(GiveName(created.descriptor, folder));
-  if (scratch.name().empty() || !scratch.Close() ||
-      ::rename(scratch.name().c_str(), target.c_str()) != 0) {
-    Fail(path, errno);
-  }
-  scratch.Keep();
+  if (together == nullptr) return held->Name();
+  together->held_.push_back(std::move(held));
 }
 
 void RemoveAbandonedFiles(const std::string& folder) {

@@ -2,13 +2,17 @@
 #include "common/support/output_plan.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
 #include <set>
 
+#include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/line_file.h"
+#include "common/support/opened_files.h"
 
 namespace mmm_converter {
 namespace {
@@ -51,6 +55,8 @@ fs::path FirstToMake(fs::path file) {
 void CheckCanBeWritten(const fs::path& file, const std::string& name) {
   std::error_code failure;
   if (fs::is_directory(file, failure)) throw WriteError(name, EISDIR);
+  struct stat unused {};
+  if (::lstat(file.c_str(), &unused) != 0 && errno == ENAMETOOLONG) throw WriteError(name, errno);
   const std::string folder = file.parent_path().string() + "/.";
   if (access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(name, errno);
 }
@@ -59,6 +65,14 @@ void CheckCanBeWritten(const fs::path& file, const std::string& name) {
 
 void OutputPlan::Read(const std::string& file) {
   if (!file.empty()) inputs_.push_back(file);
+}
+
+void OutputPlan::Read(const std::set<std::string>& files) {
+  inputs_.insert(inputs_.end(), files.begin(), files.end());
+}
+
+void OutputPlan::WriteBeside(const std::string& file, std::string_view begin) {
+  if (!file.empty()) outputs_.push_back({file, "", false, std::string(begin)});
 }
 
 void OutputPlan::Write(const std::string& file) {
@@ -74,7 +88,9 @@ void OutputPlan::Rewrite(const std::string& file, const std::string& input) {
 }
 
 void OutputPlan::CheckIsNoInput(const Output& output) const {
-  for (const std::string& input : inputs_) {
+  std::set<std::string> inputs = OpenedFiles::OfRun();
+  inputs.insert(inputs_.begin(), inputs_.end());
+  for (const std::string& input : inputs) {
     if (!AreSame(output.file, input) || IsDevice(output.file)) continue;
     if (!output.replaced.empty() && AreSame(output.replaced, input)) continue;
     throw Error(fmt::format("{}: is read, and would be lost; give another file", output.file));
@@ -88,11 +104,25 @@ void OutputPlan::Check() const {
     if (IsDevice(output.file) || files.insert(Destination(output.file)).second) continue;
     throw Error(fmt::format("{}: is to hold two outputs; give each its own file", output.file));
   }
+  for (const Output& output : outputs_) CheckIsOwn(output.file, output.own_begin);
   for (const Output& output : outputs_) {
-    if (IsDevice(output.file)) continue;
+    if (IsDevice(output.file)) {
+      HoldPipe(output.file);
+      continue;
+    }
     const fs::path file = Destination(output.file);
     CheckCanBeWritten(output.makes_folder ? FirstToMake(file) : file, output.file);
   }
+}
+
+void CheckIsOwn(const std::string& file, std::string_view begin) {
+  std::error_code failure;
+  if (begin.empty() || !fs::exists(file, failure) || IsDevice(file)) return;
+  if (FirstBytes(file, begin.size()) == begin) return;
+  throw Error(
+      fmt::format("{}: is there, was not written by this program, and would be replaced by what "
+                  "comes beside another output; move it away, or give that another name",
+                  file));
 }
 
 }  // namespace mmm_converter

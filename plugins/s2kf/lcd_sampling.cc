@@ -37,8 +37,12 @@ void CheckSize(int dimension, int num_samples) {
   CheckDimension(dimension);
   const int fewest = 2 * dimension + 1;
   if (num_samples % 2 == 1 && num_samples >= fewest && num_samples <= kMaxSamples) return;
-  throw Error(fmt::format("{} samples in {} dimensions: use an odd number from {} to {}",
-                          num_samples, dimension, fewest, kMaxSamples));
+  throw Error(fmt::format(
+      "<Filter samples=\"{}\"/>: {} samples are too few or too many for the {} dimensions of this "
+      "model, 6 of its root and one of each joint that is tracked; give an odd number from {} to "
+      "{}, "
+      "or track fewer joints (<Joints>)",
+      num_samples, num_samples, dimension, fewest, kMaxSamples));
 }
 
 MatrixXd NormalMatrix(int rows, int columns, std::uint64_t seed) {
@@ -85,7 +89,8 @@ std::optional<MatrixXd> ReadCached(const std::filesystem::path& file, int dimens
   std::error_code ignored;
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
   try {
-    return ParseLcdSamples(ReadFileContent(file.string(), kMaxBytes), dimension, num_samples);
+    // A look at the start: a cache is none of the inputs that no output replaces.
+    return ParseLcdSamples(ReadFileStart(file.string(), kMaxBytes), dimension, num_samples);
   } catch (const Error&) {
     return std::nullopt;
   }

@@ -25,7 +25,7 @@ class JournalTest : public ::testing::Test {
     record.fingerprint = "f";
     record.recording = {123, 1700000000123456789, "h"};
     record.outputs = {{"motions/" + id + ".xml", {45, 6, "o"}}};
-    record.models = {{"../objects/cup.xml", {7, 8, "m"}}};
+    record.inputs = {{"../objects/cup.xml", {7, 8, "m"}}};
     record.result.figures = EntryFigures();
     record.result.seconds = 0.5;
     return record;
@@ -52,7 +52,7 @@ TEST_F(JournalTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(output.bytes, 45U);
   EXPECT_EQ(output.modified, 6);
   EXPECT_EQ(output.hash, "o");
-  EXPECT_EQ(record.models.at("../objects/cup.xml").hash, "m");
+  EXPECT_EQ(record.inputs.at("../objects/cup.xml").hash, "m");
   EXPECT_EQ(record.result.seconds, 0.5);
 }
 

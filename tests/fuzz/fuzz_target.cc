@@ -11,12 +11,16 @@ namespace mmm_converter::testing {
 
 const std::map<std::string, FuzzTarget>& FuzzTargets() {
   static const std::map<std::string, FuzzTarget> targets = {
+      {"body_map", ReadBodyMapBytes},
       {"c3d", ReadC3dBytes},
       {"conversion", ConvertRecordingBytes},
       {"converter_config", ReadConverterConfigBytes},
+      {"external_loads", ReadExternalLoadsBytes},
+      {"ik_tasks", ReadIkTasksBytes},
       {"journal", ReadJournalBytes},
       {"lcd_samples", ReadLcdSamplesBytes},
       {"manifest", ReadManifestBytes},
+      {"marker_file", ReadMarkerFileBytes},
       {"marker_set", ReadMarkerSetBytes},
       {"mjcf", ReadMjcfBytes},
       {"mmm_model", ReadMmmModelBytes},
@@ -29,6 +33,7 @@ const std::map<std::string, FuzzTarget>& FuzzTargets() {
       {"qtm", ReadQtmBytes},
       {"qtm_tsv", ReadQtmTsvBytes},
       {"recording", ReadRecordingBytes},
+      {"scale_setup", ReadScaleSetupBytes},
       {"subjects_table", ReadSubjectsTableBytes},
       {"trc", ReadTrcBytes},
       {"urdf", ReadUrdfBytes},

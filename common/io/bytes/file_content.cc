@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 
 namespace mmm_converter {
 
@@ -39,7 +40,9 @@ ByteSource BytesOf(std::string_view content) {
           }};
 }
 
-ByteSource BytesOfFile(const std::string& path, std::size_t max_bytes) {
+namespace {
+
+ByteSource Opened(const std::string& path, std::size_t max_bytes) {
   const std::uint64_t size = RegularFileSize(path);
   if (size > max_bytes) {
     throw Error(fmt::format("{}: has {} bytes, more than the {} that are read at most", path, size,
@@ -58,6 +61,14 @@ ByteSource BytesOfFile(const std::string& path, std::size_t max_bytes) {
           }};
 }
 
+}  // namespace
+
+ByteSource BytesOfFile(const std::string& path, std::size_t max_bytes) {
+  ByteSource file = Opened(path, max_bytes);
+  OpenedFiles::Note(path);
+  return file;
+}
+
 std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
   const ByteSource file = BytesOfFile(path, max_bytes);
   std::string content(file.size, '\0');
@@ -66,7 +77,7 @@ std::string ReadFileContent(const std::string& path, std::size_t max_bytes) {
 }
 
 std::string ReadFileStart(const std::string& path, std::size_t count) {
-  const ByteSource file = BytesOfFile(path, std::numeric_limits<std::size_t>::max());
+  const ByteSource file = Opened(path, std::numeric_limits<std::size_t>::max());
   std::string content(std::min<std::uint64_t>(count, file.size), '\0');
   file.read(0, content.size(), content.data());
   return content;

@@ -23,7 +23,7 @@ struct ByteSource {
 
 ByteSource BytesOf(std::string_view content);  ///< which must outlive it
 
-/// The bytes of a file, which stays open.
+/// The bytes of a file, which stays open and counts as read (OpenedFiles).
 /// @throws Error as ReadFileContent; reading, where the file has become shorter meanwhile.
 ByteSource BytesOfFile(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
 
@@ -32,7 +32,7 @@ ByteSource BytesOfFile(const std::string& path, std::size_t max_bytes = kMaxFile
 /// max_bytes.
 std::string ReadFileContent(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
 
-/// The first bytes of a file, at most count.
+/// The first bytes of a file, at most count: a look at it, after which it does not count as read.
 /// @throws Error as ReadFileContent.
 std::string ReadFileStart(const std::string& path, std::size_t count);
 

@@ -9,6 +9,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/c3d/c3d_numbers.h"
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -52,6 +53,7 @@ C3dFile::C3dFile(const std::string& path, Warnings* warnings) : path_(path) {
   const std::uint64_t file_size = RegularFileSize(path);
   stream_.open(path, std::ios::binary);
   if (!stream_) throw Error(fmt::format("{}: can't be opened", path));
+  OpenedFiles::Note(path);
 
   const auto start = ReadBytes(0, std::min(file_size, kMaxLeadingZeros));
   const auto first = std::find_if(start.begin(), start.end(), [](auto byte) { return byte != 0; });

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/io/mjcf/mjcf_geom.h"
+#include "common/model/body_bounds.h"
+#include "common/model/inertia_check.h"
 
 #include <fmt/format.h>
 
@@ -191,6 +193,16 @@ MjcfMass ReadMjcfInertial(const MjcfAttributes& attributes, const Eigen::Isometr
     I << f[0], f[3], f[4], f[3], f[1], f[5], f[4], f[5], f[2];
   } else {
     I = attributes.Vector("diaginertia", Eigen::Vector3d::Zero()).asDiagonal();
+  }
+  if (!IsWithin(mass.mass, kHeaviestBody) || !IsWithin(I.cwiseAbs().maxCoeff(), kLargestInertia)) {
+    text->Fail(element,
+               fmt::format("<inertial>: a mass of at most {:g} kg and an inertia of at most "
+                           "{:g} kg m^2 are expected",
+                           kHeaviestBody, kLargestInertia));
+    return {};
+  }
+  if (const std::string why_not = WhyNoInertia(I); !why_not.empty()) {
+    text->Warn(element, "<inertial>: " + why_not);
   }
   mass.p_BC = X.translation();
   mass.inertia = X.linear() * I * X.linear().transpose();

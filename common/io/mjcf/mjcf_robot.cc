@@ -18,6 +18,7 @@
 #include "common/io/mjcf/mjcf_document.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -322,16 +323,15 @@ Robot ParseMjcf(std::string_view content, const std::string& file, const MjcfPar
   Diagnostics diagnostics(file, warnings);
   MjcfText text(content, read_part, &diagnostics);
   const MjcfDocument document = ReadMjcfDocument(&text);
-  return MjcfRobotBuilder(document, &text).Build();
+  return OfFile(file, [&] { return MjcfRobotBuilder(document, &text).Build(); });
 }
 
-Robot ReadMjcf(const std::string& path, Warnings* warnings, std::vector<std::string>* parts) {
+Robot ReadMjcf(const std::string& path, Warnings* warnings) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const auto read_part = [&](const std::string& name) -> std::optional<std::string> {
     const std::filesystem::path part = folder / name;
     std::error_code unreadable;
     if (!std::filesystem::exists(part, unreadable)) return {};
-    if (parts != nullptr) parts->push_back(part.string());
     return ReadFileContent(part.string(), kMaxPartBytes);
   };
   return ParseMjcf(ReadFileContent(path, kMaxPartBytes), path, read_part, warnings);

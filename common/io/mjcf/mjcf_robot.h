@@ -22,9 +22,7 @@ bool IsMjcf(std::string_view content);  ///< by its root
 /// @throws Error naming file and line: not an MJCF, files that are not there or include each other,
 ///         classes that are not there, names twice, numbers that are none, ball joints and elements
 ///         that make bodies and are not read, no body with joints.
-/// parts: gets the files that it includes; may be null.
-Robot ReadMjcf(const std::string& path, Warnings* warnings = nullptr,
-               std::vector<std::string>* parts = nullptr);
+Robot ReadMjcf(const std::string& path, Warnings* warnings = nullptr);
 
 /// As ReadMjcf; `file` is only named in messages.
 Robot ParseMjcf(std::string_view content, const std::string& file, const MjcfPartReader& read_part,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -83,6 +84,7 @@ XmlElement MjcfText::Include(const XmlElement& include) {
   const std::string* attribute = include.FindAttribute("file");
   const std::string name = attribute == nullptr ? "" : std::string(Trim(*attribute));
   if (name.empty()) Throw(include, "<include> without a file");
+  const std::string includer = FileOf(include.line);
   for (const std::string& path :
        {Normal(name), Normal(std::filesystem::path(FileOf(include.line)).parent_path() / name)}) {
     const std::optional<std::string> content = read_part_ ? read_part_(path) : std::nullopt;
@@ -94,7 +96,9 @@ XmlElement MjcfText::Include(const XmlElement& include) {
                                  "MJCF allows it once",
                                  name));
     }
-    return Parse(*content, path);
+    return NamedBy(fmt::format("{}:{}", includer.empty() ? diagnostics_->file() : includer,
+                               include.line % kLinesOfFile),
+                   [&] { return Parse(*content, path); });
   }
   Throw(include, fmt::format("includes {}, which is not there", name));
 }

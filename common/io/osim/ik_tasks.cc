@@ -10,6 +10,8 @@
 namespace mmm_converter {
 namespace {
 
+constexpr double kLeastWeight = 1e-9;  // below it a task asks for nothing
+
 IkTasks::OfCoordinate ReadCoordinateTask(const XmlElement& task, double weight,
                                          Diagnostics* diagnostics) {
   IkTasks::OfCoordinate of{OsimName(task), weight, {}};
@@ -37,7 +39,7 @@ IkTasks ReadIkTasks(const XmlElement& set, Diagnostics* diagnostics) {
       diagnostics->AddError(task.line,
                             fmt::format("task '{}': a weight can't be negative", OsimName(task)));
     }
-    if (!is_applied || weight <= 0) continue;
+    if (!is_applied || weight < kLeastWeight) continue;
     if (task.Is("IKMarkerTask")) tasks.markers.push_back({OsimName(task), weight});
     if (task.Is("IKCoordinateTask")) {
       tasks.coordinates.push_back(ReadCoordinateTask(task, weight, diagnostics));

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace mmm_converter {
 namespace {
 
 // Real models have 1, and splines of some 20 points. Chains of couplers could multiply both.
 constexpr std::size_t kMostTerms = 16;
 constexpr std::size_t kMostNumbers = 4096;
+constexpr int kLongestCoupling = 16;  // of couplers; real models have 1
 
 }  // namespace
 
@@ -53,6 +56,7 @@ OsimCouplings::OsimCouplings(const OsimDocument& document, Diagnostics* diagnost
 void OsimCouplings::Couple(const std::vector<const OsimCoupler*>& coupler_of) {
   std::vector<std::vector<int>> followers(coupler_of.size());
   std::vector<int> open(coupler_of.size(), 0);  // leaders that are not known yet
+  std::vector<int> chain(coupler_of.size(), 1);
   std::vector<int> known;
   std::size_t waiting = 0;
   for (std::size_t i = 0; i < coupler_of.size(); ++i) {
@@ -71,7 +75,14 @@ void OsimCouplings::Couple(const std::vector<const OsimCoupler*>& coupler_of) {
     known.pop_back();
     --waiting;
     values_[one] = InFree(coupler_of[one]->value, coupler_of[one]->line);
+    if (chain[one] > kLongestCoupling) {
+      diagnostics_->AddError(coupler_of[one]->line,
+                             fmt::format("coupler '{}' follows more than {} others one by one",
+                                         coupler_of[one]->name, kLongestCoupling));
+      return;
+    }
     for (const int follower : followers[one]) {
+      chain[follower] = std::max(chain[follower], chain[one] + 1);
       if (--open[follower] == 0) known.push_back(follower);
     }
   }

@@ -13,6 +13,7 @@
 #include "common/io/osim/osim_values.h"
 #include "common/io/osim/osim_xml.h"
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -95,7 +96,8 @@ void OsimReader::ForEach(const XmlElement& model, const char* set, const Visit& 
            fmt::format("<{}> stands in another file, {}, which can't be read here", set, *file));
       return;
     }
-    part = ParseOsimPart(read_part_(*file), *file, set);
+    part = NamedBy(fmt::format("{}:{}", diagnostics_->file(), element->line),
+                   [&] { return ParseOsimPart(read_part_(*file), *file, set); });
     element = &*part;
   }
   const XmlElement* objects = element->FindChild("objects");
@@ -346,6 +348,10 @@ void AddOsimMarkers(std::string_view content, const std::string& file, OsimDocum
     std::optional<OsimMarker> marker = ReadMarker(element, &frames, &diagnostics);
     if (!marker) continue;
     const auto [known, is_new] = index.emplace(marker->name, document->markers.size());
+    if (is_new && index.size() > kMostMarkers) {
+      throw Error(fmt::format("{}:{}: with it the model has more than the {} markers that are read",
+                              file, element.line, kMostMarkers));
+    }
     if (is_new) {
       document->markers.push_back(std::move(*marker));
     } else {

@@ -10,6 +10,9 @@ namespace {
 
 // A MultiplierFunction may hold another one, but none does so often.
 constexpr int kDeepest = 16;
+// Of a polynomial; those of models have up to some 10, and each is evaluated for each marker, frame
+// and sample.
+constexpr std::size_t kMostCoefficients = 32;
 
 class FunctionReader {
  public:
@@ -112,6 +115,11 @@ OsimExpression FunctionReader::Read(const XmlElement& function, int depth) {
   if (function.Is("PolynomialFunction")) {
     std::vector<double> c = ReadOsimNumbers(function, "coefficients", 0, {}, diagnostics_);
     if (c.empty()) c = {0};
+    if (c.size() > kMostCoefficients) {
+      Fail(function, fmt::format("has {} coefficients, more than the {} that are read", c.size(),
+                                 kMostCoefficients));
+      return {};
+    }
     return OfOne(function, ScalarFunction::Polynomial(c));
   }
   Fail(function,

@@ -15,8 +15,10 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_couplings.h"
 #include "common/math/up_axis.h"
+#include "common/model/body_bounds.h"
 #include "common/model/coordinate_map.h"
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -310,6 +312,12 @@ std::shared_ptr<const CoordinateMap> ModelBuilder::MapCoordinates() {
         one.constant += term.function.Value(document_.coordinates[leader].default_value);
       }
     }
+    if (!IsWithin(one.constant, kFarthestTurn)) {
+      diagnostics_->AddError(source.line,
+                             fmt::format("coordinate '{}': what it follows puts it at {:g}, beyond "
+                                         "what a body can do",
+                                         one.name, one.constant));
+    }
   }
   return std::make_shared<const CoordinateMap>(std::move(coordinates), root_, R_WG_);
 }
@@ -345,13 +353,7 @@ KinematicModel ModelBuilder::Build() {
 }  // namespace
 
 KinematicModel MakeOsimModel(const OsimDocument& document, Diagnostics* diagnostics) {
-  try {
-    return ModelBuilder(document, diagnostics).Build();
-  } catch (const Error& error) {
-    const std::string what = error.what();
-    if (what.starts_with(diagnostics->file())) throw;
-    throw Error(fmt::format("{}: {}", diagnostics->file(), what), error.remedy());
-  }
+  return OfFile(diagnostics->file(), [&] { return ModelBuilder(document, diagnostics).Build(); });
 }
 
 OsimDocument ParseOsimDocument(std::string_view content, const std::string& marker_file,

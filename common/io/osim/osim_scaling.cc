@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "common/io/osim/osim_edit.h"
 #include "common/io/osim/osim_paths.h"
@@ -68,13 +70,17 @@ class Scaler {
   int BodyIndex(std::string_view name) const;
 
   OsimEdit& edit_;
-  std::vector<Vector3d> factors_;  // by body
-  std::vector<double> masses_;     // by body [kg]
+  std::map<std::string, int, std::less<>> index_;  // of bodies
+  std::vector<Vector3d> factors_;                  // by body
+  std::vector<double> masses_;                     // by body [kg]
 };
 
 Scaler::Scaler(OsimEdit* edit, const OsimScaling& scaling) : edit_(*edit) {
   const std::vector<OsimBody>& bodies = edit_.document().bodies;
   factors_.assign(bodies.size(), Vector3d::Ones());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    index_.emplace(bodies[i].name, static_cast<int>(i));
+  }
   for (const auto& [name, factor] : scaling.factors) {
     const int body = BodyIndex(name);
     if (body == 0) continue;
@@ -95,10 +101,8 @@ Scaler::Scaler(OsimEdit* edit, const OsimScaling& scaling) : edit_(*edit) {
 }
 
 int Scaler::BodyIndex(std::string_view name) const {
-  const std::vector<OsimBody>& bodies = edit_.document().bodies;
-  const auto found = std::find_if(bodies.begin(), bodies.end(),
-                                  [&](const OsimBody& body) { return body.name == name; });
-  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+  const auto found = index_.find(name);
+  return found == index_.end() ? -1 : found->second;
 }
 
 void Scaler::ScaleMass(const XmlPlace& place, const OsimBody& body, const Vector3d& f) {
@@ -199,9 +203,12 @@ void Scaler::ScaleJoints() {
     const std::vector<XmlPlace> joints = body.Child("Joint").Children();
     if (joints.empty() || edit_.document().version >= 40000) continue;
     const XmlPlace& joint = joints.front();
-    const Vector3d& f = factors_[BodyIndex(OsimText(joint.element(), "parent_body"))];
+    const int child = BodyIndex(OsimName(body.element()));
+    const int parent = BodyIndex(OsimText(joint.element(), "parent_body"));
+    if (child <= 0 || parent < 0) continue;  // the ground hangs on nothing
+    const Vector3d& f = factors_[parent];
     edit_.ScaleVector(joint, "location_in_parent", f);
-    edit_.ScaleVector(joint, "location", factors_[BodyIndex(OsimName(body.element()))]);
+    edit_.ScaleVector(joint, "location", factors_[child]);
     ScaleTransform(joint, f);
   }
   for (const XmlPlace& joint : OsimEdit::Objects(edit_.model(), "JointSet")) {

@@ -8,6 +8,7 @@
 #include "common/io/osim/osim_values.h"
 #include "common/io/osim/osim_xml.h"
 #include "common/support/error.h"
+#include "common/support/error_of_file.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -55,7 +56,8 @@ void SetupReader::WithSet(const XmlElement& owner, const char* name, const Visit
   if (set == nullptr) return;
   const std::string* file = set->FindAttribute("file");
   if (file == nullptr || file->empty()) return visit(*set);
-  visit(ParseOsimPart(read_part_(*file), *file, name));
+  visit(NamedBy(fmt::format("{}:{}", diagnostics_->file(), set->line),
+                [&] { return ParseOsimPart(read_part_(*file), *file, name); }));
 }
 
 template <typename Visit>

@@ -84,6 +84,16 @@ const std::vector<RecordingFormat> kFormats = {
       fmt::format("{}: is text, but no recording that is read ({})", file, RecordingFormatNames()));
 }
 
+/// Lines of printable characters but for some zeros; other formats begin with many.
+bool IsDamagedText(std::string_view start) {
+  constexpr double kPrintable = 0.95;
+  const auto printable = std::count_if(start.begin(), start.end(), [](unsigned char c) {
+    return c == '\t' || c == '\r' || c == '\n' || (c >= 0x20 && c < 0x7F);
+  });
+  return start.find('\n') != std::string_view::npos && start.find('\0') != std::string_view::npos &&
+         static_cast<double>(printable) > kPrintable * static_cast<double>(start.size());
+}
+
 const RecordingFormat* FindFormat(const std::string& file, std::string_view start) {
   const auto found =
       std::find_if(kFormats.begin(), kFormats.end(),
@@ -121,6 +131,12 @@ const RecordingFormat& FormatOfContent(const std::string& file) {
   if (IsText(start)) ThrowOtherText(file, start);
   const std::string foreign = NameForeignContent(ReadFileStart(file, kForeignBytes));
   if (!foreign.empty()) throw Error(fmt::format("{}: {}", file, foreign));
+  if (IsDamagedText(start)) {
+    throw Error(
+        fmt::format("{}: is text with bytes that no text has, the first at byte {}; save or "
+                    "export it again",
+                    file, start.find('\0') + 1));
+  }
   return kFormats.front();  // C3D, whose reader says what is wrong with the bytes
 }
 

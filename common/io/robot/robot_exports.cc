@@ -83,7 +83,7 @@ std::string NamesFile(const std::string& file) { return file + ".names.json"; }
 void WriteNames(const std::string& file, const Robot& robot, const RobotMotion& motion,
                 const char* quaternion) {
   std::string json = fmt::format(
-      "{{\n  \"rate\": {},\n  \"quaternion\": \"{}\",\n  \"robot\": ", motion.rate, quaternion);
+      "{}{},\n  \"quaternion\": \"{}\",\n  \"robot\": ", kRobotNamesBegin, motion.rate, quaternion);
   AppendJsonText(robot.model.name(), &json);
   json += ",\n";
   AppendNames("joints", motion.joints, &json);

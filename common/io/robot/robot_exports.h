@@ -37,6 +37,9 @@ struct RobotExporter {
 
 const std::vector<RobotExporter>& RobotExporters();
 
+/// How FILE.names.json begins.
+inline constexpr const char* kRobotNamesBegin = "{\n  \"rate\": ";
+
 /// What writing `file` makes.
 std::vector<std::string> FilesOf(const RobotExporter& exporter, const std::string& file);
 

@@ -29,4 +29,12 @@ std::vector<std::string> ColumnNames(const std::vector<std::string>& names) {
   return words;
 }
 
+std::vector<std::string> CsvColumnNames(std::vector<std::string> names) {
+  for (std::string& name : names) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ',' || c == ';' || c == '"'; }, '_');
+  }
+  return ColumnNames(names);
+}
+
 }  // namespace mmm_converter

@@ -15,4 +15,7 @@ std::string OneWord(std::string_view text);
 /// that is free is appended.
 std::vector<std::string> ColumnNames(const std::vector<std::string>& names);
 
+/// The same for tables whose cells commas separate: these and quotes are '_', too.
+std::vector<std::string> CsvColumnNames(std::vector<std::string> names);
+
 }  // namespace mmm_converter

@@ -119,8 +119,7 @@ TextPieces FormatOsimDeviations(const KinematicModel& model, const PoseTrajector
       }
     };
     AppendTable(trajectory,
-                OsimHeader("Standard deviations of coordinates", trajectory.num_frames(), true,
-                           CoordinateNames(model)),
+                OsimHeader(kOsimDeviations, trajectory.num_frames(), true, CoordinateNames(model)),
                 row, sink);
   };
 }

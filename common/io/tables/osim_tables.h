@@ -19,6 +19,9 @@ namespace mmm_converter {
 /// others, as its inverse kinematics writes them: turns in degrees, all else in metres and radians.
 TextPieces FormatOsimMotion(const KinematicModel& model, const PoseTrajectory& trajectory);
 
+/// How tables of FormatOsimDeviations begin.
+inline constexpr const char* kOsimDeviations = "Standard deviations of coordinates";
+
 /// Of such a model the standard deviations of the coordinates, in their units. Coordinates that the
 /// tracker says nothing of are 0 where they are constant, else nan.
 TextPieces FormatOsimDeviations(const KinematicModel& model, const PoseTrajectory& trajectory);

@@ -55,8 +55,7 @@ PoseColumns ColumnNamesOf(const BodyPoses& poses) {
   std::vector<std::string> names = poses.segments;
   names.insert(names.end(), poses.objects.begin(), poses.objects.end());
   for (const std::string& point : poses.points) names.push_back("point_" + point);
-  for (std::string& name : names) std::replace(name.begin(), name.end(), ',', '_');
-  names = ColumnNames(names);
+  names = CsvColumnNames(std::move(names));
   const auto points = names.end() - static_cast<std::ptrdiff_t>(poses.points.size());
   return {{names.begin(), points}, {points, names.end()}, poses.segments.size()};
 }

@@ -86,7 +86,11 @@ class Placing {
     double steps = 1;
     if (!std::isfinite(by_time)) {
       if (counts) steps = by_frame;
-      if (by_frame < 1) GoBack(k);
+      // Where all rows go back, there is no step to measure by.
+      const bool goes_back =
+          by_frame < 1 || rows_.times[k] < rows_.times[k - 1] ||
+          (!(rows_.times[k] > rows_.times[k - 1]) && rows_.frames[k] <= rows_.frames[k - 1]);
+      if (goes_back) GoBack(k);
     } else if (by_time < 0 || (by_time == 0 && rounding_ == 0)) {
       GoBack(k);
     } else if (counts && std::abs(by_time - by_frame) <= tolerance) {

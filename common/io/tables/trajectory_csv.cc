@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/io/tables/column_names.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
 #include "common/support/units.h"
@@ -23,8 +24,8 @@ void AppendCells(const Vector& values, double factor, int decimals, std::string*
   for (Eigen::Index i = 0; i < values.size(); ++i) AppendCell(factor * values[i], decimals, out);
 }
 
-// joint names hold no comma: they are XML node names that readers split at blanks.
 std::string CsvHeader(const PoseTrajectory& trajectory) {
+  const std::vector<std::string> joints = CsvColumnNames(trajectory.joint_names);
   std::string header = "time_s";
   const auto append = [&](const std::string& prefix, const std::vector<std::string>& turns,
                           const std::string& per) {
@@ -34,7 +35,7 @@ std::string CsvHeader(const PoseTrajectory& trajectory) {
     for (const std::string& turn : turns) {
       header.append(",").append(prefix).append("root_").append(turn).append("_rad").append(per);
     }
-    for (const std::string& name : trajectory.joint_names) {
+    for (const std::string& name : joints) {
       header.append(",").append(prefix).append(name).append("_rad").append(per);
     }
   };

@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -16,16 +15,13 @@
 #include "common/io/urdf/urdf_shapes.h"
 #include "common/io/xml/xml_document.h"
 #include "common/io/xml/xml_text.h"
+#include "common/model/body_bounds.h"
+#include "common/model/inertia_check.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
-
-// What no robot has; larger numbers are of another unit.
-constexpr double kLongestLinkOffset = 100;   // [m]
-constexpr double kLargestLinkMass = 1e6;     // [kg]
-constexpr double kLargestLinkInertia = 1e9;  // [kg m^2]
 
 /// What urdfdom would print, for as long as it lives.
 class CapturedLog : public console_bridge::OutputHandler {
@@ -114,7 +110,7 @@ std::string NameOfElement(const XmlElement& element) {
   return "";
 }
 
-bool IsWithin(const Eigen::Vector3d& offset) { return offset.stableNorm() <= kLongestLinkOffset; }
+bool IsNearBy(const Eigen::Vector3d& offset) { return offset.stableNorm() <= kLongestLength; }
 
 class DocumentBuilder {
  public:
@@ -133,6 +129,7 @@ class DocumentBuilder {
   [[noreturn]] void FailToFind(const XmlElement& element);
   void AddLink(const XmlElement& element);
   void ReadInertial(const urdf::Inertial& inertial, UrdfLink* link);
+  void CheckInertialIsRead(const XmlElement& link, bool is_read);
   void CheckInertia(const UrdfLink& link);
   void AddJoint(const XmlElement& element);
   void ReadOrigin(const urdf::Joint& source, UrdfJoint* joint);
@@ -162,6 +159,7 @@ void DocumentBuilder::AddLink(const XmlElement& element) {
   link.name = source->name;
   link.line = element.line;
   if (source->inertial) ReadInertial(*source->inertial, &link);
+  CheckInertialIsRead(element, source->inertial != nullptr);
   AddUrdfShapes(element, link_indices_[source->name], &document_, &diagnostics_);
 }
 
@@ -171,15 +169,15 @@ void DocumentBuilder::ReadInertial(const urdf::Inertial& inertial, UrdfLink* lin
   I << inertial.ixx, inertial.ixy, inertial.ixz,  //
       inertial.ixy, inertial.iyy, inertial.iyz,   //
       inertial.ixz, inertial.iyz, inertial.izz;
-  if (!(inertial.mass >= 0 && inertial.mass <= kLargestLinkMass)) {
+  if (!(inertial.mass >= 0 && inertial.mass <= kHeaviestBody)) {
     Fail(link->line, "link '{}': its mass of {:.6g} kg is outside 0 to {:g} kg", link->name,
-         inertial.mass, kLargestLinkMass);
-  } else if (!IsWithin(X_LB.translation())) {
+         inertial.mass, kHeaviestBody);
+  } else if (!IsNearBy(X_LB.translation())) {
     Fail(link->line, "link '{}': its centre of mass is more than {} m away; URDF is in metres",
-         link->name, kLongestLinkOffset);
-  } else if (!(I.cwiseAbs().maxCoeff() <= kLargestLinkInertia)) {
+         link->name, kLongestLength);
+  } else if (!(I.cwiseAbs().maxCoeff() <= kLargestInertia)) {
     Fail(link->line, "link '{}': its inertia has a number above {:g} kg m^2", link->name,
-         kLargestLinkInertia);
+         kLargestInertia);
   } else {
     link->mass = inertial.mass;
     link->p_LB = X_LB.translation();
@@ -190,24 +188,44 @@ void DocumentBuilder::ReadInertial(const urdf::Inertial& inertial, UrdfLink* lin
   }
 }
 
-void DocumentBuilder::CheckInertia(const UrdfLink& link) {
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(link.inertia, Eigen::EigenvaluesOnly)
-          .eigenvalues();
-  const double rounding = 1e-6 * moments.cwiseAbs().maxCoeff();  // files have 6 digits
-  if (moments[0] >= -rounding && moments[2] <= moments[0] + moments[1] + rounding) return;
+/// urdfdom leaves out an <inertial> that it can't read, with its mass.
+void DocumentBuilder::CheckInertialIsRead(const XmlElement& link, bool is_read) {
+  const XmlElement* inertial = link.FindChild("inertial");
+  if (inertial == nullptr) return;
+  bool are_numbers = true;
+  for (const XmlElement& part : inertial->children) {
+    if (!part.Is("mass") && !part.Is("inertia")) continue;
+    for (const auto& [key, value] : part.attributes) {
+      if (part.Is("mass") ? key != "value" : !key.starts_with("i")) continue;
+      const auto number = ParseDouble(value);
+      if (number && std::isfinite(*number)) continue;
+      are_numbers = false;
+      Fail(part.line,
+           "link '{}': <{} {}=\"{:.40}\"> is no finite number (decimals come behind a "
+           "point)",
+           NameOfElement(link), part.name, key, value);
+    }
+  }
+  if (is_read || !are_numbers) return;
   diagnostics_.AddWarning(
-      link.line, fmt::format("link '{}': no body has its inertia; each of the three principal "
-                             "moments must be at most the sum of the other two ({:.4g}, {:.4g} and "
-                             "{:.4g} kg m^2)",
-                             link.name, moments[0], moments[1], moments[2]));
+      inertial->line,
+      fmt::format("link '{}': its <inertial> is not read, and the link counts as without mass: "
+                  "<mass value=\"\"> and <inertia ixx=\"\" ixy=\"\" ixz=\"\" iyy=\"\" iyz=\"\" "
+                  "izz=\"\"> are expected",
+                  NameOfElement(link)));
+}
+
+void DocumentBuilder::CheckInertia(const UrdfLink& link) {
+  const std::string why_not = WhyNoInertia(link.inertia);
+  if (why_not.empty()) return;
+  diagnostics_.AddWarning(link.line, fmt::format("link '{}': {}", link.name, why_not));
 }
 
 void DocumentBuilder::ReadOrigin(const urdf::Joint& source, UrdfJoint* joint) {
   joint->X_PF = ToEigen(source.parent_to_joint_origin_transform);
-  if (IsWithin(joint->X_PF.translation())) return;
+  if (IsNearBy(joint->X_PF.translation())) return;
   Fail(joint->line, "joint '{}': its origin is more than {} m away; URDF is in metres", joint->name,
-       kLongestLinkOffset);
+       kLongestLength);
 }
 
 void DocumentBuilder::ReadAxis(const urdf::Joint& source, UrdfJoint* joint) {

@@ -13,7 +13,9 @@
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/urdf/urdf_document.h"
 #include "common/io/xml/xml_text.h"
+#include "common/model/body_bounds.h"
 #include "common/support/diagnostics.h"
+#include "common/support/error_of_file.h"
 
 namespace mmm_converter {
 namespace {
@@ -165,10 +167,12 @@ void UrdfModelBuilder::Follow(const UrdfJoint& joint, Segment* segment) {
     slope *= leader->mimic_multiplier;
     leader = &document_.joints[static_cast<std::size_t>(joint_by_name_.at(leader->mimicked))];
   }
-  if (!std::isfinite(slope) || !std::isfinite(offset)) {
-    diagnostics_.AddError(joint.line, fmt::format("joint '{}': its <mimic> has numbers that no "
-                                                  "joint has",
-                                                  joint.name));
+  if (!IsWithin(slope, kLargestMultiplier) || !IsWithin(offset, kFarthestTurn)) {
+    diagnostics_.AddError(
+        joint.line,
+        fmt::format("joint '{}': its <mimic> multiplies by {:g} and adds {:g}; a multiplier of at "
+                    "most {:g} and an offset of at most {:g} are expected",
+                    joint.name, slope, offset, kLargestMultiplier, kFarthestTurn));
     return;
   }
   const int index = segment_[static_cast<std::size_t>(leader->child)];
@@ -233,7 +237,8 @@ bool IsUrdf(std::string_view content) {
 }
 
 UrdfModel MakeUrdfModel(const UrdfDocument& document, Diagnostics* diagnostics) {
-  return UrdfModelBuilder(document, diagnostics).Build();
+  return OfFile(diagnostics->file(),
+                [&] { return UrdfModelBuilder(document, diagnostics).Build(); });
 }
 
 UrdfModel ParseUrdfModel(std::string_view content, const std::string& file, Warnings* warnings) {

@@ -17,6 +17,7 @@
 #include "common/motion/synthetic_motion.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
+#include "common/support/opened_files.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -161,6 +162,7 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
   std::string output = request.conversion.output;
   if (output.empty() && HasMotion(request)) output = DefaultOutput(file);
   CheckFiles(request, output);
+  const OpenedFiles opened;
   Warnings warnings;
   LoadedRobot robot = ReadRobot(request.conversion.robot, &warnings);
   RetargetReport report = {file,
@@ -175,19 +177,22 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
                            {},
                            {},
                            {}};
+  CheckFiles(request, output);
   if (!HasMotion(request)) {
     RetargetRaisedKnee(&report, &warnings);
   } else if (request.converted != nullptr) {
+    OpenedFiles::Note(request.converted->plan.opened);
     RetargetConversion(*request.converted, &report, &warnings);
   } else if (request.motion ||
              (request.conversion.input.recording.value == nullptr && IsFinishedMotion(file))) {
-    RetargetFinished(request.motion ? CheckedMotionOf(*request.motion, request.conversion.input)
-                                    : ReadCheckedMotion(request.conversion.input),
-                     &report, &warnings);
+    CheckedMotion motion = request.motion
+                               ? CheckedMotionOf(*request.motion, request.conversion.input)
+                               : ReadCheckedMotion(request.conversion.input);
+    CheckFiles(request, output);
+    RetargetFinished(std::move(motion), &report, &warnings);
   } else {
     ConversionRequest conversion = request.conversion;
     conversion.output = output;
-    conversion.more_outputs.clear();
     RetargetConversion(RunConversion(conversion, LabelFirst(conversion, {}, progress), progress),
                        &report, &warnings);
   }
@@ -195,6 +200,8 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
   report.verdict = JudgeRetargeting(
       report.figures, report.conversion_verdict ? &*report.conversion_verdict : nullptr);
   report.warnings = std::move(warnings);
+  CheckFiles(request, output);
+  report.opened = opened.files();
   return report;
 }
 

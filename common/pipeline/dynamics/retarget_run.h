@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "common/io/mmm/mmm_motion.h"
@@ -41,7 +42,8 @@ struct RetargetReport {
   std::string unshown = {};               ///< of the person, in words; empty: nothing
   std::vector<std::string> written = {};  ///< files
   std::shared_ptr<const KinematicModel> person_model = nullptr;
-  PoseTrajectory person = {};  ///< as many frames as the robot's
+  PoseTrajectory person = {};         ///< as many frames as the robot's
+  std::set<std::string> opened = {};  ///< files; see OpenedFiles
 };
 
 /// Says in the plan which files the request names.

@@ -120,6 +120,7 @@ void UseMarkerSet(const InputRequest& request, ConverterConfig* config) {
       fs::exists(request.marker_set, failure) || request.marker_set.ends_with(".xml");
   config->marker_set = is_file ? fs::absolute(request.marker_set).string() : request.marker_set;
   config->marker_pairs.clear();
+  config->marker_set_line = 0;  // it is not the configuration's
 }
 
 void MatchModel(const InputRequest& request, Input* input, ConverterConfig* config) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct ReadBefore {
   WithWarnings<std::shared_ptr<const ConverterChoice>> choice = {};
   WithWarnings<std::shared_ptr<const Recording>> motion = {};      ///< one of several of the file
   WithWarnings<std::shared_ptr<const NamedRecording>> named = {};  ///< see LabelFirst
+  std::set<std::string> opened = {};  ///< files that it was read of; see OpenedFiles
 };
 
 struct Input {

@@ -10,6 +10,7 @@
 #include "common/pipeline/object.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 
 namespace mmm_converter {
 
@@ -43,6 +44,7 @@ void UseObject(const LiveRequest& request, const Recording& head, ConversionPlan
 }  // namespace
 
 ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
+  const OpenedFiles opened;
   ConversionPlan plan;
   Warnings* warnings = &plan.warnings;
   plan.input = ReadModel(request.input, {}, warnings);
@@ -73,6 +75,7 @@ ConversionPlan PlanLive(const LiveRequest& request, const Recording& head) {
   if (!plan.output.empty() && request.robot.file.empty()) CheckHoldsMotion(plan);
   plan.motion_name = NameOf(request, head);
   plan.subject_output = request.subject_output;
+  plan.opened = opened.files();
   return plan;
 }
 

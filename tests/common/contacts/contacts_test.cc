@@ -339,48 +339,5 @@ TEST_F(WalkTest, AFootBesideThePlatesTellsNoMass) {
   EXPECT_FALSE(EstimateMass(FindContacts(Walk(), forces), forces));
 }
 
-class ExternalLoadsTest : public ::testing::Test {
- protected:
-  static std::string Write(const std::string& name, const std::string& text) {
-    const std::string file = TestFolder() + "/" + name;
-    WriteFileAtomically(file, text);
-    return file;
-  }
-  static std::string MessageOf(const std::string& file) {
-    try {
-      ReadExternalLoads(file, Eigen::Vector3d::UnitY(), nullptr);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  }
-};
-
-TEST_F(ExternalLoadsTest, WhatIsNoTableIsSaid) {
-  EXPECT_THAT(MessageOf(Write("a.mot", "time x\n0 1\n")), ::testing::HasSubstr("endheader"));
-  EXPECT_THAT(MessageOf(Write("b.mot", "endheader\ntime a b\n0 1 2\n1 2\n")),
-              ::testing::HasSubstr("b.mot:4: 2 numbers, but 3 columns"));
-  EXPECT_THAT(MessageOf(Write("c.mot", "endheader\ntime a\n0 1\n1 2\n")),
-              ::testing::HasSubstr("has no force"));
-  EXPECT_THAT(
-      MessageOf(Write("d.mot", "endheader\ntime f_vx f_vy f_vz\n0 0 0 0\n1 0 0 0\n7 0 0 0\n")),
-      ::testing::HasSubstr("not even"));
-  EXPECT_THAT(MessageOf(Write("e.mot", "endheader\ntime f_vx\n0 0\n1 0\n")),
-              ::testing::HasSubstr("x, y and z"));
-  EXPECT_THAT(MessageOf(Write("f.xml", "<OpenSimDocument><ExternalLoads/></OpenSimDocument>")),
-              ::testing::HasSubstr("names no datafile"));
-}
-
-TEST_F(ExternalLoadsTest, AForceWithoutAPointTellsNoCentreOfPressure) {
-  Warnings warnings;
-  const RecordedForces forces = ReadExternalLoads(
-      Write("g.mot", "endheader\ntime\tf_vx\tf_vy\tf_vz\t\n0\t0\t700\t0\t\n0.01\t0\tnan\t0\t\n"),
-      Eigen::Vector3d::UnitY(), &warnings);
-  ASSERT_THAT(forces.plates, SizeIs(1));
-  EXPECT_FALSE(forces.plates[0].cop.col(0).allFinite());
-  EXPECT_FALSE(forces.plates[0].force.col(1).allFinite());
-  EXPECT_FALSE(warnings.empty());
-}
-
 }  // namespace
 }  // namespace mmm_converter

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "common/retarget/foot_figures.h"
@@ -307,6 +308,16 @@ TEST(RobotBodyTest, AFootThatLeansComesDownAndRisesWithoutSliding) {
     // 1 rad/s would be 5 mm/s.
     EXPECT_LT(most * kSteps / (turn.to - turn.from).norm(), 0.005) << turn.from.transpose();
   }
+}
+
+TEST(BodyMapTest, AFrontThatIsNoDirectionIsRefused) {
+  const std::string file = TestFolder() + "/map.xml";
+  for (const char* forward : {"nan 0 0", "inf 0 0", "1e308 1e308 0", "0 0 1", "1 0 nan", "1 0"}) {
+    WriteFileAtomically(file, std::string("<BodyMap forward=\"") + forward + "\"/>");
+    EXPECT_THROW(ReadBodyMapChoice(file), Error) << forward;
+  }
+  WriteFileAtomically(file, "<BodyMap forward=\"2 2 0\"/>");
+  EXPECT_NEAR(ReadBodyMapChoice(file).forward->x(), std::sqrt(0.5), 1e-12);
 }
 
 }  // namespace

@@ -204,5 +204,34 @@ TEST_F(AtomicFile, WhatKilledProcessesLeftIsRemovedAndNothingElse) {
   RemoveAbandonedFiles(Path("nowhere"));
 }
 
+TEST_F(AtomicFile, FilesTogetherReplaceNothingBeforeAllAreWhole) {
+  WriteFileAtomically(Path("old"), "before");
+  {
+    FilesTogether files;
+    WriteFileAtomically(Path("old"), "after");
+    WriteFileAtomically(Path("new"), "after");
+    EXPECT_EQ(Content(Path("old")), "before");
+    EXPECT_FALSE(fs::exists(Path("new")));
+    // One of them fails: the others are not written.
+    EXPECT_THROW(WriteFileAtomically(Path("absent/new"), "after"), Error);
+  }
+  EXPECT_EQ(Content(Path("old")), "before");
+  EXPECT_EQ(EntriesInFolder(), 1);
+  {
+    FilesTogether files;
+    WriteFileAtomically(Path("old"), "after");
+    {
+      FilesTogether inner;
+      WriteFileAtomically(Path("new"), "after");
+      inner.Commit();
+    }
+    EXPECT_FALSE(fs::exists(Path("new")));
+    files.Commit();
+  }
+  EXPECT_EQ(Content(Path("old")), "after");
+  EXPECT_EQ(Content(Path("new")), "after");
+  EXPECT_EQ(EntriesInFolder(), 2);
+}
+
 }  // namespace
 }  // namespace mmm_converter

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "common/support/output_plan.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "common/io/bytes/file_content.h"
+#include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/opened_files.h"
 #include "tests/support/test_folder.h"
 
 namespace mmm_converter {
@@ -102,6 +108,54 @@ TEST(OutputPlan, FoldersThatAreNotThereAreNamedBeforeTheWork) {
   OutputPlan folder;
   folder.Write(TestFolder());
   EXPECT_THROW(folder.Check(), WriteError);
+}
+
+TEST(OutputPlan, WhatTheRunHasOpenedIsAnInput) {
+  const std::string part = Made("part.xml");
+  fs::create_symlink(part, In("link.xml"));
+  OutputPlan plan;
+  plan.Write(part);
+  const OpenedFiles run;
+  EXPECT_EQ(WhyRefused(plan), "");
+  {
+    const OpenedFiles of_reader;
+    ReadFileStart(part, 1);  // a look
+    EXPECT_THAT(of_reader.files(), ::testing::IsEmpty());
+    ReadFileContent(In("link.xml"));
+    EXPECT_THAT(of_reader.files(), ::testing::ElementsAre(fs::canonical(part).string()));
+  }
+  EXPECT_EQ(WhyRefused(plan), part + ": is read, and would be lost; give another file");
+  OutputPlan handed_on;
+  handed_on.Write(part);
+  handed_on.Read(run.files());
+  EXPECT_THAT(WhyRefused(handed_on), HasSubstr("is read"));
+}
+
+TEST(OutputPlan, WhatComesBesideAnOutputReplacesOnlyItsOwnKind) {
+  OutputPlan plan;
+  plan.WriteBeside(In("walk.xml"), "<Own");
+  EXPECT_EQ(WhyRefused(plan), "");
+  std::ofstream(In("walk.xml")) << "<Own>of an earlier run</Own>";
+  EXPECT_EQ(WhyRefused(plan), "");
+  std::ofstream(In("walk.xml")) << "<Other/>";
+  EXPECT_THAT(WhyRefused(plan), HasSubstr("walk.xml: is there, was not written by this program"));
+}
+
+TEST(OutputPlan, NamesThatAreTooLongAndPipesWithoutReaderAreSaidBeforeTheWork) {
+  OutputPlan too_long;
+  too_long.Write(In(std::string(300, 'a')));
+  EXPECT_THROW(too_long.Check(), WriteError);
+  ASSERT_EQ(mkfifo(In("pipe").c_str(), 0600), 0);
+  OutputPlan pipe;
+  pipe.Write(In("pipe"));
+  EXPECT_THAT(WhyRefused(pipe), HasSubstr("nobody reads this pipe"));
+  const int reader = open(In("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  EXPECT_EQ(WhyRefused(pipe), "");
+  WriteFileAtomically(In("pipe"), "text");
+  char read_bytes[8] = {};
+  EXPECT_EQ(read(reader, read_bytes, sizeof(read_bytes)), 4);
+  EXPECT_EQ(read(reader, read_bytes, sizeof(read_bytes)), 0);  // it was closed
+  close(reader);
 }
 
 }  // namespace

@@ -149,6 +149,23 @@ TEST(OsimRefuses, FunctionsThatAreNone) {
               HasSubstr("nested too deeply"));
 }
 
+TEST(OsimRefuses, FunctionsBeyondWhatABodyCanDo) {
+  std::string scaled = "<LinearFunction><coefficients>1 0</coefficients></LinearFunction>";
+  for (int i = 0; i < 4; ++i) {
+    scaled = "<MultiplierFunction><scale>1e9</scale><function>" + scaled +
+             "</function></MultiplierFunction>";
+  }
+  EXPECT_THAT(OsimMessage(WithFunction("<function>" + scaled + "</function>")),
+              HasSubstr("beyond what a body can do"));
+  std::string coefficients;
+  for (int i = 0; i < 100; ++i) coefficients += "1 ";
+  EXPECT_THAT(OsimMessage(WithFunction("<PolynomialFunction name=\"function\"><coefficients>" +
+                                       coefficients + "</coefficients></PolynomialFunction>")),
+              HasSubstr("has 100 coefficients, more than the 32 that are read"));
+  EXPECT_THAT(OsimMessage(With("0.1 -0.2 0.05", "0.1 -2000 0.05")),
+              HasSubstr("it is away from its parent by more than 100 m"));
+}
+
 TEST(OsimRefuses, CouplersOfNothingAndOfThemselves) {
   const auto coupled = [](const std::string& dependent, const std::string& leader) {
     return OsimText(OsimBodyText("b"), OsimJointText("UniversalJoint", "j", "ground", "b"),
@@ -168,6 +185,19 @@ TEST(OsimRefuses, ModelsWithoutBounds) {
   for (int i = 0; i < 10000; ++i) bodies += "<Body name=\"b" + std::to_string(i) + "\"/>";
   EXPECT_THAT(OsimMessage(OsimText(bodies, "")),
               HasSubstr("has more than the 2048 bodies that are read"));
+}
+
+TEST(OsimRefuses, MarkerFilesWithoutBounds) {
+  Diagnostics diagnostics("m.osim");
+  OsimDocument document = ParseOsim(
+      OsimText(OsimBodyText("b"), OsimJointText("PinJoint", "j", "ground", "b")), {}, &diagnostics);
+  std::string markers = "<MarkerSet><objects>";
+  for (int i = 0; i < 5000; ++i) {
+    markers += "<Marker name=\"m" + std::to_string(i) + "\"><body>b</body></Marker>";
+  }
+  EXPECT_THAT(
+      [&] { AddOsimMarkers(markers + "</objects></MarkerSet>", "mf.xml", &document, nullptr); },
+      ::testing::ThrowsMessage<Error>(::testing::AllOf(HasSubstr("mf.xml:"), HasSubstr("4096"))));
 }
 
 }  // namespace

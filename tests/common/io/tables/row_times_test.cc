@@ -56,6 +56,16 @@ TEST(RowTimes, FollowEachOtherWhereTheyGoBack) {
   EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("time goes from 0.52 s to 0 s")));
 }
 
+TEST(RowTimes, AreSaidToGoBackWhereAllDo) {
+  const std::vector<double> none(4, kNaN);
+  for (const bool by_frames : {true, false}) {
+    Warnings warnings;
+    const std::vector<double> back = {4, 3, 2, 1};
+    PlaceRowsOf(by_frames ? back : none, by_frames ? none : back, 100, 1, &warnings);
+    EXPECT_THAT(warnings.texts(), ::testing::Contains(HasSubstr("and 2 more such steps back")));
+  }
+}
+
 TEST(RowTimes, ATimeThatFitsNoNeighbourIsPassedOver) {
   for (const double odd : {0.0, -3.0, 99.0, kNaN}) {
     Warnings warnings;

@@ -34,6 +34,13 @@ TEST(TrajectoryCsvTest, NamesUnitsAndWritesWhatIsThere) {
             "0.51,1,-12.5,1000,0.25,0,3.25,-0.5,0\n");
 }
 
+TEST(TrajectoryCsvTest, NamesHaveAsManyCellsAsRows) {
+  PoseTrajectory trajectory = TwoFrames();
+  trajectory.joint_names = {"knee, left", "knee; left"};
+  const std::string csv = Join(FormatTrajectoryCsv(trajectory));
+  EXPECT_NE(csv.find("knee__left_rad,knee__left_2_rad\n"), std::string::npos) << csv;
+}
+
 TEST(TrajectoryCsvTest, StandardDeviationsStandBehindWithEmptyCellsWhereUnknown) {
   PoseTrajectory trajectory = TwoFrames();
   trajectory.postures.resize(1);

@@ -266,6 +266,14 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
       {Hinge("continuous", "<mimic joint='j'/>"), "r.urdf:3: joint 'j': mimics itself"},
       {Hinge("continuous", "<mimic joint='k'/>"),
        "r.urdf:3: joint 'j': mimics joint 'k', which does not exist"},
+      {RobotText("<link name='a'/><link name='b'/><link name='c'/>" +
+                 Joint("k", "continuous", "a", "b") +
+                 Joint("j", "continuous", "a", "c", "<mimic joint='k' multiplier='1e140'/>")),
+       "joint 'j': its <mimic> multiplies by 1e+140"},
+      {RobotText("<link name='a'/><link name='b'/><link name='c'/>" +
+                 Joint("k", "continuous", "a", "b") +
+                 Joint("j", "continuous", "a", "c", "<mimic joint='k' offset='1e200'/>")),
+       "adds 1e+200"},
       {Hinge("ball", ""), "[j] has no known type [ball]"},
       {Hinge("revolute", ""), "Joint [j] is of type REVOLUTE but it does not specify limits"},
       {Hinge("revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"),
@@ -324,6 +332,22 @@ TEST(UrdfModel, DamagedFilesAreReadOrRefused) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_GT(refused, 20);
   EXPECT_LT(refused, 200);
+}
+
+TEST(UrdfModel, AnInertialThatUrdfdomLeavesOutIsSaid) {
+  const auto link = [](const std::string& mass, const std::string& inertia) {
+    return RobotText("<link name='a'>\n<inertial><mass value='" + mass + "'/>" + inertia +
+                     "</inertial></link>");
+  };
+  const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>";
+  for (const char* mass : {"8,5", "nan", "1e400", "", "8 kg"}) {
+    EXPECT_THAT(UrdfMessageOf(link(mass, inertia)),
+                HasSubstr(std::string("r.urdf:3: link 'a': <mass value=\"") + mass))
+        << mass;
+  }
+  Warnings warnings;
+  EXPECT_EQ(ParseUrdfModel(link("8", ""), "r.urdf", &warnings).model.total_mass(), 0);
+  EXPECT_THAT(warnings.texts(), ::testing::Contains(HasSubstr("its <inertial> is not read")));
 }
 
 }  // namespace
