@@ -18,6 +18,7 @@
 #include "common/pipeline/all_motions.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/exporters.h"
+#include "common/pipeline/input/osim_setup.h"
 #include "common/pipeline/motion_output.h"
 #include "common/pipeline/osim_scaling_run.h"
 #include "common/support/atomic_file.h"
@@ -32,6 +33,11 @@ const OptionGroup kConvertFiles = {
       "outputMotion"},
      {"report", "FILE", "write a page (HTML) with player and plots", ""},
      {"summary", "FILE", "write a summary as JSON", ""},
+     {"setup", "FILE",
+      "an OpenSim set-up (InverseKinematicsTool, ScaleTool, InverseDynamicsTool): recording, "
+      "model, "
+      "weights, time range and loads, where no option says them",
+      ""},
      {"marker-set-out", "FILE",
       "write the marker set that was used, as the names of the labels gave it, for --marker-set",
       ""}}};
@@ -69,6 +75,7 @@ Examples
   MMMConverterS2KF convert cup.c3d --object --object-models objects
   MMMConverterS2KF convert walk.c3d --frames 100:400 -c my.xml --format 1.0
   MMMConverterS2KF convert walk.c3d --height 1.75 --export-trc walk.trc --export-mot walk.mot
+  MMMConverterS2KF convert --setup walk_Setup_IK.xml --export-mot walk.mot
 )";
 
 std::string ChooseInput(const Arguments& arguments) {
@@ -79,6 +86,7 @@ std::string ChooseInput(const Arguments& arguments) {
   }
   if (legacy) return *legacy;
   if (arguments.positional()) return *arguments.positional();
+  if (arguments.Has("setup")) return "";
   throw UsageError(
       "convert: which recording? For instance: MMMConverterS2KF convert walk.c3d "
       "--height 1.75");
@@ -86,6 +94,11 @@ std::string ChooseInput(const Arguments& arguments) {
 
 ConversionRequest MakeConversionRequest(const Arguments& arguments, const std::string& input) {
   ConversionRequest request = MakeRequest(task::kConvert, arguments, input);
+  if (const auto setup = arguments.Get("setup")) {
+    Warnings warnings;
+    FillFromOsimSetup(*setup, &request.input, &warnings);
+    LogWarnings(warnings);
+  }
   request.output = arguments.Get("output").value_or("");
   request.subject_output = arguments.Get("subject-out").value_or("");
   request.model_output = arguments.Get("model-out").value_or("");

@@ -9,7 +9,9 @@
 #include "MMMConverterS2KF/report/json.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_model_reader.h"
+#include "common/io/osim/tool_setup.h"
 #include "common/model/coordinate_map.h"
+#include "common/pipeline/input/osim_setup.h"
 
 namespace mmm_converter {
 namespace {
@@ -99,17 +101,51 @@ Json JsonOf(const std::string& file, const OsimDocument& document, const Kinemat
   return json;
 }
 
+Description DescribeSetup(const std::string& file, const OsimToolSetup& setup) {
+  const std::string times =
+      setup.time_range
+          ? fmt::format("{:.6g} to {:.6g} s", (*setup.time_range)[0], (*setup.time_range)[1])
+          : "all";
+  const std::string weights = setup.has_tasks ? "in the set-up" : setup.tasks_file;
+  const std::pair<const char*, std::string> rows[] = {{"model", setup.model_file},
+                                                      {"markers", setup.marker_set_file},
+                                                      {"recording", setup.marker_file},
+                                                      {"motion", setup.coordinates_file},
+                                                      {"loads", setup.loads_file},
+                                                      {"weights", weights},
+                                                      {"times", times}};
+  std::string text = fmt::format("{}: set-up of OpenSim's {}\n", file, setup.tool);
+  Json json = {{"kind", "osim_setup"}, {"file", file}, {"tool", setup.tool}};
+  for (const auto& [key, value] : rows) {
+    if (!value.empty()) text += fmt::format("{:<10} {}\n", key, value);
+    json[key] = TextOrNull(value);
+  }
+  if (!setup.marker_file.empty()) {
+    text += fmt::format("convert    MMMConverterS2KF convert --setup {}\n", file);
+  }
+  return {text, FormatJson(json), {}};
+}
+
 }  // namespace
 
 Description DescribeOsim(const FileStart& file, const ReadRecordingOptions&) {
+  const std::string content = ReadFileContent(file.path, kMaxOsimBytes);
+  if (IsOsimToolSetup(content)) {
+    return DescribeSetup(file.path, ParseOsimToolSetup(content, file.path));
+  }
   Warnings warnings;
   Diagnostics diagnostics(file.path, &warnings);
-  const OsimDocument document =
-      ParseOsimDocument(ReadFileContent(file.path, kMaxOsimBytes), "", &diagnostics, &warnings);
+  const OsimDocument document = ParseOsimDocument(content, "", &diagnostics, &warnings);
   const KinematicModel model = MakeOsimModel(document, &diagnostics);
   Json json = JsonOf(file.path, document, model);
   json["warnings"] = warnings.texts();
-  return {TextOf(file.path, document, model), FormatJson(json), warnings};
+  const std::string weights = FindWeightsBeside(file.path, model);
+  json["weights"] = TextOrNull(weights);
+  std::string text = TextOf(file.path, document, model);
+  if (!weights.empty()) {
+    text += fmt::format("weights    of its markers are in {}, for --marker-set\n", weights);
+  }
+  return {text, FormatJson(json), warnings};
 }
 
 }  // namespace mmm_converter

@@ -51,7 +51,7 @@ Markers ReadMarkers(const std::string& path, const ReadRecordingOptions& options
     conversion.reading = options;
     return {recording, FindProspect(conversion, recording), ""};
   } catch (const Error& error) {
-    if (!options.subject.empty() || options.unit || options.up_axis) throw;
+    if (options.subject || options.unit || options.up_axis) throw;
     std::string failure = WithAdvice(error);
     if (failure.starts_with(path + ": ")) failure.erase(0, path.size() + 2);
     return {nullptr, std::nullopt, failure};

@@ -13,6 +13,7 @@
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_xml.h"
+#include "common/io/osim/tool_setup.h"
 #include "common/io/recording/marker_labels.h"
 #include "common/io/xml/xml_document.h"
 #include "common/model/kinematic_model.h"
@@ -145,7 +146,8 @@ MarkerSet SetOfTasks(const IkTasks& tasks, const std::string& path) {
 
 MarkerSet ReadMarkerSet(const std::string& path) {
   const std::string content = ReadFileContent(path);
-  if (IsOsimPart(content, "IKTaskSet")) return SetOfTasks(ParseIkTasks(content, path), path);
+  if (IsOsimPart(content, "IKTaskSet") || IsOsimToolSetup(content))
+    return SetOfTasks(ParseIkTasks(content, path), path);
   const XmlElement root = ParseXml(content, path);
   Diagnostics diagnostics(path);
   MarkerSet set;

@@ -66,6 +66,7 @@ void NameJudge::Run(bool places_clusters) {
   const double height = FindHeight();
   Pose(height, {});
   if (places_clusters && (!clusters_.empty() || IsAnyFar())) ExchangeSides(height);
+  ExchangePairs(height);
   ChooseSegments();
   const std::vector<Hypothesis> none;
   const std::vector<Hypothesis>& clusters = places_clusters ? clusters_ : none;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/convert/named_markers.h"
@@ -82,6 +83,16 @@ class NameJudge {
   void ExchangeSides(double height);
   /// The reading that mirrors the one that is chosen; the same where there is none.
   std::size_t MirroredReading(const Hypothesis& one) const;
+
+  /// Gives each of two labels of a part of the body the other's place, on one side or on both, and
+  /// keeps that where it takes most of their distances away: MT1 and MT5, the front and the back of
+  /// a head.
+  void ExchangePairs(double height);
+  /// Labels of places that are exchanged together.
+  using ExchangedPair = std::vector<std::pair<std::size_t, std::size_t>>;
+  std::vector<ExchangedPair> DoubtfulPairs() const;
+  void Exchange(const ExchangedPair& pairs);
+  double SumOfDistances(const ExchangedPair& pairs) const;
 
   /// Clusters whose names can mean several segments are on the one that is nearest.
   void ChooseSegments();

@@ -12,6 +12,7 @@
 #include "common/judge/body_limits.h"
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
+#include "common/judge/limb_places.h"
 #include "common/judge/told_distances.h"
 #include "common/judge/worn_distances.h"
 #include "common/math/statistics.h"
@@ -71,6 +72,7 @@ class Judge {
     JudgeMarkers();
     JudgeFarthest();
     JudgeCoverage(evidence_.setup, limbs_, &reasons_);
+    JudgeLimbPlaces(evidence_.setup, limbs_, markers_, evidence_.result, &reasons_);
     if (evidence_.names != nullptr) JudgeNames(*evidence_.names, &reasons_);
     JudgeGaps();
     JudgeJumps();

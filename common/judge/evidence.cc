@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -40,6 +41,44 @@ std::string LettersOf(const std::string& label) {
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c < 0) letters += c;
   }
   return letters;
+}
+
+/// "left leg" for "left shank"; empty: no limb's.
+std::string LimbOfPart(const std::string& part) {
+  const std::size_t blank = part.find(' ');
+  if (blank == std::string::npos) return "";
+  const std::string side = part.substr(0, blank), bare = part.substr(blank + 1);
+  for (const char* one : {"upper arm", "forearm", "hand"}) {
+    if (bare == one) return side + " arm";
+  }
+  for (const char* one : {"thigh", "shank", "ankle", "foot"}) {
+    if (bare == one) return side + " leg";
+  }
+  return "";
+}
+
+/// Limbs that wear clusters and nothing of which names tell the place.
+void JudgeClusters(const NamedMarkers& names, VerdictReasons* reasons) {
+  std::map<std::string, std::vector<std::string>> clusters;  // labels by limb
+  std::set<std::string> placed;
+  for (const NamedLabel& one : names.labels) {
+    const std::string limb = one.marker.empty() ? "" : LimbOfPart(one.part);
+    if (limb.empty()) continue;
+    if (one.is_cluster) {
+      clusters[limb].push_back(one.label);
+    } else {
+      placed.insert(limb);
+    }
+  }
+  constexpr std::size_t kFewest = 3;  // fewer tell nothing of a limb in any case
+  for (const auto& [limb, labels] : clusters) {
+    if (placed.contains(limb) || labels.size() < kFewest) continue;
+    reasons->Add(Level::kCheck,
+                 fmt::format("the {} wears clusters only ({}), whose places names do not tell: a "
+                             "recording of the person with markers at the joints, calibrated "
+                             "(calibrate), or one with much movement (learn-markers) tells them",
+                             limb, FirstNames(labels, 4)));
+  }
 }
 
 }  // namespace
@@ -101,6 +140,7 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
 }
 
 void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons) {
+  JudgeClusters(names, reasons);
   std::vector<std::string> contradicted, unknown;
   std::set<std::string> kinds;
   for (const NamedLabel& one : names.labels) {

@@ -74,7 +74,7 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
   return {
       Row({"subject", "subject", "prefix"}, kName,
           "label prefix of the subject, if a recording has several; A,B: of one person under "
-          "several",
+          "several; \"\": labels without prefix",
           "", kReadings | task::kInfo, &reading->subject, {.remedy = Remedy::kSubjectPrefix}),
       Row({"motion", "motion", "motion"}, kName,
           "MMM files: the motion to read (convert: or all); other files: the name of the written "
@@ -131,7 +131,7 @@ std::vector<Option> PersonOptions(InputRequest* input) {
            .remedy = Remedy::kModel}),
       Row({"marker-set", "markerSet", "marker_set"}, kShipped,
           "assigns labels to model markers, and can place these; or an IKTaskSet of OpenSim, which "
-          "weighs them",
+          "weighs them, also in the set-up of a tool",
           "what the configuration says", kPersons & ~(kMotions | task::kLearnMarkers),
           &input->marker_set, {.remedy = Remedy::kMarkerSet}),
       Row({"marker-file", "markerFile", "marker_file"}, kFile,

@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_xml.h"
+#include "common/io/osim/tool_setup.h"
 #include "common/judge/calibration_verdict.h"
 #include "common/support/error.h"
 
@@ -25,8 +24,8 @@ OsimScalingReport RunOsimScaling(const OsimScalingRequest& request) {
     throw Error(fmt::format("{}: is no model of OpenSim, which the set-up {} is for",
                             input.model_file, request.setup_file));
   }
-  const auto beside = [&request](const std::string& name) {
-    return (std::filesystem::path(request.setup_file).parent_path() / name).string();
+  const auto beside = [&](const std::string& name) {
+    return FindFileOfSetup(request.setup_file, name, "part", &report.warnings);
   };
   const ScaleSetup setup = ParseScaleSetup(
       ReadFileContent(request.setup_file, kMaxOsimBytes), request.setup_file,

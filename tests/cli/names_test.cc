@@ -145,6 +145,28 @@ TEST(Names, AreUnderstoodInABatch) {
   EXPECT_LT(LargestDeviation(folder + "/a.xml", folder + "/out/motions/walk.xml"), 1e-6);
 }
 
+// An arm and a trunk, and RTB, which would be a shank: no leg comes from it.
+TEST(Names, OfAnArmFoldNoLegOntoIt) {
+  const MarkerSequence sample = ReadRecording(Handstand(), {}).markers.Slice(50, 110);
+  const std::vector<std::string> kit = {"C7",   "T10",  "CLAV", "STRN",
+                                        "RAEL", "RWTS", "RWPS", "RSHO"};
+  std::vector<int> columns;
+  for (const std::string& one : kit) columns.push_back(sample.FindLabel(one));
+  MarkerSequence arm({"C7", "T10", "CLAV", "STRN", "RELB", "RWRA", "RWRB", "RTB"},
+                     sample.num_frames(), sample.rate(), 0);
+  for (int k = 0; k < sample.num_frames(); ++k) {
+    arm.frame(k) = sample.frame(k)(Eigen::all, columns);
+  }
+  const std::string file = TestFolder() + "/arm.c3d";
+  WriteC3d(file, arm);
+  RunWell({"convert", file, "-o", TestFolder() + "/arm.xml"});
+  const PoseTrajectory found =
+      ReadMmmMotionFile(TestFolder() + "/arm.xml").motions.front().trajectory;
+  const auto hip = std::find(found.joint_names.begin(), found.joint_names.end(), "RHx_joint");
+  ASSERT_NE(hip, found.joint_names.end());
+  EXPECT_LT(std::abs(found.postures[30].joint_angles[hip - found.joint_names.begin()]), 0.1);
+}
+
 // Where markers sit that only their names place is the person's, too.
 TEST(Names, OfACalibratedPersonAreThoseOfTheCalibration) {
   const std::string& folder = TestFolder();

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/convert/marker_set.h"
+#include "common/io/model_file.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "tests/cli/program.h"
 #include "tests/support/osim_texts.h"
@@ -60,6 +62,70 @@ double AngleError(const StrictTable& table, const StrictTable& truth) {
     }
   }
   return std::sqrt(squares / count);
+}
+
+/// A set-up beside copies of the example's model and recording, as people send them.
+std::string IkSetup() {
+  for (const char* name : {"generic.osim", "walk.trc"}) {
+    std::filesystem::copy_file(ExampleFile(name), OutFile(name),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+  std::string tasks;
+  for (const MarkerPair& pair :
+       OwnMarkerSet(ReadModelFile(ExampleFile("generic.osim"), nullptr).model).pairs) {
+    tasks += "<IKMarkerTask name='" + pair.target + "'><weight>" +
+             (pair.target.starts_with("R") ? "10" : "1") + "</weight></IKMarkerTask>";
+  }
+  WriteText(OutFile("walk_Setup_IK.xml"),
+            "<OpenSimDocument Version='40000'><InverseKinematicsTool>"
+            "<model_file>C:\\Users\\anna\\generic.osim</model_file><IKTaskSet><objects>" +
+                tasks +
+                "</objects></IKTaskSet><marker_file>.\\walk.trc</marker_file>"
+                "<time_range>0.1 0.3</time_range></InverseKinematicsTool></OpenSimDocument>");
+  return OutFile("walk_Setup_IK.xml");
+}
+
+TEST(OsimCommands, ASetUpNamesRecordingModelWeightsAndTimes) {
+  const std::string setup = IkSetup();
+  const auto run = RunProgram({"convert", "--setup", setup, "-o", OutFile("setup.mot")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("names the model C:\\Users\\anna\\generic.osim"));
+  const StrictTable by_setup = ReadStrictMot(ReadText(OutFile("setup.mot")));
+  EXPECT_NEAR(by_setup.At(0, "time"), 0.1, 0.006);
+  EXPECT_NEAR(by_setup.At(static_cast<int>(by_setup.rows.size()) - 1, "time"), 0.3, 0.006);
+  // The same by options, the set-up's tasks being a marker set.
+  const auto first = static_cast<int>(std::lround(by_setup.At(0, "time") * 100));
+  const std::string frames =
+      std::to_string(first) + ":" + std::to_string(first + static_cast<int>(by_setup.rows.size()));
+  ExpectSuccess({"convert", OutFile("walk.trc"), "--model", OutFile("generic.osim"), "--marker-set",
+                 setup, "--frames", frames, "-o", OutFile("options.mot")});
+  EXPECT_EQ(ReadStrictMot(ReadText(OutFile("options.mot"))).rows, by_setup.rows);
+  // Options go before it, and without weights the log names them.
+  const auto whole = RunProgram({"convert", OutFile("walk.trc"), "--model", OutFile("generic.osim"),
+                                 "--frames", "0:5", "-o", OutFile("whole.mot")});
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.err, HasSubstr("walk_Setup_IK.xml has the weights"));
+  ExpectSuccess({"convert", "--setup", setup, "--frames", "0:5", "-o", OutFile("short.mot")});
+  EXPECT_EQ(ReadStrictMot(ReadText(OutFile("short.mot"))).rows.size(), 5U);
+  EXPECT_THAT(RunProgram({"info", OutFile("generic.osim")}).out,
+              HasSubstr("walk_Setup_IK.xml, for --marker-set"));
+  EXPECT_THAT(RunProgram({"info", setup}).out,
+              AllOf(HasSubstr("set-up of OpenSim's InverseKinematicsTool"), HasSubstr("walk.trc")));
+}
+
+TEST(OsimCommands, ASetUpIsNeverOverwrittenAndNamesWhatIsMissing) {
+  const std::string setup = IkSetup(), before = ReadText(setup);
+  const auto over = RunProgram({"convert", "--setup", setup, "-o", setup});
+  EXPECT_NE(over.exit_code, 0);
+  EXPECT_EQ(ReadText(setup), before);
+  std::filesystem::remove(OutFile("walk.trc"));
+  EXPECT_THAT(RunProgram({"convert", "--setup", setup}).err,
+              HasSubstr("names the recording .\\walk.trc, which is neither there nor beside"));
+  WriteText(setup,
+            "<OpenSimDocument Version='40000'><InverseDynamicsTool><coordinates_file>a.mot"
+            "</coordinates_file></InverseDynamicsTool></OpenSimDocument>");
+  EXPECT_THAT(RunProgram({"convert", "--setup", setup}).err,
+              HasSubstr("names no recording of markers, but the motion a.mot"));
 }
 
 TEST(OsimCommands, ThePersonIsScaledAndItsWalkIsFound) {

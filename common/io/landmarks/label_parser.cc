@@ -21,9 +21,38 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 /// In another alphabet than ASCII all are small.
 bool IsLower(char c) { return (c >= 'a' && c <= 'z') || c < 0; }
 
+/// The letter without its accent, of the Latin ones that UTF-8 writes as 0xC3 and this byte; empty:
+/// it is none.
+std::string_view WithoutAccent(char second) {
+  constexpr std::string_view kBare[] = {"a", "a", "a", "a", "a", "a", "ae", "c", "e", "e", "e",
+                                        "e", "i", "i", "i", "i", "",  "n",  "o", "o", "o", "o",
+                                        "o", "",  "o", "u", "u", "u", "u",  "y", "",  "ss"};
+  const auto code = static_cast<unsigned char>(second);
+  if (code < 0x80 || code >= 0xC0) return {};
+  return kBare[code % 32];
+}
+
+/// "Épaule" as "Epaule".
+std::string WithoutAccents(std::string_view label) {
+  std::string bare;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    const bool may_be = label[i] == '\xC3' && i + 1 < label.size();
+    const std::string_view letter = may_be ? WithoutAccent(label[i + 1]) : std::string_view();
+    if (letter.empty()) {
+      bare += label[i];
+      continue;
+    }
+    const bool is_capital = static_cast<unsigned char>(label[++i]) < 0x9F;
+    bare += is_capital ? static_cast<char>(letter[0] - 'a' + 'A') : letter[0];
+    bare += letter.substr(1);
+  }
+  return bare;
+}
+
 /// "p:WaistLFront_study" is waist, l, front, study: apart where punctuation parts them, or small
 /// from capital letters.
-std::vector<std::string> WordsOfLabel(std::string_view label) {
+std::vector<std::string> WordsOfLabel(std::string_view written) {
+  const std::string label = WithoutAccents(written);
   std::vector<std::string> words(1);
   for (std::size_t i = 0; i < label.size(); ++i) {
     const char c = label[i];
@@ -85,6 +114,7 @@ std::vector<Candidate> LabelParser::Candidates() {
   if (whole_.empty() || is_computed_) return {};
   AddAll();
   for (std::size_t at = 1; at + 1 < whole_.size() && found_.empty(); ++at) AddLetter(at);
+  if (found_.empty()) AddLetter(0);
   if (found_.empty()) AddBesideSegment();
   if (found_.empty()) {
     looking_ = Looking::kAtSegments;
@@ -95,6 +125,25 @@ std::vector<Candidate> LabelParser::Candidates() {
     for (const int landmark : table_.Find(WithoutNumbers(whole_), false)) {
       found_.push_back({{landmark, BodySide::kNone}});
     }
+  }
+  return std::move(found_);
+}
+
+std::vector<Candidate> LabelParser::OfSeries() {
+  if (whole_.size() < 2) return {};
+  const std::vector<std::string> words = words_;
+  const std::string whole = whole_;
+  words_.back().pop_back();
+  if (words_.back().empty()) words_.pop_back();
+  whole_.pop_back();
+  found_.clear();
+  looking_ = Looking::kAtSeries;
+  AddAll();
+  looking_ = Looking::kAnywhere;
+  words_ = words;
+  whole_ = whole;
+  for (Candidate& one : found_) {
+    for (std::string& counterpart : one.counterparts) counterpart += whole.back();
   }
   return std::move(found_);
 }
@@ -136,6 +185,13 @@ void LabelParser::Add(const std::string& name, bool is_sided, Candidate candidat
 std::vector<int> LabelParser::Meanings(const std::string& name, bool is_sided) const {
   if (looking_ == Looking::kAtSegments) return SegmentsOf(name, is_sided, 0);
   if (looking_ == Looking::kAtBones) return table_.FindBone(name, is_sided);
+  if (looking_ == Looking::kAtSeries) {
+    std::vector<int> segments = table_.Find(name + '@', is_sided);
+    for (const std::string& spelling : {name, name + '#'}) {
+      if (segments.empty()) segments = SegmentsOf(spelling, is_sided, kMostPlaceWords);
+    }
+    return segments;
+  }
   std::vector<int> exact = table_.Find(name, is_sided);
   if (!exact.empty() || !is_sided) return exact;
   return table_.Find(WithoutNumbers(name), is_sided);

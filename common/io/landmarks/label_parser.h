@@ -31,6 +31,8 @@ class LabelParser {
   const std::string& whole() const { return whole_; }
 
   std::vector<Candidate> Candidates();
+  /// As one of a series of letters, "RFMA" to "RFMD": what its name without the letter means.
+  std::vector<Candidate> OfSeries();
   /// What it means if it is the name of a skeleton's bone: the joint that this begins at.
   std::vector<LabelReading> Bones();
 
@@ -55,7 +57,7 @@ class LabelParser {
   std::vector<std::string> words_;
   std::string whole_;
   bool is_computed_ = false;
-  enum class Looking { kAnywhere, kAtSegments, kAtBones };
+  enum class Looking { kAnywhere, kAtSegments, kAtBones, kAtSeries };
   Looking looking_ = Looking::kAnywhere;
   std::vector<Candidate> found_;
 };

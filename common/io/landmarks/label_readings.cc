@@ -2,7 +2,9 @@
 #include "common/io/landmarks/label_readings.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "common/io/landmarks/label_parser.h"
@@ -40,6 +42,23 @@ bool IsOfAxes(const std::string& name, const std::set<std::string>& all) {
                      [&](char end) { return all.contains(name.substr(0, 3) + end); });
 }
 
+/// Names that differ by their last letter only, which is A, B, C and so on: without it.
+std::set<std::string> SeriesOf(const std::set<std::string>& all) {
+  std::set<std::string> series;
+  for (const std::string& name : all) {
+    if (name.size() < 3 || name.back() != 'a') continue;
+    const std::string stem = name.substr(0, name.size() - 1);
+    if (all.contains(stem + 'b') && all.contains(stem + 'c')) series.insert(stem);
+  }
+  return series;
+}
+
+bool IsOfSeries(const std::string& name, const std::set<std::string>& series) {
+  constexpr char kLast = 'h';
+  return !name.empty() && name.back() >= 'a' && name.back() <= kLast &&
+         series.contains(name.substr(0, name.size() - 1));
+}
+
 /// The labels of a person on their way to one meaning each.
 class LabelsOfPerson {
  public:
@@ -52,6 +71,7 @@ class LabelsOfPerson {
       parsers.emplace_back(label, table, prefix);
       all.insert(parsers.back().whole());
     }
+    const std::set<std::string> series = SeriesOf(all);
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (!seen.empty() && !seen[i]) is_used_[i] = false;
       if (IsCopy(labels[i])) {
@@ -59,7 +79,12 @@ class LabelsOfPerson {
       } else if (parsers[i].is_computed() || IsOfAxes(parsers[i].whole(), all)) {
         read_[i].why_left_out = "a computed point";
       } else {
-        Take(parsers[i], all, &read_[i]);
+        const bool is_of_series = IsOfSeries(parsers[i].whole(), series);
+        Take(is_of_series ? parsers[i].OfSeries() : parsers[i].Candidates(), parsers[i].whole(),
+             all, &read_[i]);
+        if (is_of_series && read_[i].readings.empty()) {
+          read_[i].why_left_out = "one of a series of an unknown part of the body";
+        }
       }
       if (read_[i].readings.empty()) is_used_[i] = false;
       bones_.push_back(parsers[i].Bones());
@@ -76,6 +101,7 @@ class LabelsOfPerson {
     SortReadings(AreKeypoints());
     PreferShownLimbs();
     TakeFree();
+    LeaveOutLoneLimbs();
     LeaveOutJointsOfMarkers();
     return std::move(read_);
   }
@@ -83,14 +109,14 @@ class LabelsOfPerson {
  private:
   /// Readings that the other labels allow. LARM is no left arm where nothing begins with R and most
   /// labels have no side.
-  void Take(LabelParser& parser, const std::set<std::string>& all, ReadLabel* label) {
-    const std::string& whole = parser.whole();
+  void Take(const std::vector<Candidate>& candidates, const std::string& whole,
+            const std::set<std::string>& all, ReadLabel* label) {
     const bool is_lumbar =
         whole.size() == 2 && whole[0] == 'l' && whole[1] >= '0' && whole[1] <= '9';
     bool has_side = false, is_attached = false, is_pair = false;
     std::vector<LabelReading> without_side;
     std::vector<std::pair<std::size_t, LabelReading>> by_doubt;
-    for (const Candidate& one : parser.Candidates()) {
+    for (const Candidate& one : candidates) {
       const bool is_sided = Of(one.reading).is_sided;
       if (!is_sided && is_lumbar && all.contains("r" + whole.substr(1))) continue;
       const auto& others = one.counterparts;
@@ -202,11 +228,60 @@ class LabelsOfPerson {
       return labels;
     };
     const int arms = count(Limbs::kArms), legs = count(Limbs::kLegs);
+    if (arms + legs > 0) TellHandsFromFeet(legs > 0 ? "hand" : "foot");
     if ((arms == 0) == (legs == 0)) return;
     const Limbs absent = arms == 0 ? Limbs::kArms : Limbs::kLegs;
     for (ReadLabel& label : read_) {
       std::stable_partition(label.readings.begin(), label.readings.end(),
                             [&](const auto& one) { return !is_of(one, absent); });
+    }
+  }
+
+  /// MET2 is of the foot where legs are there, else of the hand. absent: "hand" or "foot".
+  void TellHandsFromFeet(const std::string& absent) {
+    for (ReadLabel& label : read_) {
+      const auto is_of = [&](const std::string& part) {
+        return std::any_of(label.readings.begin(), label.readings.end(),
+                           [&](const auto& one) { return Of(one).part == part; });
+      };
+      if (!is_of("hand") || !is_of("foot")) continue;
+      std::erase_if(label.readings, [&](const auto& one) { return Of(one).part == absent; });
+    }
+  }
+
+  /// A leg that one or two labels name and nothing else of the body bears out, no pelvis and not
+  /// the other leg, is none: RTB, beside the labels of an arm, is of that. The same of arms.
+  void LeaveOutLoneLimbs() {
+    constexpr int kFewestOfLimb = 3;
+    for (const auto& [limbs, root, name] : {std::tuple(Limbs::kArms, "shoulder", "an arm"),
+                                            std::tuple(Limbs::kLegs, "pelvis", "a leg")}) {
+      std::vector<ReadLabel*> labels;
+      bool is_rooted = false, are_clusters = true;
+      int others = 0;
+      std::map<BodySide, int> count;
+      for (std::size_t i = 0; i < read_.size(); ++i) {
+        if (!is_used_[i] || !read_[i].why_left_out.empty()) continue;
+        const LabelReading& one = read_[i].readings[0];
+        const Landmark& landmark = Of(one);
+        if (LimbsOf(landmark.part) == limbs) {
+          labels.push_back(&read_[i]);
+          ++count[one.side];
+          are_clusters &= landmark.kind == LandmarkKind::kSegment;
+        } else {
+          is_rooted |= landmark.part == root;
+          ++others;
+        }
+      }
+      const bool is_of_one_side = count.size() < 2;
+      const bool are_few = std::all_of(count.begin(), count.end(), [&](const auto& side) {
+        return side.second < kFewestOfLimb;
+      });
+      const bool is_borne_out =
+          are_clusters ? is_rooted && !is_of_one_side : is_rooted || !is_of_one_side;
+      if (!are_few || is_borne_out || others < kFewestOfLimb) continue;
+      for (ReadLabel* label : labels) {
+        label->why_left_out = std::string("nothing else shows ") + name;
+      }
     }
   }
 

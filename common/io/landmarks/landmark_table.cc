@@ -27,7 +27,9 @@ constexpr double kFarthestLandmark = 10;  // [m]; no segment is longer
 constexpr double kSmallestSpread = 1;     // [mm]
 constexpr double kLargestSpread = 1000;   // [mm]
 constexpr std::size_t kMostSpellings = 200'000;
-constexpr const char* kNumber = "n";  // the word that stands for any
+// Words that stand for any number, and for a letter of a series.
+constexpr const char* kNumber = "n";
+constexpr const char* kSeries = "abc";
 
 std::vector<std::string> SplitWords(std::string_view text) {
   std::vector<std::string> words;
@@ -88,7 +90,8 @@ class LandmarkReader {
   std::vector<std::string> words() const {
     std::vector<std::string> all;
     for (const auto& [name, spellings] : words_) {
-      if (name != kNumber) all.insert(all.end(), spellings.begin(), spellings.end());
+      if (name != kNumber && name != kSeries)
+        all.insert(all.end(), spellings.begin(), spellings.end());
     }
     return all;
   }
@@ -125,14 +128,14 @@ class LandmarkReader {
 
   void CheckSpelling(const XmlElement& element, const std::string& spelling) {
     const bool is_right = std::all_of(spelling.begin(), spelling.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c < 0 || c == '#';
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c < 0 || c == '#' || c == '@';
     });
     if (is_right) return;
     Fail(element, fmt::format("\"{}\": spellings are in small letters and digits", spelling));
   }
 
   Diagnostics diagnostics_;
-  std::map<std::string, std::vector<std::string>> words_ = {{kNumber, {"#"}}};
+  std::map<std::string, std::vector<std::string>> words_ = {{kNumber, {"#"}}, {kSeries, {"@"}}};
   std::size_t count_ = 0;
 };
 

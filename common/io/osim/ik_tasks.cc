@@ -5,6 +5,7 @@
 
 #include "common/io/osim/osim_values.h"
 #include "common/io/osim/osim_xml.h"
+#include "common/support/error.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -24,6 +25,17 @@ IkTasks::OfCoordinate ReadCoordinateTask(const XmlElement& task, double weight,
                                                  of.name));
   }
   return of;
+}
+
+/// As the root, in OpenSim's root, or in the set-up of one of its tools; null: there is none.
+const XmlElement* FindTaskSet(const XmlElement& element, int depth = 0) {
+  constexpr int kDeepest = 3;  // OpenSimDocument, ScaleTool, MarkerPlacer
+  if (element.Is("IKTaskSet")) return &element;
+  for (const XmlElement& child : element.children) {
+    const XmlElement* set = depth < kDeepest ? FindTaskSet(child, depth + 1) : nullptr;
+    if (set != nullptr) return set;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -50,7 +62,13 @@ IkTasks ReadIkTasks(const XmlElement& set, Diagnostics* diagnostics) {
 
 IkTasks ParseIkTasks(std::string_view content, const std::string& file) {
   Diagnostics diagnostics(file);
-  IkTasks tasks = ReadIkTasks(ParseOsimPart(content, file, "IKTaskSet"), &diagnostics);
+  const XmlElement root = ParseXml(FirstElement(content), file);
+  const XmlElement* set = FindTaskSet(root);
+  if (set == nullptr) {
+    throw Error(
+        fmt::format("{}:{}: <{}> holds no <IKTaskSet>", file, root.line, root.name.substr(0, 40)));
+  }
+  IkTasks tasks = ReadIkTasks(*set, &diagnostics);
   diagnostics.ThrowIfErrors();
   return tasks;
 }

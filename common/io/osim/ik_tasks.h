@@ -32,7 +32,8 @@ struct IkTasks {
 /// Of an `<IKTaskSet>`. What is wrong is added to the diagnostics.
 IkTasks ReadIkTasks(const XmlElement& set, Diagnostics* diagnostics);
 
-/// Parses an `<IKTaskSet>`, in an `<OpenSimDocument>`; file: named in messages.
+/// Parses an `<IKTaskSet>`, in an `<OpenSimDocument>` or in the set-up of a tool; file: named in
+/// messages.
 /// @throws Error where it is none, a number is none, or values are to come from a file.
 IkTasks ParseIkTasks(std::string_view content, const std::string& file);
 

@@ -178,7 +178,7 @@ const Group* FindGroup(const std::vector<Group>& groups, std::string_view prefix
   std::string_view wanted = Trim(prefix);
   if (wanted.ends_with(':')) wanted = Trim(wanted.substr(0, wanted.size() - 1));
   for (const Group& group : groups) {
-    if (!group.prefix.empty() && EqualIgnoringCase(group.prefix, wanted)) return &group;
+    if (EqualIgnoringCase(group.prefix, wanted)) return &group;
   }
   return nullptr;
 }
@@ -192,8 +192,10 @@ std::vector<Group> AskedFor(const std::vector<Group>& groups, const std::string&
     const std::size_t end = rest.find(',');
     const Group* one = FindGroup(groups, rest.substr(0, end));
     if (one == nullptr) {
+      const std::string_view name = Trim(rest.substr(0, end));
       throw Error(fmt::format("{}: there is no subject {}; the file has: {}", file,
-                              Trim(rest.substr(0, end)), groups.empty() ? "none" : Names(groups)));
+                              name.empty() ? "without prefix" : name,
+                              groups.empty() ? "none" : Names(groups)));
     }
     const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const Group& group) {
       return group.prefix == one->prefix;
@@ -204,11 +206,36 @@ std::vector<Group> AskedFor(const std::vector<Group>& groups, const std::string&
   }
 }
 
+/// Without those of which no frame shows a label, if others are left, and without Cortex's computed
+/// markers beside a person.
+std::vector<Group> Present(std::vector<Group> groups,
+                           const std::function<std::vector<bool>()>& are_seen) {
+  const std::vector<bool> seen = are_seen ? are_seen() : std::vector<bool>();
+  const auto is_absent = [&](const Group& group) {
+    return std::none_of(group.labels.begin(), group.labels.end(), [&](const Label& label) {
+      return seen.empty() || seen[static_cast<std::size_t>(label.index)];
+    });
+  };
+  const bool is_any = !std::all_of(groups.begin(), groups.end(), is_absent);
+  if (is_any) std::erase_if(groups, is_absent);
+  const bool has_person = std::any_of(groups.begin(), groups.end(), [](const Group& group) {
+    return group.prefix.empty() && group.IsPerson();
+  });
+  if (has_person) {
+    std::erase_if(groups, [](const Group& group) { return EqualIgnoringCase(group.prefix, "V"); });
+  }
+  return groups;
+}
+
 /// The one person, who may wear parts of a marker set under several prefixes.
-std::vector<Group> ChooseGroups(const std::vector<Group>& groups, const std::string& subject,
-                                const std::string& file, Warnings* warnings) {
-  if (!subject.empty()) return AskedFor(groups, subject, file);
-  if (groups.size() <= 1) return groups;
+std::vector<Group> ChooseGroups(const std::vector<Group>& all,
+                                const std::optional<std::string>& subject, const std::string& file,
+                                const std::function<std::vector<bool>()>& are_seen,
+                                Warnings* warnings) {
+  if (subject) return AskedFor(all, *subject, file);
+  if (all.size() <= 1) return all;
+  const std::vector<Group> groups = Present(all, are_seen);
+  if (groups.size() == 1) return groups;
   std::vector<Group> parts;
   std::vector<Group> persons;
   for (const Group& group : groups) {
@@ -285,14 +312,15 @@ std::vector<std::optional<BodyRegion>> BodyRegionsOf(const std::vector<std::stri
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,
                             const std::vector<std::string>& label_prefixes,
-                            const std::string& subject, const std::string& file, Warnings* warnings,
-                            bool with_unlabelled) {
+                            const std::optional<std::string>& subject, const std::string& file,
+                            Warnings* warnings, bool with_unlabelled,
+                            const std::function<std::vector<bool>()>& are_seen) {
   LabelSelection selection;
   const std::vector<std::string> prefixes = AllToUtf8(label_prefixes);
   MarkersAndPoints kept = KeepMarkers(AllToUtf8(labels), AllToUtf8(outputs),
                                       {prefixes.begin(), prefixes.end()}, warnings);
   const std::vector<Group> groups = GroupByPrefix(std::move(kept.markers));
-  const std::vector<Group> chosen = ChooseGroups(groups, subject, file, warnings);
+  const std::vector<Group> chosen = ChooseGroups(groups, subject, file, are_seen, warnings);
   std::vector<Label> all = LabelsOf(chosen);
   std::set<std::string> prefixes_chosen;
   for (const Group& group : chosen) prefixes_chosen.insert(group.prefix);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,14 +33,18 @@ struct LabelSelection {
 /// xxxA, xxxL and xxxP together), then chooses among the subjects, by `Subject:LABEL` or
 /// `Subject_LABEL`: the one asked for, or several that are asked for as one ("Legs,Trunk"); else
 /// those that together wear each landmark of a body once, or the only one that wears such
-/// landmarks. label_prefixes: what the file declares, may be empty. file: for messages.
-/// with_unlabelled: points without a label stay, whoever wears them, in their places.
+/// landmarks. Those without prefix are asked for as "". Who is not seen in any frame, or is
+/// Cortex's computed markers (V_LASI) beside a person, is nobody. label_prefixes: what the file
+/// declares, may be empty. file: for messages. with_unlabelled: points without a label stay,
+/// whoever wears them, in their places. are_seen: by label, whether any frame shows it; asked only
+/// where there are several subjects; may be empty.
 /// @throws Error that lists the subjects where the choice is not clear or there is no such one.
 LabelSelection SelectLabels(const std::vector<std::string>& labels,
                             const std::vector<std::string>& outputs,
                             const std::vector<std::string>& label_prefixes,
-                            const std::string& subject, const std::string& file, Warnings* warnings,
-                            bool with_unlabelled = false);
+                            const std::optional<std::string>& subject, const std::string& file,
+                            Warnings* warnings, bool with_unlabelled = false,
+                            const std::function<std::vector<bool>()>& are_seen = {});
 
 /// The labels of all subjects, with their prefixes: Subject:LABEL.
 LabelSelection SelectAllSubjects(const std::vector<std::string>& labels,

@@ -36,6 +36,25 @@ bool SeesAnything(const MarkerSequence& markers) {
               Remedy::kIgnoreResiduals);
 }
 
+/// By label: whether any frame shows it.
+std::vector<bool> SeenLabels(const MarkerSequence& markers) {
+  std::vector<bool> seen(static_cast<std::size_t>(markers.num_labels()));
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    for (int i = 0; i < markers.num_labels(); ++i) {
+      if (IsSeen(markers.frame(k).col(i))) seen[static_cast<std::size_t>(i)] = true;
+    }
+  }
+  return seen;
+}
+
+/// Some of them, under new labels.
+MarkerSequence Chosen(const MarkerSequence& all, const std::vector<int>& points,
+                      const std::vector<std::string>& labels) {
+  MarkerSequence chosen(labels, all.num_frames(), all.rate(), all.first_time());
+  for (int k = 0; k < all.num_frames(); ++k) chosen.frame(k) = all.frame(k)(Eigen::all, points);
+  return chosen;
+}
+
 /// The markers of one subject.
 void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& options,
                    Recording* recording, Warnings* warnings) {
@@ -49,18 +68,29 @@ void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& 
                             recording->file, rate, kLowestRate, kHighestRate),
                 Remedy::kRate);
   }
+  std::optional<MarkerSequence> all;  // where it takes all to choose
+  const auto are_seen = [&] {
+    std::vector<int> points(content.labels.size());
+    std::iota(points.begin(), points.end(), 0);
+    std::vector<std::string> names;
+    names.reserve(points.size());
+    for (const int point : points) names.push_back(fmt::format("{}", point));
+    all = content.read(points, names, rate);
+    return SeenLabels(*all);
+  };
   const LabelSelection selection =
       options.all_subjects
           ? SelectAllSubjects(content.labels, content.outputs, content.label_prefixes, warnings)
           : SelectLabels(content.labels, content.outputs, content.label_prefixes, options.subject,
-                         recording->file, warnings, options.with_unlabelled);
+                         recording->file, warnings, options.with_unlabelled, are_seen);
   recording->subjects = selection.subjects;
   recording->subject = selection.subject;
   if (selection.labels.empty()) {
     throw Error(fmt::format("{}: there are no labelled markers", recording->file), Remedy::kLabels);
   }
   recording->points = selection.indices;
-  recording->markers = content.read(selection.indices, selection.labels, rate);
+  recording->markers = all ? Chosen(*all, selection.indices, selection.labels)
+                           : content.read(selection.indices, selection.labels, rate);
   if (!SeesAnything(recording->markers)) {
     ThrowSeesNothing(recording->file, content.marks_points_valid);
   }

@@ -19,9 +19,10 @@ struct ReadRecordingOptions {
   std::optional<double> rate = {};       ///< [Hz] overrides the file's
   bool ignore_residuals = false;         ///< C3D: also use points that are marked invalid
   bool with_unlabelled = false;          ///< also points without a label, as `*` and a number
-  std::string subject = {};              ///< label prefix to keep where a file has several subjects
-  bool all_subjects = false;             ///< keep those of all, with their prefixes: Subject:LABEL
-  std::string motion = {};               ///< MMM: motion to read; empty: that with most markers
+  /// Label prefix to keep where a file has several subjects; "": labels without.
+  std::optional<std::string> subject = {};
+  bool all_subjects = false;  ///< keep those of all, with their prefixes: Subject:LABEL
+  std::string motion = {};    ///< MMM: motion to read; empty: that with most markers
 };
 
 /// Why something may be read wrong, and what else could be said of it.

@@ -162,11 +162,13 @@ bool IsOnGround(const MarkerSequence& markers, double metres, UpAxis up) {
 struct BodyAxis {
   std::optional<UpAxis> up;
   std::string why_unknown;
+  bool is_person = false;   ///< labels tell head from feet
+  bool is_upright = false;  ///< far more along it than along any other
 };
 
 BodyAxis FindBodyAxis(const MarkerSequence& markers) {
   const std::vector<Eigen::Vector3d> axes = BodyAxes(markers);
-  if (axes.empty()) return {std::nullopt, "no labels that tell head from feet"};
+  if (axes.empty()) return {std::nullopt, "no labels that tell head from feet", false};
   std::array<double, 3> lengths{};
   for (int i = 0; i < 3; ++i) {
     std::vector<double> along(axes.size());
@@ -179,14 +181,17 @@ BodyAxis FindBodyAxis(const MarkerSequence& markers) {
   std::array<double, 3> sorted = lengths;
   std::sort(sorted.begin(), sorted.end());
   if (sorted[2] < 1.3 * sorted[1])
-    return {std::nullopt, "the markers do not tell which axis is up"};
+    return {std::nullopt, "the markers do not tell which axis is up", true};
   const auto upright = std::count_if(axes.begin(), axes.end(),
                                      [axis](const Eigen::Vector3d& d) { return d[axis] > 0; });
   const double share = static_cast<double>(upright) / static_cast<double>(axes.size());
   // Now this way, now that way up: the ground decides.
   const bool mixed = share > 0.02 && share < 0.98;
   const bool down = mixed ? GroundIsAtTheHighEnd(markers, axis) : share < 0.5;
-  return {static_cast<UpAxis>(axis + (down ? 3 : 0)), ""};
+  // From head to feet persons who stand are 3 times and more as high as they are deep, those who
+  // start a sprint hardly twice.
+  constexpr double kUpright = 2.5;
+  return {static_cast<UpAxis>(axis + (down ? 3 : 0)), "", true, sorted[2] > kUpright * sorted[1]};
 }
 
 /// body: contradicts what the file states. Who stands on the ground of the one axis and not of the
@@ -214,6 +219,27 @@ UpAxisDecision WeighStated(const MarkerSequence& markers, double metres, UpAxis 
           true};
 }
 
+/// The first of the usual axes that has a ground; nothing where none has.
+std::optional<UpAxis> UsualWithGround(const MarkerSequence& markers, double metres,
+                                      const std::vector<UpAxis>& usual) {
+  const auto found = std::find_if(usual.begin(), usual.end(),
+                                  [&](UpAxis axis) { return IsOnGround(markers, metres, axis); });
+  return found == usual.end() ? std::nullopt : std::optional(*found);
+}
+
+/// Who crouches or lies tells no axis, or one that is not up: the ground does, and else the
+/// format's first usual axis is up.
+UpAxisDecision WeighGround(const MarkerSequence& markers, double metres,
+                           const std::vector<UpAxis>& usual, const std::string& why,
+                           bool is_person) {
+  const auto with_ground = UsualWithGround(markers, metres, usual);
+  const UpAxis axis = with_ground.value_or(usual.empty() ? UpAxis::kZ : usual.front());
+  return {axis, is_person && with_ground,
+          fmt::format("{}; {} is taken as up{}", why, Name(axis),
+                      with_ground ? ", where the ground is" : ""),
+          !is_person || !with_ground};
+}
+
 /// body: is none of the usual ones.
 UpAxisDecision WeighUsual(const MarkerSequence& markers, double metres,
                           const std::vector<UpAxis>& usual, UpAxis body) {
@@ -221,13 +247,11 @@ UpAxisDecision WeighUsual(const MarkerSequence& markers, double metres,
       "the file does not state which axis is up, and most of the time the person's "
       "head is towards {}",
       Name(body));
-  if (!IsOnGround(markers, metres, body)) {
-    for (const UpAxis axis : usual) {
-      if (!IsOnGround(markers, metres, axis)) continue;
-      return {
-          axis, true,
-          fmt::format("{}, but the ground is along {}; {} is taken", said, Name(axis), Name(axis))};
-    }
+  const auto with_ground = UsualWithGround(markers, metres, usual);
+  if (with_ground && !IsOnGround(markers, metres, body)) {
+    const char* name = Name(*with_ground);
+    return {*with_ground, true,
+            fmt::format("{}, but the ground is along {}; {} is taken", said, name, name)};
   }
   return {body, true, fmt::format("{}, which is unusual; {} is taken as up", said, Name(body)),
           !IsOnGround(markers, metres, body)};
@@ -289,9 +313,17 @@ UpAxisDecision DecideUpAxis(const MarkerSequence& markers, double metres,
     }
     return {*claims.stated, body.up.has_value(), ""};
   }
-  if (!body.up) return {UpAxis::kZ, false, body.why_unknown + "; z is taken as up"};
+  if (!body.up) {
+    return WeighGround(markers, metres, claims.usual, body.why_unknown, body.is_person);
+  }
   if (std::count(claims.usual.begin(), claims.usual.end(), *body.up) > 0) {
-    return {*body.up, true, ""};
+    const bool is_first = claims.usual.front() == *body.up;
+    if (is_first || body.is_upright || IsOnGround(markers, metres, *body.up)) {
+      return {*body.up, true, ""};
+    }
+    return WeighGround(markers, metres, claims.usual,
+                       "the person is bent, so that the markers do not tell which axis is up",
+                       true);
   }
   return WeighUsual(markers, metres, claims.usual, *body.up);
 }

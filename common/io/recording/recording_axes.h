@@ -48,7 +48,8 @@ struct UpAxisClaims {
 /// counts, the lowest markers being near 0 throughout: a file without ground is overruled where the
 /// person would be upside down, or would travel up and down by more than a metre and stands on the
 /// ground of another axis; and a person lies on the ground of a usual axis rather than stands
-/// without any. markers: in file units of so many metres.
+/// without any. Where the person is bent, the first usual axis that has a ground is up, or else the
+/// first one. markers: in file units of so many metres.
 UpAxisDecision DecideUpAxis(const MarkerSequence& markers, double metres,
                             const UpAxisClaims& claims);
 

@@ -13,6 +13,7 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/tables/motive_csv.h"
 #include "common/io/tables/nexus_csv.h"
+#include "common/io/tables/points_csv.h"
 #include "common/io/tables/qtm_tsv.h"
 #include "common/io/tables/table_content.h"
 #include "common/io/tables/trc_reader.h"
@@ -48,6 +49,12 @@ bool IsTable(const std::string& /*file*/, std::string_view start) {
   return IsText(start) && !IsMarkup(start) && kLooksLike(start);
 }
 
+// Names of points make long header rows.
+bool IsPoints(const std::string& file, std::string_view start) {
+  return IsText(start) && !IsMarkup(start) &&
+         LooksLikePointsCsv(ReadFileStart(file, kMostBytesBeforeTheRoot));
+}
+
 bool IsMmm(const std::string& file, std::string_view start) {
   return IsMarkup(start) && LooksLikeMmmMotion(ReadFileStart(file, kMostBytesBeforeTheRoot));
 }
@@ -66,6 +73,7 @@ const std::vector<RecordingFormat> kFormats = {
      false,
      true},
     {"QTM TSV", {".tsv"}, IsTable<LooksLikeQtmTsv>, ReadQtmTsvContent, 5, false, false, true},
+    {"CSV of points", {".csv"}, IsPoints, ReadPointsCsvContent, 5, false, false, true},
     {"MMM motion", {".xml"}, IsMmm, ReadMmmContent, 2, true, true},
 };
 

@@ -22,6 +22,7 @@ struct QtmHead {
   std::string_view columns;  ///< the line that names them; empty: there is none
   std::string_view row;      ///< the first one
   std::string data;          ///< DATA_INCLUDED
+  bool is_of_forces = false;
 };
 
 /// Lines begin with a key; rows begin with a number or a blank cell.
@@ -38,6 +39,7 @@ QtmHead ReadHead(LineReader* lines) {
       break;
     }
     if (EqualIgnoringCase(key, "FREQUENCY")) head.rate = CellNumber(value, ' ');
+    head.is_of_forces |= StartsWithIgnoringCase(key, "FORCE_PLATE");
     if (EqualIgnoringCase(key, "NO_OF_FRAMES")) head.frames = CellNumber(value, ' ');
     if (EqualIgnoringCase(key, "DATA_INCLUDED")) head.data = value;
     if (EqualIgnoringCase(key, "MARKER_NAMES")) head.names.assign(cells.begin() + 1, cells.end());
@@ -77,14 +79,21 @@ int LeadingCells(const QtmHead& head, const std::string& file) {
 bool LooksLikeQtmTsv(std::string_view content) {
   LineReader lines(content.substr(0, 4096));
   std::string_view line;
-  return lines.Next(&line) && StartsWithIgnoringCase(line, "NO_OF_FRAMES") &&
-         SeparatorOf(line) == '\t';
+  const bool is_key = lines.Next(&line) && (StartsWithIgnoringCase(line, "NO_OF_FRAMES") ||
+                                            StartsWithIgnoringCase(line, "NO_OF_SAMPLES"));
+  return is_key && SeparatorOf(line) == '\t';
 }
 
 MarkerTable ParseQtmTsv(std::string_view content, const std::string& file, Warnings* warnings) {
   const WarningContext context(warnings, file);
   LineReader lines(content);
   const QtmHead head = ReadHead(&lines);
+  if (head.names.empty() && head.is_of_forces) {
+    throw Error(
+        fmt::format("{}: an export of force plates by QTM, without markers; export the 3D "
+                    "data, too, or the whole measurement as C3D",
+                    file));
+  }
   if (head.names.empty()) {
     throw Error(
         fmt::format("{}: an export of QTM without MARKER_NAMES{}; export 3D data with a "

@@ -7,6 +7,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/tables/motive_csv.h"
 #include "common/io/tables/nexus_csv.h"
+#include "common/io/tables/points_csv.h"
 #include "common/io/tables/qtm_tsv.h"
 #include "common/io/tables/trc_reader.h"
 
@@ -56,6 +57,12 @@ RecordingContent ReadMotiveCsvContent(const std::string& file, const ContentOpti
 RecordingContent ReadQtmTsvContent(const std::string& file, const ContentOptions& /*options*/,
                                    Warnings* warnings) {
   return ContentOf(ParseQtmTsv(ReadFileContent(file), file, warnings), "QTM TSV", {UpAxis::kZ});
+}
+
+RecordingContent ReadPointsCsvContent(const std::string& file, const ContentOptions& /*options*/,
+                                      Warnings* warnings) {
+  return ContentOf(ParsePointsCsv(ReadFileContent(file), file, warnings), "CSV of points",
+                   {UpAxis::kZ, UpAxis::kY});
 }
 
 }  // namespace mmm_converter

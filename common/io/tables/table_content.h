@@ -20,4 +20,7 @@ RecordingContent ReadMotiveCsvContent(const std::string& file, const ContentOpti
 RecordingContent ReadQtmTsvContent(const std::string& file, const ContentOptions& options,
                                    Warnings* warnings);
 
+RecordingContent ReadPointsCsvContent(const std::string& file, const ContentOptions& options,
+                                      Warnings* warnings);
+
 }  // namespace mmm_converter

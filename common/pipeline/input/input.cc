@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/calibrate/joint_doubts.h"
+#include "common/pipeline/input/osim_setup.h"
 #include "common/support/advice.h"
 #include "common/support/data_directory.h"
 #include "common/support/error.h"
@@ -19,10 +20,30 @@ namespace {
 
 constexpr const char* kDefaultModel = "models/mmm.xml";
 
+/// Of frames whose time is in the range, to half a frame: begin and end.
+std::array<int, 2> FramesIn(const std::array<double, 2>& times, const InputRequest& request,
+                            const MarkerSequence& markers) {
+  const double half = 0.5 / markers.rate();
+  int begin = 0, end = markers.num_frames();
+  while (begin < end && markers.time(begin) < times[0] - half) ++begin;
+  while (end > begin && markers.time(end - 1) > times[1] + half) --end;
+  if (begin < end) return {begin, end};
+  throw Error(fmt::format("{}: the time range of {}, {:.6g} to {:.6g} s, has no frame of the "
+                          "recording, which is from {:.6g} to {:.6g} s",
+                          request.file, request.setup_file, times[0], times[1], markers.time(0),
+                          markers.time(markers.num_frames() - 1)),
+              Remedy::kFrames);
+}
+
 void KeepFrames(const InputRequest& request, Input* input) {
   MarkerSequence& markers = input->recording.markers;
-  const int begin = request.first_frame.value_or(0);
-  const int end = std::min(request.end_frame.value_or(markers.num_frames()), markers.num_frames());
+  int begin = request.first_frame.value_or(0);
+  int end = std::min(request.end_frame.value_or(markers.num_frames()), markers.num_frames());
+  if (request.time_range && markers.num_frames() > 0) {
+    const auto frames = FramesIn(*request.time_range, request, markers);
+    begin = frames[0];
+    end = frames[1];
+  }
   if (begin >= end) {
     throw Error(fmt::format("{}: {} {}:{} has no frame of the recording's {}, counted from 0",
                             request.file, OptionText("frames"), begin,
@@ -42,7 +63,9 @@ std::string ModelFile(const InputRequest& request) {
 void NameInputs(const InputRequest& request, OutputPlan* plan) {
   plan->Read(request.file);
   plan->Read(ModelFile(request));
+  plan->Read(request.setup_file);
   plan->Read(request.marker_set);
+  if (!request.marker_set.empty()) plan->Read(FileWithTasks(request.marker_set));
   plan->Read(request.marker_file);
   plan->Read(request.forces_file);
   plan->Read(request.person.processor_file);
@@ -118,7 +141,8 @@ void UseMarkerSet(const InputRequest& request, ConverterConfig* config) {
   std::error_code failure;
   const bool is_file =
       fs::exists(request.marker_set, failure) || request.marker_set.ends_with(".xml");
-  config->marker_set = is_file ? fs::absolute(request.marker_set).string() : request.marker_set;
+  config->marker_set =
+      is_file ? fs::absolute(FileWithTasks(request.marker_set)).string() : request.marker_set;
   config->marker_pairs.clear();
   config->marker_set_line = 0;  // it is not the configuration's
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <set>
@@ -23,12 +24,14 @@ namespace mmm_converter {
 struct InputRequest {
   std::string file;
   ReadRecordingOptions reading;
-  std::optional<int> first_frame;  ///< counted from 0
-  std::optional<int> end_frame;    ///< the frame behind the last
-  std::string model_file;          ///< reference model, a URDF, or a model of OpenSim
-  std::string marker_file;         ///< markers for a model of OpenSim
-  std::string forces_file;  ///< of the ground, beside a recording without (ReadExternalLoads)
-  std::string marker_set;   ///< file or name; comes before the configuration's
+  std::optional<int> first_frame;                        ///< counted from 0
+  std::optional<int> end_frame;                          ///< the frame behind the last
+  std::optional<std::array<double, 2>> time_range = {};  ///< [s] where no frames are given
+  std::string setup_file = {};  ///< of OpenSim, that what is empty was taken from
+  std::string model_file;       ///< reference model, a URDF, or a model of OpenSim
+  std::string marker_file;      ///< markers for a model of OpenSim
+  std::string forces_file;      ///< of the ground, beside a recording without (ReadExternalLoads)
+  std::string marker_set;       ///< file or name; comes before the configuration's
   PersonRequest person;
   /// What was read of the file before, or made of arrays, and is then no file. Null: is read.
   WithWarnings<std::shared_ptr<const Recording>> recording = {};

@@ -9,6 +9,8 @@
 #include "common/convert/marker_set.h"
 #include "common/convert/understood_labels.h"
 #include "common/model/coordinate_map.h"
+#include "common/pipeline/input/osim_setup.h"
+#include "common/pipeline/input/trunk_axis.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 
@@ -50,6 +52,17 @@ std::shared_ptr<const NamedMarkers> PairNames(const MarkerLabels& labels, const 
   return std::make_shared<const NamedMarkers>(std::move(named));
 }
 
+/// Angles of OpenSim come of weights, without which hips are some 10 degrees elsewhere.
+void TellWeights(const Input& input, const ConverterConfig& config, Warnings* warnings) {
+  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
+  if (!is_free || !input.model->model.coordinates()) return;
+  const std::string weights = FindWeightsBeside(input.model_file, *input.reference);
+  if (weights.empty()) return;
+  Warn(warnings, fmt::format("all markers weigh the same; {} has the weights of OpenSim's inverse "
+                             "kinematics: name it with {}",
+                             weights, OptionText("marker-set")));
+}
+
 }  // namespace
 
 MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
@@ -58,6 +71,7 @@ MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
     throw Error(fmt::format("{}: has no markers; name a file that has them with {}",
                             input.model_file, OptionText("marker-file")));
   }
+  TellWeights(input, config, warnings);
   MatchedLabels matched;
   matched.names = FindNames(labels, input, config);
   if (!matched.names) matched.names = PairNames(labels, input, config);
@@ -102,6 +116,9 @@ TrackingSetup MatchLabels(const MarkerLabels& labels, Input* input, const Conver
   MatchedLabels matched = MatchLabels(labels, std::as_const(*input), config, warnings);
   input->reference = matched.setup.model;
   input->names = matched.names;
+  if (input->recording.markers.num_frames() > 0) {
+    LetTrunkDecideUpAxis(matched.setup, input, warnings);
+  }
   return std::move(matched.setup);
 }
 

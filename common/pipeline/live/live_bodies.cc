@@ -19,8 +19,9 @@ namespace mmm_converter {
 namespace {
 
 LabelSelection RestOf(const std::vector<std::string>& labels,
-                      const std::vector<LabelSelection>& taken, const std::string& subject,
-                      const std::string& source, Warnings* warnings) {
+                      const std::vector<LabelSelection>& taken,
+                      const std::optional<std::string>& subject, const std::string& source,
+                      Warnings* warnings) {
   std::vector<bool> is_taken(labels.size());
   for (const LabelSelection& one : taken) {
     for (const int i : one.indices) is_taken[static_cast<std::size_t>(i)] = true;
@@ -107,7 +108,7 @@ std::string OutputOfObject(const std::string& output, const std::string& name) {
 std::vector<LiveBodyRequest> BodiesOf(const LiveRequest& request, bool selects_labels) {
   if (request.other_objects.empty()) {
     if (!selects_labels || request.label) return {{request, {}}};
-    const std::string subject = request.input.reading.subject;
+    const std::optional<std::string> subject = request.input.reading.subject;
     return {{request, [subject](const std::vector<std::string>& labels, const std::string& source,
                                 Warnings* warnings) {
                return SelectLabels(labels, {}, {}, subject, source, warnings);
@@ -144,7 +145,7 @@ std::vector<LiveBodyRequest> BodiesOf(const LiveRequest& request, bool selects_l
     bodies.front().other_names.push_back(bodies[i].request.motion_name);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::string subject = request.input.reading.subject;
+    const std::optional<std::string> subject = request.input.reading.subject;
     const std::size_t offset = is_first_object ? 0 : 1;
     bodies[i].choose = [objects, i, offset, subject](const std::vector<std::string>& labels,
                                                      const std::string& source,

@@ -228,6 +228,28 @@ TEST_F(NamedPersons, WhoseLegsHaveExchangedSidesAreContradicted) {
   }
 }
 
+// Of MT1 and MT5 each is far from its place, and the foot turns between them.
+TEST_F(NamedPersons, WhosePairsAreExchangedAreTold) {
+  constexpr std::pair<const char*, const char*> kPairs[] = {{"%MT1", "%MT5"}, {"%FHD", "%BHD"}};
+  for (const auto& [one, other] : kPairs) {
+    Vocabulary vocabulary = Vocabularies()[0];
+    std::swap(vocabulary.labels.at(one), vocabulary.labels.at(other));
+    std::vector<std::string> kit;
+    const MarkerSequence renamed = Rename(Record(31), vocabulary, BodyPart::kFull, &kit);
+    const NamedMarkers named =
+        UnderstandLabels(LabelsOf(renamed), renamed, reference_, table_, {joints_, true});
+    for (std::size_t i = 0; i < kit.size(); ++i) {
+      const auto is_of = [&](const std::string& key) {
+        return key[0] == '%' ? kit[i].substr(1) == key.substr(1) : kit[i] == key;
+      };
+      const NamedLabel& label = named.labels[i];
+      const bool is_exchanged = is_of(one) || is_of(other);
+      EXPECT_EQ(label.is_contradicted, is_exchanged) << label.label << ": " << label.note;
+      EXPECT_EQ(label.note.starts_with("exchanged with "), is_exchanged) << label.note;
+    }
+  }
+}
+
 // A tracker crosses the legs, and its markers are not far from the model.
 TEST_F(NamedPersons, WhoseLegsAloneHaveExchangedSidesGetThemBack) {
   Vocabulary vocabulary = Vocabularies()[2];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/io/tables/motive_csv.h"
 #include "common/io/tables/nexus_csv.h"
+#include "common/io/tables/points_csv.h"
 #include "common/io/tables/qtm_tsv.h"
 #include "common/io/tables/trc_reader.h"
 #include "common/io/tables/trc_writer.h"
@@ -31,6 +32,11 @@ void ReadNexusCsvBytes(std::string_view bytes) {
 void ReadMotiveCsvBytes(std::string_view bytes) {
   LooksLikeMotiveCsv(bytes);
   CheckTable(ParseMotiveCsv(bytes, kInputName));
+}
+
+void ReadPointsCsvBytes(std::string_view bytes) {
+  LooksLikePointsCsv(bytes);
+  CheckTable(ParsePointsCsv(bytes, kInputName));
 }
 
 void ReadQtmTsvBytes(std::string_view bytes) {

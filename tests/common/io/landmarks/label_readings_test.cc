@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "tests/support/shared_data.h"
@@ -125,6 +126,82 @@ TEST(LabelReadings, LimbsThatNothingNamesAreAbsent) {
   const auto both = Meanings({"LLE", "LME", "LELB", "LMEL", "LRSP", "LUSP", "LLM", "LMM"});
   EXPECT_EQ(both[0], "left lateral epicondyle of the femur");
   EXPECT_EQ(both[1], "left medial epicondyle of the femur");
+}
+
+// RFTA would be an acromion, RFMC a knee, where no series says that they are of a cluster.
+TEST(LabelReadings, SeriesOfLettersAreClusters) {
+  EXPECT_THAT(
+      Meanings(
+          {"RFMA", "RFMB", "RFMC", "RFMD", "LTBA", "LTBB", "LTBC", "RFTA", "RFTB", "RFTC", "LASI"}),
+      ElementsAre("right thigh", "right thigh", "right thigh", "right thigh", "left shank",
+                  "left shank", "left shank", "right back of the foot", "right back of the foot",
+                  "right back of the foot", "left anterior iliac spine"));
+  EXPECT_THAT(Meanings({"L_UA_A", "L_UA_B", "L_UA_C"}),
+              ElementsAre("left upper arm", "left upper arm", "left upper arm"));
+  // Of what is no segment, and of less than three.
+  EXPECT_THAT(Meanings({"LXQA", "LXQB", "LXQC", "RWRA", "RWRB"}),
+              ElementsAre("-", "-", "-", "right thumb side of the wrist",
+                          "right little finger's side of the wrist"));
+}
+
+// RTB would be a shank, MET2 and MET5 a foot, onto which a whole leg folds.
+TEST(LabelReadings, NoLegComesFromTheLabelsOfAnArm) {
+  const std::vector<std::string> arm = {"C7", "T10", "CLAV", "STRN", "RELB", "RWRA", "RWRB"};
+  const auto last_of = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> labels = arm;
+    labels.insert(labels.end(), more.begin(), more.end());
+    return Meanings(labels).back();
+  };
+  EXPECT_EQ(last_of({"RTB"}), "-");
+  EXPECT_EQ(last_of({"RASI", "LASI", "RTB"}), "-");
+  EXPECT_EQ(last_of({"LTB", "RTB"}), "-");
+  EXPECT_EQ(last_of({"RKNE"}), "-");
+  EXPECT_EQ(last_of({"RASI", "LASI", "RKNE"}), "right lateral epicondyle of the femur");
+  EXPECT_EQ(last_of({"RMET2"}), "right knuckle of the index finger");
+  EXPECT_EQ(last_of({"RMET2", "RMET5"}), "right knuckle of the little finger");
+  EXPECT_EQ(last_of({"RKNE", "RANK", "RMET5"}), "right head of the fifth metatarsal");
+  EXPECT_EQ(Meanings({"LASI", "RASI", "SACR", "LKNE", "LANK", "LHEE", "RFRM"})[6], "-");
+}
+
+TEST(LabelReadings, TermsOfIsb) {
+  const std::vector<std::string> terms = {"IJ", "PX", "C7", "T8", "SC", "AC", "AA", "TS",
+                                          "AI", "PC", "EM", "EL", "GH", "US", "RS"};
+  std::vector<std::string> small, sided;
+  for (const std::string& term : terms) {
+    std::string one = term;
+    std::transform(one.begin(), one.end(), one.begin(), ::tolower);
+    small.push_back(one);
+    const bool has_side = term != "IJ" && term != "PX" && term != "C7" && term != "T8";
+    sided.push_back(has_side ? "r_" + one : one);
+  }
+  for (const auto& [labels, side] :
+       {std::pair(terms, ""), std::pair(small, ""), std::pair(sided, "right ")}) {
+    const auto meanings = Meanings(labels);
+    const auto has = [&](std::size_t i, const std::string& what, bool is_sided) {
+      EXPECT_EQ(meanings[i], (is_sided ? side : "") + what) << labels[i];
+    };
+    has(0, "notch above the sternum", false);
+    has(1, "lower end of the sternum", false);
+    has(3, "eighth thoracic vertebra", false);
+    has(4, "inner end of the collar bone", true);
+    has(5, "acromion", true);
+    has(6, "back of the shoulder", true);
+    has(7, "inner end of the spine of the shoulder blade", true);
+    has(8, "back below the shoulder blade", true);
+    has(10, "medial epicondyle of the humerus", true);
+    has(11, "lateral epicondyle of the humerus", true);
+    has(13, "ulnar styloid", true);
+    has(14, "radial styloid", true);
+  }
+}
+
+TEST(LabelReadings, FrenchNamesHaveAccentsAndSides) {
+  EXPECT_THAT(Meanings({"Épaule gauche", "épaule_droite", "Malléole externe gauche",
+                        "Malléole interne droite", "Tête", "Genou_externe_G", "Genou_externe_D",
+                        "GTalon", "DTalon"}),
+              ElementsAre("left acromion", "right acromion", "left lateral malleolus",
+                          "right medial malleolus", "head", "left lateral epicondyle of the femur",
+                          "right lateral epicondyle of the femur", "left heel", "right heel"));
 }
 
 // Of one arm without sides, LARM is no left one.

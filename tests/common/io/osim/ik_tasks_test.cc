@@ -33,6 +33,17 @@ TEST(IkTasks, AreReadAsTheRootAndInOpenSimsRoot) {
   }
 }
 
+TEST(IkTasks, AreReadInSetUpsOfTools) {
+  const std::string tasks = kTasks;
+  for (const std::string& text :
+       {"<OpenSimDocument Version=\"40000\"><InverseKinematicsTool><model_file/>" + tasks +
+            "</InverseKinematicsTool></OpenSimDocument>",
+        "<OpenSimDocument Version=\"20302\"><ScaleTool><MarkerPlacer>" + tasks +
+            "</MarkerPlacer></ScaleTool></OpenSimDocument>"}) {
+    EXPECT_EQ(ParseIkTasks(text, "setup.xml").markers.size(), 1U) << text;
+  }
+}
+
 TEST(IkTasks, OfAnotherFileAreRefused) {
   EXPECT_THROW(ParseIkTasks("<OpenSimDocument Version=\"20302\"/>", "tasks.xml"), Error);
   EXPECT_THROW(ParseIkTasks("<ScaleTool/>", "tasks.xml"), Error);

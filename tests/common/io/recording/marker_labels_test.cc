@@ -25,7 +25,7 @@ TEST(MarkerLabels, ManySubjectsTakeLittleTime) {
   }
   const auto start = std::chrono::steady_clock::now();
   try {
-    SelectLabels(labels, {}, prefixes, "", "a.c3d", nullptr);
+    SelectLabels(labels, {}, prefixes, {}, "a.c3d", nullptr);
     FAIL();
   } catch (const Error& error) {
     EXPECT_LT(std::string_view(error.what()).size(), 300U) << error.what();
@@ -39,10 +39,10 @@ TEST(MarkerLabels, AreNumberedWhereTheyBecomeTheSame) {
                                            "a z#2",      "s:C7",   "s_C7"};
   Warnings warnings;
   const LabelSelection persons =
-      SelectLabels({labels.begin() + 5, labels.end()}, {}, {}, "", "a.c3d", &warnings);
+      SelectLabels({labels.begin() + 5, labels.end()}, {}, {}, {}, "a.c3d", &warnings);
   EXPECT_THAT(persons.labels, ElementsAre("C7", "C7#2"));
   const LabelSelection others =
-      SelectLabels({labels.begin(), labels.begin() + 5}, {}, {}, "", "a.c3d", &warnings);
+      SelectLabels({labels.begin(), labels.begin() + 5}, {}, {}, {}, "a.c3d", &warnings);
   EXPECT_THAT(others.labels, ElementsAre("Kn\xC3\xB6", "Kn\xC3\xB6#2", "a z", "a z#3", "a z#2"));
   EXPECT_THAT(warnings.texts(),
               Contains("labels that are the same as others, without prefixes and in UTF-8, are "
@@ -64,7 +64,7 @@ TEST(MarkerLabels, PartsOfOneBodyAreOnePerson) {
   for (const std::string& label : With("Trunk", kTrunk)) labels.push_back(label);
   for (const std::string& label : With("Box", {"b1", "b2", "b3", "b4"})) labels.push_back(label);
   Warnings warnings;
-  const LabelSelection both = SelectLabels(labels, {}, {}, "", "a.c3d", &warnings);
+  const LabelSelection both = SelectLabels(labels, {}, {}, {}, "a.c3d", &warnings);
   EXPECT_EQ(both.labels.size(), kLegs.size() + kTrunk.size());
   EXPECT_THAT(both.labels, Contains("LSHO"));
   EXPECT_EQ(both.subject, "");
@@ -84,7 +84,7 @@ TEST(MarkerLabels, SeveralPrefixesMayBeAskedForAsOnePerson) {
   EXPECT_EQ(chosen.labels.size(), kLegs.size() + kTrunk.size());
   EXPECT_EQ(chosen.indices.front(), 9);
   EXPECT_EQ(chosen.indices.back(), 25);
-  const auto message = [&](const std::string& subject) {
+  const auto message = [&](const std::optional<std::string>& subject) {
     try {
       SelectLabels(labels, {}, {}, subject, "a.c3d", nullptr);
     } catch (const Error& error) {
@@ -93,7 +93,28 @@ TEST(MarkerLabels, SeveralPrefixesMayBeAskedForAsOnePerson) {
     return std::string("no error");
   };
   EXPECT_EQ(message("B,E"), "a.c3d: there is no subject E; the file has: A, B, C, D");
-  EXPECT_EQ(message(""), "a.c3d: there are several subjects: A, B; choose one of them");
+  EXPECT_EQ(message(std::nullopt), "a.c3d: there are several subjects: A, B; choose one of them");
+  EXPECT_EQ(message(""), "a.c3d: there is no subject without prefix; the file has: A, B, C, D");
+}
+
+// Cortex writes columns of computed markers, V_LASI beside LASI, that may never hold a value.
+TEST(MarkerLabels, WhoIsNeverSeenIsNoSubject) {
+  std::vector<std::string> labels = kLegs;
+  for (const std::string& label : kLegs) labels.push_back("W_" + label);
+  std::vector<bool> seen(labels.size(), true);
+  const auto are_seen = [&] { return seen; };
+  const auto select = [&](const std::optional<std::string>& subject) {
+    return SelectLabels(labels, {}, {}, subject, "a.trc", nullptr, false, are_seen).labels;
+  };
+  EXPECT_THROW(select(std::nullopt), Error);
+  EXPECT_EQ(select(""), kLegs);
+  std::fill(seen.begin() + static_cast<std::ptrdiff_t>(kLegs.size()), seen.end(), false);
+  EXPECT_EQ(select(std::nullopt), kLegs);
+  std::replace_if(
+      labels.begin(), labels.end(), [](const std::string& l) { return l.starts_with("W_"); }, "");
+  std::fill(seen.begin(), seen.end(), true);
+  for (std::size_t i = 0; i < kLegs.size(); ++i) labels[kLegs.size() + i] = "V_" + kLegs[i];
+  EXPECT_EQ(select(std::nullopt), kLegs);
 }
 
 // Who wears the same markers as another is another person.
@@ -101,7 +122,7 @@ TEST(MarkerLabels, ASecondPersonIsNoPart) {
   std::vector<std::string> labels = With("A", kLegs);
   for (const std::string& label : With("B", {"LKNE", "LANK", "LTOE"})) labels.push_back(label);
   Warnings warnings;
-  EXPECT_EQ(SelectLabels(labels, {}, {}, "", "a.c3d", &warnings).labels, kLegs);
+  EXPECT_EQ(SelectLabels(labels, {}, {}, {}, "a.c3d", &warnings).labels, kLegs);
   EXPECT_THAT(warnings.texts(), ElementsAre("markers left out: those of B"));
 }
 

@@ -42,7 +42,8 @@ TEST_F(RecordingFormatsTest, AreToldByNameInAnyCase) {
   EXPECT_TRUE(FindFormatOfName("walk.csv")->is_told_by_content);
   EXPECT_FALSE(FindFormatOfName("walk.tsv")->is_written);
   EXPECT_EQ(FindFormatOfName("walk"), nullptr);
-  EXPECT_EQ(RecordingFormatNames(), "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV or MMM motion");
+  EXPECT_EQ(RecordingFormatNames(),
+            "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV, CSV of points or MMM motion");
 }
 
 TEST_F(RecordingFormatsTest, AreToldByContentWhateverTheName) {
@@ -53,6 +54,8 @@ TEST_F(RecordingFormatsTest, AreToldByContentWhateverTheName) {
   EXPECT_EQ(NameOf("Trajectories\n100\n,,A:C7,,\n"), "Nexus CSV");
   EXPECT_EQ(NameOf("Format Version,1.23,Take Name,a\n"), "Motive CSV");
   EXPECT_EQ(NameOf("NO_OF_FRAMES\t20\n"), "QTM TSV");
+  EXPECT_EQ(NameOf("time,A_x,A_y,A_z,B_x,B_y,B_z,C_x,C_y,C_z\n"), "CSV of points");
+  EXPECT_EQ(NameOf("time;A;A;A;B;B;B;C;C;C\n;x;y;z;x;y;z;x;y;z\n"), "CSV of points");
   EXPECT_EQ(NameOf("\xEF\xBB\xBF <?xml version='1.0'?><MMM/>"), "MMM motion");
   EXPECT_EQ(NameOf("<Robot>\nFrame#\tTime\n</Robot>"), "");
   EXPECT_EQ(NameOf("\x7f"

@@ -181,6 +181,35 @@ TEST(Recording, AnUpperBodyTellsItsAxisAndUnitBesideOtherThings) {
   EXPECT_FALSE(DecideUnit(upper, "m").is_doubtful);
 }
 
+/// A start of a sprint, on hands and toes, then away along the second axis behind up.
+MarkerSequence Start(UpAxis file_axis) {
+  MarkerSequence markers({"LFHD", "RFHD", "LTOE", "RTOE", "LASI", "RASI", "LWRA", "RWRA"}, 60, 100,
+                         0);
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    const double way = 2 + 0.02 * k;
+    markers.frame(k) << 0, 0.1, 0, 0.1, 0, 0.1, -0.1, 0.2,                           //
+        way + 0.9, way + 0.9, way, way, way + 0.3, way + 0.3, way + 0.8, way + 0.8,  //
+        0.8, 0.8, 0.02, 0.02, 0.9, 0.9, 0.02, 0.02;
+  }
+  const Eigen::Matrix3d to_file = RotationToZUp(file_axis).transpose();
+  for (int k = 0; k < 60; ++k) markers.frame(k) = (to_file * markers.frame(k)).eval();
+  return markers;
+}
+
+TEST(Recording, WhoIsBentStandsOnTheGroundOfAUsualAxis) {
+  for (const UpAxis axis : {UpAxis::kY, UpAxis::kZ}) {
+    const UpAxisDecision decision =
+        DecideUpAxis(Start(axis), 1, {.usual = {UpAxis::kY, UpAxis::kZ}});
+    EXPECT_EQ(decision.axis, axis);
+    EXPECT_FALSE(decision.is_doubtful) << decision.warning;
+  }
+  MarkerSequence floating = Start(UpAxis::kY);
+  for (int k = 0; k < floating.num_frames(); ++k) floating.frame(k).array() += 5;
+  const UpAxisDecision decision = DecideUpAxis(floating, 1, {.usual = {UpAxis::kY, UpAxis::kZ}});
+  EXPECT_EQ(decision.axis, UpAxis::kY);
+  EXPECT_TRUE(decision.is_doubtful);
+}
+
 TEST(Recording, AnUnusualUpAxisIsOneWithGround) {
   MarkerSequence markers = Acrobat(0, UpAxis::kX);
   UpAxisDecision decision = DecideUpAxis(markers, 1, {.usual = {UpAxis::kZ}});
