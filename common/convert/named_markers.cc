@@ -183,6 +183,7 @@ bool IsOfSet(const NamedMarkers& named, const MarkerSet& set) {
     labels.insert(label);
   }
   for (const MarkerPair& pair : set.pairs) {
+    if (pair.noise_scale != 1) return false;
     targets.insert(pair.target);
     if (labels.contains(NormalizeLabel(pair.source))) mapped.insert(pair.target);
   }

@@ -64,8 +64,8 @@ NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
 NamedMarkers PairByLandmarks(const MarkerLabels& labels, const KinematicModel& model,
                              const LandmarkTable& table);
 
-/// Whether labels are those of a set, whose makers say where each of them is worn: it knows all
-/// whose names mean landmarks, and a laboratory's has half of its markers there.
+/// Whether labels are those of a set that says where each of them is worn, and trusts none less: it
+/// knows all whose names mean landmarks, and a laboratory's has half of its markers there.
 bool IsOfSet(const NamedMarkers& named, const MarkerSet& set);
 
 }  // namespace mmm_converter
