@@ -35,8 +35,8 @@ constexpr double kHeightDeviation = 0.004;
 constexpr double kWidthDeviation = 0.004;
 constexpr double kLengthDeviation = 0.02;
 // A foot is flat where its markers are this near their lowest places and this slow upwards.
-constexpr double kNearLowest = 0.015;   // [m]
-constexpr double kSlowUpwards = 0.06;   // [m/s]
+constexpr double kNearLowest = 0.015;  // [m]
+constexpr double kSlowUpwards = 0.06;  // [m/s]
 constexpr double kLowestPercent = 5;
 constexpr std::size_t kFewestFlat = 5;  // frames
 
@@ -204,9 +204,8 @@ void LandmarkBody::FindPelvis() {
   if (!front_[0] || !front_[1] || (!sacrum_ && !(back_[0] && back_[1]))) return;
   Pelvis pelvis;
   pelvis.width = Distance(*front_[0], *front_[1]);
-  pelvis.depth = MedianOf([&](int k) {
-    return (0.5 * (At(k, *front_[0]) + At(k, *front_[1])) - Back(k)).norm();
-  });
+  pelvis.depth = MedianOf(
+      [&](int k) { return (0.5 * (At(k, *front_[0]) + At(k, *front_[1])) - Back(k)).norm(); });
   const Vector3d in_front = 0.5 * (AtRest(*front_[0]) + AtRest(*front_[1]));
   const Vector3d behind =
       sacrum_ ? AtRest(*sacrum_) : 0.5 * (AtRest(*back_[0]) + AtRest(*back_[1]));
@@ -265,12 +264,11 @@ LandmarkBody::Limb LandmarkBody::FindLimb(BodySide side) const {
   const bool is_middle = knee_in && ankle_in;
   const auto in_knee = is_middle ? knee_in : std::nullopt;
   const auto in_ankle = is_middle ? ankle_in : std::nullopt;
-  const double distance = MedianOf([&](int k) {
-    return (middle(k, knee, in_knee) - middle(k, ankle, in_ankle)).norm();
-  });
+  const double distance = MedianOf(
+      [&](int k) { return (middle(k, knee, in_knee) - middle(k, ankle, in_ankle)).norm(); });
   const Vector3d above = at_rest(knee, in_knee) - knee_centre;
-  const Vector3d below = at_rest(ankle, in_ankle) -
-                         X_WS_[static_cast<std::size_t>(ankle_segment)].translation();
+  const Vector3d below =
+      at_rest(ankle, in_ankle) - X_WS_[static_cast<std::size_t>(ankle_segment)].translation();
   limb.shank =
       LengthAlong(distance, (above - below).head<2>().squaredNorm(), below.z() - above.z());
   return limb;
@@ -334,7 +332,8 @@ void LandmarkBody::FindFoot(BodySide side) {
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      distances(i, j) = Distance(foot[static_cast<std::size_t>(i)], foot[static_cast<std::size_t>(j)]);
+      distances(i, j) =
+          Distance(foot[static_cast<std::size_t>(i)], foot[static_cast<std::size_t>(j)]);
     }
   }
   // Places that have the distances and heights, by Gauss-Newton steps. Feet differ in length, the
@@ -376,8 +375,8 @@ void LandmarkBody::FindFoot(BodySide side) {
   for (Eigen::Index i = 0; i < n; ++i) {
     const Seen& one = foot[static_cast<std::size_t>(i)];
     const int segment = model_.markers()[static_cast<std::size_t>(one.marker)].segment;
-    Move(one, X_WS_[static_cast<std::size_t>(segment)].linear().transpose() *
-                  (p.col(i) - rest.col(i)));
+    Move(one,
+         X_WS_[static_cast<std::size_t>(segment)].linear().transpose() * (p.col(i) - rest.col(i)));
   }
 }
 

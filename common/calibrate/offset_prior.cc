@@ -40,9 +40,7 @@ Matrix3d Whitening(const Matrix3Xd& lines, Index m, double deviation) {
 OffsetPrior::OffsetPrior(const BodyKinematics& kinematics, const CalibrationOptions& options,
                          const Eigen::VectorXd& deviations)
     : correlation_(options.side_correlation) {
-  const auto whitening = [&](Index m) {
-    return Whitening(kinematics.lines(), m, deviations[m]);
-  };
+  const auto whitening = [&](Index m) { return Whitening(kinematics.lines(), m, deviations[m]); };
   std::vector<bool> is_mirrored(kinematics.markers().size(), false);
   for (const MirroredPlaces& pair : kinematics.mirrors()) {
     is_mirrored[pair.a] = is_mirrored[pair.b] = true;

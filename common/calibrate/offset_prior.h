@@ -11,9 +11,9 @@
 namespace mmm_converter {
 
 /// Where markers are worn before any recording is seen: about the model's places, by
-/// a deviation of each, nearer them across a pair's line; as far off on one side of the body as on the
-/// other by side_correlation, as whoever placed the model's markers placed both alike. Tails are
-/// Cauchy's, as some are worn far off.
+/// a deviation of each, nearer them across a pair's line; as far off on one side of the body as on
+/// the other by side_correlation, as whoever placed the model's markers placed both alike. Tails
+/// are Cauchy's, as some are worn far off.
 class OffsetPrior {
  public:
   /// deviations: of each used marker's place [m].

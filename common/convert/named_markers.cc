@@ -59,8 +59,7 @@ std::optional<ModelMarker> PlaceOf(const LabelReading& reading, const LandmarkTa
   const auto of_side = [&](const std::string& name) {
     return is_right && landmark.is_sided ? OnTheRight(name) : name;
   };
-  const int segment =
-      landmark.segment.empty() ? -1 : model.FindSegment(of_side(landmark.segment));
+  const int segment = landmark.segment.empty() ? -1 : model.FindSegment(of_side(landmark.segment));
   if (segment >= 0) {
     ModelMarker place{"", segment, landmark.p_SM};
     if (is_right && landmark.is_sided) place.p_SM.x() = -place.p_SM.x();

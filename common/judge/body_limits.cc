@@ -28,7 +28,6 @@ constexpr double kUpright = 0.7;  // cosine of 45 degrees
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
 
-
 void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
                  VerdictReasons* reasons) {
   const KinematicModel& model = *setup.model;
@@ -43,8 +42,10 @@ void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
     double frames = 0;
     for (const Posture& posture : trajectory.postures) {
       const double angle = posture.joint_angles[j];
-      const bool is_low = angle < joint.lower + kAtLimitWithin && joint.lower < joint.rest - kNearRest;
-      const bool is_high = angle > joint.upper - kAtLimitWithin && joint.upper > joint.rest + kNearRest;
+      const bool is_low =
+          angle < joint.lower + kAtLimitWithin && joint.lower < joint.rest - kNearRest;
+      const bool is_high =
+          angle > joint.upper - kAtLimitWithin && joint.upper > joint.rest + kNearRest;
       frames += is_low || is_high ? 1 : 0;
     }
     const double share = frames / static_cast<double>(trajectory.postures.size());

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "common/judge/body_limits.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/convert/marker_mapping.h"
+#include "common/convert/marker_set.h"
+#include "common/io/mmm/mmm_model.h"
+#include "common/model/model_scaling.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class BodyLimitsTest : public ::testing::Test {
+ protected:
+  BodyLimitsTest() {
+    const KinematicModel reference = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
+    setup_.model = std::make_shared<const KinematicModel>(ScaleWinter(reference, {1.7, 70, {}}));
+    for (int j = 0; j < reference.num_joints(); ++j) setup_.joints.push_back(j);
+    for (int m = 0; m < static_cast<int>(reference.markers().size()); ++m) {
+      setup_.mapping.assignments.push_back({LabelIx(m), MarkerIx(m), 1});
+    }
+  }
+
+  /// Of a motion in which a joint has an angle in some of 100 frames.
+  std::vector<std::string> Judge(const std::string& joint, double angle, int frames) const {
+    PoseTrajectory trajectory;
+    trajectory.rate = 100;
+    for (const int j : setup_.joints) trajectory.joint_names.push_back(setup_.model->joint(j).name);
+    Posture posture = ZeroPosture(*setup_.model);
+    for (int k = 0; k < 100; ++k) {
+      posture.joint_angles[setup_.model->FindJoint(joint)] = k < frames ? angle : 0.01;
+      trajectory.postures.push_back(posture);
+    }
+    VerdictReasons reasons;
+    JudgeBodyLimits(setup_, trajectory, &reasons);
+    return reasons.Conclude().reasons;
+  }
+
+  TrackingSetup setup_;
+};
+
+TEST_F(BodyLimitsTest, AJointAtItsLimitIsNamed) {
+  EXPECT_THAT(
+      Judge("LAy_joint", 0.349, 10),
+      ElementsAre(AllOf(HasSubstr("joints stand at their limits"), HasSubstr("LAy_joint (10 %)"))));
+  EXPECT_THAT(Judge("LAy_joint", 0.349, 4), IsEmpty());
+  EXPECT_THAT(Judge("LAy_joint", 0.3, 50), IsEmpty());
+}
+
+TEST_F(BodyLimitsTest, AStraightKneeStands) { EXPECT_THAT(Judge("LKx_joint", 0, 100), IsEmpty()); }
+
+TEST_F(BodyLimitsTest, WhatOneMarkerAloneShowsCanNotTell) {
+  std::erase_if(setup_.mapping.assignments, [&](const MarkerAssignment& one) {
+    const std::string& name = setup_.model->markers()[one.marker].name;
+    return name == "MARKER_LMT1" || name == "MARKER_LMT5";
+  });
+  EXPECT_THAT(Judge("LMrot_joint", 0.2617, 100), IsEmpty());
+}
+
+TEST_F(BodyLimitsTest, AnAnkleAboveItsHipIsNamed) {
+  const std::vector<std::string> reasons = Judge("LHx_joint", 1.64, 60);
+  EXPECT_THAT(reasons, Contains(HasSubstr("the left ankle is above its hip in 60 %")));
+}
+
+}  // namespace
+}  // namespace mmm_converter
