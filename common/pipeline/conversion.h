@@ -22,6 +22,7 @@
 namespace mmm_converter {
 
 struct GroundStudy;
+struct NormalBands;
 struct RecordedForces;
 
 /// To which robot a motion is brought. No file: to none.
@@ -74,6 +75,8 @@ struct ConversionPlan {
   bool keeps_covariances = false;
   bool takes_covariances = false;                ///< where the converter has them
   std::shared_ptr<const RecordedForces> forces;  ///< where an export is made of them
+  PatientRequest patient;
+  std::shared_ptr<const NormalBands> normal;  ///< null: no file was named
   Warnings warnings;
 };
 
