@@ -23,6 +23,7 @@
 #include "common/pipeline/osim_scaling_run.h"
 #include "common/support/atomic_file.h"
 #include "common/support/output_plan.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -70,6 +71,7 @@ Examples
   MMMConverterS2KF convert both.c3d --label --subject-file anna.xml --and-subject-file ben.xml
   MMMConverterS2KF convert unlabelled.c3d --label --like standing.c3d --height 1.68
   MMMConverterS2KF convert walk.c3d run.c3d --subject-file anna.xml --report anna.html
+  MMMConverterS2KF convert bare1.c3d bare2.c3d shoe1.c3d --condition barefoot,barefoot,shoes --report anna.html
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
   MMMConverterS2KF convert cup.c3d --object --object-models objects
@@ -134,6 +136,21 @@ void LogWarningsOf(const AllMotions& all) {
   }
 }
 
+// Of several recordings a condition for each, in their order, or one for all.
+void SpreadConditions(std::vector<ConversionRequest>* requests) {
+  const std::vector<std::string> conditions = Split(requests->front().input.patient.condition, ',');
+  if (conditions.size() == 1) return;
+  if (conditions.size() != requests->size()) {
+    throw UsageError(fmt::format(
+        "convert: --condition names {} conditions of {} recordings; name one for all, or one for "
+        "each in their order",
+        conditions.size(), requests->size()));
+  }
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    (*requests)[i].input.patient.condition = conditions[i];
+  }
+}
+
 // Each is written where it would be alone; the page has all of them.
 int ConvertSeveral(const Arguments& arguments) {
   std::vector<std::string> options = {"output",      "summary",   "marker-set-out",
@@ -161,6 +178,7 @@ int ConvertSeveral(const Arguments& arguments) {
     plan.Read(file);
     plan.Write(DefaultOutput(file, IsOsimModel(requests.back().input)));
   }
+  SpreadConditions(&requests);
   plan.Write(arguments.Get("report").value_or(""));
   plan.Check();
   std::vector<ConversionReport> reports;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "MMMConverterS2KF/report/ground_json.h"
+#include "MMMConverterS2KF/report/patient_json.h"
 #include "MMMConverterS2KF/report/report.h"
 #include "common/support/units.h"
 
@@ -101,7 +102,8 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
                         DescribeForPage(*report) + of_all, &comparisons.back(), &grounds.back(),
                         Name(report->verdict.level)});
   }
-  return FormatReport(TitleOf(reports, failures.size()), sections);
+  const Json patient = PatientJson(reports);
+  return FormatReport(TitleOf(reports, failures.size()), sections, &patient);
 }
 
 }  // namespace mmm_converter

@@ -2,31 +2,169 @@
 #include "MMMConverterS2KF/report/gait_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "MMMConverterS2KF/report/packed_array.h"
 #include "common/angles/anatomical_angles.h"
+#include "common/angles/gait_feet.h"
 #include "common/angles/gait_table.h"
+#include "common/angles/normal_bands.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-Json Samples(const std::array<double, GaitCycle::kSamples>& values, double unit, int decimals) {
+constexpr int kDrawnStrides = 30;  // of each foot and angle: more are one grey
+constexpr int kDrawnSamples = 51;  // every second percent
+
+using Samples = std::array<double, GaitCycle::kSamples>;
+
+Json SamplesJson(const Samples& values, double unit, int decimals) {
   Json out = Json::array();
   for (const double value : values) out.push_back(Number(unit * value, decimals));
   return out;
 }
 
+/// scale: to the unit, and to the side's own sign.
 Json CycleJson(const GaitCycle& cycle, const char* unit, double scale, int decimals) {
   return {{"joint", cycle.angle.joint},
           {"side", Name(cycle.side)},
           {"what", cycle.angle.motion},
           {"unit", unit},
           {"strides", cycle.strides},
-          {"mean", Samples(cycle.mean, scale, decimals)},
-          {"sd", Samples(cycle.deviation, scale, decimals)},
-          {"uncertainty", Samples(cycle.uncertainty, scale, decimals)}};
+          {"mean", SamplesJson(cycle.mean, scale, decimals)},
+          {"sd", SamplesJson(cycle.deviation, std::abs(scale), decimals)},
+          {"uncertainty", SamplesJson(cycle.uncertainty, std::abs(scale), decimals)}};
+}
+
+/// Some single strides, evenly chosen, a column each.
+Json SinglesJson(const std::vector<GaitCycle>& singles, double scale) {
+  const int all = static_cast<int>(singles.size());
+  const int count = std::min(all, kDrawnStrides);
+  Eigen::MatrixXd columns(kDrawnSamples, count);
+  for (int i = 0; i < count; ++i) {
+    const GaitCycle& one = singles[static_cast<std::size_t>(i * all / count)];
+    for (int k = 0; k < kDrawnSamples; ++k) columns(k, i) = scale * one.mean[2 * k];
+  }
+  return ToJson(PackQuantised(columns));
+}
+
+bool IsSame(const GaitCycle& a, const GaitCycle& b) {
+  return a.side == b.side && std::string_view(a.angle.joint) == b.angle.joint &&
+         std::string_view(a.angle.motion) == b.angle.motion;
+}
+
+/// The angles of each stride, and how the foot stands to its way.
+std::vector<GaitCycle> SingleCycles(const ConversionReport& report, const GroundStudy& ground,
+                                    const Gait& gait) {
+  PoseTrajectory motion = report.result.trajectory;
+  motion.standard_deviations.resize(0, 0);
+  const AnatomicalAngles angles = ComputeAnatomicalAngles(*report.plan.setup.model, motion);
+  std::vector<GaitCycle> singles;
+  for (const Stride& stride : gait.strides) {
+    for (GaitCycle& one : CyclesOf(angles, {stride})) singles.push_back(one);
+    singles.push_back(FootProgression(ground.feet, stride));
+  }
+  return singles;
+}
+
+std::vector<GaitCycle> ThoseOf(const GaitCycle& cycle, const std::vector<GaitCycle>& singles) {
+  std::vector<GaitCycle> own;
+  std::copy_if(singles.begin(), singles.end(), std::back_inserter(own),
+               [&](const GaitCycle& one) { return IsSame(one, cycle); });
+  return own;
+}
+
+/// Mean, deviation and number of what is known, as the summary of strides has figures.
+Json FigureJson(const std::vector<double>& values) {
+  double sum = 0, squares = 0, count = 0;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    ++count;
+  }
+  for (const double value : values) {
+    const double apart = value - sum / count;
+    if (std::isfinite(apart)) squares += apart * apart;
+  }
+  return {{"mean", Number(sum / count, 3)},
+          {"sd", count > 1 ? Number(std::sqrt(squares / (count - 1)), 3) : Json(nullptr)},
+          {"strides", static_cast<int>(count)}};
+}
+
+void AddDoubleSupport(const Gait& gait, const Contacts& contacts, Json* summary) {
+  for (const Side side : kSides) {
+    std::vector<double> shares;
+    for (const Stride& one : gait.strides) {
+      if (one.side == side) shares.push_back(kPercent * DoubleSupport(one, contacts));
+    }
+    (*summary)[Name(side)]["double_support_percent"] = FigureJson(shares);
+  }
+}
+
+Json BandsJson(const NormalBands& normal) {
+  Json bands = Json::array();
+  for (const NormalBand& one : normal.bands) {
+    const double sign = one.side ? OwnSideSign(one.joint, one.motion, *one.side) : 1;
+    bands.push_back({{"joint", one.joint},
+                     {"what", one.motion},
+                     {"side", one.side ? Json(Name(*one.side)) : Json(nullptr)},
+                     {"mean", SamplesJson(one.mean, sign, 2)},
+                     {"sd", SamplesJson(one.deviation, 1, 2)}});
+  }
+  return {{"source", normal.source}, {"bands", bands}};
+}
+
+/// Of each foot the Gait Variable Scores of its strides, and their root mean square, the Gait
+/// Profile Score. Null: a normal band is missing, or an angle.
+Json ProfileJson(const Gait& gait, const std::vector<GaitCycle>& singles,
+                 const NormalBands& normal) {
+  Json profile;
+  for (const Side side : kSides) {
+    std::vector<double> squares(gait.strides.size(), 0);
+    Json scores = Json::array();
+    for (const ProfileAngle& angle : kProfileAngles) {
+      const NormalBand* band = normal.Find(angle.joint, angle.motion, side);
+      if (band == nullptr) return nullptr;
+      GaitCycle asked;
+      asked.angle = {angle.joint, "", angle.motion};
+      asked.side = side;
+      std::vector<double> values;
+      for (const GaitCycle& one : ThoseOf(asked, singles)) {
+        values.push_back(VariableScore(one, *band));
+        squares[values.size() - 1] += values.back() * values.back() / kProfileAngles.size();
+      }
+      if (values.empty()) return nullptr;
+      squares.resize(std::min(squares.size(), values.size()));
+      Json score = FigureJson(values);
+      score["joint"] = angle.joint;
+      score["what"] = angle.motion;
+      scores.push_back(score);
+    }
+    for (double& one : squares) one = std::sqrt(one);
+    profile[Name(side)] = {{"variables", scores}, {"score", FigureJson(squares)}};
+  }
+  return profile;
+}
+
+Json AngleCyclesJson(const Gait& gait, const std::vector<GaitCycle>& singles) {
+  std::vector<GaitCycle> cycles = gait.cycles;
+  for (const Side side : kSides) {
+    GaitCycle foot;
+    foot.angle = {"foot", Name(side), "progression"};
+    foot.side = side;
+    const std::vector<GaitCycle> own = ThoseOf(foot, singles);
+    if (!own.empty()) cycles.push_back(MeanOf(own));
+  }
+  Json out = Json::array();
+  for (const GaitCycle& one : cycles) {
+    const double scale = kDegrees * OwnSideSign(one.angle.joint, one.angle.motion, one.side);
+    out.push_back(CycleJson(one, "°", scale, 2));
+    out.back()["singles"] = SinglesJson(ThoseOf(one, singles), scale);
+  }
+  return out;
 }
 
 }  // namespace
@@ -35,14 +173,23 @@ Json GaitPageJson(const ConversionReport& report, const GroundStudy& ground) {
   if (!HasAnatomy(*report.plan.setup.model)) return nullptr;
   const Gait gait = ground.gait ? *ground.gait : GaitOf(report, ground);
   if (gait.strides.empty()) return nullptr;
-  Json cycles = Json::array();
+  const std::vector<GaitCycle> singles = SingleCycles(report, ground, gait);
+  Json cycles = AngleCyclesJson(gait, singles);
   for (const GaitCycle& one : ForceCyclesOf(report, ground, gait)) {
     const bool is_force = std::string_view(one.angle.motion).ends_with("force");
     cycles.push_back(CycleJson(one, is_force ? "body weights" : "N m/kg", 1, 3));
   }
-  for (const GaitCycle& one : gait.cycles) cycles.push_back(CycleJson(one, "°", kDegrees, 2));
-  const Json told = ParseJson(FormatGaitJson(gait));
-  return {{"left_out", gait.left_out}, {"summary", told["summary"]}, {"cycles", cycles}};
+  Json summary = ParseJson(FormatGaitJson(gait))["summary"];
+  AddDoubleSupport(gait, ground.contacts, &summary);
+  Json out = {{"condition", TextOrNull(report.plan.patient.condition)},
+              {"left_out", gait.left_out},
+              {"summary", summary},
+              {"cycles", cycles}};
+  if (report.plan.normal) {
+    out["normal"] = BandsJson(*report.plan.normal);
+    out["profile"] = ProfileJson(gait, singles, *report.plan.normal);
+  }
+  return out;
 }
 
 }  // namespace mmm_converter

@@ -11,8 +11,11 @@
 namespace mmm_converter {
 namespace {
 
-std::string FormatData(const std::vector<ReportSection>& sections) {
+std::string FormatData(const std::vector<ReportSection>& sections, const Json* patient) {
   std::string blocks;
+  if (patient != nullptr && !patient->is_null()) {
+    blocks += DataBlock("patient", FormatJsonLine(*patient));
+  }
   for (const ReportSection& section : sections) {
     blocks += DataBlock("heading", FormatJsonLine({{"title", section.title},
                                                    {"text", section.text},
@@ -29,8 +32,9 @@ std::string FormatData(const std::vector<ReportSection>& sections) {
 
 }  // namespace
 
-std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections) {
-  const std::string data = FormatData(sections);
+std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections,
+                         const Json* patient) {
+  const std::string data = FormatData(sections, patient);
   return FormatPage(
       {.title = title,
        .styles = PageStyles(),

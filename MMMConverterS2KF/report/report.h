@@ -19,7 +19,9 @@ struct ReportSection {
 };
 
 /// One self-contained HTML page: tables, a player, plots. A single conversion is a comparison of
-/// one contender on one trial.
-std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections);
+/// one contender on one trial. patient: PatientJson, whose page begins with the person and ends
+/// with the tracking's figures; null, or of null: a page of recordings.
+std::string FormatReport(const std::string& title, const std::vector<ReportSection>& sections,
+                         const Json* patient = nullptr);
 
 }  // namespace mmm_converter

@@ -21,6 +21,13 @@ struct MmmPart {
   std::string model_path;  ///< the model as the file names it; empty: none
 };
 
+/// What a file says of its making, as UTF-8; empty: it does not say.
+struct RecordingOrigin {
+  std::string subject;  ///< name or number of who was recorded
+  std::string date;     ///< as the file has it; of numbers year-month-day
+  std::string system;   ///< company and program that recorded it
+};
+
 /// What a user says of how a file is to be read, as far as the format is concerned.
 struct ContentOptions {
   bool ignore_residuals = false;  ///< C3D: also use points that are marked invalid
@@ -44,6 +51,7 @@ struct RecordingContent {
   long first_frame = 1;               ///< number of the first stored frame in the capture
   long declared_frames = 0;           ///< that the file says it holds; 0: it does not say
   std::string comment;                ///< what the file says of itself
+  RecordingOrigin origin;
   std::optional<MmmPart> mmm;
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
   /// To be called once.

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/angles/normal_bands.h"
 #include "common/calibrate/joint_doubts.h"
+#include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/io/tables/osim_tables.h"
@@ -202,6 +204,11 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   plan.model_output = request.model_output;
   plan.self_calibrates = request.self_calibrate && !plan.object;
   CheckForces(request.exports, &plan);
+  plan.patient = request.input.patient;
+  if (const std::string& file = plan.patient.normal_file; !file.empty()) {
+    plan.normal = std::make_shared<const NormalBands>(
+        ParseNormalBands(ReadFileContent(file, kMostNormalBytes), file));
+  }
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   plan.takes_covariances = TakeCovariances(request.exports);
   plan.opened = opened.files();

@@ -23,6 +23,7 @@
 namespace mmm_converter {
 
 struct GroundStudy;
+struct NormalBands;
 struct RecordedForces;
 
 /// To which robot a motion is brought. No file: to none.
@@ -76,6 +77,8 @@ struct ConversionPlan {
   bool takes_covariances = false;                ///< where the converter has them
   std::shared_ptr<const RecordedForces> forces;  ///< where an export is made of them
   std::set<std::string> opened;                  ///< files; see OpenedFiles
+  PatientRequest patient;
+  std::shared_ptr<const NormalBands> normal;  ///< null: no file was named
   Warnings warnings;
 };
 

@@ -139,6 +139,21 @@ std::vector<Option> PersonOptions(InputRequest* input) {
           kPersons & ~(kMotions | task::kLearnMarkers), &input->marker_file)};
 }
 
+std::vector<Option> PageOptions(PatientRequest* patient) {
+  return {
+      Row({"subject-name", "subjectName", "subject_name"}, {OptionKind::kText, "NAME"},
+          "the person's name or number on the page", "what the recording says", task::kConvert,
+          &patient->name),
+      Row({"condition", "condition", "condition"}, {OptionKind::kText, "TEXT"},
+          "on the page: how the person moved, as \"barefoot\"; of several recordings one for each "
+          "(A,B,B), whose strides are compared",
+          "", task::kConvert, &patient->condition),
+      Row({"normal", "normal", "normal"}, kFile,
+          "CSV with bands of healthy gait (joint, angle, percent, mean_degrees, sd_degrees), which "
+          "the page draws behind the strides and scores them by",
+          "", task::kConvert, &patient->normal_file)};
+}
+
 std::vector<Option> ConverterOptions(ConverterRequest* converter) {
   return {
       Row({"config,c", "config", "config"}, kShipped, "configuration, or the name of a shipped one",
@@ -233,6 +248,7 @@ std::vector<Option> Options(ConversionRequest* request) {
   Add("Files", MotionOptions(request), &options);
   Add("Recording", ReadingOptions(request), &options);
   Add("Person and model", PersonOptions(&request->input), &options);
+  Add("Page", PageOptions(&request->input.patient), &options);
   Add("Converter", ConverterOptions(&request->converter), &options);
   Add("Labels", LabelOptions(request), &options);
   Add("Calibration",

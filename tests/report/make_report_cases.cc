@@ -24,8 +24,9 @@ void MakeReports(const std::string& folder) {
   WriteFileAtomically(folder + "/hostile.html",
                       FormatReport(text, {{text, text, &hostile}, {"Failed", "", &failed}}));
   const Json ground = mmm_converter::testing::GroundCase(hostile.trials[0].markers.num_frames());
+  const Json patient = mmm_converter::testing::PatientCase();
   WriteFileAtomically(folder + "/ground.html",
-                      FormatReport("Ground", {{"Ground", "", &hostile, &ground}}));
+                      FormatReport("Ground", {{"Ground", "", &hostile, &ground}}, &patient));
   WriteFileAtomically(folder + "/hostile_dynamics.html",
                       mmm_converter::testing::HostileDynamicsPage());
   const LabelReport labels = mmm_converter::testing::LabelCase("RKNE");

@@ -3,6 +3,7 @@
 // its children, so that a posture is the root's pose and an angle for each joint.
 
 const kShortestBone = 0.012;  // [m]
+const kShortestStroke = 0.04;  // [m], so that fingers are none
 const kLargestHead = 0.14;  // [m], of markers around it from their middle
 
 // A spindle along +y from 0 to 1.
@@ -100,6 +101,7 @@ class Body {
     const width = Math.min(0.11 * length, 0.03);
     bone.scale.set(width, length, width);
     bone.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), tip.clone().normalize());
+    bone.userData = {tip: tip.clone(), segment: this.nodes.indexOf(parent)};
     parent.add(bone);
     this.bones.push(bone);
   }
@@ -138,6 +140,7 @@ class Body {
     ball.position.copy(middle);
     ball.scale.set(0.72 * radius, 1.15 * radius, 0.85 * radius);
     ball.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), node.position.clone().normalize());
+    ball.userData = {tip: middle.clone(), segment: this.nodes.indexOf(node), radius};
     node.add(ball);
     this.bones.push(ball);
   }
@@ -210,6 +213,18 @@ class Body {
     const place = new THREE.Vector3();
     for (const node of [...this.nodes, ...this.bones]) box.expandByPoint(place.setFromMatrixPosition(node.matrixWorld));
     return box;
+  }
+
+  // Bones and head as lines, as the posture is set: ends and width [m].
+  strokes() {
+    const isDrawn = ({tip}) => tip && tip.length() > kShortestStroke;
+    return this.bones.filter((bone) => isDrawn(bone.userData)).map((bone) => {
+      const {tip, segment, radius} = bone.userData;
+      const to = this.nodes[segment].localToWorld(tip.clone());
+      const from = radius ? to : new THREE.Vector3().setFromMatrixPosition(this.nodes[segment].matrixWorld);
+      return {from: from.toArray(), to: to.toArray(), segment, isPale: bone.material === this.pale,
+        width: radius ? 1.9 * radius : Math.min(0.05, 0.012 + 0.14 * tip.length())};
+    });
   }
 
   markerPosition(label, target) {

@@ -14,15 +14,27 @@ class Chart {
     this.unit = unit;
     this.digits = digits;
     this.hasBands = this.lines.some((line) => line.band);
-    this.plot = element("div", {class: "plot-area", role: "img", "aria-label": label});
+    this.plot = element("div", {class: "plot-area", role: "img", "aria-label": this.describe(label)});
     this.cursor = element("div", {class: "cursor"});
     this.readout = element("p", {class: "readout", "aria-hidden": "true"});
     this.label = label;
-    replaceContent(host, this.plot, this.readout, makePlotButtons(() => this.plotted()));
+    this.paper = element("div", {class: "paper"});
+    replaceContent(host, this.plot, this.readout, makePlotButtons(() => this.plotted()), this.paper);
+    this.shown = {isLogarithmic: logarithmic || false, hasNoScale: hasNoScale || false};
     this.graph = new Dygraph(this.plot, this.rows(), this.options(logarithmic, range, shades || [], hasNoScale));
     this.plot.append(this.cursor);
     this.setFrame(view.frame);
     this.write(null);
+    Chart.all.add(this);
+  }
+
+  // In words, for who does not see it.
+  describe(label) {
+    const told = this.lines.filter((line) => line.name && !line.says).map((line) => {
+      const [least, most] = extremes([line], this.view.trial.frames);
+      return least <= most ? `${line.name} from ${formatNumber(least, this.digits)} to ${formatNumber(most, this.digits)}` : `${line.name} unknown`;
+    });
+    return told.length ? `${label}: ${told.join(", ")}` : label;
   }
 
   rows() {
@@ -43,8 +55,16 @@ class Chart {
   // As it is saved.
   plotted() {
     const {trial} = this.view;
-    return {graph: this.graph, title: this.label, unit: this.unit, xName: "time [s]",
-      xs: Array.from({length: trial.frames}, (_, k) => trial.time(k)), lines: this.lines};
+    return {...this.shown, title: this.label, unit: this.unit, xName: "time [s]", lines: this.lines,
+      xs: Array.from({length: trial.frames}, (_, k) => trial.time(k)),
+      window: this.graph.xAxisRange(), range: this.graph.yAxisRange()};
+  }
+
+  // In place of the canvas, which paper would have as it was on the screen, if at all.
+  print() {
+    if (this.host.offsetParent === null) return;
+    const isLow = this.host.classList.contains("low");
+    replaceContent(this.paper, svgChart(this.plotted(), {width: 700, height: isLow ? 150 : 200, hasLegend: true}));
   }
 
   options(logarithmic, range, shades, hasNoScale) {
@@ -112,9 +132,29 @@ class Chart {
   }
 
   destroy() {
+    Chart.all.delete(this);
     this.graph.destroy();
     this.graph = null;
   }
+}
+
+Chart.all = new Set();  // that are in the page
+
+// Before the page is laid out on paper its charts get pictures for it, in the colours of paper. Nothing may wait for the
+// next frame of the screen, as there is none.
+function drawOnPaper(view) {
+  const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
+  window.addEventListener("beforeprint", () => {
+    document.documentElement.classList.add("on-paper");
+    for (const details of document.querySelectorAll("details")) details.open = true;
+    if (isDark()) view.refresh();
+    for (const chart of Chart.all) chart.print();
+    if (view.print) view.print();
+  });
+  window.addEventListener("afterprint", () => {
+    document.documentElement.classList.remove("on-paper");
+    if (isDark()) view.refresh();
+  });
 }
 
 // On a phone a finger scrolls the page; a tap still jumps.

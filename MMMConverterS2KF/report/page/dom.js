@@ -112,11 +112,9 @@ function showNotes(warnings) {
   replaceContent(byId("notes"), ...warnings.map((warning) => element("li", {}, warning)));
 }
 
-// In other colours where the reader chooses these, or prints.
+// In other colours where the reader chooses these.
 function redrawWithColours(view) {
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
-    matchMedia(query).addEventListener("change", () => view.refresh());
-  }
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.refresh());
 }
 
 // For tests: all that was asked for is drawn.

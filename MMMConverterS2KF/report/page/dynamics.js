@@ -89,6 +89,7 @@ function start() {
   showNotes(figures.warnings);
   const view = new DynamicsView(figures, new Series(readBlock("series")));
   redrawWithColours(view);
+  drawOnPaper(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures,

@@ -31,9 +31,9 @@ function csvOf(heads, rows) {
   return [heads, ...rows].map((row) => row.map(csvCell).join(",") + "\n").join("");
 }
 
-// A plot as it is shown. plot: {graph, title, unit, xName, xs, lines: as of a Chart, values(i) at xs[i]}.
-function plotCsv({graph, unit, xName, xs, lines}) {
-  const [from, to] = graph.xAxisRange();
+// A chart as it is shown: as svgChart() takes it.
+function plotCsv({window: shown, unit, xName, xs, lines}) {
+  const [from, to] = shown || [-Infinity, Infinity];
   const named = lines.filter((line) => line.name);
   const withUnit = (name) => unit ? `${name} [${unit}]` : name;
   const heads = named.flatMap((line) => [withUnit(line.name),
@@ -43,65 +43,14 @@ function plotCsv({graph, unit, xName, xs, lines}) {
   return csvOf([xName, ...heads], rows);
 }
 
-// Runs of indices whose places are known.
-function knownRuns(count, isKnown) {
-  const runs = [];
-  for (let i = 0, last = -2; i < count; ++i) {
-    if (!isKnown(i)) continue;
-    if (last !== i - 1) runs.push([]);
-    runs[runs.length - 1].push(i);
-    last = i;
-  }
-  return runs;
-}
-
-function svgOfLine(graph, xs, line) {
-  const place = (i, value) => `${graph.toDomXCoord(xs[i]).toFixed(2)},${graph.toDomYCoord(value).toFixed(2)}`;
-  const drawn = [];
-  const band = line.band || (() => [NaN, NaN]);
-  for (const run of knownRuns(xs.length, (i) => line.band && band(i).every(Number.isFinite))) {
-    const points = [...run.map((i) => place(i, band(i)[0])), ...run.slice().reverse().map((i) => place(i, band(i)[1]))];
-    drawn.push(svgElement("polygon", {points: points.join(" "), fill: line.colour, "fill-opacity": 0.15}));
-  }
-  for (const run of knownRuns(xs.length, (i) => Number.isFinite(line.values(i)))) {
-    drawn.push(svgElement("polyline", {points: run.map((i) => place(i, line.values(i))).join(" "), fill: "none",
-      stroke: line.colour, "stroke-width": line.width || 1.6, ...(line.dash ? {"stroke-dasharray": line.dash.join(" ")} : {})}));
-  }
-  return drawn;
-}
-
-const kLegendRow = 18;  // [px]
-const kTitleHeight = 26;
-
-function plotSvg({graph, title, xs, lines}) {
-  const area = graph.getArea();
-  const {width, height} = graph.size();
-  const ink = themeColour("text");
-  const text = (x, y, anchor, words) => svgElement("text", {x, y, "text-anchor": anchor, fill: ink}, words);
-  const rule = (x1, y1, x2, y2) => svgElement("line", {x1, y1, x2, y2, stroke: themeColour("grid")});
-  const {xticks, yticks} = graph.layout_;
-  const ticks = [
-    ...xticks.filter((tick) => tick.has_tick !== false).flatMap(({pos, label}) => [
-      rule(area.x + pos * area.w, area.y, area.x + pos * area.w, area.y + area.h),
-      text(area.x + pos * area.w, area.y + area.h + 15, "middle", label || "")]),
-    ...yticks.filter((tick) => tick.has_tick !== false).flatMap(({pos, label}) => [
-      rule(area.x, area.y + pos * area.h, area.x + area.w, area.y + pos * area.h),
-      text(area.x - 5, area.y + pos * area.h + 4, "end", label || "")])];
-  const named = lines.filter((line) => line.name);
-  const legend = named.flatMap((line, i) => {
-    const y = height + kLegendRow * (i + 0.6);
-    return [svgElement("line", {x1: area.x, y1: y - 4, x2: area.x + 26, y2: y - 4, stroke: line.colour, "stroke-width": 3,
-      ...(line.dash ? {"stroke-dasharray": line.dash.join(" ")} : {})}), text(area.x + 34, y, "start", line.name)];
-  });
-  const clip = svgElement("clipPath", {id: "area"},
-    svgElement("rect", {x: area.x, y: area.y, width: area.w, height: area.h}));
-  const whole = kTitleHeight + height + kLegendRow * (named.length + 0.5);
-  const svg = svgElement("svg", {viewBox: `0 ${-kTitleHeight} ${width} ${whole}`, width, height: whole,
-    "font-family": "sans-serif", "font-size": 12},
-    clip, svgElement("rect", {x: 0, y: -kTitleHeight, width, height: whole, fill: themeColour("panel")}),
-    text(area.x, -8, "start", title), ...ticks,
-    svgElement("g", {"clip-path": "url(#area)"}, ...lines.flatMap((line) => svgOfLine(graph, xs, line))), ...legend);
-  return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(svg)}\n`;
+// With colours as they are now, as a file has no style sheet.
+function plotSvg(chart) {
+  const svg = svgChart(chart, {width: 720, height: 320, isTitled: true, hasLegend: true});
+  const [, , width, height] = svg.getAttribute("viewBox").split(" ");
+  for (const [name, value] of Object.entries({width, height, "font-family": "sans-serif"})) svg.setAttribute(name, value);
+  svg.prepend(drawn("rect", {width, height}, "fill:var(--panel)"));
+  const text = new XMLSerializer().serializeToString(svg).replace(/var\(--([a-z0-9-]+)\)/g, (_, name) => themeColour(name));
+  return `<?xml version="1.0" encoding="UTF-8"?>\n${text}\n`;
 }
 
 function saveButton(label, title, action) {
@@ -110,7 +59,7 @@ function saveButton(label, title, action) {
   return button;
 }
 
-// describe(): the plot as it is now.
+// describe(): the chart as it is now.
 function makePlotButtons(describe) {
   return element("div", {class: "save"},
     saveButton("CSV", "Save the numbers shown", () => {

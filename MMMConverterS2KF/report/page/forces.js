@@ -2,7 +2,18 @@
 // What force plates measured: their outlines, and the ground's force on the person as an arrow.
 
 const kSideColours = {left: "#c8553d", right: "#2a7f9e"};
+const kSingleSamples = 51;  // of a stride over the cycle
 const kNewtonAMetre = 1000;  // of arrows, where nobody knows the person's weight
+
+// Single strides of each cycle, as lists.
+function withSingles(gait) {
+  for (const cycle of gait.cycles) {
+    if (!cycle.singles) continue;
+    const all = Array.from(unpack(cycle.singles));
+    cycle.singles = Array.from({length: all.length / kSingleSamples}, (_, i) => all.slice(i * kSingleSamples, (i + 1) * kSingleSamples));
+  }
+  return gait;
+}
 
 // The ground of a trial. Arrows are a metre long for a body weight.
 class Ground {
@@ -11,7 +22,7 @@ class Ground {
     this.mass = json.mass_kg || null;
     this.weight = json.body_weight_n || null;
     this.notes = json.notes;
-    this.gait = json.gait || null;
+    this.gait = json.gait ? withSingles(json.gait) : null;
     this.plates = json.plates.map((one) => {
       const plate = {number: one.number, corners: one.corners, loads: one.loads};
       lazily(plate, "force", one.force);
@@ -30,6 +41,11 @@ class Ground {
       const load = plate.loads.find((one) => one.begin_s <= time && time <= one.end_s);
       return [{plate, foot: load ? load.foot : "unknown", isPart: Boolean(load && load.part_of_foot), force, pressure}];
     });
+  }
+
+  // Sentences of what there is to know of the forces.
+  get noteText() {
+    return this.notes.map((note) => `${note.slice(0, 1).toUpperCase()}${note.slice(1)}.`).join(" ");
   }
 
   get scale() {
@@ -128,6 +144,5 @@ function showGround(ground) {
     `force plate; 1 m is ${ground.weight ? `a body weight, ${formatNumber(ground.weight, 0)} N ` +
       `(${formatNumber(ground.mass, 1)} kg)` : ground.scale}. Who stands on the plate is told by the foot that is ` +
     "nearest to it: red the left, blue the right, else both or none."] : [];
-  const notes = ground.notes.map((note) => `${note.slice(0, 1).toUpperCase()}${note.slice(1)}.`);
-  byId("forces-caption").textContent = [...said, ...notes].join(" ");
+  byId("forces-caption").textContent = [...said, ground.noteText].join(" ");
 }

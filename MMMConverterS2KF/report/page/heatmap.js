@@ -30,7 +30,10 @@ class HeatMap {
     this.canvas.addEventListener("click", (event) => this.view.seek(this.placeOf(event).frame));
     byId("heat-save").append(saveButton("CSV", "Save the numbers shown", () => this.saveNumbers()),
       saveButton("PNG", "Save the picture", () => saveCanvas("residuals", this.canvas)));
-    new ResizeObserver(this.redraw).observe(byId("heat-stage"));
+    // Paper takes the picture as it is, in another width.
+    new ResizeObserver(() => {
+      if (!matchMedia("print").matches) this.redraw();
+    }).observe(byId("heat-stage"));
   }
 
   // A row for each frame, [mm].
@@ -108,6 +111,7 @@ class HeatMap {
     const width = Math.max(1, Math.round(byId("heat-stage").clientWidth));
     this.canvas.width = width;
     this.canvas.height = kRowHeight * this.rows.length;
+    this.canvas.style.height = `${this.canvas.height}px`;
     const pen = this.canvas.getContext("2d");
     const picture = pen.createImageData(width, this.canvas.height);
     const ramp = heatRamp();

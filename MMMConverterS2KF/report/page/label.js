@@ -127,6 +127,7 @@ function start() {
   if (figures.changes.length > 0) replaceContent(byId("changes"), ...makeChanges(figures.changes, view));
   showNotes(figures.warnings);
   redrawWithColours(view);
+  drawOnPaper(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures,

@@ -8,7 +8,8 @@ class View {
     this.shown = new Set();  // converters, by index
     this.trial = null;
     this.player = new Player(this);
-    this.parts = [this.player, new Plots(this), new HeatMap(this), new Stills(this, this.player),
+    this.heatMap = new HeatMap(this);
+    this.parts = [this.player, new Plots(this), this.heatMap, new Stills(this),
       new GaitPart(this), new PersonPart(), new ReliabilityPart(this)];
     byId("trial").addEventListener("change", (event) => this.showTrial(Number(event.target.value)));
   }
@@ -48,6 +49,7 @@ class View {
     this.shown = new Set(this.trial.tracks.map((track) => track.contender));
     this.listConverters();
     replaceContent(byId("thinned"), describeThinning(this.trial, this.recordedFrames));
+    byId("viewbar").hidden = drawnCount(this.section) < 2 && this.trial.tracks.length < 2;
     byId("thinned").hidden = this.trial.every === 1 && this.trial.optimumEvery === 1;
     for (const part of this.parts) part.show(this.trial);
     this.refresh();
@@ -85,6 +87,11 @@ class View {
     for (const part of this.parts) part.setFrame(this.frame);
   }
 
+  // On paper, where nothing can wait.
+  print() {
+    if (this.trial) this.heatMap.draw();
+  }
+
   describe(frame) {
     const {trial} = this;
     const hidden = trial.labels.filter((_, label) => trial.isHidden(label, frame)).length;
@@ -99,6 +106,11 @@ class View {
     for (const part of this.parts) if (part.zoom) part.zoom(source, range);
     this.zooming = false;
   }
+}
+
+// Recordings of a section that have a picture.
+function drawnCount(section) {
+  return section.trials.filter((trial) => trial.tracks.length > 0).length;
 }
 
 // What a page of a long recording leaves out.
@@ -131,12 +143,12 @@ function listSections(view) {
 
 function start() {
   const view = new View(readSections());
+  const patient = document.querySelector("script.patient");
+  if (patient) showPatient(JSON.parse(patient.textContent));
   listSections(view);
   if (view.sections.length) view.showSection(0);
   redrawWithColours(view);
-  window.addEventListener("beforeprint", () => {
-    for (const details of document.querySelectorAll("details")) details.open = true;
-  });
+  drawOnPaper(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures: view.sections.map((section) => section.figures),

@@ -29,9 +29,11 @@ class Plots {
 
   show(trial) {
     const runs = this.view.section.figures.options.runs;
-    byId("distance-caption").textContent = "Mean distance between measured and model markers in each frame" +
+    const caption = "Mean distance between measured and model markers in each frame" +
       (runs > 1 ? `, over ${runs} runs: the line is their mean, the band their 5th to 95th percentile, the thin line their largest.` : ".") +
-      " Click to jump, drag to zoom, double-click to zoom out.";
+      " ";
+    replaceContent(byId("distance-caption"), caption,
+      element("span", {class: "on-screen"}, "Click to jump, drag to zoom, double-click to zoom out."));
     byId("hidden-part").hidden = !trial.hidesMarkers;
     byId("time-part").hidden = !trial.tracks.some((track) => track.seconds.some((seconds) => seconds > 0));
     byId("nis-part").hidden = !trial.tracks.some((track) => track.nis.some((nis) => nis > 0));

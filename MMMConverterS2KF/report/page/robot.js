@@ -209,6 +209,7 @@ function start() {
   replaceContent(byId("figures"), makeFigures(figures));
   const view = new RobotView(figures, readBlock("bodies"));
   redrawWithColours(view);
+  drawOnPaper(view);
   // For tests, and for who looks at the data in the browser's console.
   window.mmmReport = {
     figures,

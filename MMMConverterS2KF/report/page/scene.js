@@ -323,21 +323,4 @@ class Scene {
     this.renderer.render(this.scene, camera);
     this.figures.forEach((one, i) => { one.group.visible = visible[i]; });
   }
-
-  // A small picture of frame k, drawn with the large one's renderer, whose picture is lost.
-  drawStill(k, canvas) {
-    const ratio = this.renderer.getPixelRatio();
-    const side = Math.min(this.canvas.clientWidth, this.canvas.clientHeight, canvas.width / ratio);
-    const camera = this.camera.clone();
-    this.placeCamera(camera, this.trial.middle(k), this.trial.size);
-    this.setFrame(k);
-    this.renderer.setScissor(0, 0, side, side);
-    this.renderer.clear();
-    this.drawPart(camera, this.figures.filter((one) => one.group.visible), [0, 0, side, side]);
-    const pen = canvas.getContext("2d");
-    const pixels = side * ratio;
-    pen.clearRect(0, 0, canvas.width, canvas.height);
-    pen.drawImage(this.canvas, 0, this.canvas.height - pixels, pixels, pixels, 0, 0, canvas.width,
-      canvas.height);
-  }
 }

@@ -6,6 +6,7 @@
 #include "common/io/c3d/c3d_data.h"
 #include "common/io/c3d/c3d_numbers.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -21,6 +22,30 @@ namespace {
                     path, rotations));
   }
   throw Error(fmt::format("{}: the file holds no points", path));
+}
+
+/// A date as text, or as year, month and day.
+std::string DateOf(const C3dParameters& parameters) {
+  const C3dParameter* date = parameters.Find("TRIAL", "DATE");
+  if (date == nullptr || date->num_texts() > 0) return parameters.Text("TRIAL", "DATE");
+  const auto year = date->Number(0), month = date->Number(1), day = date->Number(2);
+  const auto is_in = [](const std::optional<double>& value, double least, double most) {
+    return value && *value >= least && *value <= most;
+  };
+  if (!is_in(year, 1900, 9999) || !is_in(month, 1, 12) || !is_in(day, 1, 31)) return "";
+  return fmt::format("{:04.0f}-{:02.0f}-{:02.0f}", *year, *month, *day);
+}
+
+RecordingOrigin OriginOf(const C3dParameters& parameters) {
+  const std::string company = parameters.Text("MANUFACTURER", "COMPANY");
+  const std::string software = parameters.Text("MANUFACTURER", "SOFTWARE");
+  // Of several subjects the file does not say whose markers these are.
+  const std::vector<std::string> names = parameters.TextList("SUBJECTS", "NAMES", 2);
+  RecordingOrigin origin;
+  if (names.size() == 1) origin.subject = ToUtf8(names.front());
+  origin.date = ToUtf8(DateOf(parameters));
+  origin.system = ToUtf8(company + (company.empty() || software.empty() ? "" : ", ") + software);
+  return origin;
 }
 
 }  // namespace
@@ -41,6 +66,7 @@ C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, 
   info_.outputs = C3dOutputNames(file_);
   info_.label_prefixes = parameters.TextList("SUBJECTS", "LABEL_PREFIXES", info_.labels.size());
   info_.comment = parameters.Text("MANUFACTURER", "COMMENT");
+  info_.origin = OriginOf(parameters);
   info_.up = parameters.Text("POINT", "Y_SCREEN");
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/io/c3d/c3d_file.h"
 #include "common/motion/marker_sequence.h"
+#include "common/motion/recording_content.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -19,6 +20,7 @@ struct C3dInfo {
   std::vector<std::string> outputs;  ///< labels that the file lists as angles, forces, powers, ...
   std::vector<std::string> label_prefixes;  ///< SUBJECTS:LABEL_PREFIXES
   std::string comment;                      ///< MANUFACTURER:COMMENT
+  RecordingOrigin origin;  ///< SUBJECTS:NAMES, TRIAL:DATE, MANUFACTURER:COMPANY and SOFTWARE
   std::string up;  ///< POINT:Y_SCREEN, the axis that points up on a screen, as "+Z"; may be empty
 };
 

@@ -160,6 +160,7 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
   recording.format = content.format;
   recording.first_frame = content.first_frame;
   recording.comment = std::move(content.comment);
+  recording.origin = std::move(content.origin);
   recording.mmm = std::move(content.mmm);
   const WarningContext context(warnings, file, recording.motion());
   if (content.is_settled) {

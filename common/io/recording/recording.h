@@ -48,7 +48,8 @@ struct Recording {
   std::string subject;                   ///< the one that was read; empty: no prefix
   long first_frame = 1;                  ///< number of the first stored frame in the capture
   std::string comment;                   ///< C3D files of this project: what they say of themselves
-  std::optional<MmmPart> mmm;            ///< of MMM files only
+  RecordingOrigin origin;
+  std::optional<MmmPart> mmm;  ///< of MMM files only
 
   std::string motion() const { return mmm ? mmm->motion : ""; }   ///< empty: not named
   BodySize size() const { return mmm ? mmm->size : BodySize(); }  ///< as the file says

@@ -70,6 +70,7 @@ void NameInputs(const InputRequest& request, OutputPlan* plan) {
   plan->Read(request.forces_file);
   plan->Read(request.person.processor_file);
   plan->Read(request.person.subject_file);
+  plan->Read(request.patient.normal_file);
 }
 
 Input ReadModel(const InputRequest& request, const ReadBefore& read_before, Warnings* warnings) {

@@ -20,6 +20,13 @@
 
 namespace mmm_converter {
 
+/// What the user says for the page that a clinician prints. Empty: what the recording says.
+struct PatientRequest {
+  std::string name;         ///< or number
+  std::string condition;    ///< "barefoot", "with orthosis"
+  std::string normal_file;  ///< bands of healthy gait, see ParseNormalBands
+};
+
 /// A recording and its person, as the user names them. Empty: a default.
 struct InputRequest {
   std::string file;
@@ -33,6 +40,7 @@ struct InputRequest {
   std::string forces_file;      ///< of the ground, beside a recording without (ReadExternalLoads)
   std::string marker_set;       ///< file or name; comes before the configuration's
   PersonRequest person;
+  PatientRequest patient;
   /// What was read of the file before, or made of arrays, and is then no file. Null: is read.
   WithWarnings<std::shared_ptr<const Recording>> recording = {};
 };

@@ -52,6 +52,31 @@ C3dSection Analog() {
       .Texts(2, "UNITS", 2, "N mV");
 }
 
+RecordingOrigin OriginOf(C3dSection section) {
+  const C3dBytes bytes = {.points = 1, .frames = {{1, 2, 3, 0}}};
+  return C3dReader(WriteTemp(bytes.File(section))).info().origin;
+}
+
+TEST(C3dContents, WhoWasRecordedWhenAndByWhat) {
+  const C3dSection who = C3dSection().Group(2, "SUBJECTS").Texts(2, "NAMES", 5, "Zo\xEB  ");
+  EXPECT_EQ(OriginOf(who).subject, "Zo\xC3\xAB");
+  const C3dSection two = C3dSection().Group(2, "SUBJECTS").Texts(2, "NAMES", 4, "Ann Ben ");
+  EXPECT_EQ(OriginOf(two).subject, "");  // whose markers these are is not said
+  const auto date = [](std::initializer_list<int> words) {
+    return OriginOf(C3dSection().Group(2, "TRIAL").Word(2, "DATE", words)).date;
+  };
+  EXPECT_EQ(date({2010, 3, 4}), "2010-03-04");
+  EXPECT_EQ(date({4, 3, 2010}), "");
+  EXPECT_EQ(date({2010, 3}), "");
+  EXPECT_EQ(OriginOf(C3dSection().Group(2, "TRIAL").Texts(2, "DATE", 7, "4.3.10 ")).date, "4.3.10");
+  const C3dSection system = C3dSection()
+                                .Group(2, "MANUFACTURER")
+                                .Texts(2, "COMPANY", 5, "Vicon")
+                                .Texts(2, "SOFTWARE", 5, "Nexus");
+  EXPECT_EQ(OriginOf(system).system, "Vicon, Nexus");
+  EXPECT_EQ(OriginOf(C3dSection()).system, "");
+}
+
 TEST(C3dContents, AnalogChannels) {
   const C3dFile file = Open(C3dBytes{.analog_words = 20, .analog_samples = 10}.File(Analog()));
   Warnings warnings;

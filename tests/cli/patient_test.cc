@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The page that a clinician prints: who it is of, and what strides are compared with.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+
+namespace mmm_converter {
+namespace {
+
+using testing::Handstand;
+using ::testing::HasSubstr;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::SharedData;
+using testing::TestFolder;
+using testing::WriteText;
+using Json = nlohmann::json;
+
+// A data block of a page; null: there is none.
+Json BlockOf(const std::string& file, const std::string& name) {
+  const std::string page = ReadText(file);
+  const std::string start = "class=\"" + name + "\">";
+  const std::size_t begin = page.find(start);
+  if (begin == std::string::npos) return nullptr;
+  const std::size_t first = begin + start.size();
+  return Json::parse(page.substr(first, page.find("</script>", first) - first));
+}
+
+Json GaitOf(const std::string& file) {
+  return BlockOf(file, "tracks")["trials"][0]["ground"]["gait"];
+}
+
+TEST(Patient, PageSaysWhoAndHow) {
+  const std::string page = TestFolder() + "/page.html";
+  const auto run =
+      RunProgram({"convert", Handstand(), "--height", "1.8", "-o", TestFolder() + "/o.xml",
+                  "--report", page, "--subject-name", "Ann </script>", "--condition", "barefoot"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json patient = BlockOf(page, "patient");
+  EXPECT_EQ(patient["name"], "Ann </script>");
+  EXPECT_EQ(patient["height_m"]["value"], 1.8);
+  EXPECT_EQ(patient["height_m"]["deviation"], nullptr);
+  EXPECT_EQ(patient["mass_kg"]["source"], "assumed");
+  ASSERT_EQ(patient["recordings"].size(), 1U);
+  EXPECT_EQ(patient["recordings"][0]["condition"], "barefoot");
+  EXPECT_EQ(patient["recordings"][0]["file"], "handstand.c3d");
+  EXPECT_EQ(patient["recordings"][0]["verdict"], "good");
+}
+
+TEST(Patient, NormalBandsThatCannotBeReadEndItBeforeAnythingIsWritten) {
+  const std::string norm = TestFolder() + "/norm.csv";
+  WriteText(norm, "joint,angle,percent,mean,sd\nknee,flexion,0,a,1\n");
+  const std::string out = TestFolder() + "/o.xml";
+  const auto wrong = RunProgram({"convert", Handstand(), "-o", out, "--normal", norm});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("norm.csv:2: mean is \"a\"; give a number"));
+  const auto missing = RunProgram({"convert", Handstand(), "-o", out, "--normal", norm + "x"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("norm.csvx"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const auto same =
+      RunProgram({"convert", Handstand(), "-o", out, "--normal", norm, "--report", norm});
+  EXPECT_EQ(same.exit_code, 1);
+  EXPECT_THAT(ReadText(norm), HasSubstr("knee"));
+}
+
+// The gait of a recording, compared with what it exports of itself: no difference is left.
+TEST(PatientRealFiles, StridesAreScoredAgainstNormalBands) {
+  const std::string walk = SharedData("field/c3dio_gait-pig.c3d");
+  if (!std::filesystem::exists(walk)) GTEST_SKIP() << "no " << walk;
+  const std::string csv = TestFolder() + "/norm.csv", page = TestFolder() + "/page.html";
+  const std::string out = TestFolder() + "/o.xml";
+  const auto first =
+      RunProgram({"convert", walk, "-o", out, "--export-gait", csv, "--report", page});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const Json patient = BlockOf(page, "patient");
+  EXPECT_EQ(patient["name"], "A22");  // SUBJECTS:NAMES
+  EXPECT_FALSE(GaitOf(page).contains("profile"));
+  std::string bands = "# Source: the same\n";
+  for (const char* side : {"left", "right"}) {
+    for (const char* end : {"0", "100"}) {
+      bands += std::string("foot,") + side + ",progression," + end + ",0,0,,2\n";
+    }
+  }
+  WriteText(csv, ReadText(csv) + bands);
+  const auto run = RunProgram({"convert", walk, "-o", out, "--normal", csv, "--report", page});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json gait = GaitOf(page);
+  EXPECT_EQ(gait["normal"]["source"], "the same");
+  for (const char* side : {"left", "right"}) {
+    const Json& scores = gait["profile"][side]["variables"];
+    ASSERT_EQ(scores.size(), 9U);
+    for (const Json& one : scores) {
+      EXPECT_EQ(one["strides"], 2);
+      // Of two strides each is half as far from their mean as from the other.
+      if (one["joint"] != "foot") EXPECT_LT(one["mean"].get<double>(), 5) << one;
+    }
+    EXPECT_GT(scores.back()["mean"], 0);
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter
