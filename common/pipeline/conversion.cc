@@ -181,7 +181,9 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   CheckExports(request.exports, *plan.setup.model);
   plan.subject_output = request.subject_output;
   plan.model_output = request.model_output;
-  plan.self_calibrates = request.self_calibrate && !plan.object;
+  // A skeleton tells its lengths itself.
+  plan.self_calibrates =
+      request.self_calibrate && !plan.object && plan.input.recording.body.empty();
   CheckForces(request.exports, &plan);
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   plan.takes_covariances = TakeCovariances(request.exports);

@@ -11,6 +11,7 @@ namespace mmm_converter::testing {
 
 const std::map<std::string, FuzzTarget>& FuzzTargets() {
   static const std::map<std::string, FuzzTarget> targets = {
+      {"bvh", ReadBvhBytes},
       {"c3d", ReadC3dBytes},
       {"conversion", ConvertRecordingBytes},
       {"converter_config", ReadConverterConfigBytes},
