@@ -91,7 +91,10 @@ std::string DescribeSubject(const ConversionReport& report) {
   }
   std::string text = fmt::format("subject    \"{}\": {} segments, {} markers", subject.name,
                                  subject.scales.size(), subject.offsets.size());
-  if (!plan.calibration) return text + ", from " + plan.person.subject_file + "\n";
+  if (!plan.calibration) {
+    const std::string& file = plan.person.subject_file;
+    return text + ", from " + (file.empty() ? "the skeleton" : file) + "\n";
+  }
   return text +
          fmt::format(
              ", from this recording: best postures of {} frames {:.1f} mm from the markers, "

@@ -9,6 +9,7 @@
 #include "common/math/up_axis.h"
 #include "common/model/body_size.h"
 #include "common/motion/marker_sequence.h"
+#include "common/motion/skeleton.h"
 
 namespace mmm_converter {
 
@@ -53,6 +54,11 @@ struct RecordingContent {
   std::string comment;                ///< what the file says of itself
   RecordingOrigin origin;
   std::optional<MmmPart> mmm;
+  /// Of a skeleton that is a body's: which labels are its joints; the length of its legs has told
+  /// the unit. Else none.
+  std::vector<SkeletonJoint> body;
+  double metres = 0;  ///< of a body: length of the unit
+  std::string doubt;  ///< of it; empty: none
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
   /// To be called once.
   std::function<MarkerSequence(const std::vector<int>& points,

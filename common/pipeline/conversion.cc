@@ -202,7 +202,9 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   CheckExports(request.exports, *plan.setup.model);
   plan.subject_output = request.subject_output;
   plan.model_output = request.model_output;
-  plan.self_calibrates = request.self_calibrate && !plan.object;
+  // A skeleton tells its lengths itself.
+  plan.self_calibrates =
+      request.self_calibrate && !plan.object && plan.input.recording.body.empty();
   CheckForces(request.exports, &plan);
   plan.patient = request.input.patient;
   if (const std::string& file = plan.patient.normal_file; !file.empty()) {

@@ -192,6 +192,7 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   TrackingSetup setup = report.recordings.front().setup;
   report.person = FindPerson(request.inputs.front().person, setup, first.recording, config,
                              &report.warnings, first.names.get());
+  if (!first.recording.body.empty()) report.person.subject = nullptr;  // it is what is estimated
   ScaleToPerson(ScalingOf(report.person, config), &setup);
   const std::vector<CalibrationRecording> recordings = RecordingsOf(report.recordings);
   Warnings warnings;

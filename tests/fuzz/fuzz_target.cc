@@ -12,6 +12,7 @@ namespace mmm_converter::testing {
 const std::map<std::string, FuzzTarget>& FuzzTargets() {
   static const std::map<std::string, FuzzTarget> targets = {
       {"body_map", ReadBodyMapBytes},
+      {"bvh", ReadBvhBytes},
       {"c3d", ReadC3dBytes},
       {"conversion", ConvertRecordingBytes},
       {"converter_config", ReadConverterConfigBytes},

@@ -26,6 +26,7 @@ std::string FileOf(std::string_view bytes);
 /// @throws std::logic_error saying what was expected.
 void Require(bool holds, const std::string& expected);
 
+void ReadBvhBytes(std::string_view bytes);
 void ReadC3dBytes(std::string_view bytes);
 void ReadTrcBytes(std::string_view bytes);
 void ReadNexusCsvBytes(std::string_view bytes);

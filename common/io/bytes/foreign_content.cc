@@ -20,6 +20,9 @@ constexpr std::pair<std::string_view, const char*> kPacked[] = {
     {"\x28\xB5\x2F\xFD", "zstd"},
 };
 
+constexpr std::pair<std::string_view, const char*> kScenes[] = {
+    {"Kaydara FBX Binary", "FBX"}, {"; FBX", "FBX"}, {"glTF", "glTF"}};
+
 /// With a mark, or "<" or a letter beside a zero.
 bool IsUtf16(std::string_view start) {
   if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF")) return true;
@@ -34,6 +37,13 @@ bool IsUtf16(std::string_view start) {
 std::string NameForeignContent(std::string_view start) {
   for (const auto& [mark, name] : kPacked) {
     if (start.starts_with(mark)) return fmt::format("is packed ({}); unpack it first", name);
+  }
+  for (const auto& [mark, name] : kScenes) {
+    if (!start.starts_with(mark)) continue;
+    return fmt::format(
+        "is a scene of characters ({}); export its motion as BVH (in Blender: File, "
+        "Import, then File, Export, Motion Capture)",
+        name);
   }
   if (IsUtf16(start)) return "is text in UTF-16; save it as UTF-8";
   if (!start.empty() && std::all_of(start.begin(), start.end(), [](char c) { return c == 0; })) {

@@ -55,9 +55,9 @@ MarkerSequence Chosen(const MarkerSequence& all, const std::vector<int>& points,
   return chosen;
 }
 
-/// The markers of one subject.
-void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& options,
-                   Recording* recording, Warnings* warnings) {
+/// @throws Error where it is none.
+double RateOf(const RecordingContent& content, const ReadRecordingOptions& options,
+              const Recording* recording) {
   const double rate = options.rate.value_or(content.rate);
   if (!(rate > 0 && std::isfinite(rate))) {
     throw Error(fmt::format("{}: gives no frame rate; give it", recording->file), Remedy::kRate);
@@ -68,6 +68,13 @@ void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& 
                             recording->file, rate, kLowestRate, kHighestRate),
                 Remedy::kRate);
   }
+  return rate;
+}
+
+/// The markers of one subject.
+void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& options,
+                   Recording* recording, Warnings* warnings) {
+  const double rate = RateOf(content, options, recording);
   std::optional<MarkerSequence> all;  // where it takes all to choose
   const auto are_seen = [&] {
     std::vector<int> points(content.labels.size());
@@ -96,18 +103,56 @@ void ChooseMarkers(const RecordingContent& content, const ReadRecordingOptions& 
   }
 }
 
+/// All joints and points of a skeleton that is a body's.
+void TakeBody(const RecordingContent& content, const ReadRecordingOptions& options,
+              Recording* recording) {
+  recording->points.resize(content.labels.size());
+  std::iota(recording->points.begin(), recording->points.end(), 0);
+  recording->markers =
+      content.read(recording->points, content.labels, RateOf(content, options, recording));
+  if (!SeesAnything(recording->markers)) ThrowSeesNothing(recording->file, false);
+  recording->body = content.body;
+  if (!content.doubt.empty() && !options.unit) {
+    recording->doubts.push_back({content.doubt, Remedy::kUnit});
+  }
+}
+
+/// Joints of a body under the names of landmarks that are nearby.
+MarkerSequence LandmarksOf(const std::vector<SkeletonJoint>& body, const MarkerSequence& markers) {
+  constexpr std::pair<BodyJoint, const char*> kLandmarks[] = {{BodyJoint::kHead, "HEAD"},
+                                                              {BodyJoint::kShoulder, "SHO"},
+                                                              {BodyJoint::kHip, "ASI"},
+                                                              {BodyJoint::kAnkle, "ANK"}};
+  std::vector<std::string> labels;
+  std::vector<int> chosen;
+  for (const SkeletonJoint& one : body) {
+    for (const auto& [joint, landmark] : kLandmarks) {
+      if (one.joint != joint) continue;
+      labels.push_back(one.side + landmark);
+      chosen.push_back(one.label);
+    }
+  }
+  MarkerSequence landmarks(labels, markers.num_frames(), markers.rate(), 0);
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    landmarks.frame(k) = markers.frame(k)(Eigen::all, chosen);
+  }
+  return landmarks;
+}
+
 /// From file units and axes to metres and z up.
-void BringToMetresAndZUp(const std::string& said_unit, const std::vector<UpAxis>& usual,
-                         const ReadRecordingOptions& options, Recording* recording,
-                         Warnings* warnings) {
-  const UnitDecision unit =
-      options.unit ? ParseUnit(*options.unit) : DecideUnit(recording->markers, said_unit);
+void BringToMetresAndZUp(const RecordingContent& content, const ReadRecordingOptions& options,
+                         Recording* recording, Warnings* warnings) {
+  const bool is_body = !content.body.empty();
+  const UnitDecision unit = options.unit ? ParseUnit(*options.unit)
+                            : is_body ? UnitDecision{content.unit, content.metres, false, "", false}
+                                      : DecideUnit(recording->markers, content.unit);
   recording->unit = unit.unit;
   recording->unit_was_guessed = unit.guessed;
   if (!unit.warning.empty()) Warn(warnings, unit.warning);
   if (unit.is_doubtful) recording->doubts.push_back({unit.warning, Remedy::kUnit});
-  const UpAxisDecision up = DecideUpAxis(recording->markers, unit.metres,
-                                         {options.up_axis, recording->stated_up_axis, usual});
+  const UpAxisDecision up = DecideUpAxis(
+      is_body ? LandmarksOf(content.body, recording->markers) : recording->markers, unit.metres,
+      {options.up_axis, recording->stated_up_axis, content.usual_up_axes});
   recording->up_axis = up.axis;
   recording->up_axis_was_decided = up.decided;
   if (!up.warning.empty()) {
@@ -166,11 +211,15 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
   if (content.is_settled) {
     TakeSettled(content, options, &recording, warnings);
   } else {
-    ChooseMarkers(content, options, &recording, warnings);
+    if (content.body.empty()) {
+      ChooseMarkers(content, options, &recording, warnings);
+    } else {
+      TakeBody(content, options, &recording);
+    }
     recording.stated_up_axis = StatedUpAxis(content.stated_up);
-    BringToMetresAndZUp(content.unit, content.usual_up_axes, options, &recording, warnings);
+    BringToMetresAndZUp(content, options, &recording, warnings);
   }
-  TakeOutHeldValues(&recording, warnings);
+  if (recording.body.empty()) TakeOutHeldValues(&recording, warnings);
   if (content.declared_frames > recording.markers.num_frames()) {
     recording.doubts.push_back(
         {fmt::format("the file is cut off: it declares {} frames and holds {}",

@@ -49,7 +49,8 @@ struct Recording {
   long first_frame = 1;                  ///< number of the first stored frame in the capture
   std::string comment;                   ///< C3D files of this project: what they say of themselves
   RecordingOrigin origin;
-  std::optional<MmmPart> mmm;  ///< of MMM files only
+  std::optional<MmmPart> mmm;       ///< of MMM files only
+  std::vector<SkeletonJoint> body;  ///< of skeletons only: which labels are joints of a body
 
   std::string motion() const { return mmm ? mmm->motion : ""; }   ///< empty: not named
   BodySize size() const { return mmm ? mmm->size : BodySize(); }  ///< as the file says

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/io/bvh/bvh.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/bytes/foreign_content.h"
 #include "common/io/c3d/c3d_content.h"
@@ -74,6 +75,7 @@ const std::vector<RecordingFormat> kFormats = {
      true},
     {"QTM TSV", {".tsv"}, IsTable<LooksLikeQtmTsv>, ReadQtmTsvContent, 5, false, false, true},
     {"CSV of points", {".csv"}, IsPoints, ReadPointsCsvContent, 5, false, false, true},
+    {"BVH", {".bvh"}, IsTable<LooksLikeBvh>, ReadBvhContent, 9},
     {"MMM motion", {".xml"}, IsMmm, ReadMmmContent, 2, true, true},
 };
 
@@ -88,6 +90,8 @@ const std::vector<RecordingFormat> kFormats = {
     throw Error(fmt::format(
         "{}: is a Git LFS pointer, not the file itself; fetch that one (git lfs pull)", file));
   }
+  const std::string foreign = NameForeignContent(start);
+  if (!foreign.empty()) throw Error(fmt::format("{}: {}", file, foreign));
   throw Error(
       fmt::format("{}: is text, but no recording that is read ({})", file, RecordingFormatNames()));
 }

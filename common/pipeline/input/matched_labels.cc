@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/convert/marker_set.h"
+#include "common/convert/skeleton_setup.h"
 #include "common/convert/understood_labels.h"
 #include "common/model/coordinate_map.h"
 #include "common/pipeline/input/osim_setup.h"
@@ -63,6 +64,24 @@ void TellWeights(const Input& input, const ConverterConfig& config, Warnings* wa
                              weights, OptionText("marker-set")));
 }
 
+bool IsOfSkeleton(const Input& input, const ConverterConfig& config) {
+  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
+  return is_free && !input.recording.body.empty() && input.model->is_reference &&
+         HasBody(*input.reference);
+}
+
+/// By the markers that a set places.
+TrackingSetup MatchPlaced(const MarkerSet& set, const MarkerLabels& labels, const Input& input,
+                          const ConverterConfig& config, Warnings* warnings) {
+  ConverterConfig of_set = config;
+  of_set.marker_pairs = set.pairs;
+  TrackingSetup setup =
+      MatchMarkers(labels, std::make_shared<const KinematicModel>(PlaceMarkers(set, *input.model)),
+                   of_set, warnings);
+  setup.marker_set = set.name;
+  return setup;
+}
+
 }  // namespace
 
 MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
@@ -73,19 +92,19 @@ MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
   }
   TellWeights(input, config, warnings);
   MatchedLabels matched;
+  if (IsOfSkeleton(input, config)) {
+    const MarkerSet set =
+        PlaceSkeleton(input.recording, *input.reference, ResolveJoints(config, *input.reference));
+    matched.setup = MatchPlaced(set, labels, input, config, warnings);
+    return matched;
+  }
   matched.names = FindNames(labels, input, config);
   if (!matched.names) matched.names = PairNames(labels, input, config);
   if (!matched.names) {
     matched.setup = MatchMarkers(labels, input.reference, config, warnings);
     return matched;
   }
-  const MarkerSet& set = matched.names->set;
-  ConverterConfig of_names = config;
-  of_names.marker_pairs = set.pairs;
-  matched.setup =
-      MatchMarkers(labels, std::make_shared<const KinematicModel>(PlaceMarkers(set, *input.model)),
-                   of_names, warnings);
-  matched.setup.marker_set = set.name;
+  matched.setup = MatchPlaced(matched.names->set, labels, input, config, warnings);
   return matched;
 }
 

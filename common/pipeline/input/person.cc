@@ -9,6 +9,7 @@
 #include "common/calibrate/landmark_body.h"
 #include "common/calibrate/person_height.h"
 #include "common/convert/converter_config.h"
+#include "common/convert/skeleton_setup.h"
 #include "common/io/mmm/processor_config.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/support/advice.h"
@@ -19,6 +20,8 @@ namespace {
 
 constexpr double kAssumedMass = 70;  // [kg]
 constexpr const char* kAssumed = "assumed";
+// Of persons whose bones are as long: Winter's proportions differ by some percent [m].
+constexpr double kSkeletonHeightDeviation = 0.05;
 
 // The first source that has a value.
 std::optional<PersonValue> Choose(const std::optional<double>& given,
@@ -107,6 +110,20 @@ void UseNumbers(const PersonRequest& request, const BodySize& processor, const R
   if (hand_length) person->hand_length = hand_length->value;
 }
 
+// The lengths of a skeleton are the person's.
+void UseSkeleton(const Recording& recording, const KinematicModel& reference, Person* person) {
+  const bool is_known = !person->height.source.empty();
+  Subject subject = SubjectOfSkeleton(
+      recording, reference, is_known ? std::optional(person->height.value) : std::nullopt);
+  subject.mass = person->mass.value;
+  subject.hand_length = person->hand_length;
+  if (!is_known) {
+    person->height = {subject.height, "by the lengths of the skeleton"};
+    person->height_deviation = kSkeletonHeightDeviation;
+  }
+  person->subject = std::make_shared<const Subject>(std::move(subject));
+}
+
 Person Find(const PersonRequest& request, const KinematicModel& reference,
             const Recording& recording, const ConverterConfig& config,
             const std::function<void(Person*)>& estimate_height, bool has_names,
@@ -122,7 +139,11 @@ Person Find(const PersonRequest& request, const KinematicModel& reference,
     return person;
   }
   UseNumbers(request, processor, recording, &person);
-  if (person.height.source.empty()) estimate_height(&person);
+  if (!recording.body.empty() && HasBody(reference)) {
+    UseSkeleton(recording, reference, &person);
+  } else if (person.height.source.empty()) {
+    estimate_height(&person);
+  }
   return person;
 }
 

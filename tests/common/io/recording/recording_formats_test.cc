@@ -43,7 +43,7 @@ TEST_F(RecordingFormatsTest, AreToldByNameInAnyCase) {
   EXPECT_FALSE(FindFormatOfName("walk.tsv")->is_written);
   EXPECT_EQ(FindFormatOfName("walk"), nullptr);
   EXPECT_EQ(RecordingFormatNames(),
-            "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV, CSV of points or MMM motion");
+            "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV, CSV of points, BVH or MMM motion");
 }
 
 TEST_F(RecordingFormatsTest, AreToldByContentWhateverTheName) {
@@ -53,6 +53,7 @@ TEST_F(RecordingFormatsTest, AreToldByContentWhateverTheName) {
   EXPECT_EQ(NameOf("PathFileType\t4\t(X/Y/Z)\twalk.trc\rDataRate\r"), "TRC");
   EXPECT_EQ(NameOf("Trajectories\n100\n,,A:C7,,\n"), "Nexus CSV");
   EXPECT_EQ(NameOf("Format Version,1.23,Take Name,a\n"), "Motive CSV");
+  EXPECT_EQ(NameOf(" hierarchy\r\nROOT Hips"), "BVH");
   EXPECT_EQ(NameOf("NO_OF_FRAMES\t20\n"), "QTM TSV");
   EXPECT_EQ(NameOf("time,A_x,A_y,A_z,B_x,B_y,B_z,C_x,C_y,C_z\n"), "CSV of points");
   EXPECT_EQ(NameOf("time;A;A;A;B;B;B;C;C;C\n;x;y;z;x;y;z;x;y;z\n"), "CSV of points");
@@ -71,6 +72,8 @@ TEST_F(RecordingFormatsTest, OtherFilesAreSaidToBeWhatTheyAre) {
   EXPECT_THAT(format_of("<Robot/>"), ThrowsMessage<Error>(HasSubstr("the root <Robot>")));
   EXPECT_THAT(format_of("version https://git-lfs.github.com/spec/v1\n"),
               ThrowsMessage<Error>(HasSubstr("Git LFS pointer")));
+  EXPECT_THAT(format_of("Kaydara FBX Binary  "), ThrowsMessage<Error>(HasSubstr("as BVH")));
+  EXPECT_THAT(format_of("; FBX 7.3.0 project file\n"), ThrowsMessage<Error>(HasSubstr("as BVH")));
   EXPECT_THAT(format_of("frame,time\n"), ThrowsMessage<Error>(HasSubstr("is text")));
   // C3D's reader says what is wrong with other bytes.
   EXPECT_STREQ(FormatOfContent(Write("\x7f"

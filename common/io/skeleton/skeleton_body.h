@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/io/skeleton/bone_names.h"
+#include "common/motion/skeleton.h"
+
+namespace mmm_converter {
+
+/// Joints of a skeleton that are a body's; labels are the indices of joints, and there are no
+/// points yet.
+struct FoundBody {
+  std::vector<SkeletonJoint> joints;  ///< none: it has no two legs
+  double leg_length = 0;              ///< hip to ankle along the bones [file unit]
+  bool has_exchanged_sides = false;   ///< left and right were named for right and left
+};
+
+/// Which joints are whose: feet and hands by their names, what is above them by kinds of names and,
+/// where these don't tell, by the chain; pelvis and thorax are where legs and arms meet. Sides are
+/// those that the names say, unless knees and toes show all over the motion that the body has them
+/// the other way round.
+FoundBody FindBody(const SkeletonMotion& motion, const BoneNames& names);
+
+/// Frames of a motion, spread evenly, at most so many.
+std::vector<int> SpreadFrames(int num_frames, int most);
+
+}  // namespace mmm_converter

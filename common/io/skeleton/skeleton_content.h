@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "common/motion/recording_content.h"
+#include "common/motion/skeleton.h"
+#include "common/support/warnings.h"
+
+namespace mmm_converter {
+
+/// A skeleton's motion as a recording: a label for each joint and end of a bone ("LeftFoot",
+/// "LeftFoot.end"), and for bones of a body two points that turn with them ("LeftFoot.x",
+/// "LeftFoot.y"). The unit is told by the length of the legs. Of a skeleton that is no body's there
+/// are joints alone.
+RecordingContent ContentOfSkeleton(SkeletonMotion motion, const std::string& format,
+                                   const std::string& file, Warnings* warnings);
+
+}  // namespace mmm_converter
