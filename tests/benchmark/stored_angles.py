@@ -24,12 +24,20 @@ ANGLES = [("knee flexion", "KneeAngles", 0, 1), ("hip flexion", "HipAngles", 0, 
           ("pelvis obliquity", "PelvisAngles", 1, -1), ("pelvis tilt", "PelvisAngles", 0, 1)]
 
 
+def floats(data, is_dec):
+    """DEC's have their halves exchanged, and an exponent of 2 more."""
+    if not is_dec:
+        return np.frombuffer(data, "<f4")
+    return np.frombuffer(data, "<u2").reshape(-1, 2)[:, ::-1].copy().view("<f4").ravel() / 4
+
+
 def points(path):
-    """The points of a C3D of an Intel processor, by label without subject: frames x 3, NaN where not stored."""
+    """The points of a C3D of an Intel or DEC processor, by label without subject: frames x 3, NaN where not stored."""
     data = path.read_bytes()
+    is_dec = data[(data[0] - 1) * 512 + 3] == 85
     header = struct.unpack("<256H", data[:512])
     count, analog, first, last, start = header[1], header[2], header[3], header[4], header[8]
-    scale = struct.unpack("<f", data[12:16])[0]
+    scale = floats(data[12:16], is_dec)[0]
     groups, parameters = {}, collections.defaultdict(dict)
     at = (data[0] - 1) * 512 + 4
     while True:
@@ -53,10 +61,12 @@ def points(path):
         at = offset_at + offset
     of_points = next(parameters[key] for key, name in groups.items() if name == "POINT")
     labels = [label for key in sorted(k for k in of_points if k.startswith("LABELS")) for label in of_points[key]]
-    kind = np.dtype("<f4") if scale < 0 else np.dtype("<i2")
-    frames = last - first + 1
-    row = 4 * count + analog
-    values = np.frombuffer(data, kind, frames * row, (start - 1) * 512).reshape(frames, row)
+    row, size = 4 * count + analog, 4 if scale < 0 else 2
+    stored = data[(start - 1) * 512:]
+    frames = min(last - first + 1, len(stored) // (row * size))
+    stored = stored[:frames * row * size]
+    values = floats(stored, is_dec) if scale < 0 else np.frombuffer(stored, "<i2")
+    values = values.reshape(frames, row)
     values = values[:, :4 * count].reshape(frames, count, 4).astype(float)
     places = values[:, :, :3] * (1 if scale < 0 else scale)
     places[(values[:, :, 3] < 0) | np.all(places == 0, axis=2)] = np.nan
@@ -86,6 +96,7 @@ def main():
                 for side, sign in (("left", 1), ("right", right)):
                     mine = ours[angle if angle.startswith("pelvis") else f"{side} {angle}"]
                     theirs = sign * stored[side[0].upper() + label][:, coordinate]
+                    mine, theirs = mine[:len(theirs)], theirs[:len(mine)]
                     both = np.isfinite(mine) & np.isfinite(theirs)
                     mine, theirs = mine[both], theirs[both]
                     difference = mine - theirs
