@@ -170,6 +170,7 @@ void MarkerFilter::StartAsPaper(const Ref<const Matrix3Xd>& z, Belief* belief) c
     belief->P.diagonal().segment<3>(3).setConstant(1e-6);
   }
   belief->P.diagonal().segment(6, kinematics_.num_joints()).setConstant(1e-10);
+  Rest(belief);
 }
 
 void MarkerFilter::Predict(double dt, Belief* belief) {

@@ -36,7 +36,7 @@ std::set<std::string> Take(const std::string& sample) {
 }
 
 /// Words that are files of the sample or begin with "out" stand in the test's folder.
-ProgramRun Run(const std::string& text) {
+ProgramRun RunCase(const std::string& text) {
   std::vector<std::string> words;
   std::istringstream stream(text);
   for (std::string word; stream >> word;) {
@@ -70,7 +70,7 @@ class HostileReal : public ::testing::TestWithParam<Refused> {};
 TEST_P(HostileReal, IsRefusedAndNothingIsWritten) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::set<std::string> sample = Take(GetParam().sample);
-  const ProgramRun run = Run(GetParam().words);
+  const ProgramRun run = RunCase(GetParam().words);
   EXPECT_EQ(run.exit_code, 1) << run.err;
   EXPECT_THAT(run.err, HasSubstr(GetParam().said));
   EXPECT_THAT(Written(sample), ::testing::IsEmpty());
@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(HostileRealFiles, AJointOfTheGroundStaysAsItIs) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("A1_scale_oldground");
-  const ProgramRun run = Run("calibrate s.trc --model m.osim --scale-setup st.xml -o out.osim");
+  const ProgramRun run = RunCase("calibrate s.trc --model m.osim --scale-setup st.xml -o out.osim");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(ReadText(In("out.osim")), HasSubstr("<location_in_parent>1 2 3<"));
 }
@@ -142,7 +142,7 @@ TEST(HostileRealFiles, AJointOfTheGroundStaysAsItIs) {
 TEST(HostileRealFiles, DeviationsAreNumbers) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("A2_deviations_nan");
-  const ProgramRun run = Run("convert w.trc --model m.osim -o out.mot");
+  const ProgramRun run = RunCase("convert w.trc --model m.osim -o out.mot");
   if (run.exit_code == 0) {
     EXPECT_THAT(ReadText(In("out_deviations.sto")), Not(HasSubstr("nan")));
   } else {
@@ -153,7 +153,7 @@ TEST(HostileRealFiles, DeviationsAreNumbers) {
 TEST(HostileRealFiles, ManyBodiesThatNoMarkerTellsTakeNoTime) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("A6_scale_2000_bodies");
-  const ProgramRun run = Run("calibrate s.trc --model m.osim --scale-setup st.xml -o out.osim");
+  const ProgramRun run = RunCase("calibrate s.trc --model m.osim --scale-setup st.xml -o out.osim");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(fs::exists(In("out.osim")));
 }
@@ -161,14 +161,14 @@ TEST(HostileRealFiles, ManyBodiesThatNoMarkerTellsTakeNoTime) {
 TEST(HostileRealFiles, AMassThatIsRightStaysReadable) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("B2_urdf_mass_dropped");
-  EXPECT_EQ(Run("info m_8.urdf").exit_code, 0);
+  EXPECT_EQ(RunCase("info m_8.urdf").exit_code, 0);
 }
 
 TEST(HostileRealFiles, ColumnsOfForcesAreTakenByName) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("C4_forces_columns_by_position");
   const ProgramRun run =
-      Run("convert i.c3d --height 1.8 -o out.xml --forces f.mot --export-grf outg.mot");
+      RunCase("convert i.c3d --height 1.8 -o out.xml --forces f.mot --export-grf outg.mot");
   // By name 0.05 N bear down, at 400 m.
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("f.mot: no force plate is loaded"));
@@ -177,7 +177,7 @@ TEST(HostileRealFiles, ColumnsOfForcesAreTakenByName) {
 TEST(HostileRealFiles, RowsThatRunBackwardsAreSaid) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("D1_nexus_reversed");
-  EXPECT_THAT(Run("convert i.csv --model g.osim --up y -o out.mot").err,
+  EXPECT_THAT(RunCase("convert i.csv --model g.osim --up y -o out.mot").err,
               HasSubstr("more such steps back"));
 }
 
@@ -185,7 +185,7 @@ TEST(HostileRealFiles, ResumeComparesWhatInputsName) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("E4_resume_part_changed");
   const auto resumed = [](const std::string& manifest) {
-    return Run("batch " + manifest + " -o out_" + manifest + " --reports none --resume").out;
+    return RunCase("batch " + manifest + " -o out_" + manifest + " --reports none --resume").out;
   };
   EXPECT_THAT(resumed("b3.xml"), HasSubstr("1 converted"));
   EXPECT_THAT(resumed("b3.xml"), HasSubstr("1 unchanged"));
@@ -200,7 +200,7 @@ TEST(HostileRealFiles, ResumeComparesWhatInputsName) {
 TEST(HostileRealFiles, ACommaInANameIsNoCell) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   Take("X1_csv_comma_in_name");
-  ASSERT_EQ(Run("convert w.trc --model m.osim -o out.mot --export-csv out.csv").exit_code, 0);
+  ASSERT_EQ(RunCase("convert w.trc --model m.osim -o out.mot --export-csv out.csv").exit_code, 0);
   std::istringstream table(ReadText(In("out.csv")));
   std::string names, row;
   std::getline(table, names);

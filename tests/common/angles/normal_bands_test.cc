@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-constexpr double kSame = 1e-9;  // rounding of a double
+constexpr double kSameValue = 1e-9;  // rounding of a double
 constexpr const char* kHeader = "joint,angle,percent,mean_degrees,sd_degrees\n";
 
 NormalBands Parse(const std::string& text) { return ParseNormalBands(text, "norm.csv"); }
@@ -36,10 +36,10 @@ TEST(NormalBands, AreLinearBetweenTheirRows) {
             "knee,flexion,0,10,2\nknee,flexion,50,20,4\nknee,flexion,100,10,2\n");
   EXPECT_EQ(normal.source, "Smith 2010, 24 adults at 1.3 m/s");
   ASSERT_THAT(normal.bands, SizeIs(1));
-  EXPECT_NEAR(normal.bands[0].mean[0], 10, kSame);
-  EXPECT_NEAR(normal.bands[0].mean[25], 15, kSame);
-  EXPECT_NEAR(normal.bands[0].deviation[75], 3, kSame);
-  EXPECT_NEAR(normal.bands[0].mean[100], 10, kSame);
+  EXPECT_NEAR(normal.bands[0].mean[0], 10, kSameValue);
+  EXPECT_NEAR(normal.bands[0].mean[25], 15, kSameValue);
+  EXPECT_NEAR(normal.bands[0].deviation[75], 3, kSameValue);
+  EXPECT_NEAR(normal.bands[0].mean[100], 10, kSameValue);
 }
 
 TEST(NormalBands, ColumnsOfOtherOrderSeparatorAndMoreAreRead) {
@@ -49,8 +49,8 @@ TEST(NormalBands, ColumnsOfOtherOrderSeparatorAndMoreAreRead) {
       "7;100;;Flexion;Hip;1;5\n");
   EXPECT_EQ(normal.source, "norm.csv");
   ASSERT_NE(normal.Find("hip", "flexion", Side::kLeft), nullptr);
-  EXPECT_NEAR(normal.Find("hip", "flexion", Side::kLeft)->mean[50], 31, kSame);
-  EXPECT_NEAR(normal.Find("hip", "flexion", Side::kRight)->mean[50], 1, kSame);  // of both
+  EXPECT_NEAR(normal.Find("hip", "flexion", Side::kLeft)->mean[50], 31, kSameValue);
+  EXPECT_NEAR(normal.Find("hip", "flexion", Side::kRight)->mean[50], 1, kSameValue);  // of both
   EXPECT_EQ(normal.Find("hip", "adduction", Side::kLeft), nullptr);
 }
 
@@ -98,7 +98,7 @@ TEST(GaitProfile, ScoreIsTheRootMeanSquareOfTheDifference) {
   stride.side = Side::kRight;
   for (int i = 0; i < GaitCycle::kSamples; ++i) stride.mean[i] = (i % 2 == 0 ? -5 : 1) / kDegrees;
   // Of its own side 5 and -1 degrees: 3 from normal at each sample.
-  EXPECT_NEAR(VariableScore(stride, normal), 3, kSame);
+  EXPECT_NEAR(VariableScore(stride, normal), 3, kSameValue);
   stride.mean[7] = std::nan("");
   EXPECT_TRUE(std::isnan(VariableScore(stride, normal)));
 }
@@ -113,7 +113,7 @@ TEST(GaitProfile, ABandOfASideIsAsItWasExported) {
   stride.angle = {"pelvis", "", "rotation"};
   stride.side = Side::kLeft;
   stride.mean.fill(4 / kDegrees);
-  EXPECT_NEAR(VariableScore(stride, normal), 0, kSame);
+  EXPECT_NEAR(VariableScore(stride, normal), 0, kSameValue);
 }
 
 }  // namespace

@@ -194,7 +194,10 @@ TEST(OsimCalibration, OffsetsOfBothSidesAreAssumedAlike) {
                                   testing::AllIndices<MarkerIx>(model.markers().size()), sizes);
   CalibrationOptions options;
   options.side_correlation = 0.5;
-  const OffsetPrior prior(kinematics, options);
+  const OffsetPrior prior(
+      kinematics, options,
+      PlaceDeviations(options,
+                      Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model.markers().size()))));
   Eigen::Matrix3Xd offsets = 0.05 * Eigen::Matrix3Xd::Random(3, model.markers().size());
   BodyEquations body(kinematics);
   body.SetZero();

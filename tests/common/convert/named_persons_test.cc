@@ -91,7 +91,7 @@ class NamedPersons : public ::testing::Test {
   MarkerSequence Record(const Vocabulary& vocabulary, std::uint64_t seed,
                         double seconds = 2) const {
     const KinematicModel scaled = ScaleWinter(Worn(vocabulary), {kHeight, 70, {}});
-    const KinematicModel person = FitToSubject(scaled, testing::DrawPerson(scaled, seed));
+    const KinematicModel person = FitToSubject(scaled, testing::DrawPerson(scaled, seed, kWorn));
     return testing::RecordPerson(person, testing::RangeOfMotion(scaled, seconds, 0.6, seed), seed);
   }
 
@@ -176,6 +176,7 @@ class NamedPersons : public ::testing::Test {
   }
 
   static constexpr double kHeight = 1.75;
+  static constexpr double kWorn = 0.012;  // of landmarks from their places, on each axis [m]
   KinematicModel reference_;
   std::vector<int> joints_;
   LandmarkTable table_;
@@ -220,7 +221,8 @@ TEST_F(NamedPersons, WhoseClustersCanBeOfTwoSegmentsWearThemOnTheNearer) {
   Vocabulary vocabulary = Vocabularies()[0];
   vocabulary.labels["%TIP"] = "%THA";
   std::vector<std::string> kit;
-  const MarkerSequence legs = Rename(Record(vocabulary, 21), vocabulary, BodyPart::kLegs, &kit);
+  const MarkerSequence legs =
+      Rename(Record(Vocabularies()[0], 21), vocabulary, BodyPart::kLegs, &kit);
   const NamedMarkers named =
       UnderstandLabels(LabelsOf(legs), legs, reference_, table_, {joints_, true});
   for (const NamedLabel& one : named.labels) {

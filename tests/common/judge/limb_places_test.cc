@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr int kFrames = 10;
+constexpr int kLimbFrames = 10;
 
 class LimbPlacesTest : public ::testing::Test {
  protected:
@@ -43,10 +43,10 @@ class LimbPlacesTest : public ::testing::Test {
     }
     posture.joint_angles = tracked;
     ConversionResult result;
-    result.trajectory.postures.assign(kFrames, posture);
+    result.trajectory.postures.assign(kLimbFrames, posture);
     result.residuals =
-        Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(markers.size()), kFrames, far);
-    const MarkerSequence recording(markers, kFrames, 100, 0);
+        Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(markers.size()), kLimbFrames, far);
+    const MarkerSequence recording(markers, kLimbFrames, 100, 0);
     VerdictReasons reasons;
     JudgeLimbPlaces(setup, LimbsOf(setup), recording, result, &reasons);
     return reasons.Conclude().reasons;

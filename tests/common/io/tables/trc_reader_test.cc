@@ -86,10 +86,10 @@ std::string Replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-const char kRows[] = "\n1\t0.00\t1\t2\t3\t4\t5\t6\n2\t0.01\t7\t8\t9\t-15\t11\t12\n";
+const char kTrcRows[] = "\n1\t0.00\t1\t2\t3\t4\t5\t6\n2\t0.01\t7\t8\t9\t-15\t11\t12\n";
 
 TEST(TrcReader, LinesMayEndAsOnOldMacintoshes) {
-  const std::string plain = std::string(kHeader) + kLabels + kRows;
+  const std::string plain = std::string(kHeader) + kLabels + kTrcRows;
   ASSERT_TRUE(LooksLikeTrc(Replaced(plain, "\n", "\r")));
   const MarkerTable trc = ParseTrc(Replaced(plain, "\n", "\r"), "walk.trc");
   EXPECT_THAT(trc.markers.labels(), ElementsAre("C7", "R Knee"));
@@ -121,7 +121,7 @@ TEST(TrcReader, BlanksMaySeparate) {
 TEST(TrcReader, MarkersWithoutLabelsAreCalledByNumber) {
   for (const char* labels : {"Frame#\tTime\t\t\t\t\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n", ""}) {
     Warnings warnings;
-    const MarkerTable trc = ParseTrc(std::string(kHeader) + labels + kRows, "walk.trc", &warnings);
+    const MarkerTable trc = ParseTrc(std::string(kHeader) + labels + kTrcRows, "walk.trc", &warnings);
     EXPECT_THAT(trc.markers.labels(), ElementsAre("*1", "*2"));
     EXPECT_EQ(trc.markers.frame(1).col(1), Eigen::Vector3d(-15, 11, 12));
     EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("they are called *1 to *2")));
@@ -148,7 +148,7 @@ TEST(TrcReader, NamesMayStandOverEachCoordinate) {
 TEST(TrcReader, FramesThatAreMissingAreAGap) {
   Warnings warnings;
   const MarkerTable trc = ParseTrc(
-      Replaced(kHeader, "2\t2\tmm", "3\t2\tmm") + kLabels + kRows + "5\t0.04\t7\t8\t9\t1\t2\t3\n",
+      Replaced(kHeader, "2\t2\tmm", "3\t2\tmm") + kLabels + kTrcRows + "5\t0.04\t7\t8\t9\t1\t2\t3\n",
       "walk.trc", &warnings);
   ASSERT_EQ(trc.markers.num_frames(), 5);
   EXPECT_EQ(trc.num_rows, 3);
