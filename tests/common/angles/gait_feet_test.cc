@@ -9,7 +9,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kSame = 1e-9;  // rounding of a double
+constexpr double kSameHere = 1e-9;  // rounding of a double
 constexpr double kOut = 0.2;    // [rad] by which the toes of both feet point outwards
 
 /// Feet that glide along a way at `heading`, turned outwards.
@@ -47,7 +47,7 @@ TEST(FootProgression, ToesInwardsArePositiveOnBothSidesWhateverTheWay) {
       const GaitCycle cycle = FootProgression(FeetAlong(heading), stride);
       EXPECT_STREQ(cycle.angle.joint, "foot");
       EXPECT_STREQ(cycle.angle.side, Name(side));
-      for (const double value : cycle.mean) EXPECT_NEAR(value, -kOut, kSame) << heading;
+      for (const double value : cycle.mean) EXPECT_NEAR(value, -kOut, kSameHere) << heading;
     }
   }
 }
@@ -73,8 +73,8 @@ Contacts RightStands(std::vector<std::pair<std::optional<double>, std::optional<
 TEST(DoubleSupport, IsTheShareInWhichBothStand) {
   // The left foot stands from 1 to 2.2 s of a stride of 2 s.
   const Stride stride = StrideFrom(Side::kLeft, 1, 3);
-  EXPECT_NEAR(DoubleSupport(stride, RightStands({{0, 1.2}, {2, 3.2}})), 0.2, kSame);
-  EXPECT_NEAR(DoubleSupport(stride, RightStands({{{}, 1.2}, {2, {}}})), 0.2, kSame);
+  EXPECT_NEAR(DoubleSupport(stride, RightStands({{0, 1.2}, {2, 3.2}})), 0.2, kSameHere);
+  EXPECT_NEAR(DoubleSupport(stride, RightStands({{{}, 1.2}, {2, {}}})), 0.2, kSameHere);
   EXPECT_EQ(DoubleSupport(stride, RightStands({{2.4, 2.8}})), 0);  // who runs
 }
 
@@ -90,10 +90,10 @@ TEST(MeanOf, StridesThatAreNotKnownThereDoNotCount) {
   strides[2].mean[10] = std::nan("");
   const GaitCycle mean = MeanOf(strides);
   EXPECT_EQ(mean.strides, 3);
-  EXPECT_NEAR(mean.mean[50], 1, kSame);
-  EXPECT_NEAR(mean.deviation[50], 1, kSame);
-  EXPECT_NEAR(mean.mean[10], 0.5, kSame);
-  EXPECT_NEAR(mean.deviation[10], std::sqrt(0.5), kSame);
+  EXPECT_NEAR(mean.mean[50], 1, kSameHere);
+  EXPECT_NEAR(mean.deviation[50], 1, kSameHere);
+  EXPECT_NEAR(mean.mean[10], 0.5, kSameHere);
+  EXPECT_NEAR(mean.deviation[10], std::sqrt(0.5), kSameHere);
   EXPECT_TRUE(std::isnan(MeanOf({strides[2]}).mean[10]));
 }
 
