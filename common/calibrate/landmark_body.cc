@@ -39,6 +39,7 @@ constexpr double kNearLowest = 0.015;  // [m]
 constexpr double kSlowUpwards = 0.06;  // [m/s]
 constexpr double kLowestPercent = 5;
 constexpr std::size_t kFewestFlat = 5;  // frames
+constexpr double kMostTilt = 0.03;      // [m] between markers, from the model's
 
 double Offset(double length, double share, double rest_mm) {
   return share * length + rest_mm / kMillimetres;
@@ -309,9 +310,12 @@ std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const
     }
   }
   std::vector<double> heights;
-  for (const auto& one : above) {
-    if (one.size() < kFewestFlat) return {};
-    heights.push_back(Median(one));
+  for (std::size_t i = 0; i < foot.size(); ++i) {
+    if (above[i].size() < kFewestFlat) return {};
+    heights.push_back(Median(above[i]));
+    // On stairs the lowest places of a foot's markers are of different steps.
+    const double of_model = AtRest(foot[i]).z() - AtRest(foot[0]).z();
+    if (std::abs(heights[i] - of_model) > kMostTilt) return {};
   }
   return heights;
 }
@@ -323,8 +327,8 @@ void LandmarkBody::FindFoot(BodySide side) {
         "head of the second metatarsal", "head of the fifth metatarsal"}) {
     if (const auto one = Find(name, side)) foot.push_back(*one);
   }
+  if (foot.size() < 2) return;
   const std::vector<double> heights = HeightsOf(foot);
-  if (foot.size() < 2 || heights.empty()) return;
   const auto n = static_cast<Eigen::Index>(foot.size());
   Eigen::Matrix3Xd rest(3, n);
   for (Eigen::Index i = 0; i < n; ++i) rest.col(i) = AtRest(foot[static_cast<std::size_t>(i)]);
@@ -354,7 +358,7 @@ void LandmarkBody::FindFoot(BodySide side) {
         add(slope, rest(axis, i) - p(axis, i),
             is_at_joint || axis == 0 ? kWidthDeviation : kLengthDeviation);
       }
-      if (i > 0) {
+      if (i > 0 && !heights.empty()) {
         VectorXd slope = VectorXd::Zero(3 * n);
         slope[3 * i + 2] = 1;
         slope[2] = -1;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/model/forward_kinematics.h"
+#include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/support/text.h"
@@ -38,7 +39,8 @@ void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
     int moved = 0;
     for (int m = 0; m < kinematics.num_markers(); ++m) moved += kinematics.Moves(j, m) ? 1 : 0;
     const Segment& joint = model.joint(setup.joints[static_cast<std::size_t>(j)]);
-    if (moved < kFewestShowing || HasNoLimits(joint)) continue;
+    const bool is_leg = LimbOfJoint(joint.name).ends_with("leg");
+    if (!is_leg || moved < kFewestShowing || HasNoLimits(joint)) continue;
     double frames = 0;
     for (const Posture& posture : trajectory.postures) {
       const double angle = posture.joint_angles[j];

@@ -35,6 +35,8 @@ constexpr Limit kFarthest = {0.3, kNever};
 // and of 9 made ones in 10, whose places are off by 0.028 on each axis; WornDistances, at most 0.11
 // of all of these.
 constexpr Limit kToldDistance = {0.112, kNever};
+// Of noise scales: a place that is known better has a posture about it that is not.
+constexpr double kSurestPlace = 0.75;
 // Of a posture that is not tracked [s]: what a prediction bridges.
 constexpr Limit kLateStart = {0.5, kNever};
 // Share of the frames: right at most 0.06; left and right exchanged 0.1 to 0.8.
@@ -172,8 +174,9 @@ class Judge {
     std::vector<std::string> labels;
     double most = 0;
     for (int i = 0; i < distances.size(); ++i) {
-      if (!kToldDistance.IsBeyond(distances[i])) continue;
       const double scale = evidence_.setup.assignments()[static_cast<std::size_t>(i)].noise_scale;
+      const double surest = std::min(1.0, scale / kSurestPlace);
+      if (!kToldDistance.IsBeyond(surest * distances[i])) continue;
       labels.push_back(
           fmt::format("{} ({:.0f} mm)", LabelsOf({i}), kMillimetres * scale * distances[i]));
       most = std::max(most, distances[i]);

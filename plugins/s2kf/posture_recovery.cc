@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/posture_recovery.h"
 
+#include <cmath>
 #include <utility>
 
 namespace mmm_converter::s2kf {
@@ -19,23 +20,24 @@ PostureFitOptions FitOptions(const S2kfSettings& settings) {
 }
 
 PostureRecovery::PostureRecovery(const TrackedMarkers& markers, const S2kfSettings& settings)
-    : markers_(markers),
-      options_(FitOptions(settings)),
+    : options_(FitOptions(settings)),
       start_attempts_(settings.start_attempts),
+      scale_(markers.noise_scale() *
+             std::sqrt(markers.noise_scale().cwiseAbs2().cwiseInverse().mean())),
       search_(markers.kinematics()) {
   options_.max_iterations = kFitIterations;
   options_.pulls = markers.pulls();
 }
 
 void PostureRecovery::Assemble(const TrackedFrame& frame, std::mt19937* random, Posture* posture) {
-  search_.Assemble(frame.measured, markers_.noise_scale(), options_, start_attempts_, posture);
+  search_.Assemble(frame.measured, scale_, options_, start_attempts_, posture);
   *random = search_.random();
 }
 
 bool PostureRecovery::FindBetter(const TrackedFrame& frame, const TrackWatch& watch,
                                  std::mt19937* random, Posture* posture) {
   PostureFit& fit = search_.fit();
-  const Eigen::VectorXd& scale = markers_.noise_scale();
+  const Eigen::VectorXd& scale = scale_;
   *posture = frame.posture;
   const PostureFit::Result before = fit.Evaluate(frame.z, scale, options_, frame.posture);
   fit.Solve(frame.z, scale, options_, posture);
@@ -50,7 +52,7 @@ bool PostureRecovery::FindForAll(const TrackedFrame& frame, int left_out, const 
                                  Posture* posture) {
   if (!watch.MayBeRight(left_out)) return false;
   PostureFit& fit = search_.fit();
-  const Eigen::VectorXd& scale = markers_.noise_scale();
+  const Eigen::VectorXd& scale = scale_;
   *posture = frame.posture;
   fit.Solve(frame.relabelled, scale, options_, posture);
   const double all = fit.Evaluate(frame.relabelled, scale, options_, *posture).cost;

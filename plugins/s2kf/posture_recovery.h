@@ -36,9 +36,10 @@ class PostureRecovery {
                   Posture* posture);
 
  private:
-  const TrackedMarkers& markers_;
   PostureFitOptions options_;
   int start_attempts_;
+  /// Of the markers, so that costs are those of markers of scale 1, which TrackWatch knows.
+  Eigen::VectorXd scale_;
   PostureSearch search_;
 };
 

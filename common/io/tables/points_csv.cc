@@ -130,7 +130,11 @@ std::optional<PointsHead> HeadOfPoints(const Cells& names, const Cells& axes, ch
     }
     std::string_view name = names[i];
     if (has_two_rows && name.empty() && i < axes.size()) name = axes[i];
-    if (head.columns.frame < 0 && IsFrame(name)) {
+    // The index of a data frame, which is named in a row of its own.
+    const bool is_index = has_two_rows && i == 0 && name.empty();
+    if (is_index) {
+      head.columns.time = 0;
+    } else if (head.columns.frame < 0 && IsFrame(name)) {
       head.columns.frame = static_cast<int>(i);
     } else if (head.columns.time < 0 && IsTime(name)) {
       head.columns.time = static_cast<int>(i);

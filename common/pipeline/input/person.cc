@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kAssumedMass = 70;  // [kg]
 constexpr const char* kAssumed = "assumed";
+constexpr const char* kSetOfNames = "names";  // what ComposeNamedMarkers calls its sets
 // Of persons whose bones are as long: Winter's proportions differ by some percent [m].
 constexpr double kSkeletonHeightDeviation = 0.05;
 
@@ -40,6 +41,19 @@ TrackingSetup WithKnownPlaces(TrackingSetup setup, const NamedMarkers& names) {
     return names.labels[static_cast<std::size_t>(one.label)].is_cluster;
   });
   return setup;
+}
+
+/// What the labels of a marker set that was composed of names, and written, mean.
+NamedMarkers NamesOfSet(const TrackingSetup& setup, const MarkerSequence& markers) {
+  NamedMarkers named;
+  const std::vector<ReadLabel> read = ReadLabels(markers.labels(), {}, ShippedLandmarks());
+  for (const MarkerAssignment& one : setup.assignments()) {
+    NamedLabel& label = named.labels.emplace_back();
+    label.label = markers.labels()[one.label];
+    label.marker = setup.model->markers()[one.marker].name;
+    label.readings = read[static_cast<std::size_t>(one.label)].readings;
+  }
+  return named;
 }
 
 void Estimate(const TrackingSetup& setup, const MarkerSequence& markers, const NamedMarkers* names,
@@ -196,11 +210,13 @@ Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
   const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, names, person); };
   Person person =
       Find(request, *setup.model, recording, config, estimate, names != nullptr, warnings);
-  if (names != nullptr && !person.subject) {
+  const bool is_of_names = names != nullptr || setup.marker_set == kSetOfNames;
+  if (is_of_names && !person.subject) {
     TrackingSetup scaled = setup;
     ScaleToPerson(ScalingOf(person, config), &scaled);
+    const NamedMarkers named = names != nullptr ? *names : NamesOfSet(setup, recording.markers);
     person.landmarks =
-        std::make_shared<const Subject>(FindLandmarkBody(scaled, *names, recording.markers));
+        std::make_shared<const Subject>(FindLandmarkBody(scaled, named, recording.markers));
   }
   return person;
 }

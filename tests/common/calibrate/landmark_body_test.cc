@@ -36,7 +36,7 @@ class LandmarkBodyTest : public ::testing::Test {
     MarkerSequence recording(labels_.names, 100, 100, 0);
     for (int k = 0; k < recording.num_frames(); ++k) {
       Posture posture = ZeroPosture(model);
-      const double bend = 0.4 * std::sin(0.05 * k);
+      const double bend = k < 50 ? 0 : 0.4 * std::sin(0.1 * (k - 50));
       posture.joint_angles[model.FindJoint("LHx_joint")] = bend;
       posture.joint_angles[model.FindJoint("RHx_joint")] = -bend;
       const Eigen::Matrix3Xd p = MarkerPositions(model, posture);

@@ -43,7 +43,7 @@ std::string MessageOf(const std::string& xml) {
 MarkerMapping MapRecording(const std::string& file, std::string* set_name,
                            const std::string& subject = "", Warnings* warnings = nullptr) {
   ReadRecordingOptions options;
-  options.subject = subject;
+  if (!subject.empty()) options.subject = subject;
   const Recording recording = ReadRecording(SharedData("recordings/" + file), options);
   const std::vector<MarkerSet> sets = ShippedSets();
   const MarkerSet& set = ChooseMarkerSet(sets, LabelsOf(recording.markers));
