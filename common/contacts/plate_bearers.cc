@@ -18,6 +18,7 @@ constexpr double kTimesNearer = 2;     // ... and so many times
 constexpr double kNearerShare = 0.15;  // of a load's time: the other foot bears it then
 constexpr double kBeside = 0.03;       // [m] beyond a plate's edge: where a foot ends is as unsure
 constexpr double kLow = 0.06;          // [m] above the plate: on the ground
+constexpr double kLowBeside = 0.03;    // [m] the same beside it, where a heel that rises is none
 constexpr double kStandsThere = 0.25;  // of a load's time: the other foot is on the plate too
 
 double DistanceFromLine(const Eigen::Vector3d& heel, const Eigen::Vector3d& toe,
@@ -112,7 +113,7 @@ bool IsPartly(Side side, const LoadedFrames& frames, const RecordedForces& force
   const auto is_beside = [&](const Eigen::Vector3d& p) {
     ForcePlate wide = plate;
     wide.half_size.array() += kBeside;
-    return p.z() < plate.p_WP.z() + kLow && !IsOver(wide, p) &&
+    return p.z() < plate.p_WP.z() + kLowBeside && !IsOver(wide, p) &&
            std::none_of(forces.plates.begin(), forces.plates.end(),
                         [&](const PlateForces& one) { return IsOver(one.plate, p); });
   };

