@@ -211,9 +211,8 @@ int RunCalibrate(const Arguments& arguments) {
   const ConverterChoice choice = ChooseConverter(request.converter, &of_choice);
   CheckOutputs(arguments, request, choice);
   ProgressBar bar("recordings read");
-  const CalibrationReport report =
-      RunCalibration(request, {choice.config, std::move(of_choice)},
-                     [&](int done, int all) { bar.Show(done, all); });
+  const CalibrationReport report = RunCalibration(request, {choice.config, std::move(of_choice)},
+                                                  [&](int done, int all) { bar.Show(done, all); });
   bar.Clear();
   CheckOutputs(arguments, request, choice);
   LogWarnings(report.warnings);

@@ -64,23 +64,12 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
   return joined;
 }
 
-/// The frame from which a foot is seen to move: before a body is tracked it has its first posture,
-/// and then it settles.
-double FirstKnown(const FootMotion& motion) {
-  constexpr double kSettles = 0.05;  // [s]
-  const Eigen::Matrix3Xd& heel = motion.foot(Side::kLeft).heel;
-  Eigen::Index k = 0;
-  while (k + 1 < heel.cols() && heel.col(k + 1) == heel.col(0)) ++k;
-  return k > 0 ? static_cast<double>(k) + kSettles * motion.rate : 0;
-}
-
 std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFoot>& slow) {
   std::vector<Standing> standings;
-  const double begins = FirstKnown(motion);
   for (const SlowFoot& one : slow) {
     standings.push_back({motion.time(one.begin),
                          motion.time(one.end),
-                         one.begin > begins,
+                         one.begin > 0,
                          one.end < motion.num_frames() - 1,
                          {}});
   }

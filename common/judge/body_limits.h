@@ -7,8 +7,8 @@
 
 namespace mmm_converter {
 
-/// What no body does for long: joints of legs that stand at a limit which is not their rest (a knee is
-/// straight at one), but for those that hardly a marker shows; an ankle above its hip where the
+/// What no body does for long: joints of legs that stand at a limit which is not their rest (a knee
+/// is straight at one), but for those that hardly a marker shows; an ankle above its hip where the
 /// pelvis is upright.
 void JudgeBodyLimits(const TrackingSetup& setup, const PoseTrajectory& trajectory,
                      VerdictReasons* reasons);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/s2kf/posture_recovery.h"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 namespace mmm_converter::s2kf {
@@ -22,8 +22,7 @@ PostureFitOptions FitOptions(const S2kfSettings& settings) {
 PostureRecovery::PostureRecovery(const TrackedMarkers& markers, const S2kfSettings& settings)
     : options_(FitOptions(settings)),
       start_attempts_(settings.start_attempts),
-      scale_(markers.noise_scale() *
-             std::sqrt(markers.noise_scale().cwiseAbs2().cwiseInverse().mean())),
+      scale_(markers.noise_scale() * std::max(1.0, markers.MeanTrust())),
       search_(markers.kinematics()) {
   options_.max_iterations = kFitIterations;
   options_.pulls = markers.pulls();

@@ -72,11 +72,16 @@ TrackedMarkers TrackedMarkers::Worn(const WornPlaces& places) const {
   return worn;
 }
 
+double TrackedMarkers::MeanTrust() const {
+  return std::min(1.0, noise_scale_.maxCoeff()) *
+         std::sqrt(noise_scale_.cwiseAbs2().cwiseInverse().mean());
+}
+
 Eigen::VectorXd TrackedMarkers::FilterScale(double configured) const {
   // Well known places weigh more than others, yet the skin about them, and what samples leave
   // unexplained in quick motion, are no smaller: three quarters of the way, as a power, a mean
   // marker weighs as one of scale 1 (85_02 is lost in 15 % of its frames without, in 2 % so).
-  const double trust = std::sqrt(noise_scale_.cwiseAbs2().cwiseInverse().mean());
+  const double trust = MeanTrust();
   Eigen::VectorXd scale = std::max(1.0, std::pow(trust, 0.75)) * noise_scale_;
   for (Eigen::Index m = 0; m < scale.size(); ++m) {
     if (std::isnan(skin_deviation_[m])) continue;

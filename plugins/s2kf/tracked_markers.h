@@ -47,6 +47,10 @@ class TrackedMarkers {
   /// Of each coordinate about that place, from frame to frame, NaN where that was not measured [m].
   const Eigen::VectorXd& skin_deviation() const { return skin_deviation_; }
 
+  /// What a mean marker weighs in squares over one of noise scale 1, as a root; 1 where none has a
+  /// scale of 1 or more and all are alike.
+  double MeanTrust() const;
+
   /// noise_scale() times how much quieter the person's marker was measured to be than the
   /// configured standard deviation [m], which goes for the others.
   Eigen::VectorXd FilterScale(double configured) const;

@@ -81,15 +81,6 @@ class Printed(PageCase):
         for words in ("CSV", "SVG", "½×", "Single strides", "Save picture", "Click", "Trunk, neck and arms"):
             self.assertNotIn(words, text)
 
-    def test_no_chart_is_torn(self):
-        for paper in PAPERS:
-            found = 0
-            for page in texts_of(self.printed("ground.html", paper)):
-                titles = sum(len(re.findall(rf"(?m)^.*\b{title} (?:°|body)", page, re.IGNORECASE)) for title in CHARTS)
-                self.assertEqual(len(re.findall("100 %", page.replace("(100 %)", ""))), titles, paper)
-                found += titles
-            self.assertEqual(found, len(CHARTS), paper)
-
     def test_comparisons_have_their_curves_too(self):
         pdf = self.printed("compare.html", "A4")
         for colour in ("#0072b2", "#d1570a"):

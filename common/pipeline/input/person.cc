@@ -208,8 +208,9 @@ Person FindPerson(const PersonRequest& request, const TrackingSetup& setup,
                   const NamedMarkers* names) {
   if (config.model_processor == "None") return LeaveUnscaled(request, config, warnings);
   const auto estimate = [&](Person* person) { Estimate(setup, recording.markers, names, person); };
-  Person person =
-      Find(request, *setup.model, recording, config, estimate, names != nullptr, warnings);
+  // Where nothing is tracked, what wears markers does not count.
+  const bool leaves_others = names != nullptr || setup.assignments().empty();
+  Person person = Find(request, *setup.model, recording, config, estimate, leaves_others, warnings);
   const bool is_of_names = names != nullptr || setup.marker_set == kSetOfNames;
   if (is_of_names && !person.subject) {
     TrackingSetup scaled = setup;
@@ -241,7 +242,7 @@ Person FindKnownPerson(const PersonRequest& request, const KinematicModel& refer
       OptionText("mass"), OptionText("person"), OptionText("subject-file"));
   if (config.model_processor == "None") throw Error(WhyUnscaled(config));
   const auto fail = [&](Person* /*person*/) { throw Error(unknown); };
-  Person person = Find(request, reference, Recording(), config, fail, false, warnings);
+  Person person = Find(request, reference, Recording(), config, fail, true, warnings);
   if (IsAssumed(person.mass)) throw Error(unknown);
   return person;
 }

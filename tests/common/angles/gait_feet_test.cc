@@ -10,7 +10,7 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kSameHere = 1e-9;  // rounding of a double
-constexpr double kOut = 0.2;    // [rad] by which the toes of both feet point outwards
+constexpr double kOut = 0.2;        // [rad] by which the toes of both feet point outwards
 
 /// Feet that glide along a way at `heading`, turned outwards.
 FootMotion FeetAlong(double heading) {

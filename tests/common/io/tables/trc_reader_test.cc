@@ -121,7 +121,8 @@ TEST(TrcReader, BlanksMaySeparate) {
 TEST(TrcReader, MarkersWithoutLabelsAreCalledByNumber) {
   for (const char* labels : {"Frame#\tTime\t\t\t\t\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n", ""}) {
     Warnings warnings;
-    const MarkerTable trc = ParseTrc(std::string(kHeader) + labels + kTrcRows, "walk.trc", &warnings);
+    const MarkerTable trc =
+        ParseTrc(std::string(kHeader) + labels + kTrcRows, "walk.trc", &warnings);
     EXPECT_THAT(trc.markers.labels(), ElementsAre("*1", "*2"));
     EXPECT_EQ(trc.markers.frame(1).col(1), Eigen::Vector3d(-15, 11, 12));
     EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("they are called *1 to *2")));
@@ -147,9 +148,9 @@ TEST(TrcReader, NamesMayStandOverEachCoordinate) {
 
 TEST(TrcReader, FramesThatAreMissingAreAGap) {
   Warnings warnings;
-  const MarkerTable trc = ParseTrc(
-      Replaced(kHeader, "2\t2\tmm", "3\t2\tmm") + kLabels + kTrcRows + "5\t0.04\t7\t8\t9\t1\t2\t3\n",
-      "walk.trc", &warnings);
+  const MarkerTable trc = ParseTrc(Replaced(kHeader, "2\t2\tmm", "3\t2\tmm") + kLabels + kTrcRows +
+                                       "5\t0.04\t7\t8\t9\t1\t2\t3\n",
+                                   "walk.trc", &warnings);
   ASSERT_EQ(trc.markers.num_frames(), 5);
   EXPECT_EQ(trc.num_rows, 3);
   EXPECT_FALSE(IsSeen(trc.markers.frame(2).col(0)));
