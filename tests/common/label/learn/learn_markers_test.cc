@@ -154,7 +154,7 @@ TEST(LearnMarkersRealFilesTest, PluginGait) {
 MarkerSequence StandingLegs(const MarkerSequence& recorded, std::vector<int>* columns) {
   std::vector<std::string> labels;
   for (const char* name : {"LASI", "RASI", "LPSI", "RPSI", "LTHI", "RTHI", "LKNE", "RKNE", "LTIP",
-                           "RTIP", "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"}) {
+                           "RTIP", "LANK", "RANK", "LHEE", "RHEE", "LMT5", "RMT5"}) {
     columns->push_back(recorded.FindLabel(name));
     labels.emplace_back(name);
     if (labels.back().ends_with("TIP")) labels.back().back() = 'B';
