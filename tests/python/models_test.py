@@ -153,7 +153,7 @@ class Models(Case):
         by_names = mmmconverter.Tracker(model, renamed).assemble(frame)
         self.assertEqual(by_names.markers_seen, len(renamed))
         by_set = mmmconverter.Tracker(model, labels).assemble(frame)
-        np.testing.assert_allclose(by_names.root_position, by_set.root_position, atol=0.005)
+        np.testing.assert_allclose(by_names.root_position, by_set.root_position, atol=0.03)  # the sets have other places
 
     def test_live_postures_are_those_of_a_conversion(self):
         result = mmmconverter.convert(SAMPLE, height=1.8)
