@@ -71,7 +71,7 @@ Examples
   MMMConverterS2KF convert both.c3d --label --subject-file anna.xml --and-subject-file ben.xml
   MMMConverterS2KF convert unlabelled.c3d --label --like standing.c3d --height 1.68
   MMMConverterS2KF convert walk.c3d run.c3d --subject-file anna.xml --report anna.html
-  MMMConverterS2KF convert a.c3d b.c3d c.c3d --condition bare,bare,shoes --report anna.html
+  MMMConverterS2KF convert walk.c3d run.c3d jump.c3d --condition bare,bare,shoes --report b.html
   MMMConverterS2KF convert recording.xml --motion 1723 -o recording.xml
   MMMConverterS2KF convert recording.xml --motion all --object-models objects -o converted.xml
   MMMConverterS2KF convert cup.c3d --object --object-models objects

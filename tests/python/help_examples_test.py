@@ -14,7 +14,7 @@ from support import Case, ROOT, SAMPLE, run_program
 
 PROGRAM = pathlib.Path(os.environ.get("MMM_CONVERTER_PROGRAM", ROOT / "build/bin/MMMConverterS2KF")).resolve()
 # These need a camera system, minutes, or two bodies: their options and files alone are checked.
-FAR = ("live qtm:", "live natnet:", "serve ", "evaluate", "--scale-setup", "cup.c3d", "both.c3d")
+FAR = ("live qtm:", "live natnet:", "serve ", "evaluate", "--scale-setup", "--setup", "cup.c3d", "both.c3d")
 OUTPUTS = ("-o", "--subject-out", "--report", "--summary")
 
 
