@@ -263,6 +263,7 @@ class SkeletonFit {
       if (places.empty()) continue;
       for (int a = 0; a < 3; ++a) one.p_SM[a] = Median(coordinates[a]);
       std::vector<double> strays;
+      strays.reserve(places.size());
       for (const Vector3d& p : places) strays.push_back((p - one.p_SM).norm());
       one.stray = Median(strays);
       one.deviation = std::max(kLeastPointDeviation, one.stray);
