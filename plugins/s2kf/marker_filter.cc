@@ -76,6 +76,13 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
       C_sz_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
       prior_moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
   motion_model_ = MakeMotionModel(settings, measurement_model_.transform(), kinematics);
+  for (int j = 0; j < kinematics.num_joints(); ++j) {
+    bool is_moved = kinematics.IsEndless(j);
+    for (int m = 0; m < kinematics.num_markers() && !is_moved; ++m) {
+      is_moved = kinematics.Moves(j, m);
+    }
+    if (!is_moved) resting_.push_back(j);
+  }
   const int n = kinematics.num_dofs();
   const int all = NumStates(settings, kinematics);
   z_.setZero(3 * kinematics.num_markers());
@@ -128,12 +135,7 @@ void MarkerFilter::StartAt(const Posture& posture, Belief* belief) const {
 /// Joints that move no marker are where they rest, whatever samples of others make of them.
 void MarkerFilter::Rest(Belief* belief) const {
   const Eigen::Index n = belief->num_states();
-  for (int j = 0; j < kinematics_.num_joints(); ++j) {
-    bool is_moved = kinematics_.IsEndless(j);
-    for (int m = 0; m < kinematics_.num_markers() && !is_moved; ++m) {
-      is_moved = kinematics_.Moves(j, m);
-    }
-    if (is_moved) continue;
+  for (const int j : resting_) {
     belief->parameters[j] = motion_model_.natural[j];
     for (Eigen::Index i = 6 + j; i < belief->P.rows(); i += n) {
       belief->P.row(i).setZero();

@@ -73,6 +73,7 @@ class MarkerFilter {
   Eigen::VectorXd noise_scale_;
   std::vector<JointPull> pulls_;
   MotionModel motion_model_;
+  std::vector<int> resting_;  // joints that move no marker
   MarkerMeasurementModel measurement_model_;
   Eigen::VectorXd expected_;  // of z, by the latest estimate
   Eigen::VectorXd z_;         // measured coordinates, m
