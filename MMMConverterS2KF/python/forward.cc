@@ -117,7 +117,7 @@ void ComputeMarkerPlaces(const KinematicModel& model, const std::vector<int>& jo
   for (std::size_t i = 0; i < model.markers().size(); ++i) {
     markers.emplace_back(static_cast<int>(i));
   }
-  const MarkerKinematics kinematics(model, all, markers);
+  const MarkerKinematics kinematics(model, all, markers, std::vector<int>());
   MarkerBatch batch = kinematics.MakeBatch(kSamples);
   const int columns = 3 * kinematics.num_markers();
   for (std::ptrdiff_t begin = 0; begin < frames; begin += kSamples) {

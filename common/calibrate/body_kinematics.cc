@@ -5,6 +5,7 @@
 
 #include "common/model/forward_kinematics.h"
 #include "common/model/subject.h"
+#include "common/model/untold_joints.h"
 
 namespace mmm_converter {
 
@@ -13,6 +14,7 @@ BodyKinematics::BodyKinematics(const KinematicModel& model, std::vector<int> joi
     : model_(model),
       joints_(std::move(joints)),
       markers_(std::move(markers)),
+      untold_(UntoldJoints(model, markers_)),
       lengths_(FindSegmentLengths(model, joints_, markers_)) {
   const auto num_scales = static_cast<Eigen::Index>(lengths_.segments.size());
   const auto num_markers = static_cast<Eigen::Index>(markers_.size());
@@ -58,7 +60,7 @@ void BodyKinematics::SetBody(const Body& body) {
       fitted.markers[markers_[m]].p_SM += body.offsets.col(static_cast<Eigen::Index>(m));
     }
     fitted_ = std::make_unique<KinematicModel>(std::move(fitted));
-    kinematics_ = std::make_unique<MarkerKinematics>(*fitted_, joints_, markers_);
+    kinematics_ = std::make_unique<MarkerKinematics>(*fitted_, joints_, markers_, untold_);
     return;
   }
   Subject subject;
@@ -73,7 +75,7 @@ void BodyKinematics::SetBody(const Body& body) {
     subject.offsets.push_back(offset);
   }
   fitted_ = std::make_unique<KinematicModel>(FitToSubject(model_, subject));
-  kinematics_ = std::make_unique<MarkerKinematics>(*fitted_, joints_, markers_);
+  kinematics_ = std::make_unique<MarkerKinematics>(*fitted_, joints_, markers_, untold_);
 }
 
 BodyJacobian BodyKinematics::MakeJacobian() const {

@@ -80,6 +80,7 @@ class BodyKinematics {
   const KinematicModel& model_;
   std::vector<int> joints_;
   std::vector<MarkerIx> markers_;
+  std::vector<int> untold_;  // by the markers at the model's places, wherever they are moved
   SegmentLengths lengths_;
   Eigen::Matrix3Xd lines_;
   std::vector<MirroredPlaces> mirrors_;

@@ -13,6 +13,7 @@
 #include "common/math/square.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
+#include "common/motion/flat_frames.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -23,10 +24,12 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kMostFrames = 500;  // that a median is taken of
-constexpr std::size_t kFewestFrames = 1;
 // A length that is farther from the model's is a wrong label.
-constexpr double kLeastShare = 0.7;
-constexpr double kMostShare = 1.4;
+struct Share {
+  double least = 0.7, most = 1.4;
+};
+// Toes are worn from the instep to the tip.
+constexpr Share kOnFoot = {0.45, 1.5};
 // Of distances between markers of a foot, as skin moves, and of their heights, as soles and floors
 // are not quite flat [m].
 constexpr double kDistanceDeviation = 0.003;
@@ -34,19 +37,15 @@ constexpr double kHeightDeviation = 0.004;
 // Of places on a foot from the usual ones, by which feet differ [m].
 constexpr double kWidthDeviation = 0.004;
 constexpr double kLengthDeviation = 0.02;
-// A foot is flat where its markers are this near their lowest places and this slow upwards.
-constexpr double kNearLowest = 0.015;  // [m]
-constexpr double kSlowUpwards = 0.06;  // [m/s]
-constexpr double kLowestPercent = 5;
 constexpr std::size_t kFewestFlat = 5;  // frames
-constexpr double kMostTilt = 0.03;      // [m] between markers, from the model's
+constexpr double kMostTilt = 0.06;      // [m] between markers, from the model's
 
 double Offset(double length, double share, double rest_mm) {
   return share * length + rest_mm / kMillimetres;
 }
 
-bool IsShown(double length, double of_model) {
-  return length > kLeastShare * of_model && length < kMostShare * of_model;
+bool IsShown(double length, double of_model, Share share = {}) {
+  return length > share.least * of_model && length < share.most * of_model;
 }
 
 /// A landmark that the recording has and the model has a marker for.
@@ -92,7 +91,9 @@ class LandmarkBody {
       if (reading.side != side || known.name != landmark) continue;
       const int label = recording_.FindLabel(one.label);
       const int marker = model_.FindMarker(one.marker);
-      if (label >= 0 && marker >= 0) return Seen{label, marker, known.part == "ankle"};
+      if (label < 0 || marker < 0) continue;
+      const Seen seen{label, marker, known.part == "ankle"};
+      if (std::isfinite(MedianOf([&](int k) { return At(k, seen).x(); }))) return seen;
     }
     return std::nullopt;
   }
@@ -111,7 +112,7 @@ class LandmarkBody {
       const double one = value(k);
       if (std::isfinite(one)) values.push_back(one);
     }
-    return values.size() < kFewestFrames ? kNaN : Median(values);
+    return values.empty() ? kNaN : Median(values);
   }
   double Distance(const Seen& a, const Seen& b) const {
     return MedianOf([&](int k) { return (At(k, a) - At(k, b)).norm(); });
@@ -287,24 +288,10 @@ void LandmarkBody::FindLegs() {
 
 /// Of each marker against the first, where the foot is flat; empty: it never is.
 std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const {
-  const int n = recording_.num_frames();
-  std::vector<double> lowest;
-  for (const Seen& one : foot) {
-    std::vector<double> heights;
-    for (int k = 0; k < n; ++k) heights.push_back(At(k, one).z());
-    lowest.push_back(Percentile(heights, kLowestPercent));
-  }
+  std::vector<int> labels;
+  for (const Seen& one : foot) labels.push_back(one.label);
   std::vector<std::vector<double>> above(foot.size());
-  for (int k = 0; k < n; ++k) {
-    const int before = std::max(0, k - 1), after = std::min(n - 1, k + 1);
-    const double time = (after - before) / recording_.rate();
-    bool is_flat = true;
-    for (std::size_t i = 0; i < foot.size() && is_flat; ++i) {
-      const double z = At(k, foot[i]).z();
-      const double rise = time > 0 ? (At(after, foot[i]).z() - At(before, foot[i]).z()) / time : 0;
-      is_flat = z < lowest[i] + kNearLowest && std::abs(rise) < kSlowUpwards;
-    }
-    if (!is_flat) continue;
+  for (const int k : FlatFrames(recording_, labels)) {
     for (std::size_t i = 0; i < foot.size(); ++i) {
       above[i].push_back(At(k, foot[i]).z() - At(k, foot[0]).z());
     }
@@ -367,7 +354,7 @@ void LandmarkBody::FindFoot(BodySide side) {
       }
       for (Eigen::Index j = 0; j < i; ++j) {
         const Vector3d between = p.col(i) - p.col(j);
-        if (!IsShown(distances(i, j), (rest.col(i) - rest.col(j)).norm())) continue;
+        if (!IsShown(distances(i, j), (rest.col(i) - rest.col(j)).norm(), kOnFoot)) continue;
         VectorXd slope = VectorXd::Zero(3 * n);
         slope.segment<3>(3 * i) = between.normalized();
         slope.segment<3>(3 * j) = -between.normalized();

@@ -28,15 +28,9 @@ PostureFit::PostureFit(const MarkerKinematics& kinematics)
     : kinematics_(kinematics),
       natural_(NaturalAngles(kinematics)),
       start_(natural_),
+      resting_(kinematics.RestingJoints()),
       equations_(kinematics) {
   trial_.joint_angles.setZero(kinematics.num_joints());
-  for (int j = 0; j < kinematics.num_joints(); ++j) {
-    bool is_moved = kinematics.IsEndless(j);
-    for (int m = 0; m < kinematics.num_markers() && !is_moved; ++m) {
-      is_moved = kinematics.Moves(j, m);
-    }
-    if (!is_moved) resting_.push_back(j);
-  }
 }
 
 PostureFit::Result PostureFit::Evaluate(const Ref<const Matrix3Xd>& z, const VectorXd& noise_scale,

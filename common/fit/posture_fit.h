@@ -80,8 +80,8 @@ class PostureFit {
 
   const MarkerKinematics& kinematics_;
   Eigen::VectorXd natural_;
-  std::vector<int> resting_;  // joints that move no marker: nothing tells where they are
   Eigen::VectorXd start_;     // joint angles
+  std::vector<int> resting_;  // joints that move no marker: nothing tells where they are
   NormalEquations equations_;
   Posture trial_;
   double seen_weight_ = 0;  // of the markers seen

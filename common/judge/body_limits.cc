@@ -4,13 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
+#include "common/motion/flat_frames.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
@@ -26,6 +31,9 @@ constexpr double kNearRest = 5 / kDegrees;
 // Who walks on hands is not upright; who kicks is not so for long.
 constexpr Limit kAnkleAboveHip = {0.2, kNever};
 constexpr double kUpright = 0.7;  // cosine of 45 degrees
+// Of a foot that lies flat [degrees]: shoes and places of markers differ.
+constexpr Limit kSlopeOfSole = {15, kNever};
+constexpr std::size_t kFewestFlatFrames = 5;
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
 
@@ -84,14 +92,62 @@ void JudgeLegs(const KinematicModel& model, const PoseTrajectory& trajectory,
   }
 }
 
+/// Columns of the markers below an ankle, or at it; empty where they are not at both its ends.
+std::vector<int> LabelsOfFoot(const TrackingSetup& setup, int shank_end, int foot, int front) {
+  std::vector<int> labels;
+  int in_front = 0;
+  for (const MarkerAssignment& one : setup.assignments()) {
+    int segment = setup.model->markers()[one.marker].segment;
+    bool is_in_front = false, is_foot = false;
+    for (; segment > 0;
+         segment = setup.model->segments()[static_cast<std::size_t>(segment)].parent) {
+      is_in_front |= segment == front;
+      is_foot |= segment == foot || segment == shank_end;
+      if (segment == shank_end) break;
+    }
+    if (!is_foot) continue;
+    labels.push_back(one.label);
+    in_front += is_in_front ? 1 : 0;
+  }
+  const bool are_both_ends = in_front > 0 && in_front < static_cast<int>(labels.size());
+  return are_both_ends ? labels : std::vector<int>();
+}
+
+void JudgeSoles(const TrackingSetup& setup, const MarkerSequence& recording,
+                const PoseTrajectory& trajectory, VerdictReasons* reasons) {
+  const KinematicModel& model = *setup.model;
+  for (const auto& [side, letter] : {std::pair("left", "L"), std::pair("right", "R")}) {
+    const std::string prefix = letter;
+    const int foot = model.FindSegment(prefix + "Ay_joint");
+    const int front = model.FindSegment(prefix + "Mrot_joint");
+    const int shank_end = model.FindSegment(prefix + "Asegment_joint");
+    if (foot < 0 || front < 0 || shank_end < 0) continue;
+    const std::vector<int> labels = LabelsOfFoot(setup, shank_end, foot, front);
+    std::vector<double> slopes;
+    for (const int k : FlatFrames(recording, labels)) {
+      if (k >= trajectory.num_frames()) break;
+      const auto X_WS = SegmentPoses(model, ModelPosture(model, trajectory, k));
+      // The sole is level in the posture that is all zero.
+      slopes.push_back(std::asin(X_WS[static_cast<std::size_t>(foot)].linear()(2, 1)));
+    }
+    if (slopes.size() < kFewestFlatFrames) continue;
+    const double slope = kDegrees * std::abs(Median(slopes));
+    reasons->AddBeyond(kSlopeOfSole, slope,
+                       fmt::format("the {} foot's sole slopes by {:.0f} degrees where its markers "
+                                   "lie flat: are they where their names say?",
+                                   side, slope));
+  }
+}
+
 }  // namespace
 
-void JudgeBodyLimits(const TrackingSetup& setup, const PoseTrajectory& trajectory,
-                     VerdictReasons* reasons) {
+void JudgeBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording,
+                     const PoseTrajectory& trajectory, VerdictReasons* reasons) {
   // Of the reference model: robots and OpenSim's bodies have limits of their own kinds.
   if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return;
   JudgeJoints(setup, trajectory, reasons);
   JudgeLegs(*setup.model, trajectory, reasons);
+  JudgeSoles(setup, recording, trajectory, reasons);
 }
 
 }  // namespace mmm_converter

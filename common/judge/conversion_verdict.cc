@@ -82,7 +82,7 @@ class Judge {
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
     if (evidence_.names != nullptr) {  // else places are known too badly to tell
-      JudgeBodyLimits(evidence_.setup, evidence_.result.trajectory, &reasons_);
+      JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
     }
     JudgeHeight(is_far);
     if (is_far || evidence_.names != nullptr) {

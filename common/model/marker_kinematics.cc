@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/math/rotation.h"
+#include "common/model/untold_joints.h"
 
 namespace mmm_converter {
 
@@ -41,6 +42,10 @@ double RestOf(const KinematicModel& model, const Segment& segment) {
 
 MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
                                    std::vector<MarkerIx> markers)
+    : MarkerKinematics(model, std::move(joints), markers, UntoldJoints(model, markers)) {}
+
+MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
+                                   std::vector<MarkerIx> markers, const std::vector<int>& resting)
     : joints_(std::move(joints)),
       markers_(std::move(markers)),
       is_root_fixed_(model.is_root_fixed()),
@@ -59,6 +64,7 @@ MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int>
     rest_[j] = joint.rest;
     reach_[j] = joint.reach;
   }
+  for (const int joint : resting) column_of_joint[joint] = -1;
 
   std::vector<bool> is_shown(num_segments, false);  // by a marker on it, or on what it carries
   for (const MarkerIx marker : markers_) {
@@ -157,6 +163,14 @@ TrackedLink MarkerKinematics::MakeLink(const Segment& segment, int column, const
   Eigen::Map<Matrix3d>(link.R_PF) = R_PF;
   Eigen::Map<Vector3d>(link.p_PF) = X.translation();
   return link;
+}
+
+std::vector<int> MarkerKinematics::RestingJoints() const {
+  std::vector<int> resting;
+  for (int j = 0; j < num_joints(); ++j) {
+    if (!IsEndless(j) && !moves_.row(j).any()) resting.push_back(j);
+  }
+  return resting;
 }
 
 MarkerKinematics MarkerKinematics::WithMarkersMoved(const Eigen::Matrix3Xd& offsets) const {

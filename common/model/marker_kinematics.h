@@ -46,8 +46,13 @@ struct MarkerJacobian {
 class MarkerKinematics {
  public:
   /// joints, markers: indices of the model, in the order that all results use.
+  /// Joints that the markers do not tell (UntoldJoints) rest, whatever their angles.
   MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
                    std::vector<MarkerIx> markers);
+
+  /// The same where other joints rest; none: postures were found by other markers, too.
+  MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
+                   std::vector<MarkerIx> markers, const std::vector<int>& resting);
 
   /// The same with each marker moved by its column, in axes of its link (MarkerJacobian::R_WL),
   /// [m].
@@ -96,6 +101,8 @@ class MarkerKinematics {
 
   /// True where the tracked joint moves the marker, through one joint or several.
   bool Moves(int joint, int marker) const { return moves_(joint, marker); }
+  /// Tracked joints that move no marker, but for endless ones.
+  std::vector<int> RestingJoints() const;
   /// The rigid link that carries the marker: the index of MarkerJacobian::R_WL.
   int link_of_marker(int marker) const { return link_of_marker_[marker]; }
   int num_links() const { return static_cast<int>(links_.size()); }

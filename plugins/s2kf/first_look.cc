@@ -21,6 +21,10 @@ using Eigen::Vector3d;
 
 namespace {
 
+// Of landmarks, all joints together are most likely with less noise than ankles need, which then
+// lose a third of their range.
+constexpr double kLeastScaleOfLandmarks = 0.25;
+
 // Parts of the recording that are judged, each this long; the first frames of each, in which the
 // start settles, do not count.
 constexpr int kParts = 6;
@@ -230,6 +234,9 @@ FirstLook LookOver(const MarkerSequence& recording, const TrackedMarkers& marker
   if (settings.choose_process_noise_scale) {
     const TrackedMarkers worn = look.places ? markers.Worn(*look.places) : markers;
     look.process_noise_scale = ChooseScale(Likelihood(parts, 1 / recording.rate(), worn, settings));
+    if (markers.MeanTrust() > 1) {
+      look.process_noise_scale = std::max(*look.process_noise_scale, kLeastScaleOfLandmarks);
+    }
   }
   return look;
 }

@@ -76,13 +76,7 @@ MarkerFilter::MarkerFilter(const MarkerKinematics& kinematics, const S2kfSetting
       C_sz_(kinematics.num_dofs(), 3 * kinematics.num_markers()),
       prior_moments_(kinematics.num_dofs(), 3 * kinematics.num_markers()) {
   motion_model_ = MakeMotionModel(settings, measurement_model_.transform(), kinematics);
-  for (int j = 0; j < kinematics.num_joints(); ++j) {
-    bool is_moved = kinematics.IsEndless(j);
-    for (int m = 0; m < kinematics.num_markers() && !is_moved; ++m) {
-      is_moved = kinematics.Moves(j, m);
-    }
-    if (!is_moved) resting_.push_back(j);
-  }
+  resting_ = kinematics.RestingJoints();
   const int n = kinematics.num_dofs();
   const int all = NumStates(settings, kinematics);
   z_.setZero(3 * kinematics.num_markers());

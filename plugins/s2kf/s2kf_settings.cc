@@ -42,8 +42,13 @@ void BindMotionModel(S2kfSettings* v, SettingTable* table) {
                     "How the state may change between frames; variances grow with time.");
   table->AddChoice(
       "MotionModel", "type", &v->motion_model,
-      {{"randomWalk", MotionModelType::kRandomWalk}, {"velocity", MotionModelType::kVelocity}},
-      "randomWalk: the state stays and spreads; velocity: it carries its rate, which spreads");
+      {{"auto", MotionModelType::kAuto},
+       {"randomWalk", MotionModelType::kRandomWalk},
+       {"velocity", MotionModelType::kVelocity}},
+      "randomWalk: the state stays and spreads; velocity: it carries its rate, which spreads; "
+      "auto: "
+      "of landmarks, whose places on the body are well known, a velocity with drifts of its own; "
+      "else randomWalk");
   table->Add("MotionModel", "rootPosition_mm_per_sqrt_s", &v->noise.position, kMillimetre, 0, 1e6,
              "randomWalk: drift of the root position within one second");
   table->Add("MotionModel", "rootOrientation_rad_per_sqrt_s", &v->noise.orientation, 1, 0, 100,

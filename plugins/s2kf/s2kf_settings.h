@@ -16,7 +16,11 @@ enum class FilterType {
   kEkf,   ///< analytic Jacobian
 };
 
-enum class MotionModelType { kRandomWalk, kVelocity };
+enum class MotionModelType {
+  kAuto,  ///< a velocity where markers are trusted more than the usual ones, else a random walk
+  kRandomWalk,
+  kVelocity
+};
 
 enum class StartMethod {
   kFit,    ///< rigid fit, Levenberg-Marquardt, random restarts
@@ -39,7 +43,7 @@ struct S2kfSettings {
   RootParameters root = RootParameters::kSo3;
   LimitFunction limits = LimitFunction::kSine;
 
-  MotionModelType motion_model = MotionModelType::kRandomWalk;
+  MotionModelType motion_model = MotionModelType::kAuto;
   ProcessNoise noise = {0.3, 0.3, 0.17};
   double natural_spread = 0.15;
   double velocity_decay = 0.2;

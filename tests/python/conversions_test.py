@@ -77,7 +77,9 @@ class Conversions(Case):
         angles = mmmconverter.convert(SAMPLE, height=1.8).angles
         rows = [line.split(",") for line in table.read_text().splitlines()[1:]]
         names = [" ".join(filter(None, (row[2], row[1], row[3]))) for row in rows]
-        self.assertEqual(names[:len(angles.names)], angles.names)
+        own_sides = ("left pelvis", "right pelvis", "left trunk", "right trunk", "left neck", "right neck")
+        rows = [row for row, name in zip(rows, names) if not name.startswith(own_sides)]
+        self.assertEqual([name for name in names if not name.startswith(own_sides)][:len(angles.names)], angles.names)
         figures = np.array([[float(row[4]), float(row[5])] for row in rows]).reshape(675, len(angles.names), 2)
         np.testing.assert_allclose(angles.values, figures[..., 0], atol=1e-6)
         np.testing.assert_allclose(angles.sd, figures[..., 1], atol=1e-6)

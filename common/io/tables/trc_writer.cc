@@ -45,7 +45,7 @@ class ModelMarkers {
     std::vector<MarkerIx> markers;
     markers.reserve(output.model_markers.size());
     for (const TrcModelMarker& one : output.model_markers) markers.push_back(one.marker);
-    return MarkerKinematics(*output.model, joints, markers);
+    return MarkerKinematics(*output.model, joints, markers, std::vector<int>());
   }
 
   const PoseTrajectory& trajectory_;

@@ -124,7 +124,8 @@ void CountHidden(const Field& field, const Trial& trial, const ComparisonOptions
 // Distances of the common markers, hidden ones too, labels x frames [m].
 MatrixXd MeasureDistances(const Trial& trial, const CommonGround& ground,
                           const PoseTrajectory& trajectory) {
-  const MarkerKinematics kinematics(*trial.model, JointsOf(trial, trajectory), ground.markers);
+  const MarkerKinematics kinematics(*trial.model, JointsOf(trial, trajectory), ground.markers,
+                                    std::vector<int>());
   MarkerJacobian at = kinematics.MakeJacobian();
   MatrixXd distances(ground.labels.size(), trajectory.num_frames());
   for (int k = 0; k < trajectory.num_frames(); ++k) {

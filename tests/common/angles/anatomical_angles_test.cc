@@ -274,6 +274,19 @@ TEST_F(AnatomicalAnglesTest, ARowForEachFrameAndAngle) {
   EXPECT_THAT(text, HasSubstr("\n1,elbow,left,flexion,28.64789,1\n"));
 }
 
+TEST_F(AnatomicalAnglesTest, EachSideSeesThePelvisItsOwnWay) {
+  PoseTrajectory motion = Motion({With("LEx_joint", 0)});
+  motion.postures[0].orientation = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()) *
+                                   Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY());
+  const AnatomicalAngles angles = ComputeAnatomicalAngles(model_, motion);
+  std::string text;
+  FormatAngleCsv(angles)([&](std::string_view piece) { text += piece; });
+  EXPECT_THAT(text,
+              HasSubstr("\n1,pelvis,,obliquity,11.459156,\n1,pelvis,left,obliquity,11.459156,\n"
+                        "1,pelvis,right,obliquity,-11.459156,\n1,pelvis,,rotation,5.729578,\n"
+                        "1,pelvis,left,rotation,-5.729578,\n1,pelvis,right,rotation,5.729578,\n"));
+}
+
 TEST_F(AnatomicalAnglesTest, OtherModelsHaveNone) {
   const KinematicModel model = testing::MakeBranchedModel();
   EXPECT_FALSE(HasAnatomy(model));

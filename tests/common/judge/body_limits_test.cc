@@ -7,6 +7,7 @@
 #include "common/convert/marker_mapping.h"
 #include "common/convert/marker_set.h"
 #include "common/io/mmm/mmm_model.h"
+#include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "tests/support/shared_data.h"
 
@@ -40,10 +41,20 @@ class BodyLimitsTest : public ::testing::Test {
       trajectory.postures.push_back(posture);
     }
     VerdictReasons reasons;
-    JudgeBodyLimits(setup_, trajectory, &reasons);
+    JudgeBodyLimits(setup_, recording_, trajectory, &reasons);
     return reasons.Conclude().reasons;
   }
 
+  /// Markers that stand still.
+  void Stand() {
+    std::vector<std::string> labels;
+    for (const ModelMarker& marker : setup_.model->markers()) labels.push_back(marker.name);
+    recording_ = MarkerSequence(labels, 100, 100, 0);
+    const Eigen::Matrix3Xd p = MarkerPositions(*setup_.model, ZeroPosture(*setup_.model));
+    for (int k = 0; k < 100; ++k) recording_.frame(k) = p;
+  }
+
+  MarkerSequence recording_;
   TrackingSetup setup_;
 };
 
@@ -68,6 +79,14 @@ TEST_F(BodyLimitsTest, WhatOneMarkerAloneShowsCanNotTell) {
 TEST_F(BodyLimitsTest, AnAnkleAboveItsHipIsNamed) {
   const std::vector<std::string> reasons = Judge("LHx_joint", 1.64, 60);
   EXPECT_THAT(reasons, Contains(HasSubstr("the left ankle is above its hip in 60 %")));
+}
+
+TEST_F(BodyLimitsTest, ASoleThatSlopesOnFlatGroundIsNamed) {
+  Stand();
+  EXPECT_THAT(Judge("LAx_joint", 0.3, 100),
+              ElementsAre(HasSubstr("the left foot's sole slopes by 17 degrees")));
+  EXPECT_THAT(Judge("LAx_joint", 0.2, 100), IsEmpty());
+  EXPECT_THAT(Judge("LAx_joint", 0.3, 40), IsEmpty());
 }
 
 }  // namespace
