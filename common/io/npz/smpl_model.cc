@@ -26,35 +26,14 @@ constexpr std::array<SmplJoint, kSmplJoints> kJoints = {
 
 /// A bone of a limb, from its joint's parent to it.
 struct Bone {
-  int joint;          ///< of the left; the right one follows
-  double length;      ///< of the MMM model of 1 m [m]
-  Vector3d smplh[2];  ///< about its direction at the zero pose, left and right: x outwards
-  Vector3d smplx[2];
+  int joint;           ///< of the left; the right one follows
+  double length;       ///< of the MMM model of 1 m [m]
+  Vector3d direction;  ///< roughly, at the zero pose, whose arms stretch sideways: x outwards
 };
 
-const Bone kBones[] = {
-    {4,
-     0.245,
-     {{0.09, -1, -0.01}, {0.10, -1, -0.02}},
-     {{0.14, -0.99, -0.03}, {0.12, -0.99, -0.05}}},
-    {7,
-     0.246,
-     {{-0.03, -1, -0.11}, {-0.04, -1, -0.11}},
-     {{-0.11, -0.99, -0.08}, {-0.04, -1, -0.05}}},
-    {10,
-     0.08,
-     {{0.20, -0.41, 0.89}, {0.19, -0.36, 0.91}},
-     {{0.34, -0.41, 0.85}, {0.28, -0.42, 0.86}}},
-    {16,
-     0.075,
-     {{0.94, 0.32, -0.09}, {0.94, 0.32, -0.09}},
-     {{0.89, 0.43, -0.12}, {0.88, 0.46, -0.11}}},
-    {18,
-     0.188,
-     {{0.99, -0.05, -0.10}, {1, -0.05, -0.08}},
-     {{0.95, -0.27, -0.16}, {0.99, -0.13, -0.10}}},
-    {20, 0.145, {{1, 0.04, 0}, {1, 0.03, -0.02}}, {{1, 0.09, -0.01}, {1, -0.02, -0.06}}},
-};
+const Bone kBones[] = {{4, 0.245, {0.1, -1, 0}},      {7, 0.246, {-0.05, -1, -0.1}},
+                       {10, 0.08, {0.2, -0.4, 0.9}},  {16, 0.075, {0.95, 0.3, -0.1}},
+                       {18, 0.188, {1, -0.05, -0.1}}, {20, 0.145, {1, 0, 0}}};
 
 }  // namespace
 
@@ -85,7 +64,7 @@ SmplModel StandInSmplModel(SmplKind kind) {
     rest.col(1 + side) = rest.col(0) + Vector3d(0.052 * x, -0.05, 0);
     rest.col(13 + side) = rest.col(0) + Vector3d(0.04 * x, 0.24, -0.01);
     for (const Bone& bone : kBones) {
-      Vector3d along = (kind == SmplKind::kSmplH ? bone.smplh : bone.smplx)[side].normalized();
+      Vector3d along = bone.direction.normalized();
       along.x() *= x;
       const int joint = bone.joint + side;
       rest.col(joint) =
