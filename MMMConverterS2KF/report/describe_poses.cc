@@ -56,9 +56,14 @@ std::vector<NpzEntry> ReadNpzEntries(const std::string& path) {
     const std::string header = Piece(file, at, kZipHeader);
     if (header.size() < kZipHeader || !header.starts_with(kZipEntry)) break;
     const std::uint64_t method = LittleEndian(header, 8, 2);
-    const std::uint64_t size = LittleEndian(header, 18, 4);
+    std::uint64_t size = LittleEndian(header, 18, 4);
     const std::uint64_t name_size = LittleEndian(header, 26, 2);
     const std::uint64_t data = at + kZipHeader + name_size + LittleEndian(header, 28, 2);
+    if (size == 0xffffffff) {  // of ZIP64, as NumPy writes them
+      const std::string extra = Piece(file, at + kZipHeader + name_size, 20);
+      size = extra.size() == 20 ? LittleEndian(extra, 12, 8) : file.size;
+      if (size > file.size) break;
+    }
     NpzEntry entry;
     entry.name = ToUtf8(Piece(file, at + kZipHeader, name_size));
     if (entry.name.ends_with(".npy")) entry.name.resize(entry.name.size() - 4);

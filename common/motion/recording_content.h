@@ -33,6 +33,7 @@ struct RecordingOrigin {
 struct ContentOptions {
   bool ignore_residuals = false;  ///< C3D: also use points that are marked invalid
   std::string motion = {};        ///< MMM: motion to read; empty: that with most markers
+  std::string smpl_model = {};    ///< SMPL: the file of the body model; empty: none
 };
 
 /// What a file of any format holds, in the file's own unit and axes: nothing is chosen or decided

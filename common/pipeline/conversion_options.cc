@@ -101,7 +101,11 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
           &request->input.forces_file, {.of_motions = "none: the ground is assumed"}),
       Row({"up", "up", "up"}, {OptionKind::kAxis, "AXIS"},
           "the file's axis that points up: x, y, z, -x, -y or -z", "", kReadings | task::kInfo,
-          set_up, {.remedy = Remedy::kUpAxis})};
+          set_up, {.remedy = Remedy::kUpAxis}),
+      Row({"smpl-model", "smplModel", "smpl_model"}, kFile,
+          "motions of SMPL (AMASS), read and written: the body model as .npz, as "
+          "SMPLX_NEUTRAL.npz",
+          "a body of the MMM model", kReadings | task::kInfo, &reading->smpl_model)};
 }
 
 std::vector<Option> PersonOptions(InputRequest* input) {

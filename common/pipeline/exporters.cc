@@ -22,6 +22,7 @@
 #include "common/pipeline/force_exports.h"
 #include "common/pipeline/pose_output.h"
 #include "common/retarget/keypoints.h"
+#include "common/retarget/smpl_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 
@@ -143,6 +144,30 @@ void WriteKeypoints(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatNpz(arrays));
 }
 
+/// The joints of hands and face do not turn.
+void WriteAmass(const std::string& file, const ConversionReport& report) {
+  const std::string& model_file = report.plan.input.smpl_model;
+  const SmplModel smpl =
+      model_file.empty() ? StandInSmplModel(SmplKind::kSmplH) : ReadSmplModel(model_file);
+  const SmplMotion motion =
+      MakeSmplMotion(*report.plan.setup.model, report.result.trajectory, smpl);
+  const std::int64_t frames = motion.poses.cols();
+  Eigen::MatrixXd poses = Eigen::MatrixXd::Zero(3 * smpl.num_joints, frames);
+  poses.topRows(motion.poses.rows()) = motion.poses;
+  std::vector<double> betas = motion.betas;
+  if (betas.empty()) betas.resize(16, 0);
+  const auto numbers = [](const auto& matrix) {
+    return std::vector<double>(matrix.data(), matrix.data() + matrix.size());
+  };
+  const std::vector<NpyArray> arrays = {
+      {"poses", {frames, poses.rows()}, numbers(poses), {}},
+      {"trans", {frames, 3}, numbers(motion.translation), {}},
+      {"betas", {static_cast<std::int64_t>(betas.size())}, betas, {}},
+      {"gender", {}, {}, {"neutral"}},
+      {"mocap_framerate", {}, {report.result.trajectory.rate}, {}}};
+  WriteFileAtomically(file, FormatNpz(arrays));
+}
+
 bool IsAny(const ExportFiles& files, bool Exporter::*is_so) {
   const std::vector<Exporter>& all = Exporters();
   return std::any_of(all.begin(), all.end(),
@@ -215,6 +240,10 @@ const std::vector<Exporter>& Exporters() {
        "joint centres at 30 Hz as holosoma's retargeting takes a person in (data format smplx): "
        "global_joint_positions [m] of 22 joints, and height",
        WriteKeypoints, false, false, CheckLimbs},
+      {"amass", "export-amass", "npz", "the motion as AMASS has it, for SMPL",
+       "the motion of SMPL's joints as AMASS has it (poses, trans, betas, gender, "
+       "mocap_framerate), z up; with SMPL's own model its shape is the person's",
+       WriteAmass, false, false, CheckLimbs},
       {"covariance", "export-covariance", "npz", "covariances of the postures as NumPy's .npz",
        "covariances of root and joints as NumPy's .npz, of every frame in which S2KF computes "
        "them: "

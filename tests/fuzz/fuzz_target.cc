@@ -29,6 +29,7 @@ const std::map<std::string, FuzzTarget>& FuzzTargets() {
       {"motive_csv", ReadMotiveCsvBytes},
       {"natnet", ReadNatNetBytes},
       {"nexus_csv", ReadNexusCsvBytes},
+      {"npz", ReadNpzBytes},
       {"osim", ReadOsimBytes},
       {"osim_setup", ReadOsimSetupBytes},
       {"person", ReadPersonBytes},

@@ -30,6 +30,7 @@ void ReadBvhBytes(std::string_view bytes);
 void ReadC3dBytes(std::string_view bytes);
 void ReadTrcBytes(std::string_view bytes);
 void ReadNexusCsvBytes(std::string_view bytes);
+void ReadNpzBytes(std::string_view bytes);
 void ReadMotiveCsvBytes(std::string_view bytes);
 void ReadPointsCsvBytes(std::string_view bytes);
 void ReadQtmTsvBytes(std::string_view bytes);

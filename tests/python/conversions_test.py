@@ -5,6 +5,7 @@ import copy
 import json
 import multiprocessing
 import os
+import pathlib
 import signal
 import threading
 import unittest
@@ -70,6 +71,14 @@ class Conversions(Case):
         self.assertEqual(result.warnings, result.summary["warnings"])
         self.assertIn("verdict", result._repr_html_())
         self.assertIn("handstand.c3d", result.text)
+
+    def test_joints_in_arrays_of_numpy(self):
+        places = np.load(pathlib.Path(__file__).parents[1] / "fuzz/corpus/npz-read-places.npy").astype(float)
+        for save in (np.savez, np.savez_compressed):
+            save(self.folder / "joints.npz", global_joint_positions=np.asfortranarray(places), fps=30)
+            read = mmmconverter.read(self.folder / "joints.npz", up="z")
+            self.assertEqual((read.format, read.labels[0], read.rate, read.unit), ("joint places", "Pelvis", 30, "m"))
+            np.testing.assert_allclose(read.markers, places, atol=1e-12)
 
     def test_angles_by_their_names(self):
         table = self.folder / "angles.csv"

@@ -35,6 +35,15 @@ bool IsUtf16(std::string_view start) {
 }  // namespace
 
 std::string NameForeignContent(std::string_view start) {
+  if (start.starts_with("PK\x03\x04") && start.substr(0, 200).find("data.pkl") != start.npos) {
+    return "is an archive of PyTorch, whose objects are not opened; save its joints as .npy or "
+           ".npz "
+           "(numpy.savez)";
+  }
+  if (start.starts_with("\x80") && start.size() > 1 && start[1] >= 2 && start[1] <= 5) {
+    return "is a pickle of Python, whose objects are not opened; save its arrays as .npz "
+           "(numpy.savez)";
+  }
   for (const auto& [mark, name] : kPacked) {
     if (start.starts_with(mark)) return fmt::format("is packed ({}); unpack it first", name);
   }

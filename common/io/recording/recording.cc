@@ -237,9 +237,10 @@ Recording ReadRecording(const std::string& path, const ReadRecordingOptions& opt
                             *options.rate, kLowestRate, kHighestRate));
   }
   const RecordingFormat& format = FormatOfContent(path);
-  return MakeRecording(path,
-                       format.read(path, {options.ignore_residuals, options.motion}, warnings),
-                       options, warnings);
+  return MakeRecording(
+      path,
+      format.read(path, {options.ignore_residuals, options.motion, options.smpl_model}, warnings),
+      options, warnings);
 }
 
 std::vector<WithWarnings<Recording>> ReadAllMotions(const std::string& path,

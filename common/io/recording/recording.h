@@ -21,8 +21,9 @@ struct ReadRecordingOptions {
   bool with_unlabelled = false;          ///< also points without a label, as `*` and a number
   /// Label prefix to keep where a file has several subjects; "": labels without.
   std::optional<std::string> subject = {};
-  bool all_subjects = false;  ///< keep those of all, with their prefixes: Subject:LABEL
-  std::string motion = {};    ///< MMM: motion to read; empty: that with most markers
+  bool all_subjects = false;    ///< keep those of all, with their prefixes: Subject:LABEL
+  std::string motion = {};      ///< MMM: motion to read; empty: that with most markers
+  std::string smpl_model = {};  ///< SMPL: the file of the body model; empty: none
 };
 
 /// Why something may be read wrong, and what else could be said of it.

@@ -12,6 +12,8 @@
 #include "common/io/c3d/c3d_content.h"
 #include "common/io/mmm/mmm_content.h"
 #include "common/io/mmm/mmm_motion.h"
+#include "common/io/npz/npz_content.h"
+#include "common/io/npz/npz_file.h"
 #include "common/io/tables/motive_csv.h"
 #include "common/io/tables/nexus_csv.h"
 #include "common/io/tables/points_csv.h"
@@ -60,6 +62,12 @@ bool IsMmm(const std::string& file, std::string_view start) {
   return IsMarkup(start) && LooksLikeMmmMotion(ReadFileStart(file, kMostBytesBeforeTheRoot));
 }
 
+bool IsNpz(const std::string& file, std::string_view start) {
+  return LooksLikeNpz(start) && HoldsMotion(file);
+}
+
+bool IsNpy(const std::string& /*file*/, std::string_view start) { return LooksLikeNpy(start); }
+
 // A number takes four bytes in C3D, nine in tables, and with its markup fifty in MMM.
 const std::vector<RecordingFormat> kFormats = {
     {"C3D", {".c3d"}, IsC3d, ReadC3dContent, 8, true},
@@ -76,6 +84,8 @@ const std::vector<RecordingFormat> kFormats = {
     {"QTM TSV", {".tsv"}, IsTable<LooksLikeQtmTsv>, ReadQtmTsvContent, 5, false, false, true},
     {"CSV of points", {".csv"}, IsPoints, ReadPointsCsvContent, 5, false, false, true},
     {"BVH", {".bvh"}, IsTable<LooksLikeBvh>, ReadBvhContent, 9},
+    {"AMASS", {".npz"}, IsNpz, ReadNpzContent, 9, false, false, true},
+    {"NPY of joints", {".npy"}, IsNpy, ReadNpyContent, 9, false, false, true},
     {"MMM motion", {".xml"}, IsMmm, ReadMmmContent, 2, true, true},
 };
 
@@ -141,6 +151,7 @@ const RecordingFormat& FormatOfContent(const std::string& file) {
   const std::string start = ReadFileStart(file, kStartBytes);
   if (const RecordingFormat* format = FindFormat(file, start)) return *format;
   if (IsText(start)) ThrowOtherText(file, start);
+  if (LooksLikeNpz(start)) return *FindFormatOfName("a.npz");  // whose reader says what is missing
   const std::string foreign = NameForeignContent(ReadFileStart(file, kForeignBytes));
   if (!foreign.empty()) throw Error(fmt::format("{}: {}", file, foreign));
   if (IsDamagedText(start)) {

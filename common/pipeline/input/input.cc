@@ -68,6 +68,7 @@ void NameInputs(const InputRequest& request, OutputPlan* plan) {
   if (!request.marker_set.empty()) plan->Read(FileWithTasks(request.marker_set));
   plan->Read(request.marker_file);
   plan->Read(request.forces_file);
+  plan->Read(request.reading.smpl_model);
   plan->Read(request.person.processor_file);
   plan->Read(request.person.subject_file);
   plan->Read(request.patient.normal_file);
@@ -114,6 +115,7 @@ Input ReadInput(const InputRequest& request, const ReadBefore& read_before, Warn
   Input input = ReadModel(request, read_before, warnings);
   input.recording = std::move(recording);
   input.forces_file = request.forces_file;
+  input.smpl_model = request.reading.smpl_model;
   KeepFrames(request, &input);
   return input;
 }

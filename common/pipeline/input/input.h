@@ -62,6 +62,7 @@ struct Input {
   int first_frame = 0;  ///< of them, counted from 0
   std::string model_file;
   std::string forces_file;                          ///< empty: the recording's own
+  std::string smpl_model;                           ///< as in ReadRecordingOptions
   std::shared_ptr<const LoadedModel> model;         ///< of that file
   std::shared_ptr<const KinematicModel> reference;  ///< not scaled; see MatchModel
   /// What is calibrated is where clusters sit from their usual places: these stay in all

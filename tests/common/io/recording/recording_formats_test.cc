@@ -43,7 +43,8 @@ TEST_F(RecordingFormatsTest, AreToldByNameInAnyCase) {
   EXPECT_FALSE(FindFormatOfName("walk.tsv")->is_written);
   EXPECT_EQ(FindFormatOfName("walk"), nullptr);
   EXPECT_EQ(RecordingFormatNames(),
-            "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV, CSV of points, BVH or MMM motion");
+            "C3D, TRC, Nexus CSV, Motive CSV, QTM TSV, CSV of points, BVH, "
+            "AMASS, NPY of joints or MMM motion");
 }
 
 TEST_F(RecordingFormatsTest, AreToldByContentWhateverTheName) {
@@ -73,6 +74,8 @@ TEST_F(RecordingFormatsTest, OtherFilesAreSaidToBeWhatTheyAre) {
   EXPECT_THAT(format_of("version https://git-lfs.github.com/spec/v1\n"),
               ThrowsMessage<Error>(HasSubstr("Git LFS pointer")));
   EXPECT_THAT(format_of("Kaydara FBX Binary  "), ThrowsMessage<Error>(HasSubstr("as BVH")));
+  EXPECT_THAT(format_of("PK\x03\x04 archive/data.pkl"), ThrowsMessage<Error>(HasSubstr("PyTorch")));
+  EXPECT_THAT(format_of("\x80\x04\x95 and so on"), ThrowsMessage<Error>(HasSubstr("pickle")));
   EXPECT_THAT(format_of("; FBX 7.3.0 project file\n"), ThrowsMessage<Error>(HasSubstr("as BVH")));
   EXPECT_THAT(format_of("frame,time\n"), ThrowsMessage<Error>(HasSubstr("is text")));
   // C3D's reader says what is wrong with other bytes.

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/npz/joint_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "common/io/npz/smpl_model.h"
+#include "common/io/skeleton/skeleton_body.h"
+#include "common/io/skeleton/skeleton_content.h"
+#include "common/math/statistics.h"
+#include "common/motion/skeleton.h"
+#include "common/support/error.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+
+using Layout = std::array<SmplJoint, kSmplJoints>;
+
+// Of SMPL with and without hands, feet and face, in the layers of smplx and of data sets.
+constexpr std::size_t kCounts[] = {22, 24, 25, 45, 52, 54, 55, 73, 127, 144};
+constexpr int kSampledFrames = 50;
+
+constexpr Layout kLafan = {
+    {{"Hips", -1},         {"LeftUpLeg", 0},  {"LeftLeg", 1},        {"LeftFoot", 2},
+     {"LeftToe", 3},       {"RightUpLeg", 0}, {"RightLeg", 5},       {"RightFoot", 6},
+     {"RightToe", 7},      {"Spine", 0},      {"Spine1", 9},         {"Spine2", 10},
+     {"Neck", 11},         {"Head", 12},      {"LeftShoulder", 11},  {"LeftArm", 14},
+     {"LeftForeArm", 15},  {"LeftHand", 16},  {"RightShoulder", 11}, {"RightArm", 18},
+     {"RightForeArm", 19}, {"RightHand", 20}}};
+
+SkeletonMotion MotionOf(const Layout& layout, const std::shared_ptr<const NumpyArray>& places) {
+  SkeletonMotion motion;
+  for (const SmplJoint& joint : layout) {
+    motion.names.emplace_back(joint.name);
+    motion.parents.push_back(joint.parent);
+  }
+  motion.has_orientations = false;
+  motion.num_frames = static_cast<int>(places->rows());
+  motion.pose = [places](int frame, Matrix3Xd* p, std::vector<Matrix3d>* R) {
+    p->resize(3, kSmplJoints);
+    R->resize(kSmplJoints, Matrix3d::Identity());
+    for (int i = 0; i < 3 * kSmplJoints; ++i) {
+      const double value =
+          places->Number(static_cast<std::size_t>(frame), static_cast<std::size_t>(i));
+      (*p)(i % 3, i / 3) = std::abs(value) < kFarthestJoint ? value : kNaN;
+    }
+    if (!p->allFinite()) p->setConstant(kNaN);
+  };
+  return motion;
+}
+
+/// How much the bones of a layout change over the motion, and those of left and right differ, by
+/// their lengths.
+double Strangeness(const SkeletonMotion& motion) {
+  std::vector<std::vector<double>> lengths(kSmplJoints);
+  Matrix3Xd p;
+  std::vector<Matrix3d> R;
+  for (const int k : SpreadFrames(motion.num_frames, kSampledFrames)) {
+    motion.pose(k, &p, &R);
+    if (!p.allFinite()) continue;
+    for (std::size_t j = 1; j < lengths.size(); ++j) {
+      lengths[j].push_back((p.col(static_cast<Eigen::Index>(j)) - p.col(motion.parents[j])).norm());
+    }
+  }
+  if (lengths.back().empty()) return 0;
+  double strangeness = 0;
+  for (std::size_t j = 1; j < lengths.size(); ++j) {
+    const double median = Median(lengths[j]);
+    const auto [least, most] = std::minmax_element(lengths[j].begin(), lengths[j].end());
+    strangeness += (*most - *least) / (median + 1e-9);
+    std::string other = motion.names[j];
+    for (const auto& [left, right] : {std::pair("L_", "R_"), std::pair("Left", "Right")}) {
+      if (other.starts_with(left)) other = right + other.substr(std::string(left).size());
+    }
+    const auto found = std::find(motion.names.begin(), motion.names.end(), other);
+    const double of_other = Median(lengths[static_cast<std::size_t>(found - motion.names.begin())]);
+    strangeness += std::abs(median - of_other) / (median + of_other + 1e-9);
+  }
+  return strangeness;
+}
+
+}  // namespace
+
+RecordingContent ContentOfPlaces(NumpyArray places, double rate, const std::string& file,
+                                 Warnings* warnings) {
+  const std::vector<std::size_t>& shape = places.head().shape;
+  const bool is_right =
+      !places.head().is_text() && shape.size() == 3 && shape[0] > 0 && shape[2] == 3 &&
+      std::find(std::begin(kCounts), std::end(kCounts), shape[1]) != std::end(kCounts);
+  if (!is_right) {
+    throw Error(
+        fmt::format("{}: has the shape {}; expected places of SMPL's or LAFAN1's joints: frames x "
+                    "{} x 3",
+                    file, ShapeText(places.head()), fmt::join(kCounts, ", ")));
+  }
+  const bool can_be_lafan = shape[1] == kLafan.size();
+  const auto shared = std::make_shared<const NumpyArray>(std::move(places));
+  SkeletonMotion motion = MotionOf(SmplJoints(), shared);
+  if (can_be_lafan) {
+    SkeletonMotion lafan = MotionOf(kLafan, shared);
+    if (Strangeness(lafan) < Strangeness(motion)) motion = std::move(lafan);
+  }
+  motion.rate = rate;
+  return ContentOfSkeleton(std::move(motion), "joint places", file, warnings);
+}
+
+}  // namespace mmm_converter

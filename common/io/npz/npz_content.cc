@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "common/io/npz/npz_content.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "common/io/npz/joint_places.h"
+#include "common/io/npz/npz_file.h"
+#include "common/io/npz/smpl_model.h"
+#include "common/io/skeleton/skeleton_content.h"
+#include "common/math/rotation.h"
+#include "common/motion/skeleton.h"
+#include "common/support/error.h"
+#include "common/support/units.h"
+
+namespace mmm_converter {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+// The names that AMASS, smplx, GVHMR, WHAM, AIST++ and others give to the same arrays.
+const std::vector<std::string> kPoses = {"poses", "smpl_poses", "fullpose", "full_pose", "pose"};
+const std::vector<std::string> kRoots = {"root_orient", "global_orient", "root_pose"};
+const std::vector<std::string> kBodies = {"pose_body", "body_pose"};
+const std::vector<std::string> kTranslations = {"trans",       "transl",     "smpl_trans",
+                                                "translation", "root_trans", "Th"};
+const std::vector<std::string> kRates = {"mocap_framerate", "mocap_frame_rate", "framerate",
+                                         "frame_rate",      "mocap_fps",        "fps"};
+const std::vector<std::string> kPlaces = {"global_joint_positions", "joint_positions", "joints",
+                                          "positions", "keypoints3d"};
+
+constexpr std::size_t kMostColumns = 9 * kSmplJoints;
+constexpr std::size_t kSmplXColumns = 3 * 55;
+
+/// Rotations of joints in an array: rotation vectors, or matrices where there are nine numbers.
+struct Rotations {
+  std::shared_ptr<const NumpyArray> array;
+  int first_joint = 0;  ///< of which its first one is
+  std::size_t width = 3;
+
+  Matrix3d Of(std::size_t frame, int joint) const {
+    const std::size_t begin = width * static_cast<std::size_t>(joint - first_joint);
+    const auto at = [&](std::size_t i) { return array->Number(frame, begin + i); };
+    Matrix3d R = Matrix3d::Constant(kNaN);
+    if (width == 9) {
+      Matrix3d M;
+      for (std::size_t i = 0; i < 9; ++i) {
+        M(static_cast<int>(i / 3), static_cast<int>(i % 3)) = at(i);
+      }
+      if (M.allFinite() && M.determinant() > 0.5 && M.norm() < 2) R = NearestRotation(M);
+      return R;
+    }
+    const Vector3d turn(at(0), at(1), at(2));
+    if (turn.norm() < kFarthestJoint) R = Exp(turn).toRotationMatrix();
+    return R;
+  }
+};
+
+/// @throws Error where there are so many frames that they would take far more memory than the file.
+int CheckFrames(std::size_t frames, const std::string& file) {
+  constexpr std::size_t kFrames = 200'000, kBytesPerFrame = 32;
+  const std::size_t most = kFrames + RegularFileSize(file) / kBytesPerFrame;
+  if (frames <= most) return static_cast<int>(frames);
+  throw Error(
+      fmt::format("{}: says that it has {} frames; at most {} are read of a file of its size", file,
+                  frames, most));
+}
+
+class SmplFile {
+ public:
+  SmplFile(const std::string& file, Warnings* warnings)
+      : file_(file), archive_(file), warnings_(warnings) {}
+
+  RecordingContent Read(const std::string& model_file) {
+    ReadRotations();
+    ReadTranslation();
+    const bool has_model = !model_file.empty();
+    const SmplModel model = has_model ? ReadSmplModel(model_file) : StandInSmplModel(Kind());
+    if (!has_model) {
+      Warn(warnings_,
+           "the body is one of 1.7 m with the MMM model's proportions, as SMPL's own model is not "
+           "given: limbs are within some 3 degrees, places within some centimetres");
+    }
+    SkeletonMotion motion;
+    for (const SmplJoint& joint : SmplJoints()) {
+      motion.names.emplace_back(joint.name);
+      motion.parents.push_back(joint.parent);
+    }
+    motion.num_frames = CountFrames();
+    motion.rate = RateOf(motion.num_frames);
+    motion.pose = Poses(model.Joints(has_model ? Betas() : std::vector<double>()));
+    return ContentOfSkeleton(std::move(motion), "AMASS", file_, warnings_);
+  }
+
+  /// [Hz]; 0: it does not say.
+  double RateOf(int num_frames) {
+    const std::string name = archive_.FirstOf(kRates);
+    if (!name.empty()) return Scalar(name);
+    if (!archive_.Has("mocap_time_length")) return 0;
+    const double rate = num_frames / Scalar("mocap_time_length");
+    const double nearest = std::round(rate);
+    // The length is that from the first to the last frame, or with the last one's.
+    return nearest > 0 && std::abs(rate - nearest) * num_frames < 2 * nearest ? nearest : rate;
+  }
+
+ private:
+  NumpyArray ReadNumbers(const std::string& name, std::size_t least) const {
+    NumpyArray array = archive_.Read(name, kMostColumns);
+    if (!array.head().is_text() && array.rows() > 0 && array.row_size() >= least) return array;
+    throw Error(fmt::format("{}: {} has the shape {}{}; expected frames x at least {} numbers",
+                            file_, name, ShapeText(array.head()),
+                            array.head().is_text() ? " of texts" : "", least));
+  }
+
+  void AddRotations(const std::string& name, int first_joint, int num_joints) {
+    const auto array = std::make_shared<const NumpyArray>(
+        ReadNumbers(name, 3 * static_cast<std::size_t>(num_joints)));
+    const std::vector<std::size_t>& shape = array->head().shape;
+    const bool has_matrices = shape.size() >= 3 && shape.back() == 3 &&
+                              shape[shape.size() - 2] == 3 &&
+                              array->row_size() >= 9 * static_cast<std::size_t>(num_joints);
+    rotations_.push_back({array, first_joint, has_matrices ? std::size_t{9} : std::size_t{3}});
+  }
+
+  void ReadRotations() {
+    const std::string all = archive_.FirstOf(kPoses);
+    if (!all.empty()) {
+      AddRotations(all, 0, kSmplJoints);
+      return;
+    }
+    AddRotations(archive_.FirstOf(kRoots), 0, 1);
+    AddRotations(archive_.FirstOf(kBodies), 1, kSmplJoints - 1);
+  }
+
+  void ReadTranslation() {
+    const std::string name = archive_.FirstOf(kTranslations);
+    if (name.empty()) {
+      Warn(warnings_, "there is no trans: the pelvis is held in place");
+      return;
+    }
+    translation_ = std::make_shared<const NumpyArray>(ReadNumbers(name, 3));
+    for (const char* scale : {"smpl_scaling", "scaling"}) {  // AIST++
+      if (archive_.Has(scale)) unit_ = 1 / Scalar(scale);
+    }
+    if (!(unit_ > 0 && std::isfinite(unit_))) unit_ = 1;
+  }
+
+  int CountFrames() {
+    std::size_t least = rotations_.front().array->rows(), most = least;
+    const auto take = [&](const NumpyArray& array) {
+      least = std::min(least, array.rows());
+      most = std::max(most, array.rows());
+    };
+    take(*rotations_.back().array);
+    if (translation_) take(*translation_);
+    if (least != most) {
+      Warn(warnings_, fmt::format("the arrays have {} and {} frames; the first {} are read", least,
+                                  most, least));
+    }
+    return CheckFrames(least, file_);
+  }
+
+  SmplKind Kind() const {
+    if (archive_.Has("surface_model_type")) {
+      const std::string type = archive_.Read("surface_model_type").Text();
+      return type.find('x') == std::string::npos ? SmplKind::kSmplH : SmplKind::kSmplX;
+    }
+    const Rotations& last = rotations_.back();
+    const bool is_x =
+        rotations_.size() > 1 || last.array->row_size() == last.width / 3 * kSmplXColumns;
+    return is_x ? SmplKind::kSmplX : SmplKind::kSmplH;
+  }
+
+  std::vector<double> Betas() const {
+    std::vector<double> betas;
+    if (!archive_.Has("betas")) return betas;
+    const NumpyArray of_file = archive_.Read("betas");
+    if (of_file.head().is_text() || of_file.head().size() == 0) return betas;
+    const bool has_rows = of_file.head().shape.size() > 1;
+    const std::size_t count = has_rows ? of_file.row_size() : of_file.rows();
+    for (std::size_t i = 0; i < std::min<std::size_t>(count, 300); ++i) {
+      const double beta = has_rows ? of_file.Number(0, i) : of_file.Number(i, 0);
+      betas.push_back(std::abs(beta) < kFarthestJoint ? beta : 0);
+    }
+    return betas;
+  }
+
+  double Scalar(const std::string& name) {
+    try {
+      const NumpyArray array = archive_.Read(name);
+      if (!array.head().is_text() && array.head().size() > 0) return array.Number(0, 0);
+    } catch (const Error& error) {
+      Warn(warnings_, error.what());
+    }
+    return 0;
+  }
+
+  std::function<void(int, Matrix3Xd*, std::vector<Matrix3d>*)> Poses(const Matrix3Xd& rest) const {
+    return [rotations = rotations_, translation = translation_, unit = unit_, rest](
+               int k, Matrix3Xd* p, std::vector<Matrix3d>* R) {
+      p->resize(3, kSmplJoints);
+      R->resize(kSmplJoints);
+      const auto frame = static_cast<std::size_t>(k);
+      p->col(0) = rest.col(0);
+      for (int a = 0; a < 3 && translation; ++a) {
+        (*p)(a, 0) += unit * translation->Number(frame, static_cast<std::size_t>(a));
+      }
+      for (int j = 0; j < kSmplJoints; ++j) {
+        const auto at = static_cast<std::size_t>(j);
+        const Rotations& of =
+            j < rotations.back().first_joint ? rotations.front() : rotations.back();
+        const Matrix3d local = of.Of(frame, j);
+        const int parent = SmplJoints()[at].parent;
+        if (parent < 0) {
+          (*R)[at] = local;
+          continue;
+        }
+        const Matrix3d& above = (*R)[static_cast<std::size_t>(parent)];
+        (*R)[at] = above * local;
+        p->col(j) = p->col(parent) + above * (rest.col(j) - rest.col(parent));
+      }
+      const bool is_known =
+          p->allFinite() && p->cwiseAbs().maxCoeff() < kFarthestJoint &&
+          std::all_of(R->begin(), R->end(), [](const Matrix3d& one) { return one.allFinite(); });
+      if (!is_known) p->setConstant(kNaN);
+    };
+  }
+
+  const std::string& file_;
+  NpzFile archive_;
+  Warnings* warnings_;
+  std::vector<Rotations> rotations_;  ///< of all, or of the root and the others
+  std::shared_ptr<const NumpyArray> translation_;
+  double unit_ = 1;  ///< of it [m]
+};
+
+bool HasRotations(const NpzFile& archive) {
+  return !archive.FirstOf(kPoses).empty() ||
+         (!archive.FirstOf(kRoots).empty() && !archive.FirstOf(kBodies).empty());
+}
+
+}  // namespace
+
+bool HoldsMotion(const std::string& file) {
+  try {
+    const NpzFile archive(file);
+    return HasRotations(archive) || !archive.FirstOf(kPlaces).empty();
+  } catch (const Error&) {  // whoever reads it says so
+    return false;
+  }
+}
+
+RecordingContent ReadNpzContent(const std::string& file, const ContentOptions& options,
+                                Warnings* warnings) {
+  const WarningContext context(warnings, file);
+  const NpzFile archive(file);
+  if (HasRotations(archive)) return SmplFile(file, warnings).Read(options.smpl_model);
+  const std::string places = archive.FirstOf(kPlaces);
+  if (!places.empty()) {
+    NumpyArray array = archive.Read(places);
+    const double rate = SmplFile(file, warnings).RateOf(CheckFrames(array.rows(), file));
+    return ContentOfPlaces(std::move(array), rate, fmt::format("{}: {}", file, places), warnings);
+  }
+  throw Error(
+      fmt::format("{}: has no motion of a person: expected poses, or root_orient and pose_body, or "
+                  "global_joint_positions; it has {}",
+                  file, archive.NamesForUsers()));
+}
+
+RecordingContent ReadNpyContent(const std::string& file, const ContentOptions& /*options*/,
+                                Warnings* warnings) {
+  const WarningContext context(warnings, file);
+  const ByteSource source = BytesOfFile(file);
+  NumpyReader reader(file, kMostColumns);
+  std::string part;
+  for (std::uint64_t at = 0; at < source.size; at += part.size()) {
+    part.resize(std::min<std::uint64_t>(1 << 16, source.size - at));
+    source.read(at, part.size(), part.data());
+    reader.Add(part);
+  }
+  NumpyArray array = reader.Finish();
+  CheckFrames(array.rows(), file);
+  return ContentOfPlaces(std::move(array), 0, file, warnings);
+}
+
+}  // namespace mmm_converter
