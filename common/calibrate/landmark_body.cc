@@ -37,8 +37,10 @@ constexpr double kHeightDeviation = 0.004;
 // Of places on a foot from the usual ones, by which feet differ [m].
 constexpr double kWidthDeviation = 0.004;
 constexpr double kLengthDeviation = 0.02;
-constexpr std::size_t kFewestFlat = 5;  // frames
-constexpr double kMostTilt = 0.06;      // [m] between markers, from the model's
+constexpr std::size_t kFewestFlat = 5;   // frames
+constexpr double kMostTilt = 0.03;       // [m] between markers, from the model's
+constexpr double kInFront = 0.05;        // [m] of the malleolus: toes, which are worn up to
+constexpr double kHighestInstep = 0.06;  // so far above the model's, on the instep [m]
 
 double Offset(double length, double share, double rest_mm) {
   return share * length + rest_mm / kMillimetres;
@@ -302,7 +304,9 @@ std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const
     heights.push_back(Median(above[i]));
     // On stairs the lowest places of a foot's markers are of different steps.
     const double of_model = AtRest(foot[i]).z() - AtRest(foot[0]).z();
-    if (std::abs(heights[i] - of_model) > kMostTilt) return {};
+    const double higher = heights[i] - of_model;
+    const bool is_front = AtRest(foot[i]).y() - AtRest(foot[0]).y() > kInFront;
+    if (higher < -kMostTilt || higher > (is_front ? kHighestInstep : kMostTilt)) return {};
   }
   return heights;
 }

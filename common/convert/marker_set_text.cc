@@ -11,9 +11,10 @@
 namespace mmm_converter {
 namespace {
 
-// Without "-0.0".
+/// To a micrometre, where that is needed: a set is tracked as what it was made of. Without "-0.0".
 std::string FormatMillimetres(double metres) {
-  std::string text = fmt::format("{:.1f}", kMillimetres * metres);
+  std::string text = fmt::format("{:.3f}", kMillimetres * metres);
+  while (text.ends_with('0') && text[text.size() - 2] != '.') text.pop_back();
   return text == "-0.0" ? "0.0" : text;
 }
 

@@ -84,6 +84,27 @@ void ShareFloor(std::array<PointState, 2>* points) {
   }
 }
 
+/// One floor for heels and toes: where the ones stood on a lower step than the others did for long,
+/// it is that one, at the height that heels have above toes of feet that rest.
+void ShareStep(FootStates* states) {
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PointState &heel = states->heels[i], &toe = states->toes[i];
+    for (Eigen::Index k = 0; k < heel.height.size(); ++k) {
+      if (std::max(heel.speed[k], toe.speed[k]) > kRests) continue;
+      apart.push_back(heel.height[k] + heel.level - toe.height[k] - toe.level);
+    }
+  }
+  if (apart.empty()) return;
+  const double above = Median(apart);
+  const double heels = std::min(states->heels[0].level, states->heels[1].level);
+  const double toes = std::min(states->toes[0].level, states->toes[1].level);
+  if (std::abs(above) > kFlat || std::abs(heels - toes - above) < 2 * kAboveLowest) return;
+  const double floor = std::min(heels - above, toes);
+  for (PointState& point : states->heels) MoveLevel(floor + above, &point);
+  for (PointState& point : states->toes) MoveLevel(floor, &point);
+}
+
 /// How far below the floor on which they stand feet rest for a moment.
 double StepsBelow(const FootStates& states, double rate) {
   const double least_frames = std::max(kLandsFrames, kLandsFor * rate);
@@ -186,6 +207,7 @@ FootStates StatesOf(const HumanMotion& motion) {
   }
   ShareFloor(&states.heels);
   ShareFloor(&states.toes);
+  ShareStep(&states);
   const double below = StepsBelow(states, motion.rate);
   for (std::size_t i = 0; i < 2; ++i) {
     for (PointState* point : {&states.heels[i], &states.toes[i]}) {
