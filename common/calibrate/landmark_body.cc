@@ -173,7 +173,7 @@ constexpr BodySide kSides[] = {BodySide::kLeft, BodySide::kRight};
 
 Vector3d LandmarkBody::Back(int k) const {
   if (back_[0] && back_[1]) {
-    const Vector3d middle = 0.5 * (At(k, *back_[0]) + At(k, *back_[1]));
+    Vector3d middle = 0.5 * (At(k, *back_[0]) + At(k, *back_[1]));
     if (middle.allFinite() || !sacrum_) return middle;
   }
   return sacrum_ ? At(k, *sacrum_) : Vector3d::Constant(kNaN);
@@ -291,6 +291,7 @@ void LandmarkBody::FindLegs() {
 /// Of each marker against the first, where the foot is flat; empty: it never is.
 std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const {
   std::vector<int> labels;
+  labels.reserve(foot.size());
   for (const Seen& one : foot) labels.push_back(one.label);
   std::vector<std::vector<double>> above(foot.size());
   for (const int k : FlatFrames(recording_, labels)) {
