@@ -41,7 +41,7 @@ double RestOf(const KinematicModel& model, const Segment& segment) {
 }  // namespace
 
 MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
-                                   std::vector<MarkerIx> markers)
+                                   const std::vector<MarkerIx>& markers)
     : MarkerKinematics(model, std::move(joints), markers, UntoldJoints(model, markers)) {}
 
 MarkerKinematics::MarkerKinematics(const KinematicModel& model, std::vector<int> joints,

@@ -48,7 +48,7 @@ class MarkerKinematics {
   /// joints, markers: indices of the model, in the order that all results use.
   /// Joints that the markers do not tell (UntoldJoints) rest, whatever their angles.
   MarkerKinematics(const KinematicModel& model, std::vector<int> joints,
-                   std::vector<MarkerIx> markers);
+                   const std::vector<MarkerIx>& markers);
 
   /// The same where other joints rest; none: postures were found by other markers, too.
   MarkerKinematics(const KinematicModel& model, std::vector<int> joints,

@@ -245,7 +245,7 @@ std::unique_ptr<const MarkerKinematics> LearnedPlaces::MakeKinematics(KinematicM
     markers.emplace_back(static_cast<int>(l));
   }
   *model = KinematicModel(std::move(description));
-  return std::make_unique<const MarkerKinematics>(*model, sites_.joints(), std::move(markers));
+  return std::make_unique<const MarkerKinematics>(*model, sites_.joints(), markers);
 }
 
 void LearnedPlaces::FitPostures() {
