@@ -36,6 +36,7 @@ constexpr StrideFigure kFigures[] = {
     {"stride_length_m", [](const Stride& one) { return one.length; }},
     {"speed_m_per_s", [](const Stride& one) { return one.speed(); }},
     {"foot_off_percent", [](const Stride& one) { return kPercent * one.foot_off; }},
+    {"double_support_percent", [](const Stride& one) { return kPercent * one.double_support; }},
     {"step_time_s", [](const Stride& one) { return one.step_time; }},
     {"step_length_m", [](const Stride& one) { return one.step_length; }},
     {"step_width_m", [](const Stride& one) { return one.step_width; }}};
@@ -48,6 +49,28 @@ std::string StrideJson(const Stride& stride) {
     text += fmt::format(R"(, "{}": {})", figure.name, Json(figure.of(stride)));
   }
   return text + "}";
+}
+
+double MeanOf(const StrideFigure& figure, Side side, const std::vector<Stride>& strides) {
+  double sum = 0, count = 0;
+  for (const Stride& one : strides) {
+    if (one.side != side || !std::isfinite(figure.of(one))) continue;
+    sum += figure.of(one);
+    ++count;
+  }
+  return sum / count;
+}
+
+/// By how much the left foot's means are larger than the right foot's, in percent of both.
+std::string SymmetryJson(const std::vector<Stride>& strides) {
+  std::string text;
+  for (const StrideFigure& figure : kFigures) {
+    const double left = MeanOf(figure, Side::kLeft, strides);
+    const double right = MeanOf(figure, Side::kRight, strides);
+    text += fmt::format(R"({}"{}": {})", text.empty() ? "" : ", ", figure.name,
+                        Json(2 * kPercent * (left - right) / (left + right)));
+  }
+  return fmt::format(R"("left_right_difference_percent": {{{}}})", text);
 }
 
 /// Mean and standard deviation of each figure among a foot's strides.
@@ -103,12 +126,13 @@ std::string FormatGaitJson(const Gait& gait) {
         ListJson(one.deviation), ListJson(one.uncertainty)));
   }
   return fmt::format(
-      "{{\n  \"strides_left_out\": {},\n  \"summary\": {{{}, {}}},\n  \"strides\": [\n    {}\n  "
+      "{{\n  \"kind\": \"{}\",\n  \"strides_left_out\": {},\n  \"strides_over_turns\": {},\n  "
+      "\"summary\": {{{}, {}, {}}},\n  \"strides\": [\n    {}\n  "
       "],\n  \"cycles\": [\n    {}\n  "
       "]\n}}\n",
-      gait.left_out, SummaryJson(Side::kLeft, gait.strides),
-      SummaryJson(Side::kRight, gait.strides), fmt::join(strides, ",\n    "),
-      fmt::join(cycles, ",\n    "));
+      Name(gait.kind), gait.left_out, gait.turns, SummaryJson(Side::kLeft, gait.strides),
+      SummaryJson(Side::kRight, gait.strides), SymmetryJson(gait.strides),
+      fmt::join(strides, ",\n    "), fmt::join(cycles, ",\n    "));
 }
 
 }  // namespace mmm_converter

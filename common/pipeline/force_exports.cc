@@ -2,6 +2,7 @@
 #include "common/pipeline/force_exports.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +67,25 @@ bool IsC3d(const std::string& file) {
   return ToLower(fs::path(file).extension().string()) == ".c3d";
 }
 
+/// What there is to say of strides; empty: nothing.
+std::string GaitSentence(const Gait& gait) {
+  std::vector<std::string> texts;
+  if (gait.left_out > 0) {
+    texts.push_back(fmt::format("{} strides are left out: a leg is hidden in them", gait.left_out));
+  }
+  if (gait.turns > 0) {
+    texts.push_back(fmt::format("{} strides over a turn are left out of the means", gait.turns));
+  }
+  if (gait.strides.empty() && texts.empty()) {
+    texts.push_back(fmt::format(
+        "no foot came to the ground twice within {:g} s: there is no stride", kLongestStride));
+  }
+  if (gait.kind != GaitKind::kWalking && !gait.strides.empty()) {
+    texts.push_back(fmt::format("most strides are of {}", Name(gait.kind)));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 /// Those of the recording but where and what contacts tell, and these.
 std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
   const PoseTrajectory& motion = report.result.trajectory;
@@ -96,8 +116,8 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
     return;
   }
   const bool is_json = fs::path(file).extension() == ".json";
-  WriteFileAtomically(
-      file, is_json ? FormatContactsJson(contacts, *ground->forces) : FormatContactsCsv(contacts));
+  WriteFileAtomically(file, is_json ? FormatContactsJson(contacts, *ground->forces, ground->mass)
+                                    : FormatContactsCsv(contacts));
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {
@@ -134,9 +154,14 @@ void WriteJointForces(const std::string& file, const ConversionReport& report) {
   }
 }
 
+void StudyPlates(ConversionReport* report) {
+  const auto& forces = report->plan.forces;
+  if (forces && !forces->plates.empty()) report->ground = StudyGround(*report, &report->warnings);
+}
+
 void CompareForces(const ExportFiles& files, ConversionReport* report) {
   if (!NeedForces(files)) return;
-  auto ground = std::make_shared<GroundStudy>(*StudyGround(*report));
+  auto ground = std::make_shared<GroundStudy>(*StudyGround(*report, &report->warnings));
   report->ground = ground;
   const auto table = files.find(kGrf);
   if (table != files.end() && ground->contacts.loads.empty()) {
@@ -145,35 +170,33 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
                     "has times and no forces",
                     ForcesFile(report->plan.input), table->second));
   }
+  if (table != files.end() || files.count(kJointForces) > 0) {
+    if (std::string unapplied = UnappliedSentence(*ground); !unapplied.empty()) {
+      report->warnings.Add(std::move(unapplied));
+    }
+  }
   const auto joint_forces = files.find(kJointForces);
   if (joint_forces != files.end()) {
     ground->joint_forces = JointForcesOf(*report, *ground, HasDeviations(joint_forces->second));
     const Residuals residuals = MeasureResiduals(*ground->joint_forces);
-    const std::string sentence = SentenceOf(residuals, *ground->joint_forces);
-    if (residuals.frames == 0) {
-      report->warnings.Add(sentence);
-    } else if (!residuals.is_within) {
-      AddDoubt(sentence, &report->verdict);
+    if (residuals.frames == 0 || !residuals.is_within) {
+      report->warnings.Add(SentenceOf(residuals, *ground->joint_forces));
     }
   }
   if (files.count(kGait) > 0) {
     ground->gait = GaitOf(*report, *ground);
-    if (ground->gait->left_out > 0) {
-      report->warnings.Add(fmt::format("{} of {} strides are left out: a leg is hidden in them",
-                                       ground->gait->left_out,
-                                       ground->gait->left_out + ground->gait->strides.size()));
-    } else if (ground->gait->strides.empty()) {
-      report->warnings.Add("no foot came to the ground twice within 2.5 s: there is no stride");
+    if (std::string told = GaitSentence(*ground->gait); !told.empty()) {
+      report->warnings.Add(std::move(told));
     }
   }
   CompareMass(*ground, report);
 }
 
-void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
-  if (!NeedForces(files)) return;
-  const bool needs_plates = files.count(kGrf) > 0 || files.count(kJointForces) > 0;
+void ReadPlates(const ExportFiles& files, ConversionPlan* plan) {
   const Recording& recording = plan->input.recording;
-  if (!HasFeet(*plan->setup.model)) {
+  const bool has_feet = HasFeet(*plan->setup.model);
+  const bool is_needed = NeedForces(files);
+  if (is_needed && !has_feet) {
     throw Error(fmt::format(
         "{}: contacts, strides and joint forces need the feet of MMM's model, or segments calcn_l, "
         "calcn_r, toes_l and toes_r as OpenSim's persons have; {} lacks them",
@@ -189,7 +212,15 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
   if (files.count(kJointForces) > 0 && !(plan->setup.model->total_mass() > 0)) {
     throw Error(plan->input.model_file + ": has no masses, hence no dynamics");
   }
-  plan->forces = std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
+  if (!has_feet || plan->object) return;
+  const bool needs_plates = files.count(kGrf) > 0 || files.count(kJointForces) > 0;
+  try {
+    plan->forces =
+        std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
+  } catch (const Error& error) {
+    if (is_needed || !plan->input.forces_file.empty()) throw;
+    plan->warnings.Add(fmt::format("the force plates can't be read: {}", error.what()));
+  }
   if (!needs_plates) return;
   CheckHasPlates(*plan->forces, plan->input);
   CheckHasForces(*plan->forces, plan->input, &plan->warnings);

@@ -26,12 +26,17 @@ void WriteGrf(const std::string& file, const ConversionReport& report);
 /// OpenSim's, or as .json what the residuals say.
 void WriteJointForces(const std::string& file, const ConversionReport& report);
 
-/// Before anything is tracked: says what there is to say of the plates.
+/// Before anything is tracked: reads the plates of a person's recording, whatever is asked for.
 /// @throws Error where an export can't be made.
-void CheckForces(const ExportFiles& files, ConversionPlan* plan);
+void ReadPlates(const ExportFiles& files, ConversionPlan* plan);
 
-/// After it is tracked, where an export is of forces: warns where the plates tell another mass than
-/// was given, or where motion and forces do not fit together.
+/// After it is tracked and before it is judged, whatever is exported: studies the ground where
+/// there are plates.
+void StudyPlates(ConversionReport* report);
+
+/// Before exports are written: computes what these need, and warns of what they lack, where the
+/// plates tell another mass than was given, or where motion and forces do not fit together. No
+/// verdict depends on it.
 void CompareForces(const ExportFiles& files, ConversionReport* report);
 
 /// Says in the plan which files exports write.

@@ -2,8 +2,10 @@
 #include "common/pipeline/ground_study.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +13,7 @@
 
 #include "common/angles/anatomical_angles.h"
 #include "common/contacts/person_mass.h"
+#include "common/contacts/plate_readings.h"
 #include "common/forces/recording_forces.h"
 #include "common/judge/coverage.h"
 #include "common/kinetics/foot_wrenches.h"
@@ -230,15 +233,50 @@ void CheckHasPlates(const RecordedForces& forces, const Input& input) {
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, Warnings* warnings) {
   if (report.ground) return report.ground;
   GroundStudy ground;
-  ground.forces = report.plan.forces;
-  if (!ground.forces) {
-    ground.forces =
-        std::make_shared<const RecordedForces>(GroundForces(report.plan.input, warnings));
-  }
   ground.feet = MoveFeet(*report.plan.setup.model, TrackedMotion(report.result));
-  ground.contacts = FindContacts(ground.feet, *ground.forces);
-  ground.mass = EstimateMass(ground.contacts, *ground.forces);
+  const auto& as_read = report.plan.forces;
+  auto forces = std::make_shared<RecordedForces>(as_read ? *as_read : RecordedForces());
+  ground.doubts = FitPlatesToFeet(ground.feet, FindKnownLegs(report), forces.get(), warnings);
+  for (const PlateForces& one : forces->plates) {
+    if (one.clipped.empty()) continue;
+    ground.doubts.push_back(
+        fmt::format("force plate {} is saturated from {:.2f} s on, and tells too little",
+                    one.plate.number, forces->time(one.clipped.front().begin)));
+  }
+  ground.contacts = FindContacts(ground.feet, *forces);
+  ground.mass = EstimateMass(ground.contacts, *forces, ground.feet);
+  ground.forces = std::move(forces);
   return std::make_shared<const GroundStudy>(std::move(ground));
+}
+
+std::string UnappliedSentence(const GroundStudy& ground) {
+  const RecordedForces& forces = *ground.forces;
+  double all = 0, unapplied = 0;
+  std::vector<std::string> texts;
+  for (const PlateLoad& load : ground.contacts.loads) {
+    const PlateForces& plate = forces.plates[load.plate];
+    double impulse = 0;
+    for (int k = load.samples.begin; k < load.samples.end; ++k) {
+      if (std::isfinite(plate.Load(k))) impulse += plate.Load(k) / forces.rate;
+    }
+    all += impulse;
+    if (load.bearer == Bearer::kLeft || load.bearer == Bearer::kRight) continue;
+    unapplied += impulse;
+    texts.push_back(
+        fmt::format("plate {} from {:.3f} to {:.3f} s ({}{})", plate.plate.number, load.begin,
+                    load.end, load.bearer == Bearer::kBoth ? "both feet" : "no foot is known there",
+                    ground.mass ? fmt::format(", {:.0f} % of the body weight on average",
+                                              kPercent * impulse / (load.end - load.begin) /
+                                                  (ground.mass->mass * kStandardGravity))
+                                : ""));
+  }
+  if (texts.empty()) return "";
+  constexpr std::size_t kMost = 6;
+  const std::size_t more = texts.size() > kMost ? texts.size() - kMost : 0;
+  texts.resize(texts.size() - more);
+  return fmt::format("{:.0f} % of what the plates bore is applied to no foot: {}{}",
+                     kPercent * unapplied / all, fmt::join(texts, ", "),
+                     more > 0 ? fmt::format(" and {} more times", more) : "");
 }
 
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground) {

@@ -18,7 +18,8 @@ struct Input;
 
 /// What is known of the ground under a tracked person: found once for a conversion.
 struct GroundStudy {
-  std::shared_ptr<const RecordedForces> forces;
+  std::shared_ptr<const RecordedForces> forces;  ///< read as the feet have it: FitPlatesToFeet
+  std::vector<std::string> doubts;  ///< what speaks against the plates, for the verdict
   FootMotion feet;
   Contacts contacts;
   std::optional<MassByPlates> mass;
@@ -38,10 +39,14 @@ void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* 
 /// Of which file the forces are.
 const std::string& ForcesFile(const Input& input);
 
-/// That of the report where it has one. warnings: of plates that were not read before; may be null.
-/// @throws Error where the model has no feet (HasFeet), and as GroundForces.
+/// That of the report where it has one. warnings: of what plates were taken for; may be null.
+/// @throws Error where the model has no feet (HasFeet).
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,
                                                Warnings* warnings = nullptr);
+
+/// What plates bore that is given to no foot: when, and which share of all that they bore it is. In
+/// a sentence; empty: all is given.
+std::string UnappliedSentence(const GroundStudy& ground);
 
 /// Those that plates tell, and of a foot off the plates those that its leg shows: what begins or
 /// ends while that is hidden has no begin or end.

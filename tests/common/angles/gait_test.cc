@@ -41,6 +41,8 @@ class GaitTest : public ::testing::Test {
         const double steps = std::floor(k / kRate - first + 1e-6);
         foot.heel.col(k) << kStride * (first + steps), is_left ? kWidth : 0, 0;
       }
+      foot.toe = foot.heel;
+      foot.toe.row(0).array() += 0.25;
       for (double begin = first; begin < 2.6; begin += 1) {
         FootContact contact;
         contact.side = side;
@@ -125,6 +127,41 @@ TEST_F(GaitTest, StridesOfAHiddenLegAreLeftOut) {
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
   EXPECT_THAT(gait.strides, SizeIs(2));
   EXPECT_EQ(gait.left_out, 1);
+}
+
+TEST_F(GaitTest, StridesOverATurnAreLeftOut) {
+  feet_.feet[0].toe.rightCols(60) = feet_.feet[0].heel.rightCols(60);
+  feet_.feet[0].toe.rightCols(60).row(1).array() += 0.25;  // to the left from 2.41 s on
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  EXPECT_THAT(gait.strides, SizeIs(2));
+  EXPECT_EQ(gait.turns, 1);
+}
+
+TEST_F(GaitTest, WhoWalksSlowlyHasStridesOfSixSeconds) {
+  const double slow = 4;
+  feet_.rate /= slow;
+  angles_.rate /= slow;
+  for (FootContact& one : contacts_.contacts) {
+    *one.begin *= slow;
+    if (one.end) *one.end *= slow;
+  }
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  ASSERT_THAT(gait.strides, SizeIs(3));
+  EXPECT_NEAR(gait.strides[0].time(), slow, kSame);
+}
+
+TEST_F(GaitTest, KindsOfGait) {
+  EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, GaitKind::kWalking);
+  EXPECT_NEAR(AnalyzeGait(feet_, contacts_, angles_, known_).strides[1].double_support, 0.2, kSame);
+  for (FootPath& foot : feet_.feet) foot.toe.row(0).array() -= 0.5;
+  EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, GaitKind::kBackwards);
+  for (FootContact& one : contacts_.contacts) {
+    if (one.end) *one.end -= 0.3;
+  }
+  const Gait run = AnalyzeGait(feet_, contacts_, angles_, known_);
+  EXPECT_EQ(run.kind, GaitKind::kRunning);
+  EXPECT_TRUE(std::isnan(run.strides[0].double_support));
+  EXPECT_NEAR(run.strides[0].step_length, kStride / 2, kSame);
 }
 
 TEST_F(GaitTest, StandingIsNoStride) {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Recordings of a made walker whose forces, lengths and events are known, with what files are known
+// to hold wrong: the right number, or told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/strict_tables.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ReadStrictMot;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::StrictTable;
+using testing::TestFolder;
+
+class RealGround : public ::testing::Test {
+ protected:
+  void SetUp() override { MMM_CONVERTER_NEEDS_SHARED_DATA(); }
+
+  static std::string Out(const char* name) { return TestFolder() + "/" + name; }
+  static std::string Recording(const std::string& name) {
+    return testing::SharedData("reports/" + name);
+  }
+
+  struct Converted {
+    std::string said;
+    nlohmann::json verdict;
+  };
+
+  static Converted Convert(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"convert",    Recording(name), "-o",
+                                          Out("o.xml"), "--summary",     Out("o.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto run = RunProgram(arguments);
+    EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
+    return {run.out + run.err, nlohmann::json::parse(ReadText(Out("o.json")))["verdict"]};
+  }
+
+  /// In the middle of the left foot's stance, at 1.7 s, within 1 % of the weight and 10 mm.
+  static void ExpectForces(const std::string& name) {
+    constexpr double kForce = 0.01 * 686.7, kCentre = 0.01;
+    const StrictTable grf = ReadStrictMot(ReadText(Out("grf.mot")));
+    const auto row = static_cast<std::size_t>(std::lround((1.7 - grf.At(0, "time")) * 1000));
+    const auto at = [&](const char* column) { return grf.At(row, column); };
+    EXPECT_NEAR(at("ground_force_1_vx"), -15.129, kForce) << name;
+    EXPECT_NEAR(at("ground_force_1_vy"), 686.7, kForce) << name;
+    EXPECT_NEAR(at("ground_force_1_vz"), 27.468, kForce) << name;
+    EXPECT_NEAR(at("ground_force_1_px"), 1.857, kCentre) << name;
+    EXPECT_NEAR(at("ground_force_1_pz"), -0.091, kCentre) << name;
+  }
+};
+
+TEST_F(RealGround, PlatesThatFilesDescribeWrongAreReadRightAndTold) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"f_base_type2.c3d", ""},
+      {"f_kilonewton.c3d", ""},
+      {"f_corners_mirror.c3d", "corners in the order"},
+      {"f_corners_180.c3d", "corners in the order 3, 4, 1, 2"},
+      {"f_type4_volts_nm.c3d", "moments in N m"},
+      {"f_nm_told_nmm.c3d", "moments in N m"},
+      {"f_corners_m.c3d", "its corners are"},
+      {"f_baseline.c3d", "N while nobody is on it"}};
+  for (const auto& [name, told] : cases) {
+    const Converted run = Convert(name, {"--export-grf", Out("grf.mot")});
+    ExpectForces(name);
+    if (*told == '\0') {
+      EXPECT_THAT(run.said, Not(HasSubstr("force plate"))) << name;
+    } else {
+      EXPECT_THAT(run.said, HasSubstr(told)) << name;
+    }
+    EXPECT_EQ(run.verdict["level"], "good") << name << run.verdict;
+  }
+}
+
+TEST_F(RealGround, PointsOfATableInMillimetres) {
+  const Converted run = Convert(
+      "f_none.c3d", {"--forces", Recording("g_points_in_mm.mot"), "--export-grf", Out("grf.mot")});
+  EXPECT_THAT(run.said, HasSubstr("points in mm"));
+  ExpectForces("g_points_in_mm.mot");
+}
+
+TEST_F(RealGround, ASaturatedPlateIsAReasonOfTheVerdictWhateverIsExported) {
+  for (const bool exports : {false, true}) {
+    std::vector<std::string> more;
+    if (exports) more = {"--export-grf", Out("grf.mot"), "--export-id", Out("id.json")};
+    const Converted run = Convert("f_saturated_fz.c3d", more);
+    EXPECT_THAT(run.said, HasSubstr("Fz is saturated"));
+    EXPECT_THAT(run.said, HasSubstr("from 1.4"));
+    EXPECT_EQ(run.verdict["level"], "check");
+    ASSERT_EQ(run.verdict["reasons"].size(), 1) << run.verdict;
+  }
+}
+
+TEST_F(RealGround, ForceChannelsWithoutPlatesAreTold) {
+  EXPECT_THAT(Convert("f_channels_without_group.c3d", {}).said, HasSubstr("has force channels"));
+}
+
+TEST_F(RealGround, LoadsOfNoFootAreTold) {
+  const Converted run = Convert("f_treadmill_cross.c3d", {"--export-grf", Out("grf.mot")});
+  EXPECT_THAT(run.said, HasSubstr("is applied to no foot"));
+  EXPECT_THAT(run.said, HasSubstr("plate 2 from 1.94"));
+  EXPECT_THAT(run.said, HasSubstr("plate 1 from 3.59"));
+}
+
+/// Mean figures of strides, of the made walker.
+TEST_F(RealGround, StridesAndSteps) {
+  struct Walk {
+    const char* file;
+    double time, length, step;
+  };
+  const Walk walks[] = {{"f_base_type2.c3d", 1.1, 1.2, 0.6},
+                        {"w_plus_x.c3d", 1.1, 1.2, 0.6},
+                        {"w_treadmill.c3d", 1.1, 1.2, 0.6},
+                        {"w_treadmill_2800ms.c3d", 1.1, 1.2, 0.6},
+                        {"w_turn180.c3d", 1.1, 1.2, 0.6},
+                        {"w_running.c3d", 0.7, 2.3, 1.15},
+                        {"w_slow_stride_2800ms.c3d", 2.8, 0.5, 0.25}};
+  for (const Walk& walk : walks) {
+    const Converted run = Convert(walk.file, {"--export-gait", Out("gait.json")});
+    const auto gait = nlohmann::json::parse(ReadText(Out("gait.json")));
+    for (const char* side : {"left", "right"}) {
+      const auto& summary = gait["summary"][side];
+      const auto expect = [&](const char* figure, double value, double within) {
+        ASSERT_TRUE(summary[figure]["mean"].is_number()) << walk.file << side << figure;
+        EXPECT_NEAR(summary[figure]["mean"].get<double>(), value, within * value)
+            << walk.file << ' ' << side << ' ' << figure;
+      };
+      expect("stride_time_s", walk.time, 0.02);
+      expect("cadence_steps_per_min", 120 / walk.time, 0.02);
+      expect("stride_length_m", walk.length, 0.02);
+      expect("speed_m_per_s", walk.length / walk.time, 0.02);
+      expect("step_length_m", walk.step, 0.05);
+    }
+    const bool runs = std::string(walk.file) == "w_running.c3d";
+    EXPECT_EQ(gait["kind"], runs ? "running" : "walking") << walk.file;
+    const bool turns = std::string(walk.file) == "w_turn180.c3d";
+    EXPECT_EQ(gait["strides_over_turns"].get<int>() > 0, turns) << walk.file;
+    if (turns) EXPECT_THAT(run.said, HasSubstr("over a turn"));
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter
