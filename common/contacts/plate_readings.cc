@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "common/contacts/stance_fit.h"
 #include "common/contacts/table_readings.h"
@@ -18,8 +19,11 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kNearer = 0.6;     // of the distance as the file says it
+constexpr double kNearer = 0.6;  // of the distance as the file says it
+constexpr double kMuchNearer = 0.4;
 constexpr double kDistinct = 0.01;  // [m] between the best reading and the next one
+constexpr double kLongStand = 0.3;  // [s] of a foot on a plate
+constexpr double kOnPlate = 0.08;   // [m] between a plate and the toes on it
 constexpr double kAway = -0.4;      // cosine between the forces and the ways to the body
 
 constexpr std::array<std::array<int, 4>, 8> kOrders = {{{0, 1, 2, 3},
@@ -31,13 +35,42 @@ constexpr std::array<std::array<int, 4>, 8> kOrders = {{{0, 1, 2, 3},
                                                         {0, 3, 2, 1},
                                                         {2, 1, 0, 3}}};
 
+/// What channels can be beside what a file says: three forces and three moments times it.
+struct Exchange {
+  const char* name = "";
+  Eigen::Matrix<double, 6, 6> matrix;
+};
+
+Exchange Diagonal(const char* name, const Eigen::Matrix<double, 6, 1>& diagonal) {
+  return {name, diagonal.asDiagonal()};
+}
+
+Exchange Swap(const char* name, int a, int b) {
+  Exchange exchange = {name, Eigen::Matrix<double, 6, 6>::Identity()};
+  exchange.matrix.row(a).swap(exchange.matrix.row(b));
+  return exchange;
+}
+
+const std::vector<Exchange>& Exchanges() {
+  using Six = Eigen::Matrix<double, 6, 1>;
+  constexpr double kPoundForce = 4.4482216;
+  static const std::vector<Exchange> all = {
+      Diagonal("Mx and My of the other sign", Six{1, 1, 1, -1, -1, 1}),
+      Diagonal("Mx of the other sign", Six{1, 1, 1, -1, 1, 1}),
+      Diagonal("My of the other sign", Six{1, 1, 1, 1, -1, 1}),
+      Swap("Mx and My exchanged", 3, 4),
+      Diagonal("forces in pounds", Six{kPoundForce, kPoundForce, kPoundForce, 1, 1, 1}),
+      Diagonal("forces in kilonewtons", Six{1e3, 1e3, 1e3, 1, 1, 1})};
+  return all;
+}
+
 /// What a plate's file can mean. Default: what it says.
 struct Reading {
   std::size_t order = 0;
   double unit = 0;  ///< of moments [N m]; 0: the file's
   bool reverses_origin = false;
   bool turns_polynomial = false, drops_polynomial = false;
-  bool negates_moments = false;
+  const Exchange* exchange = nullptr;
   std::vector<std::size_t> sources;  ///< the plate whose channels each has; empty: its own
 
   std::size_t SourceOf(std::size_t plate) const { return sources.empty() ? plate : sources[plate]; }
@@ -57,7 +90,13 @@ ForcePlate Read(const Reading& reading, const ForcePlate& plate, const ForcePlat
   }
   if (reading.unit > 0) read.moment_unit = reading.unit;
   if (reading.reverses_origin) read.origin *= -1;
-  if (reading.negates_moments) read.moment_unit *= -1;
+  if (reading.exchange != nullptr) {
+    Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Identity();
+    matrix.topRows<3>() *= read.force_unit;
+    if (read.type == PlateType::kCalibratedChannels) matrix = *read.calibration;
+    read.type = PlateType::kCalibratedChannels;
+    read.calibration = reading.exchange->matrix * matrix;
+  }
   if (reading.drops_polynomial) read.cop_polynomial.reset();
   if (reading.turns_polynomial && read.cop_polynomial) {
     const Eigen::Matrix<double, 6, 2> stored = *read.cop_polynomial;
@@ -78,7 +117,7 @@ std::string Describe(const Reading& reading) {
     texts.push_back(fmt::format("moments in {}", name));
   }
   if (reading.reverses_origin) texts.emplace_back("ORIGIN reversed");
-  if (reading.negates_moments) texts.emplace_back("moments of the other sign");
+  if (reading.exchange != nullptr) texts.emplace_back(reading.exchange->name);
   if (reading.drops_polynomial) texts.emplace_back("no FPCOPPOLY");
   if (reading.turns_polynomial) texts.emplace_back("FPCOPPOLY stored as 2 x 6");
   if (!reading.sources.empty()) texts.emplace_back("the channels of the plates exchanged");
@@ -99,15 +138,18 @@ std::vector<Reading> OtherReadings(const RecordedForces& forces,
     change(&reading);
     single.push_back(reading);
   };
-  const bool has_moments =
-      has([](const ForcePlate& one) { return one.type != PlateType::kEightForces; });
+  const bool has_moments = has([](const ForcePlate& one) {
+    return one.type == PlateType::kForcesAndMoments || one.type == PlateType::kCalibratedChannels;
+  });
   for (const double unit : {1.0, 1e-3, 1e-2}) {
     const bool is_other = has([&](const ForcePlate& one) { return one.moment_unit != unit; });
     if (has_moments && is_other) add([&](Reading* one) { one->unit = unit; });
   }
   if (has_moments) {
     add([](Reading* one) { one->reverses_origin = true; });
-    add([](Reading* one) { one->negates_moments = true; });
+    for (const Exchange& exchange : Exchanges()) {
+      add([&](Reading* one) { one->exchange = &exchange; });
+    }
   }
   if (has([](const ForcePlate& one) { return one.cop_polynomial.has_value(); })) {
     add([](Reading* one) { one->turns_polynomial = true; });
@@ -165,7 +207,7 @@ class Plates {
       if (const auto found = Choose({i}, OtherReadings(forces_, {i}, false))) {
         Take(*found, {i}, warnings);
       } else {
-        Refuse(i, &doubts);
+        Refuse(i, &doubts, warnings);
       }
     }
     return doubts;
@@ -180,12 +222,19 @@ class Plates {
       return fit;
     }
     const ForcePlate read = Read(reading, forces_.plates[plate].plate, source.plate);
+    // Forces times ORIGIN move the pressure of moments that are a thousand times too small.
+    ForcePlate by_moments = read;
+    if (read.type != PlateType::kEightForces) by_moments.origin.setZero();
+    Fit without_origin;
     for (const Stance& stance : stances_[from]) {
       const Eigen::MatrixXd channels = source.channels(Eigen::all, stance.samples);
       PlateForces of = ForcesOfPlate(read, channels);
       if (source.is_reversed) of.force *= -1;
       feet_.Measure(stance, of.force, of.cop, Bearer::kUnknown, &fit);
+      of = ForcesOfPlate(by_moments, channels);
+      feet_.Measure(stance, of.force, of.cop, Bearer::kUnknown, &without_origin);
     }
+    fit.travel = std::min(fit.travel, without_origin.travel);
     return fit;
   }
 
@@ -200,7 +249,24 @@ class Plates {
     if (fit.travel < kStillPressure)
       return "its centre of pressure stands still for a whole stance";
     if (fit.along < kAway) return "its forces lean away from the person";
+    if (AreMomentsTooSmall(plate)) return "its centre of pressure hardly leaves the middle of it";
     return "";
+  }
+
+  /// Whether a larger unit of moments brings the pressure much nearer to the feet: where a foot
+  /// stands near the middle of a plate, a smaller one is not far beside it.
+  bool AreMomentsTooSmall(std::size_t plate) const {
+    const Fit own = FitOf(plate, {});
+    const ForcePlate& read = forces_.plates[plate].plate;
+    if (read.type == PlateType::kEightForces || Median(own.distances) < kUnderFoot) return false;
+    Reading larger;
+    for (const double unit : {1e-2, 1.0}) {
+      if (unit <= read.moment_unit) continue;
+      larger.unit = unit;
+      const Fit fit = FitOf(plate, larger);
+      if (fit.IsGood() && fit.mean() < kMuchNearer * own.mean()) return true;
+    }
+    return false;
   }
 
   std::vector<std::size_t> Contradicted() {
@@ -240,8 +306,8 @@ class Plates {
       const Reading* found = nullptr;
       for (const Reading& one : readings) {
         const int changes = (one.order != 0) + (one.unit > 0) + one.reverses_origin +
-                            one.negates_moments + one.turns_polynomial + one.drops_polynomial +
-                            !one.sources.empty();
+                            (one.exchange != nullptr) + one.turns_polynomial +
+                            one.drops_polynomial + !one.sources.empty();
         if (changes_two != (changes > 1)) continue;
         const double distance = total(one);
         if (distance < best) {
@@ -282,10 +348,15 @@ class Plates {
     forces_.plates = std::move(read);
   }
 
-  void Refuse(std::size_t i, std::vector<std::string>* doubts) {
+  void Refuse(std::size_t i, std::vector<std::string>* doubts, Warnings* warnings) {
     PlateForces& plate = forces_.plates[i];
     const Fit fit = FitOf(i, {});
-    if (fit.IsUp() && Median(fit.distances) <= kFarFromFoot) return;  // a foot half beside it
+    const bool is_measured = fit.IsUp() && fit.travel >= kStillPressure && fit.along >= kAway;
+    if (is_measured && Median(fit.distances) <= kFarFromFoot) {  // a foot half beside it
+      Warn(warnings, fmt::format("force plate {}: {}; it is kept as the file has it",
+                                 plate.plate.number, WhyNot(i, fit)));
+      return;
+    }
     doubts->push_back(
         fmt::format("force plate {}: {}, and no order of corners, unit of moments or exchange of "
                     "channels puts it right; its forces are given to no foot",
@@ -300,14 +371,52 @@ class Plates {
   std::vector<std::size_t> loaded_, own_;
 };
 
+/// The first time that a foot stands with heel and toes on a plate.
+std::optional<std::pair<Side, SlowFoot>> StandsOn(const ForcePlate& plate, const FootMotion& motion,
+                                                  const SlowFeet& slow) {
+  for (const Side side : kSides) {
+    const FootPath& foot = motion.foot(side);
+    for (const SlowFoot& one : slow[static_cast<std::size_t>(side)]) {
+      const auto k = static_cast<Eigen::Index>(std::lround((one.begin + one.end) / 2));
+      if (one.end - one.begin > kLongStand * motion.rate && IsOver(plate, foot.heel.col(k)) &&
+          IsOver(plate, foot.toe.col(k)) && std::abs(foot.toe(2, k) - plate.p_WP.z()) < kOnPlate) {
+        return std::pair(side, one);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Says of plates that bear nobody while a foot stands on them.
+void WarnOfDeadPlates(const FootMotion& motion, const RecordedForces& forces, Warnings* warnings) {
+  std::optional<SlowFeet> slow;
+  for (const PlateForces& plate : forces.plates) {
+    if (!plate.loads.empty() || !plate.tells_contact || !(plate.plate.half_size.minCoeff() > 0)) {
+      continue;
+    }
+    if (!slow) slow = FindSlowFeet(motion, forces);
+    const auto stands = StandsOn(plate.plate, motion, *slow);
+    if (!stands) continue;
+    const auto& [side, times] = *stands;
+    Warn(warnings,
+         fmt::format("force plate {}: bears {:.3g} N at most, but the {} foot stands on it from "
+                     "{:.2f} to {:.2f} s: it was off, or its forces are in another unit",
+                     plate.plate.number, plate.largest_load, Name(side), motion.time(times.begin),
+                     motion.time(times.end)));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> FitPlatesToFeet(const FootMotion& motion, const KnownLegs& known,
                                          RecordedForces* forces, Warnings* warnings) {
   if (forces->plates.empty() || motion.num_frames() < 3) return {};
-  const bool is_table = forces->plates.front().channels.size() == 0;
-  return is_table ? FitTableToFeet(motion, known, forces, warnings)
-                  : Plates(motion, known, forces).Correct(warnings);
+  if (forces->plates.front().channels.size() == 0) {
+    return FitTableToFeet(motion, known, forces, warnings);
+  }
+  std::vector<std::string> doubts = Plates(motion, known, forces).Correct(warnings);
+  if (doubts.empty()) WarnOfDeadPlates(motion, *forces, warnings);
+  return doubts;
 }
 
 }  // namespace mmm_converter

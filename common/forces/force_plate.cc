@@ -100,8 +100,9 @@ double MomentUnit(const std::string& text, double file_unit) {
   return is_in_metres && letters.size() > 1 ? newtons : file_unit;
 }
 
-constexpr double kNoPlate = 0.02;        // [m] an edge of a plate is longer
+constexpr double kNoPlate = 0.1;         // [m] an edge of a plate is longer
 constexpr double kLargestPlate = 20;     // [m] a belt is shorter
+constexpr double kUsualPlate = 0.5;      // [m]
 constexpr double kFarthestSensor = 0.3;  // [m] below the surface
 
 /// Corners are sometimes in another unit than points: the one that makes them a plate's.
@@ -110,15 +111,17 @@ void CorrectCornerUnit(Eigen::Vector3d* origin, ForcePlate* plate, Warnings* war
   const double stated = edge();
   const auto is_plate = [](double size) { return size >= kNoPlate && size <= kLargestPlate; };
   if (!(stated > 0) || is_plate(stated)) return;
-  for (const double scale : {1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1}) {
-    if (!(scale * stated > 5 * kNoPlate && scale * stated < kLargestPlate / 5)) continue;
-    Warn(warnings, fmt::format("force plate {}: its corners are {:.3g} mm apart in the unit of the "
-                               "points; taken to be in another one, which makes that {:.3g} m",
-                               plate->number, kMillimetres * stated, scale * stated));
-    plate->corners *= scale;
-    if (scale * origin->norm() <= kFarthestSensor) *origin *= scale;
-    return;
+  double best = 1;
+  const auto apart = [&](double scale) { return std::abs(std::log(scale * stated / kUsualPlate)); };
+  for (const double scale : {1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1, 25.4, 1 / 25.4}) {
+    if (apart(scale) < apart(best)) best = scale;
   }
+  if (!is_plate(best * stated)) return;
+  Warn(warnings, fmt::format("force plate {}: its corners are {:.3g} mm apart in the unit of the "
+                             "points; taken to be in another one, which makes that {:.3g} m",
+                             plate->number, kMillimetres * stated, best * stated));
+  plate->corners *= best;
+  if (best * origin->norm() <= kFarthestSensor) *origin *= best;
 }
 
 }  // namespace

@@ -21,13 +21,16 @@ constexpr double kContactThreshold = 20;  // [N] the common one (BTK 10, pyCGM2 
 constexpr double kSurelyLoaded = 50;      // [N]
 constexpr double kShakes = 3;             // standard deviations of what an unloaded plate shows
 constexpr double kRobustSpread = 1.4826;  // a normal deviation is so many median ones
-constexpr double kLoadedShare = 0.2;    // of the peak: what positions of the pressure are told from
-constexpr double kShortest = 0.05;      // [s] of a gap that stays, and of a load
-constexpr double kBesidePlate = 0.05;   // [m] a foot's pressure may be told beyond the edge
-constexpr double kMostlyOn = 0.5;       // of the loaded samples
+constexpr double kLoadedShare = 0.2;   // of the peak: what positions of the pressure are told from
+constexpr double kShortest = 0.05;     // [s] of a gap that stays, and of a load
+constexpr double kBesidePlate = 0.05;  // [m] a foot's pressure may be told beyond the edge
+constexpr double kMostlyOn = 0.5;      // of the loaded samples
+constexpr double kSubtracted = 25;     // [N] 21 of OpenSim's sample are kept, as OpenSim keeps them
+constexpr double kMostMoved = 0.01;    // [m] of the pressure, by moments of nobody
 constexpr double kUnloadedPiece = 0.5;  // [s] in which a level hardly drifts
 constexpr double kStandsStill = 0.02;   // [s] noise alone moves a channel within this time
 constexpr double kSteep = 2;            // of the extreme, each second: no smooth summit is so steep
+constexpr double kFlat = 0.002;         // of the extreme: noise of a converter at its end
 constexpr int kSlopeSamples = 3;        // beside a flat top
 
 /// Whether most of the loaded centre of pressure lies on the plate. Nothing: it is never loaded.
@@ -118,7 +121,7 @@ void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* cha
                       Warnings* warnings) {
   PlateForces forces = ForcesOfPlate(plate, *channels);
   const auto level = UnloadedLevel(VerticalForce(forces));
-  if (!level || !(std::abs(*level) > kContactThreshold)) return;
+  if (!level) return;
   JudgeLoads(rate, &forces, nullptr);
   const auto around = static_cast<int>(std::lround(kShortest * rate));
   const auto longest = static_cast<int>(std::lround(kUnloadedPiece * rate));
@@ -142,6 +145,15 @@ void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* cha
     k = std::max(end, k + 1);
   }
   if (pieces.empty()) return;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(channels->rows());
+  for (const auto& [middle, levels] : pieces) mean += levels / static_cast<double>(pieces.size());
+  const PlateForces unloaded = ForcesOfPlate(plate, mean);
+  const double moved =
+      unloaded.moment.allFinite() ? unloaded.moment.norm() / std::max(forces.largest_load, 1.0) : 0;
+  const double force = std::max(std::abs(*level), unloaded.force.norm());
+  if (!(force > kSubtracted || (moved > kMostMoved && forces.largest_load > kSurelyLoaded))) {
+    return;
+  }
   std::size_t next = 0;
   for (int k = 0; k < samples; ++k) {
     while (next < pieces.size() && pieces[next].first < k) ++next;
@@ -151,9 +163,14 @@ void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* cha
     const double share = span > 0 ? (k - before.first) / span : 0;
     channels->col(k) -= (1 - share) * before.second + share * after.second;
   }
-  Warn(warnings, fmt::format("force plate {}: {:.0f} N while nobody is on it; this is taken away "
-                             "from all of its channels",
-                             plate.number, *level));
+  Warn(warnings,
+       fmt::format(
+           "force plate {}: {:.0f} N{} while nobody is on it; this is taken away from all of "
+           "its channels",
+           plate.number, *level,
+           unloaded.moment.allFinite() ? fmt::format(" upwards, {:.0f} N and {:.1f} N m in all",
+                                                     unloaded.force.norm(), unloaded.moment.norm())
+                                       : ""));
 }
 
 void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* warnings) {
@@ -174,8 +191,10 @@ void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* 
     for (const LoadInterval& load : forces->loads) {
       for (int k = load.begin; k < load.end;) {
         int end = k + 1;
-        while (end < load.end && v[end] == v[k]) ++end;
-        const bool is_extreme = std::abs(v[k]) >= extreme && extreme > 0;
+        const bool is_extreme = std::abs(v[k]) >= (1 - kFlat) * extreme && extreme > 0;
+        while (is_extreme && end < load.end && std::abs(v[end] - v[k]) <= 2 * kFlat * extreme) {
+          ++end;
+        }
         if (is_extreme && end - k >= shortest &&
             (is_steep(k - 1 - kSlopeSamples, k - 1) || is_steep(end, end + kSlopeSamples))) {
           found.push_back({k, end});

@@ -21,19 +21,19 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr double kRate = 100;
-constexpr double kSampleRate = 1000;
-constexpr int kFrames = 300;
-constexpr int kSamples = 3000;
-constexpr double kFoot = 0.25;
-constexpr double kWeight = 700;
-constexpr double kNear = 1e-6;
-
 /// A walk along x over two plates: the left foot stands on the first in [0.5, 1.2) s, the right
 /// foot on the second in [1.1, 1.8) s. The pressure moves from heel to toe, and forces point to the
 /// body.
 class PlateReadingsTest : public ::testing::Test {
  protected:
+  static constexpr double kRate = 100;
+  static constexpr double kSampleRate = 1000;
+  static constexpr int kFrames = 300;
+  static constexpr int kSamples = 3000;
+  static constexpr double kFoot = 0.25;
+  static constexpr double kWeight = 700;
+  static constexpr double kNear = 1e-6;
+
   struct Stand {
     double begin, end, x, y;
 
@@ -164,6 +164,33 @@ TEST_F(PlateReadingsTest, MomentsInNewtonMetresThatAreToldInMillimetres) {
   ASSERT_FALSE(warnings_.texts().empty());
   EXPECT_THAT(warnings_.texts()[0], HasSubstr("moments in N m"));
   ExpectTrue();
+}
+
+TEST_F(PlateReadingsTest, MomentsOfOtherSignsOrderAndUnits) {
+  const std::pair<const char*, std::array<double, 6>> signs[] = {
+      {"Mx and My of the other sign", {1, 1, 1, -1, -1, 1}},
+      {"Mx of the other sign", {1, 1, 1, -1, 1, 1}},
+      {"My of the other sign", {1, 1, 1, 1, -1, 1}},
+      {"moments in N cm", {1, 1, 1, 0.1, 0.1, 0.1}}};
+  for (const auto& [told, factors] : signs) {
+    warnings_ = {};
+    for (int i = 0; i < 2; ++i) {
+      Eigen::MatrixXd channels = MakeChannels(i);
+      for (int row = 0; row < 6; ++row) channels.row(row) *= factors[row];
+      forces_.plates[i] = ReadPlate(TruePlate(i), channels);
+    }
+    EXPECT_THAT(Fit(), IsEmpty()) << told;
+    ASSERT_FALSE(warnings_.texts().empty()) << told;
+    EXPECT_THAT(warnings_.texts()[0], HasSubstr(told));
+    ExpectTrue();
+  }
+}
+
+TEST_F(PlateReadingsTest, APlateThatBearsNothingUnderAFootIsTold) {
+  forces_.plates[1] = ReadPlate(TruePlate(1), 1e-3 * MakeChannels(1));
+  EXPECT_THAT(Fit(), IsEmpty());
+  ASSERT_THAT(warnings_.texts(), SizeIs(1));
+  EXPECT_THAT(warnings_.texts()[0], HasSubstr("force plate 2: bears 0.7 N at most, but the right"));
 }
 
 TEST_F(PlateReadingsTest, ChannelsOfTwoPlatesExchanged) {
