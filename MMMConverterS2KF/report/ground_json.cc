@@ -81,6 +81,9 @@ Json StudyJson(const ConversionReport& report) {
   }
   for (const std::string& doubt : ground->doubts) warnings.Add(doubt);
   const Json gait = GaitPageJson(report, *ground);
+  if (!gait.is_null()) {
+    for (const std::string& note : ground->event_notes) warnings.Add(note);
+  }
   if (ground->forces->plates.empty() && gait.is_null()) return nullptr;
   const double mass = KnownMass(report, *ground);
   return {{"mass_kg", mass > 0 ? Number(mass) : Json(nullptr)},

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "common/angles/gait_feet.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -75,22 +76,6 @@ const FootContact* ContactBefore(const Contacts& contacts, Side side, double tim
   return last;
 }
 
-/// The share of a stride in which both feet stand.
-double DoubleSupport(const Stride& stride, const Contacts& contacts) {
-  double both = 0;
-  for (const FootContact& own : contacts.contacts) {
-    for (const FootContact& other : contacts.contacts) {
-      if (own.side != stride.side || other.side == stride.side) continue;
-      const double from =
-          std::max({stride.begin, own.begin.value_or(-HUGE_VAL), other.begin.value_or(-HUGE_VAL)});
-      const double to =
-          std::min({stride.end, own.end.value_or(HUGE_VAL), other.end.value_or(HUGE_VAL)});
-      both += std::max(0.0, to - from);
-    }
-  }
-  return both / stride.time();
-}
-
 Stride StrideOf(const FootContact& contact, const FootContact& next, const FootMotion& feet,
                 const Contacts& contacts) {
   Stride stride;
@@ -102,9 +87,7 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   const StandingPlace from = PlaceOf(contact, feet);
   const StandingPlace to = PlaceOf(next, feet);
   const Eigen::Vector3d& belt = feet.foot(stride.side).belt;
-  // At a belt's speed, the length is that of the stride's own time.
-  const double rest = stride.time() - (to.time - from.time);
-  const Eigen::Vector2d way = (WayBetween(from, to, belt) - rest * belt).head<2>();
+  const Eigen::Vector2d way = WayBetween(from, to, belt).head<2>();
   stride.length = way.norm();
   stride.heading = std::atan2(way.y(), way.x());
   stride.is_backwards = std::cos(from.yaw - stride.heading) < 0;

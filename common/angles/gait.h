@@ -52,12 +52,22 @@ std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<
 enum class GaitKind { kWalking, kRunning, kBackwards, kStairs };
 const char* Name(GaitKind kind);  ///< "walking", "running", "walking backwards", "stairs"
 
+/// What a joint's muscles give and take in a stride, means of strides [J/kg].
+struct JointWork {
+  const char* joint = "";
+  const char* side = "";
+  double generated = 0, absorbed = 0;
+  int strides = 0;
+};
+
 struct Gait {
   GaitKind kind = GaitKind::kWalking;
   std::vector<Stride> strides;    ///< the left foot's, then the right foot's, over time
   std::vector<GaitCycle> cycles;  ///< of angles of a side over its strides, of others over both
-  int left_out = 0;               ///< strides in which a leg was hidden
-  int turns = 0;                  ///< strides over a turn, which are left out, too
+  std::vector<GaitCycle> forces;  ///< of forces, moments and powers; empty: not known
+  std::vector<JointWork> work;
+  int left_out = 0;  ///< strides in which a leg was hidden
+  int turns = 0;     ///< strides over a turn, which are left out, too
 };
 
 inline constexpr double kLongestStride = 6;  ///< [s] of persons who walk slowly
@@ -65,8 +75,7 @@ inline constexpr double kLongestStride = 6;  ///< [s] of persons who walk slowly
 /// Strides last at most kLongestStride, and in those of more than 2.5 s the feet swing: else the
 /// person stands. Both legs are known all along. Lengths are between the places where feet stood,
 /// in mid-stance, on a treadmill on its belt. What does not apply is NaN: double support of who
-/// runs. The
-/// pelvis turns against the way from contact to contact. angles: of the same motion.
+/// runs. The pelvis turns against the way from contact to contact. angles: of the same motion.
 Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles,
                  const KnownLegs& known);
 

@@ -14,6 +14,7 @@
 #include "common/angles/gait_table.h"
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
+#include "common/contacts/stored_events.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces_table.h"
 #include "common/pipeline/conversion.h"
@@ -86,19 +87,22 @@ std::string GaitSentence(const Gait& gait) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Those of the recording but where and what contacts tell, and these.
+/// Those of the recording, and what contacts tell beyond; where found ones count, these instead of
+/// the person's among the recording's.
 std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
   const PoseTrajectory& motion = report.result.trajectory;
   const std::string& person = report.plan.input.recording.subject;
+  const auto& stored = report.plan.events;
+  const bool replaces = stored && stored->choice == EventChoice::kFound;
   std::vector<C3dEvent> events = ReadC3dEvents(C3dFile(report.plan.input.recording.file), nullptr);
   std::erase_if(events, [&](const C3dEvent& one) {
-    const std::string label = ToLower(one.label);
-    const bool is_told = label == "foot strike" || label == "foot off";
     const bool is_of_person = one.subject.empty() || person.empty() || one.subject == person;
-    return one.is_in_header || (is_told && is_of_person && one.time >= motion.first_time &&
-                                one.time <= motion.time(motion.num_frames() - 1));
+    return one.is_in_header ||
+           (replaces && FootEventOf(one) && is_of_person && one.time >= motion.first_time &&
+            one.time <= motion.time(motion.num_frames() - 1));
   });
   for (const ContactEvent& one : EventsOf(contacts)) {
+    if (!replaces && IsAmong(FootEventsOf(events, person), one)) continue;
     events.push_back({one.time, one.label, ContextOf(one.side), person, false});
   }
   std::stable_sort(events.begin(), events.end(),
@@ -121,10 +125,21 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {
-  const auto ground = StudyGround(report);
-  const Gait gait = ground->gait ? *ground->gait : GaitOf(report, *ground);
+  WriteGaitOf(file, {&report});
+}
+
+void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports) {
+  std::vector<Gait> gaits;
+  gaits.reserve(reports.size());
+  std::vector<GaitTrial> trials;
+  for (const ConversionReport* report : reports) {
+    const auto ground = StudyGround(*report);
+    gaits.push_back(ground->gait ? *ground->gait : GaitOf(*report, *ground));
+    const std::string name = fs::path(report->plan.input.recording.file).stem().string();
+    trials.push_back({name, &gaits.back()});
+  }
   const bool is_json = fs::path(file).extension() == ".json";
-  WriteFileAtomically(file, is_json ? FormatGaitJson(gait) : FormatGaitCsv(gait));
+  WriteFileAtomically(file, is_json ? FormatGaitJson(trials) : FormatGaitCsv(trials));
 }
 
 void WriteGrf(const std::string& file, const ConversionReport& report) {
@@ -188,6 +203,9 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
     if (std::string told = GaitSentence(*ground->gait); !told.empty()) {
       report->warnings.Add(std::move(told));
     }
+  }
+  if (files.count(kGait) > 0 || files.count(kContacts) > 0) {
+    for (const std::string& note : ground->event_notes) report->warnings.Add(note);
   }
   CompareMass(*ground, report);
 }

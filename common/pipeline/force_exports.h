@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/pipeline/exporters.h"
 
@@ -15,8 +16,11 @@ class OutputPlan;
 /// When which foot is on the ground: JSON where the file is called so, else CSV.
 void WriteContacts(const std::string& file, const ConversionReport& report);
 
-/// Strides, and angles over them: JSON where the file is called so, else the angles as CSV.
+/// Strides, and what angles, forces, moments and powers are over them: JSON where the file is
+/// called so, else the latter as CSV.
 void WriteGait(const std::string& file, const ConversionReport& report);
+/// Of several recordings, each under its file's name.
+void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports);
 
 /// The ground's forces for OpenSim: a table, and beside it the ExternalLoads, called as the table
 /// with ".xml".

@@ -14,6 +14,7 @@
 #include "common/angles/anatomical_angles.h"
 #include "common/contacts/person_mass.h"
 #include "common/contacts/plate_readings.h"
+#include "common/contacts/stored_events.h"
 #include "common/forces/recording_forces.h"
 #include "common/judge/coverage.h"
 #include "common/kinetics/foot_wrenches.h"
@@ -57,6 +58,19 @@ KinematicModel WithMass(const KinematicModel& model, double mass) {
     segment.inertia *= scale;
   }
   return KinematicModel(std::move(description));
+}
+
+constexpr const char* kPower = "power";
+
+/// Between the frames beside each [1/s].
+Eigen::RowVectorXd RateOf(const Eigen::RowVectorXd& values, double rate) {
+  const Eigen::Index last = values.size() - 1;
+  Eigen::RowVectorXd rates = Eigen::RowVectorXd::Zero(values.size());
+  for (Eigen::Index k = 0; k <= last && last > 0; ++k) {
+    const Eigen::Index before = std::max<Eigen::Index>(0, k - 1), after = std::min(k + 1, last);
+    rates[k] = rate * (values[after] - values[before]) / static_cast<double>(after - before);
+  }
+  return rates;
 }
 
 /// The moment against the one that makes an angle grow.
@@ -121,26 +135,71 @@ AnatomicalAngles ResidualRows(const JointForces& found) {
   return rows;
 }
 
-/// Of muscles, by mass.
+/// Moments and powers of muscles, by mass.
 AnatomicalAngles LegMoments(const ConversionReport& report, const JointForces& found) {
   const KinematicModel& model = *report.plan.setup.model;
   const PoseTrajectory motion = TrackedMotion(report.result);
-  const AnatomicalAngles angles = ComputeAnatomicalAngles(model, motion);
-  const Eigen::MatrixXd moments = AnatomicalMoments(model, motion, ByJoints(model, found));
+  const AnatomicalAngles angles =
+      ComputeAnatomicalAngles(model, SmoothMotion(model, motion, found.cutoff));
+  const Eigen::MatrixXd moments =
+      AnatomicalMoments(model, motion, ByJoints(model, found)) / found.mass;
   AnatomicalAngles rows;
   rows.rate = motion.rate;
   rows.first_time = motion.first_time;
-  rows.values.resize(moments.rows(), moments.cols());
-  for (std::size_t i = 0; i < angles.angles.size(); ++i) {
-    const AnatomicalAngle& angle = angles.angles[i];
-    const char* name = OppositeOf(angle.motion);
-    if (!IsOfLeg(angle.joint) || name == nullptr) continue;
-    rows.values.row(static_cast<Eigen::Index>(rows.angles.size())) =
-        -moments.row(static_cast<Eigen::Index>(i)) / found.mass;
-    rows.angles.push_back({angle.joint, angle.side, name});
+  rows.values.resize(2 * moments.rows(), moments.cols());
+  const auto add = [&](const AnatomicalAngle& angle, const Eigen::RowVectorXd& values) {
+    rows.values.row(static_cast<Eigen::Index>(rows.angles.size())) = values;
+    rows.angles.push_back(angle);
+  };
+  for (std::size_t begin = 0, end = 0; begin < angles.angles.size(); begin = end) {
+    const AnatomicalAngle& first = angles.angles[begin];
+    Eigen::RowVectorXd power = Eigen::RowVectorXd::Zero(moments.cols());
+    for (; end < angles.angles.size(); ++end) {
+      const AnatomicalAngle& angle = angles.angles[end];
+      if (std::string_view(angle.joint) != first.joint ||
+          std::string_view(angle.side) != first.side) {
+        break;
+      }
+      const auto row = static_cast<Eigen::Index>(end);
+      power += moments.row(row).cwiseProduct(RateOf(angles.values.row(row), motion.rate));
+      const char* name = OppositeOf(angle.motion);
+      if (IsOfLeg(angle.joint) && name != nullptr) {
+        add({angle.joint, angle.side, name}, -moments.row(row));
+      }
+    }
+    if (IsOfLeg(first.joint)) add({first.joint, first.side, kPower}, power);
   }
   rows.values.conservativeResize(static_cast<Eigen::Index>(rows.angles.size()), Eigen::NoChange);
   return rows;
+}
+
+/// What each leg's joints give and take in each stride in which their power is known, means.
+std::vector<JointWork> WorkOf(const AnatomicalAngles& rows, const std::vector<Stride>& strides) {
+  std::vector<JointWork> works;
+  for (std::size_t i = 0; i < rows.angles.size(); ++i) {
+    const AnatomicalAngle& angle = rows.angles[i];
+    if (std::string_view(angle.motion) != kPower) continue;
+    JointWork work = {angle.joint, angle.side};
+    for (const Stride& stride : strides) {
+      if (std::string_view(Name(stride.side)) != angle.side) continue;
+      const auto frame = [&](double time) {
+        return static_cast<Eigen::Index>(std::lround((time - rows.first_time) * rows.rate));
+      };
+      const Eigen::Index begin = std::max<Eigen::Index>(0, frame(stride.begin));
+      const Eigen::Index end = std::min(frame(stride.end), rows.values.cols());
+      if (end <= begin) continue;
+      const auto power = rows.values.row(static_cast<Eigen::Index>(i)).segment(begin, end - begin);
+      if (!power.allFinite()) continue;
+      work.generated += power.cwiseMax(0).sum() / rows.rate;
+      work.absorbed -= power.cwiseMin(0).sum() / rows.rate;
+      ++work.strides;
+    }
+    if (work.strides == 0) continue;
+    work.generated /= work.strides;
+    work.absorbed /= work.strides;
+    works.push_back(work);
+  }
+  return works;
 }
 
 /// Where a leg shows what the verdict asks of it; without limbs, where the body is seen. By frame
@@ -169,6 +228,22 @@ KnownLegs FindKnownLegs(const ConversionReport& report) {
   return known;
 }
 
+/// Those of the gait's strides, where there are plates and the model has a mass.
+void AddForces(const ConversionReport& report, const GroundStudy& ground, Gait* gait) {
+  if (ground.forces->plates.empty() || gait->strides.empty() ||
+      !(report.plan.setup.model->total_mass() > 0)) {
+    return;
+  }
+  const JointForces found =
+      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
+  const AnatomicalAngles legs = LegMoments(report, found);
+  for (const AnatomicalAngles& rows : {VerticalForces(report, ground), legs, ResidualRows(found)}) {
+    const std::vector<GaitCycle> more = CyclesOf(rows, gait->strides);
+    gait->forces.insert(gait->forces.end(), more.begin(), more.end());
+  }
+  gait->work = WorkOf(legs, gait->strides);
+}
+
 /// Whether it is told by plates, or by a leg that is seen for most of it.
 bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs& known) {
   const std::vector<bool>& leg = known[static_cast<std::size_t>(contact.side)];
@@ -177,6 +252,23 @@ bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs&
   const int to = contact.end ? feet.frame(*contact.end) : last;
   if (!contact.plates.empty() || to < from) return !contact.plates.empty();
   return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
+}
+
+constexpr double kMostTimes = 1.5;                // of a stated mass: what people carry is less
+constexpr double kLightest = 8, kHeaviest = 250;  // [kg] persons who walk
+
+/// Empty: the plates bore what a person weighs.
+std::string DoubtOfScale(const std::optional<MassByPlates>& borne, const PersonValue& stated) {
+  if (!borne) return "";
+  const bool is_stated = stated.value > 0 && !IsAssumed(stated);
+  const bool is_far =
+      is_stated ? std::max(borne->mass / stated.value, stated.value / borne->mass) > kMostTimes
+                : borne->mass < kLightest || borne->mass > kHeaviest;
+  if (!is_far) return "";
+  return fmt::format(
+      "the force plates bore {:.3g} kg{}: their forces are of another scale", borne->mass,
+      is_stated ? fmt::format(", the person's mass is {:.3g} kg ({})", stated.value, stated.source)
+                : "");
 }
 
 /// A table of other times tells nothing, and is as long as it likes.
@@ -201,6 +293,23 @@ RecordedForces GroundForces(const Input& input, Warnings* warnings) {
   RecordedForces forces = ForcesOf(input.forces_file, input.recording.up_axis, warnings);
   CheckIsOfRecording(forces, input);
   return forces;
+}
+
+std::shared_ptr<const StoredEvents> EventsOfFile(const Input& input, const std::string& choice) {
+  const Recording& recording = input.recording;
+  auto stored = std::make_shared<StoredEvents>();
+  if (choice == "file") stored->choice = EventChoice::kFile;
+  if (choice == "found") stored->choice = EventChoice::kFound;
+  if (recording.format == "C3D") {
+    stored->events =
+        FootEventsOf(ReadC3dEvents(C3dFile(recording.file), nullptr), recording.subject);
+  }
+  if (!stored->events.empty()) return stored;
+  if (choice != "file") return nullptr;
+  throw Error(
+      fmt::format("{}: has no events of feet (\"Foot Strike\" and \"Foot Off\" of Left and "
+                  "Right); without {} they are found",
+                  recording.file, OptionText("events")));
 }
 
 void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* warnings) {
@@ -244,7 +353,14 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, W
                     one.plate.number, forces->time(one.clipped.front().begin)));
   }
   ground.contacts = FindContacts(ground.feet, *forces);
+  ground.steps = report.plan.events
+                     ? WithStoredEvents(*report.plan.events, ground.feet, ground.contacts, *forces,
+                                        &ground.event_notes)
+                     : ground.contacts;
   ground.mass = EstimateMass(ground.contacts, *forces, ground.feet);
+  if (std::string doubt = DoubtOfScale(ground.mass, report.plan.person.mass); !doubt.empty()) {
+    ground.doubts.push_back(std::move(doubt));
+  }
   ground.forces = std::move(forces);
   return std::make_shared<const GroundStudy>(std::move(ground));
 }
@@ -282,7 +398,7 @@ std::string UnappliedSentence(const GroundStudy& ground) {
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground) {
   const FootMotion& feet = ground.feet;
   const KnownLegs known = FindKnownLegs(report);
-  Contacts seen = ground.contacts;
+  Contacts seen = ground.steps;
   std::erase_if(seen.contacts, [&](const FootContact& one) { return !IsTold(one, feet, known); });
   for (FootContact& one : seen.contacts) {
     if (!one.plates.empty()) continue;
@@ -331,20 +447,9 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
   const AnatomicalAngles angles =
       ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
-  return AnalyzeGait(ground.feet, ground.contacts, angles, FindKnownLegs(report));
-}
-
-std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
-                                     const Gait& gait) {
-  if (ground.forces->plates.empty() || !(report.plan.setup.model->total_mass() > 0)) return {};
-  std::vector<GaitCycle> cycles = CyclesOf(VerticalForces(report, ground), gait.strides);
-  const JointForces found =
-      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
-  for (const AnatomicalAngles& rows : {LegMoments(report, found), ResidualRows(found)}) {
-    const std::vector<GaitCycle> more = CyclesOf(rows, gait.strides);
-    cycles.insert(cycles.end(), more.begin(), more.end());
-  }
-  return cycles;
+  Gait gait = AnalyzeGait(ground.feet, ground.steps, angles, FindKnownLegs(report));
+  AddForces(report, ground, &gait);
+  return gait;
 }
 
 }  // namespace mmm_converter

@@ -15,6 +15,7 @@ namespace mmm_converter {
 
 struct ConversionReport;
 struct Input;
+struct StoredEvents;
 
 /// What is known of the ground under a tracked person: found once for a conversion.
 struct GroundStudy {
@@ -22,6 +23,8 @@ struct GroundStudy {
   std::vector<std::string> doubts;  ///< what speaks against the plates, for the verdict
   FootMotion feet;
   Contacts contacts;
+  Contacts steps;                        ///< the same, with the file's events where they count
+  std::vector<std::string> event_notes;  ///< what there is to say of the file's events
   std::optional<MassByPlates> mass;
   std::optional<JointForces> joint_forces;  ///< where they are exported
   std::optional<Gait> gait;                 ///< where it is exported
@@ -29,6 +32,11 @@ struct GroundStudy {
 
 /// Forces of the recording's file, or of the one that is beside it.
 RecordedForces GroundForces(const Input& input, Warnings* warnings);
+
+/// When feet come to the ground by the recording's file, and which of it counts ("file", "found";
+/// empty: the default). Null: it does not say.
+/// @throws Error where it has to say and does not.
+std::shared_ptr<const StoredEvents> EventsOfFile(const Input& input, const std::string& choice);
 
 /// @throws Error where the recording has no plates.
 void CheckHasPlates(const RecordedForces& forces, const Input& input);
@@ -63,15 +71,11 @@ std::string MassSentence(const ConversionReport& report, const GroundStudy& grou
 JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
                           bool with_deviations);
 
-/// Strides, and angles over them; of these is left out what was hidden.
+/// Strides, and over them angles, without what was hidden, and where there are plates and a mass
+/// what legs bear and exert: of joint "ground" the "vertical force" in body weights; of hips, knees
+/// and ankles the "extension moment" and so on that muscles exert [N m/kg], each about the axis of
+/// its angle, and their "power" [W/kg]; of joint "residual" what the root would still need, "force"
+/// in body weights and "moment" [N m/kg].
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground);
-
-/// What legs bear and exert over the strides of `gait`: of joint "ground" the "vertical force" in
-/// body weights; of hips, knees and ankles the "extension moment" and so on that muscles exert [N
-/// m/kg], each about the axis of its angle; of joint "residual" what the root would still need,
-/// "force" in body weights and "moment" [N m/kg]. Empty: there are no plates, or the model has no
-/// mass.
-std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
-                                     const Gait& gait);
 
 }  // namespace mmm_converter

@@ -47,7 +47,7 @@ class RealForceExports : public ::testing::Test {
 
   static nlohmann::json ContactsOf(const std::string& file) {
     const auto run = RunProgram({"convert", testing::SharedData(file), "-o", Out("o.xml"),
-                                 "--export-contacts", Out("contacts.json")});
+                                 "--events", "found", "--export-contacts", Out("contacts.json")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return nlohmann::json::parse(ReadText(Out("contacts.json")));
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -112,6 +113,39 @@ TEST_F(RealGround, LoadsOfNoFootAreTold) {
   EXPECT_THAT(run.said, HasSubstr("is applied to no foot"));
   EXPECT_THAT(run.said, HasSubstr("plate 2 from 1.94"));
   EXPECT_THAT(run.said, HasSubstr("plate 1 from 3.59"));
+}
+
+TEST_F(RealGround, StridesOfSeveralTrialsAreOneTable) {
+  const char* const names[] = {"f_base_type2", "w_treadmill_2800ms"};
+  std::vector<std::string> arguments = {"convert", "--export-gait", Out("gait.csv")};
+  for (const char* name : names) {
+    const std::string copy = TestFolder() + "/" + name + ".c3d";
+    std::filesystem::copy_file(Recording(name + std::string(".c3d")), copy);
+    arguments.push_back(copy);
+  }
+  const auto run = RunProgram(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string table = ReadText(Out("gait.csv"));
+  EXPECT_THAT(table, HasSubstr("\nf_base_type2,knee,left,flexion,degrees,50,"));
+  EXPECT_THAT(table, HasSubstr("\nf_base_type2,ankle,left,power,W/kg,50,"));
+  EXPECT_THAT(table, HasSubstr("\nf_base_type2,hip,right,extension moment,N m/kg,0,"));
+  EXPECT_THAT(table, HasSubstr("\nw_treadmill_2800ms,knee,right,flexion,degrees,100,"));
+}
+
+TEST_F(RealGround, EventsOfTheFileCountWhereTheUserSaysSo) {
+  const auto refused = RunProgram({"convert", Recording("f_base_type2.c3d"), "-o", Out("o.xml"),
+                                   "--events", "file", "--export-contacts", Out("c.json")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("has no events of feet"));
+  // Its eleven events are of two strides of a longer walk.
+  const std::string walk = testing::SharedData("field/btk_FunctionalWalk.c3d");
+  const auto run = RunProgram({"convert", walk, "-o", Out("o.xml"), "--events", "file",
+                               "--export-contacts", Out("c.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out + run.err, HasSubstr("are by the file's events"));
+  const auto events = nlohmann::json::parse(ReadText(Out("c.json")))["events"];
+  ASSERT_EQ(events.size(), 11);
+  EXPECT_NEAR(events[0]["time_s"].get<double>(), 4.525, 1e-3);
 }
 
 /// Mean figures of strides, of the made walker.

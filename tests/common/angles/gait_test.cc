@@ -129,6 +129,23 @@ TEST_F(GaitTest, StridesOfAHiddenLegAreLeftOut) {
   EXPECT_EQ(gait.left_out, 1);
 }
 
+TEST_F(GaitTest, LengthsAreOnTheBelt) {
+  const Gait ground = AnalyzeGait(feet_, contacts_, angles_, known_);
+  for (FootPath& foot : feet_.feet) {
+    foot.belt << -0.9, 0, 0;
+    for (int k = 0; k < kFrames; ++k) {
+      foot.heel.col(k) += k / kRate * foot.belt;
+      foot.toe.col(k) += k / kRate * foot.belt;
+    }
+  }
+  const Gait belt = AnalyzeGait(feet_, contacts_, angles_, known_);
+  ASSERT_EQ(belt.strides.size(), ground.strides.size());
+  for (std::size_t i = 0; i < belt.strides.size(); ++i) {
+    EXPECT_NEAR(belt.strides[i].length, ground.strides[i].length, kSame);
+    EXPECT_NEAR(belt.strides[i].step_length, ground.strides[i].step_length, kSame);
+  }
+}
+
 TEST_F(GaitTest, StridesOverATurnAreLeftOut) {
   feet_.feet[0].toe.rightCols(60) = feet_.feet[0].heel.rightCols(60);
   feet_.feet[0].toe.rightCols(60).row(1).array() += 0.25;  // to the left from 2.41 s on
@@ -171,13 +188,11 @@ TEST_F(GaitTest, StandingIsNoStride) {
 
 TEST_F(GaitTest, Tables) {
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
-  const std::string csv = FormatGaitCsv(gait);
-  EXPECT_THAT(
-      csv,
-      StartsWith("joint,side,angle,percent,mean_degrees,sd_degrees,uncertainty_degrees,strides\n"));
+  const std::string csv = FormatGaitCsv({{"walk", &gait}});
+  EXPECT_THAT(csv, StartsWith("trial,joint,side,angle,unit,percent,mean,sd,uncertainty,strides\n"));
   EXPECT_THAT(csv, HasSubstr("\nknee,left,flexion,50,-54.430991,4.051423,1.145916,2\n"));
   EXPECT_THAT(csv, HasSubstr("\npelvis,right,tilt,100,0,,1.145916,1\n"));
-  const auto json = nlohmann::json::parse(FormatGaitJson(gait));
+  const auto json = nlohmann::json::parse(FormatGaitJson({{"walk", &gait}}));
   EXPECT_NEAR(json["summary"]["left"]["cadence_steps_per_min"]["mean"], 120, 1e-6);
   EXPECT_EQ(json["summary"]["left"]["step_width_m"]["strides"], 2);
   EXPECT_TRUE(json["summary"]["right"]["step_width_m"]["sd"].is_null());
@@ -189,7 +204,7 @@ TEST_F(GaitTest, Tables) {
 TEST_F(GaitTest, WithoutContactsNothing) {
   const Gait gait = AnalyzeGait(feet_, {}, angles_, known_);
   EXPECT_THAT(gait.cycles, SizeIs(0));
-  const auto json = nlohmann::json::parse(FormatGaitJson(gait));
+  const auto json = nlohmann::json::parse(FormatGaitJson({{"walk", &gait}}));
   EXPECT_TRUE(json["summary"]["left"]["cadence_steps_per_min"]["mean"].is_null());
 }
 
