@@ -101,7 +101,7 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
           &request->input.forces_file, {.of_motions = "none: the ground is assumed"}),
       Row({"events", "events", "events"}, {OptionKind::kChoice, "file|found"},
           "when feet come to the ground and leave it, for contacts and strides: as the file says, "
-          "or as it is found; --export-contacts FILE.c3d replaces the file's only with found",
+          "or as it is found, which then replaces the file's events in copies of it",
           "the file's of a foot where it has all that are found", task::kConvert,
           &request->input.events),
       Row({"up", "up", "up"}, {OptionKind::kAxis, "AXIS"},

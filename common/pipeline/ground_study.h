@@ -14,6 +14,7 @@
 namespace mmm_converter {
 
 struct ConversionReport;
+struct ConversionResult;
 struct Input;
 struct StoredEvents;
 
@@ -46,6 +47,9 @@ void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* 
 
 /// Of which file the forces are.
 const std::string& ForcesFile(const Input& input);
+
+/// Without the frames before the person was seen.
+PoseTrajectory TrackedMotion(const ConversionResult& result);
 
 /// That of the report where it has one. warnings: of what plates were taken for; may be null.
 /// @throws Error where the model has no feet (HasFeet).
