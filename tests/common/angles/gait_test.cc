@@ -190,8 +190,9 @@ TEST_F(GaitTest, Tables) {
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
   const std::string csv = FormatGaitCsv({{"walk", &gait}});
   EXPECT_THAT(csv, StartsWith("trial,joint,side,angle,unit,percent,mean,sd,uncertainty,strides\n"));
-  EXPECT_THAT(csv, HasSubstr("\nknee,left,flexion,50,-54.430991,4.051423,1.145916,2\n"));
-  EXPECT_THAT(csv, HasSubstr("\npelvis,right,tilt,100,0,,1.145916,1\n"));
+  EXPECT_THAT(csv,
+              HasSubstr("\nwalk,knee,left,flexion,degrees,50,-54.430991,4.051423,1.145916,2\n"));
+  EXPECT_THAT(csv, HasSubstr("\nwalk,pelvis,right,tilt,degrees,100,0,,1.145916,1\n"));
   const auto json = nlohmann::json::parse(FormatGaitJson({{"walk", &gait}}));
   EXPECT_NEAR(json["summary"]["left"]["cadence_steps_per_min"]["mean"], 120, 1e-6);
   EXPECT_EQ(json["summary"]["left"]["step_width_m"]["strides"], 2);
