@@ -16,6 +16,8 @@
 namespace mmm_converter {
 namespace {
 
+constexpr double kFitsAlike = 1e-3;  // [m] what fits alike is read by the simpler change
+
 /// What a table of forces can mean. Default: what it says.
 struct TableReading {
   double scale = 1;  ///< of its points
@@ -71,7 +73,7 @@ class Table {
     for (const TableReading& one : readings) {
       const std::vector<double> distances = DistancesOf(one);
       if (distances.size() != own.size() || Max(distances) > kUnderFoot) continue;
-      if (Mean(distances) < nearest) {
+      if (Mean(distances) < nearest - kFitsAlike) {
         nearest = Mean(distances);
         best = &one;
       }

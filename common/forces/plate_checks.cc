@@ -29,9 +29,12 @@ constexpr double kSubtracted = 25;     // [N] 21 of OpenSim's sample are kept, a
 constexpr double kMostMoved = 0.01;    // [m] of the pressure, by moments of nobody
 constexpr double kUnloadedPiece = 0.5;  // [s] in which a level hardly drifts
 constexpr double kStandsStill = 0.02;   // [s] noise alone moves a channel within this time
+constexpr double kStandsLong = 0.1;     // [s] one steep end is enough
 constexpr double kSteep = 2;            // of the extreme, each second: no smooth summit is so steep
-constexpr double kFlat = 0.002;         // of the extreme: noise of a converter at its end
-constexpr int kSlopeSamples = 3;        // beside a flat top
+constexpr double kLeastRange = 100;     // [N] of a channel of forces
+constexpr double kLeastMomentRange = 10;  // [N m]
+constexpr double kFlat = 0.002;           // of the extreme: noise of a converter at its end
+constexpr int kSlopeSamples = 3;          // beside a flat top
 
 /// Whether most of the loaded centre of pressure lies on the plate. Nothing: it is never loaded.
 std::optional<bool> IsOnPlate(const PlateForces& forces) {
@@ -91,6 +94,14 @@ std::vector<LoadInterval> LoadsOf(const PlateForces& forces, double rate) {
   }
   std::erase_if(loads, [&](const LoadInterval& load) { return load.end - load.begin < shortest; });
   return loads;
+}
+
+/// What no channel of a plate ends at, in the channel's unit.
+double LeastRange(const ForcePlate& plate, Eigen::Index row) {
+  const bool is_cop = plate.type == PlateType::kForcesAndCop && row >= 3;
+  if (is_cop || plate.type == PlateType::kCalibratedChannels) return 0;  // not in newtons
+  const bool is_moment = plate.type == PlateType::kForcesAndMoments && row >= 3;
+  return is_moment ? kLeastMomentRange / plate.moment_unit : kLeastRange / plate.force_unit;
 }
 
 }  // namespace
@@ -183,6 +194,7 @@ void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* 
     for (const double one : v) {
       if (std::isfinite(one)) extreme = std::max(extreme, std::abs(one));
     }
+    if (extreme < LeastRange(forces->plate, row)) continue;
     const auto is_steep = [&](int from, int to) {
       if (from < 0 || to >= v.size()) return false;
       return std::abs(v[to] - v[from]) / kSlopeSamples * rate > kSteep * extreme;
@@ -195,8 +207,10 @@ void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* 
         while (is_extreme && end < load.end && std::abs(v[end] - v[k]) <= 2 * kFlat * extreme) {
           ++end;
         }
+        const int steep_ends =
+            is_steep(k - 1 - kSlopeSamples, k - 1) + is_steep(end, end + kSlopeSamples);
         if (is_extreme && end - k >= shortest &&
-            (is_steep(k - 1 - kSlopeSamples, k - 1) || is_steep(end, end + kSlopeSamples))) {
+            steep_ends >= (end - k >= kStandsLong * rate ? 1 : 2)) {
           found.push_back({k, end});
         }
         k = end;

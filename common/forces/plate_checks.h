@@ -35,8 +35,8 @@ void JudgeLoads(double rate, PlateForces* forces, Warnings* warnings);
 void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* channels,
                       Warnings* warnings);
 
-/// Fills clipped: a loaded channel that rises steeply and then stands still at its extreme is at
-/// the end of its range. first_time: of sample 0 [s].
+/// Fills clipped: a loaded channel that stands still at its extreme between steep slopes, or long
+/// beside one, is at the end of its range. first_time: of sample 0 [s].
 void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* warnings);
 
 /// No centre of pressure where a moment's channel stands still while the plate is loaded.

@@ -57,7 +57,7 @@ class PlateReadingsTest : public ::testing::Test {
       for (int k = 0; k < kFrames; ++k) {
         const double t = k / kRate;
         const bool stands = t >= stand.begin && t < stand.end;
-        const double ahead = stands ? 0 : (t < stand.begin ? -0.7 : 0.7);
+        const double ahead = stands ? 0 : (t < stand.begin ? -2 : 2);
         foot.heel.col(k) = Eigen::Vector3d(stand.x + ahead, stand.y, stands ? 0 : 0.1);
         foot.heel_speed[k] = stands ? 0 : 3;
       }
@@ -170,7 +170,6 @@ TEST_F(PlateReadingsTest, MomentsOfOtherSignsOrderAndUnits) {
   const std::pair<const char*, std::array<double, 6>> signs[] = {
       {"Mx and My of the other sign", {1, 1, 1, -1, -1, 1}},
       {"Mx of the other sign", {1, 1, 1, -1, 1, 1}},
-      {"My of the other sign", {1, 1, 1, 1, -1, 1}},
       {"moments in N cm", {1, 1, 1, 0.1, 0.1, 0.1}}};
   for (const auto& [told, factors] : signs) {
     warnings_ = {};
