@@ -60,6 +60,9 @@ class RealRecordings(Case):
         self.assertIn("left ankle power [W/kg]", ground.powers.columns)
         self.assertIn("left knee extension moment [N m/kg]", ground.moments.columns)
         self.assertEqual(list(ground.loads["foot"]), ["left", "right"])
+        self.assertEqual(set(ground.contacts["foot"]), {"left", "right"})
+        self.assertIn("left knee flexion [deg]", ground.cycles.columns)
+        self.assertTrue(ground.work.empty)  # no foot is on plates over a whole stride
         self.assertEqual(len(strides.to_dataframe()), len(strides))
 
     def test_forces_are_what_opensim_stored(self):
