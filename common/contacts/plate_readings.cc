@@ -299,8 +299,8 @@ class Plates {
     const double most = is_beside ? kNearer * own : kUnderFoot;
     std::size_t stances = 0;
     for (const std::size_t i : plates) stances += stances_[i].size();
+    if (stances < 2) return std::nullopt;  // one agrees with too much
     for (const bool changes_two : {false, true}) {
-      if (changes_two && stances < 2) break;  // one agrees with too much
       double best = HUGE_VAL, next = HUGE_VAL;
       const Reading* found = nullptr;
       for (const Reading& one : readings) {

@@ -26,7 +26,6 @@ constexpr double kShortest = 0.05;     // [s] of a gap that stays, and of a load
 constexpr double kBesidePlate = 0.05;  // [m] a foot's pressure may be told beyond the edge
 constexpr double kMostlyOn = 0.5;      // of the loaded samples
 constexpr double kSubtracted = 25;     // [N] 21 of OpenSim's sample are kept, as OpenSim keeps them
-constexpr double kMostMoved = 0.01;    // [m] of the pressure, by moments of nobody
 constexpr double kUnloadedPiece = 0.5;  // [s] in which a level hardly drifts
 constexpr double kStandsStill = 0.02;   // [s] noise alone moves a channel within this time
 constexpr double kStandsLong = 0.1;     // [s] one steep end is enough
@@ -159,12 +158,7 @@ void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* cha
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(channels->rows());
   for (const auto& [middle, levels] : pieces) mean += levels / static_cast<double>(pieces.size());
   const PlateForces unloaded = ForcesOfPlate(plate, mean);
-  const double moved =
-      unloaded.moment.allFinite() ? unloaded.moment.norm() / std::max(forces.largest_load, 1.0) : 0;
-  const double force = std::max(std::abs(*level), unloaded.force.norm());
-  if (!(force > kSubtracted || (moved > kMostMoved && forces.largest_load > kSurelyLoaded))) {
-    return;
-  }
+  if (std::max(std::abs(*level), unloaded.force.norm()) <= kSubtracted) return;
   std::size_t next = 0;
   for (int k = 0; k < samples; ++k) {
     while (next < pieces.size() && pieces[next].first < k) ++next;

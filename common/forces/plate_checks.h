@@ -30,8 +30,7 @@ void CorrectOrigin(const Eigen::MatrixXd& channels, ForcePlate* plate, Warnings*
 void JudgeLoads(double rate, PlateForces* forces, Warnings* warnings);
 
 /// Takes away from each channel what it shows while nobody is on the plate, between these times on
-/// straight lines, where that is more than 25 N, or moves the pressure of a load by more than 10
-/// mm. rate: of samples [Hz].
+/// straight lines, where that is more than 25 N. rate: of samples [Hz].
 void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* channels,
                       Warnings* warnings);
 

@@ -203,15 +203,15 @@ TEST_F(PlateLoadsTest, WhatAnUnloadedPlateShowsIsTakenAway) {
   plate.origin.setZero();
   Eigen::MatrixXd stepped = Eigen::MatrixXd::Zero(6, 1000);
   stepped.row(2) = Step(0);
-  for (const int row : {0, 2, 4}) {  // of Fx and Fz 40 N, of My 20 N m
+  for (const int row : {0, 2}) {
     Eigen::MatrixXd channels = stepped;
-    channels.row(row).array() += row == 4 ? 20e3 : 40;
+    channels.row(row).array() += 40;
     SubtractUnloaded(kRate, plate, &channels, &warnings);
     EXPECT_LT((channels - stepped).cwiseAbs().maxCoeff(), 1e-9) << row;
   }
-  EXPECT_THAT(warnings.texts(), SizeIs(3));
+  EXPECT_THAT(warnings.texts(), SizeIs(2));
   SubtractUnloaded(kRate, plate, &stepped, &warnings);
-  EXPECT_THAT(warnings.texts(), SizeIs(3));
+  EXPECT_THAT(warnings.texts(), SizeIs(2));
 }
 
 TEST_F(PlateLoadsTest, AFlatTopWithNoiseIsSaturated) {
