@@ -18,6 +18,7 @@
 #include "common/pipeline/all_motions.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/exporters.h"
+#include "common/pipeline/force_exports.h"
 #include "common/pipeline/input/osim_setup.h"
 #include "common/pipeline/motion_output.h"
 #include "common/pipeline/osim_scaling_run.h"
@@ -50,11 +51,12 @@ const OptionGroup kCalibration = {
       ""}}};
 
 constexpr const char* kAllMotions = "all";
+constexpr const char* kGait = "gait";
 
 constexpr const char* kConvertUsage = R"(MMMConverterS2KF convert INPUT... [options]
 Converts the markers of INPUT (C3D, TRC, or an MMM motion with markers) into an MMM motion.
 Several recordings of a person are written one by one; --report is one page of all of them, with the
-strides of all together.
+strides of all together, --export-gait one table.
 The other motions of an MMM 2.0 file are kept, and -o may then be INPUT. --motion all converts every
 motion that has markers: persons with the reference model, each rigid object with its own model.
 
@@ -155,7 +157,9 @@ void SpreadConditions(std::vector<ConversionRequest>* requests) {
 int ConvertSeveral(const Arguments& arguments) {
   std::vector<std::string> options = {"output",      "summary",   "marker-set-out",
                                       "subject-out", "model-out", "inputMotion"};
-  for (const Exporter& exporter : Exporters()) options.emplace_back(exporter.option);
+  for (const Exporter& exporter : Exporters()) {
+    if (exporter.name != std::string_view(kGait)) options.emplace_back(exporter.option);
+  }
   for (const std::string& option : options) {
     if (!arguments.Has(option)) continue;
     throw UsageError(fmt::format(
@@ -180,10 +184,12 @@ int ConvertSeveral(const Arguments& arguments) {
   }
   SpreadConditions(&requests);
   plan.Write(arguments.Get("report").value_or(""));
+  const ExportFiles exports = requests.front().exports;  // the strides of all
+  NameOutputs(exports, &plan);
   plan.Check();
   std::vector<ConversionReport> reports;
   std::vector<std::string> failures;
-  for (const ConversionRequest& request : requests) {
+  for (ConversionRequest& request : requests) {
     ProgressBar bar("frames");
     const auto progress = [&](int done, int all) {
       bar.Show(done, all);
@@ -192,6 +198,8 @@ int ConvertSeveral(const Arguments& arguments) {
     try {
       ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
       bar.Clear();
+      CompareForces(exports, &report);
+      request.exports.clear();
       WriteConversion(request, &report);
       LogWarnings(report.warnings);
       std::cout << (reports.empty() ? "" : "\n") << FormatSummary(report);
@@ -202,11 +210,14 @@ int ConvertSeveral(const Arguments& arguments) {
       failures.push_back(error.what());
     }
   }
+  std::vector<const ConversionReport*> all;
+  all.reserve(reports.size());
+  for (const ConversionReport& report : reports) all.push_back(&report);
   if (const auto file = arguments.Get("report"); file && !reports.empty()) {
-    std::vector<const ConversionReport*> all;
-    all.reserve(reports.size());
-    for (const ConversionReport& report : reports) all.push_back(&report);
     WriteFileAtomically(*file, FormatConversionPage(all, failures));
+  }
+  if (const auto gait = exports.find(kGait); gait != exports.end() && !reports.empty()) {
+    WriteGaitOf(gait->second, all);
   }
   std::vector<Verdict::Level> verdicts;
   verdicts.reserve(reports.size());

@@ -11,10 +11,14 @@
 #include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "common/angles/anatomical_angles.h"
+#include "common/angles/gait_table.h"
+#include "common/contacts/contact_table.h"
 #include "common/convert/marker_incidents.h"
 #include "common/io/tables/osim_tables.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/force_exports.h"
+#include "common/pipeline/ground_study.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
@@ -149,6 +153,19 @@ std::vector<std::string> MarkerLabelsOf(const Conversion& conversion) {
   return labels;
 }
 
+// None: the model has no feet, or is no person's.
+py::object GroundOf(const Conversion& conversion) {
+  const ConversionReport& report = conversion.report;
+  const KinematicModel& model = *report.plan.setup.model;
+  if (report.plan.object || !HasFeet(model) || !HasAnatomy(model)) return py::none();
+  const auto ground = StudyGround(report);
+  const Gait gait = ground->gait ? *ground->gait : GaitOf(report, *ground);
+  const std::string contacts =
+      FormatContactsJson(SeenContacts(report, *ground), *ground->forces, ground->mass);
+  return PythonOf(
+      Json{{"contacts", ParseJson(contacts)}, {"gait", ParseJson(FormatGaitJson({{"", &gait}}))}});
+}
+
 PersonModel ModelOf(const Conversion& conversion) {
   const ConversionReport& report = conversion.report;
   return {report.plan.input.model_file, report.plan.input.model,
@@ -188,6 +205,7 @@ void BindConversions(py::module_* module) {
       .def_property_readonly("incidents", &IncidentsOf)
       .def_property_readonly("frames", &FramesOf)
       .def_property_readonly("model", &ModelOf)
+      .def_property_readonly("ground", &GroundOf)
       .def_property_readonly("summary",
                              [](const Conversion& c) { return PythonOf(ToJson(c.report)); })
       .def_property_readonly("text", [](const Conversion& c) { return FormatSummary(c.report); })

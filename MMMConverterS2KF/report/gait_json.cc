@@ -94,16 +94,6 @@ Json FigureJson(const std::vector<double>& values) {
           {"strides", static_cast<int>(count)}};
 }
 
-void AddDoubleSupport(const Gait& gait, const Contacts& contacts, Json* summary) {
-  for (const Side side : kSides) {
-    std::vector<double> shares;
-    for (const Stride& one : gait.strides) {
-      if (one.side == side) shares.push_back(kPercent * DoubleSupport(one, contacts));
-    }
-    (*summary)[Name(side)]["double_support_percent"] = FigureJson(shares);
-  }
-}
-
 Json BandsJson(const NormalBands& normal) {
   Json bands = Json::array();
   for (const NormalBand& one : normal.bands) {
@@ -175,15 +165,12 @@ Json GaitPageJson(const ConversionReport& report, const GroundStudy& ground) {
   if (gait.strides.empty()) return nullptr;
   const std::vector<GaitCycle> singles = SingleCycles(report, ground, gait);
   Json cycles = AngleCyclesJson(gait, singles);
-  for (const GaitCycle& one : ForceCyclesOf(report, ground, gait)) {
-    const bool is_force = std::string_view(one.angle.motion).ends_with("force");
-    cycles.push_back(CycleJson(one, is_force ? "body weights" : "N m/kg", 1, 3));
+  for (const GaitCycle& one : gait.forces) {
+    cycles.push_back(CycleJson(one, ForceUnitOf(one.angle.motion), 1, 3));
   }
-  Json summary = ParseJson(FormatGaitJson(gait))["summary"];
-  AddDoubleSupport(gait, ground.contacts, &summary);
   Json out = {{"condition", TextOrNull(report.plan.patient.condition)},
               {"left_out", gait.left_out},
-              {"summary", summary},
+              {"summary", ParseJson(FormatGaitJson({{"", &gait}}))["summary"]},
               {"cycles", cycles}};
   if (report.plan.normal) {
     out["normal"] = BandsJson(*report.plan.normal);

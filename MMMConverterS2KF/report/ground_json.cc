@@ -75,9 +75,15 @@ Json StudyJson(const ConversionReport& report) {
     if (!ground->joint_forces) ground->joint_forces = JointForcesOf(report, *ground, false);
     const std::string mass = MassSentence(report, *ground);
     if (!mass.empty()) warnings.Add(mass);
+    const std::string unapplied = UnappliedSentence(*ground);
+    if (!unapplied.empty()) warnings.Add(unapplied);
     warnings.Add(SentenceOf(MeasureResiduals(*ground->joint_forces), *ground->joint_forces));
   }
+  for (const std::string& doubt : ground->doubts) warnings.Add(doubt);
   const Json gait = GaitPageJson(report, *ground);
+  if (!gait.is_null()) {
+    for (const std::string& note : ground->event_notes) warnings.Add(note);
+  }
   if (ground->forces->plates.empty() && gait.is_null()) return nullptr;
   const double mass = KnownMass(report, *ground);
   return {{"mass_kg", mass > 0 ? Number(mass) : Json(nullptr)},

@@ -3,15 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string_view>
+
+#include "common/angles/gait_feet.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kLongestStride = 2.5;  // [s]
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUsualStride = 2.5;  // [s]
+constexpr double kMostStance = 0.85;  // of a slow stride: who lifts no foot longer stands
+constexpr double kStanceBegin = 0.3, kStanceEnd = 0.7;  // of a contact: the foot is flat
+constexpr double kUncutStance = 0.4;                    // [s] of a contact whose end is not known
+constexpr double kTurn = 20 / kDegrees;  // [rad] by which a foot's way differs at random
+constexpr double kRuns = 0.5;            // of a stride on the ground: who stands less has a flight
+constexpr double kStair = 0.08;          // [m] of a step; kerbs and stairs are higher
 
 /// A column at a time between two frames: on a straight line; beyond the ends the last.
 template <typename Columns>
@@ -24,16 +31,46 @@ auto ColumnAt(const Columns& columns, double frame) {
       .eval();
 }
 
-Eigen::Vector3d HeelAt(const FootMotion& feet, Side side, double time) {
-  return ColumnAt(feet.foot(side).heel, (time - feet.first_time) * feet.rate);
+/// Where a foot stands in mid-stance, and when; W, also on a belt.
+struct StandingPlace {
+  double time = 0;
+  Eigen::Vector3d toe = Eigen::Vector3d::Zero();
+  double yaw = 0;  ///< of the foot, from W's x to its y [rad]
+};
+
+StandingPlace PlaceOf(const FootContact& contact, const FootMotion& feet) {
+  const FootPath& foot = feet.foot(contact.side);
+  const double last = feet.time(feet.num_frames() - 1);
+  const double end = contact.end.value_or(std::min(*contact.begin + kUncutStance, last));
+  const double span = std::max(0.0, end - *contact.begin);
+  const double from = *contact.begin + kStanceBegin * span;
+  const double to = *contact.begin + kStanceEnd * span;
+  const auto frame = [&](double time) { return (time - feet.first_time) * feet.rate; };
+  StandingPlace place;
+  place.time = (from + to) / 2;
+  Eigen::Vector3d line = Eigen::Vector3d::Zero();
+  constexpr int kSamples = 5;
+  for (int i = 0; i < kSamples; ++i) {
+    const double at = frame(from + (to - from) * i / (kSamples - 1));
+    place.toe += ColumnAt(foot.toe, at) / kSamples;
+    line += ColumnAt(foot.toe, at) - ColumnAt(foot.heel, at);
+  }
+  place.yaw = std::atan2(line.y(), line.x());
+  return place;
 }
 
-/// When the foot last touched the ground before a time, within a stride [s]; NaN: not known.
-double ContactBefore(const Contacts& contacts, Side side, double time) {
-  double last = kNaN;
+/// From one place to a later one, on the belt where there is one.
+Eigen::Vector3d WayBetween(const StandingPlace& from, const StandingPlace& to,
+                           const Eigen::Vector3d& belt) {
+  return to.toe - from.toe - (to.time - from.time) * belt;
+}
+
+/// The foot's last contact that began before a time, within a stride; null: not known.
+const FootContact* ContactBefore(const Contacts& contacts, Side side, double time) {
+  const FootContact* last = nullptr;
   for (const FootContact& one : contacts.contacts) {
     if (one.side == side && one.begin && *one.begin < time && time - *one.begin < kLongestStride) {
-      last = *one.begin;
+      last = &one;
     }
   }
   return last;
@@ -47,23 +84,52 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   stride.end = *next.begin;
   stride.time_deviation = std::hypot(contact.begin_deviation, next.begin_deviation);
   stride.foot_off = contact.end ? (*contact.end - stride.begin) / stride.time() : kNaN;
-  const Eigen::Vector3d from = HeelAt(feet, stride.side, stride.begin);
-  const Eigen::Vector3d to = HeelAt(feet, stride.side, stride.end);
-  const Eigen::Vector3d carried = stride.time() * feet.foot(stride.side).belt;
-  const Eigen::Vector2d way = (to - from - carried).head<2>();
+  const StandingPlace from = PlaceOf(contact, feet);
+  const StandingPlace to = PlaceOf(next, feet);
+  const Eigen::Vector3d& belt = feet.foot(stride.side).belt;
+  const Eigen::Vector2d way = WayBetween(from, to, belt).head<2>();
   stride.length = way.norm();
   stride.heading = std::atan2(way.y(), way.x());
+  stride.is_backwards = std::cos(from.yaw - stride.heading) < 0;
+  stride.double_support = DoubleSupport(stride, contacts);
   const Side other = stride.side == Side::kLeft ? Side::kRight : Side::kLeft;
-  const double before = ContactBefore(contacts, other, stride.end);
-  stride.step_time = before > stride.begin ? stride.end - before : kNaN;
-  stride.step_length = stride.step_width = kNaN;
-  if (std::isfinite(stride.step_time) && stride.length > 0) {
+  const FootContact* before = ContactBefore(contacts, other, stride.end);
+  const bool is_step = before != nullptr && *before->begin > stride.begin;
+  stride.step_time = is_step ? stride.end - *before->begin : kNaN;
+  stride.step_length = stride.step_width = stride.rise = kNaN;
+  if (is_step && stride.length > 0) {
     const Eigen::Vector2d forward = way.normalized();
-    const Eigen::Vector2d step = (to - HeelAt(feet, other, stride.end)).head<2>();
-    stride.step_length = step.dot(forward);
+    const Eigen::Vector3d step =
+        WayBetween(PlaceOf(*before, feet), to, (belt + feet.foot(other).belt) / 2);
+    stride.step_length = step.head<2>().dot(forward);
     stride.step_width = std::abs(step.x() * forward.y() - step.y() * forward.x());
+    stride.rise = step.z();
   }
   return stride;
+}
+
+/// Whether the person walks on in it, rather than stands.
+bool Walks(const Stride& stride) {
+  if (stride.time() <= kUsualStride) return true;
+  return stride.foot_off > 0 && stride.foot_off < kMostStance && std::isfinite(stride.step_time);
+}
+
+bool IsTurn(const FootContact& contact, const FootContact& next, const FootMotion& feet) {
+  const double turned = PlaceOf(next, feet).yaw - PlaceOf(contact, feet).yaw;
+  return std::abs(std::remainder(turned, 2 * std::numbers::pi)) > kTurn;
+}
+
+GaitKind KindOf(const std::vector<Stride>& strides) {
+  const auto are_most = [&](auto is_so) {
+    return 2 * std::count_if(strides.begin(), strides.end(), is_so) >
+           static_cast<std::ptrdiff_t>(strides.size());
+  };
+  if (are_most([](const Stride& one) { return std::abs(one.rise) > kStair; })) {
+    return GaitKind::kStairs;
+  }
+  if (are_most([](const Stride& one) { return one.foot_off < kRuns; })) return GaitKind::kRunning;
+  const bool goes_back = are_most([](const Stride& one) { return one.is_backwards; });
+  return goes_back ? GaitKind::kBackwards : GaitKind::kWalking;
 }
 
 bool IsKnown(const FootContact& contact, const FootContact& next, const FootMotion& feet,
@@ -80,10 +146,14 @@ void AddStrides(Side side, const FootMotion& feet, const Contacts& contacts, con
   for (const FootContact& one : contacts.contacts) {
     if (one.side != side || !one.begin) continue;
     if (last != nullptr && *one.begin - *last->begin <= kLongestStride) {
-      if (IsKnown(*last, one, feet, known)) {
-        gait->strides.push_back(StrideOf(*last, one, feet, contacts));
-      } else {
+      if (!IsKnown(*last, one, feet, known)) {
         ++gait->left_out;
+      } else if (const Stride stride = StrideOf(*last, one, feet, contacts); Walks(stride)) {
+        if (IsTurn(*last, one, feet)) {
+          ++gait->turns;
+        } else {
+          gait->strides.push_back(stride);
+        }
       }
     }
     last = &one;
@@ -170,6 +240,11 @@ GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,
 
 }  // namespace
 
+const char* Name(GaitKind kind) {
+  constexpr const char* kNames[] = {"walking", "running", "walking backwards", "stairs"};
+  return kNames[static_cast<int>(kind)];
+}
+
 std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<Stride>& strides) {
   std::vector<GaitCycle> cycles;
   for (const Side side : kSides) {
@@ -187,6 +262,10 @@ Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const Anatomi
                  const KnownLegs& known) {
   Gait gait;
   for (const Side side : kSides) AddStrides(side, feet, contacts, known, &gait);
+  gait.kind = KindOf(gait.strides);
+  if (gait.kind == GaitKind::kRunning) {
+    for (Stride& one : gait.strides) one.double_support = kNaN;
+  }
   gait.cycles = CyclesOf(angles, gait.strides);
   return gait;
 }

@@ -19,9 +19,12 @@ struct Stride {
   double foot_off = 0;        ///< of the stride [0, 1]: the share that it stood
   double length = 0;          ///< [m]
   double heading = 0;         ///< of the way, from W's x to its y [rad]
-  double step_length = 0;     ///< [m] by which it was ahead of the other foot at its contact
+  double step_length = 0;     ///< [m] from where the other foot stood to where it stands next
   double step_width = 0;      ///< [m] between both feet then
   double step_time = 0;       ///< [s] since the other foot's contact
+  double double_support = 0;  ///< of the stride [0, 1]: the share that both feet stood
+  double rise = 0;            ///< of that step, upwards [m]
+  bool is_backwards = false;  ///< the toes point against the way
 
   double time() const { return end - begin; }
   double speed() const { return length / time(); }  ///< [m/s]
@@ -45,17 +48,34 @@ struct GaitCycle {
 /// counts where the row is known in half of it; the mean is of those that are known there.
 std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<Stride>& strides);
 
-/// By side: the frames in which enough of the leg is seen.
-using KnownLegs = std::array<std::vector<bool>, 2>;
+/// What most of the strides are.
+enum class GaitKind { kWalking, kRunning, kBackwards, kStairs };
+const char* Name(GaitKind kind);  ///< "walking", "running", "walking backwards", "stairs"
 
-struct Gait {
-  std::vector<Stride> strides;    ///< the left foot's, then the right foot's, over time
-  std::vector<GaitCycle> cycles;  ///< of angles of a side over its strides, of others over both
-  int left_out = 0;               ///< strides in which a leg was hidden
+/// What a joint's muscles give and take in a stride, means of strides [J/kg].
+struct JointWork {
+  const char* joint = "";
+  const char* side = "";
+  double generated = 0, absorbed = 0;
+  int strides = 0;
 };
 
-/// Strides last at most 2.5 s: what is longer is standing; both legs are known all along. The
-/// pelvis turns against the way from contact to contact. angles: of the same motion.
+struct Gait {
+  GaitKind kind = GaitKind::kWalking;
+  std::vector<Stride> strides;    ///< the left foot's, then the right foot's, over time
+  std::vector<GaitCycle> cycles;  ///< of angles of a side over its strides, of others over both
+  std::vector<GaitCycle> forces;  ///< of forces, moments and powers; empty: not known
+  std::vector<JointWork> work;
+  int left_out = 0;  ///< strides in which a leg was hidden
+  int turns = 0;     ///< strides over a turn, which are left out, too
+};
+
+inline constexpr double kLongestStride = 6;  ///< [s] of persons who walk slowly
+
+/// Strides last at most kLongestStride, and in those of more than 2.5 s the feet swing: else the
+/// person stands. Both legs are known all along. Lengths are between the places where feet stood,
+/// in mid-stance, on a treadmill on its belt. What does not apply is NaN: double support of who
+/// runs. The pelvis turns against the way from contact to contact. angles: of the same motion.
 Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles,
                  const KnownLegs& known);
 

@@ -3,16 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "common/io/xml/xml_text.h"
+#include "common/support/text.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr double kPercent = 100;
 constexpr int kDecimals = 6;
 
 std::string Number(double value, const char* nothing) {
@@ -36,9 +37,20 @@ constexpr StrideFigure kFigures[] = {
     {"stride_length_m", [](const Stride& one) { return one.length; }},
     {"speed_m_per_s", [](const Stride& one) { return one.speed(); }},
     {"foot_off_percent", [](const Stride& one) { return kPercent * one.foot_off; }},
+    {"double_support_percent", [](const Stride& one) { return kPercent * one.double_support; }},
     {"step_time_s", [](const Stride& one) { return one.step_time; }},
     {"step_length_m", [](const Stride& one) { return one.step_length; }},
     {"step_width_m", [](const Stride& one) { return one.step_width; }}};
+
+/// Without what CSV and JSON would quote.
+std::string NameOf(const GaitTrial& trial) {
+  std::string name = ToUtf8(trial.name);
+  const auto is_special = [](char c) {
+    return (c >= 0 && c < ' ') || c == '"' || c == '\\' || c == ',' || c == ';';
+  };
+  std::replace_if(name.begin(), name.end(), is_special, '_');
+  return name;
+}
 
 std::string StrideJson(const Stride& stride) {
   std::string text = fmt::format(
@@ -48,6 +60,29 @@ std::string StrideJson(const Stride& stride) {
     text += fmt::format(R"(, "{}": {})", figure.name, Json(figure.of(stride)));
   }
   return text + "}";
+}
+
+double MeanOf(const StrideFigure& figure, Side side, const std::vector<Stride>& strides) {
+  double sum = 0, count = 0;
+  for (const Stride& one : strides) {
+    if (one.side != side || !std::isfinite(figure.of(one))) continue;
+    sum += figure.of(one);
+    ++count;
+  }
+  return sum / count;
+}
+
+/// By how much the right foot's means are larger than the left foot's, in percent of their mean:
+/// the symmetry index (Robinson et al. 1987).
+std::string SymmetryJson(const std::vector<Stride>& strides) {
+  std::string text;
+  for (const StrideFigure& figure : kFigures) {
+    const double left = MeanOf(figure, Side::kLeft, strides);
+    const double right = MeanOf(figure, Side::kRight, strides);
+    text += fmt::format(R"({}"{}": {})", text.empty() ? "" : ", ", figure.name,
+                        Json(2 * kPercent * (right - left) / (left + right)));
+  }
+  return fmt::format(R"("symmetry_index_percent": {{{}}})", text);
 }
 
 /// Mean and standard deviation of each figure among a foot's strides.
@@ -70,45 +105,85 @@ std::string SummaryJson(Side side, const std::vector<Stride>& strides) {
   return fmt::format(R"("{}": {{{}}})", Name(side), text);
 }
 
-std::string ListJson(const std::array<double, GaitCycle::kSamples>& angles) {
+std::string ListJson(const std::array<double, GaitCycle::kSamples>& values, double unit) {
   std::vector<std::string> texts;
-  texts.reserve(angles.size());
-  for (const double angle : angles) texts.push_back(Json(kDegrees * angle));
+  texts.reserve(values.size());
+  for (const double value : values) texts.push_back(Json(unit * value));
   return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string ForceJson(const GaitCycle& one) {
+  return fmt::format(
+      R"({{"joint": "{}", "side": "{}", "what": "{}", "unit": "{}", "strides": {}, "mean": {}, "sd": {}}})",
+      one.angle.joint, Name(one.side), one.angle.motion, ForceUnitOf(one.angle.motion), one.strides,
+      ListJson(one.mean, 1), ListJson(one.deviation, 1));
+}
+
+std::string WorkJson(const JointWork& one) {
+  return fmt::format(
+      R"({{"joint": "{}", "side": "{}", "generated_J_per_kg": {}, "absorbed_J_per_kg": {}, "strides": {}}})",
+      one.joint, one.side, Json(one.generated), Json(one.absorbed), one.strides);
+}
+
+void AppendRows(const std::string& trial, const GaitCycle& cycle, const char* unit, double scale,
+                std::string* text) {
+  for (int i = 0; i < GaitCycle::kSamples; ++i) {
+    *text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", trial, cycle.angle.joint,
+                         Name(cycle.side), cycle.angle.motion, unit, i,
+                         Number(scale * cycle.mean[i], ""), Number(scale * cycle.deviation[i], ""),
+                         Number(scale * cycle.uncertainty[i], ""), cycle.strides);
+  }
+}
+
+std::string TrialJson(const GaitTrial& trial) {
+  const Gait& gait = *trial.gait;
+  std::vector<std::string> strides, cycles, forces, work;
+  for (const Stride& one : gait.strides) strides.push_back(StrideJson(one));
+  for (const GaitCycle& one : gait.cycles) {
+    cycles.push_back(fmt::format(
+        R"({{"joint": "{}", "side": "{}", "angle": "{}", "strides": {}, "mean_degrees": {}, "sd_degrees": {}, "uncertainty_degrees": {}}})",
+        one.angle.joint, Name(one.side), one.angle.motion, one.strides,
+        ListJson(one.mean, kDegrees), ListJson(one.deviation, kDegrees),
+        ListJson(one.uncertainty, kDegrees)));
+  }
+  for (const GaitCycle& one : gait.forces) forces.push_back(ForceJson(one));
+  for (const JointWork& one : gait.work) work.push_back(WorkJson(one));
+  return fmt::format(
+      "{{\n  \"trial\": {},\n  \"kind\": \"{}\",\n  \"strides_left_out\": {},\n  "
+      "\"strides_over_turns\": {},\n  \"summary\": {{{}, {}, {}}},\n  \"work\": [{}],\n  "
+      "\"strides\": [\n    {}\n  ],\n  \"cycles\": [\n    {}\n  ],\n  \"forces\": [\n    {}\n  "
+      "]\n}}",
+      '"' + NameOf(trial) + '"', Name(gait.kind), gait.left_out, gait.turns,
+      SummaryJson(Side::kLeft, gait.strides), SummaryJson(Side::kRight, gait.strides),
+      SymmetryJson(gait.strides), fmt::join(work, ", "), fmt::join(strides, ",\n    "),
+      fmt::join(cycles, ",\n    "), fmt::join(forces, ",\n    "));
 }
 
 }  // namespace
 
-std::string FormatGaitCsv(const Gait& gait) {
-  std::string text =
-      "joint,side,angle,percent,mean_degrees,sd_degrees,uncertainty_degrees,strides\n";
-  for (const GaitCycle& cycle : gait.cycles) {
-    for (int i = 0; i < GaitCycle::kSamples; ++i) {
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", cycle.angle.joint, Name(cycle.side),
-                          cycle.angle.motion, i, Number(kDegrees * cycle.mean[i], ""),
-                          Number(kDegrees * cycle.deviation[i], ""),
-                          Number(kDegrees * cycle.uncertainty[i], ""), cycle.strides);
+const char* ForceUnitOf(std::string_view motion) {
+  if (motion.ends_with("force")) return "body weights";
+  return motion == "power" ? "W/kg" : "N m/kg";
+}
+
+std::string FormatGaitCsv(const std::vector<GaitTrial>& trials) {
+  std::string text = "trial,joint,side,angle,unit,percent,mean,sd,uncertainty,strides\n";
+  for (const GaitTrial& trial : trials) {
+    const std::string name = NameOf(trial);
+    for (const GaitCycle& one : trial.gait->cycles)
+      AppendRows(name, one, "degrees", kDegrees, &text);
+    for (const GaitCycle& one : trial.gait->forces) {
+      AppendRows(name, one, ForceUnitOf(one.angle.motion), 1, &text);
     }
   }
   return text;
 }
 
-std::string FormatGaitJson(const Gait& gait) {
-  std::vector<std::string> strides, cycles;
-  for (const Stride& one : gait.strides) strides.push_back(StrideJson(one));
-  for (const GaitCycle& one : gait.cycles) {
-    cycles.push_back(fmt::format(
-        R"({{"joint": "{}", "side": "{}", "angle": "{}", "strides": {}, "mean_degrees": {}, "sd_degrees": {}, "uncertainty_degrees": {}}})",
-        one.angle.joint, Name(one.side), one.angle.motion, one.strides, ListJson(one.mean),
-        ListJson(one.deviation), ListJson(one.uncertainty)));
-  }
-  return fmt::format(
-      "{{\n  \"strides_left_out\": {},\n  \"summary\": {{{}, {}}},\n  \"strides\": [\n    {}\n  "
-      "],\n  \"cycles\": [\n    {}\n  "
-      "]\n}}\n",
-      gait.left_out, SummaryJson(Side::kLeft, gait.strides),
-      SummaryJson(Side::kRight, gait.strides), fmt::join(strides, ",\n    "),
-      fmt::join(cycles, ",\n    "));
+std::string FormatGaitJson(const std::vector<GaitTrial>& trials) {
+  if (trials.size() == 1) return TrialJson(trials.front()) + '\n';
+  std::vector<std::string> texts;
+  for (const GaitTrial& one : trials) texts.push_back(TrialJson(one));
+  return fmt::format("{{\"trials\": [\n{}\n]}}\n", fmt::join(texts, ",\n"));
 }
 
 }  // namespace mmm_converter

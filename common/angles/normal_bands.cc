@@ -28,18 +28,22 @@ using RowsOfAngles =
 
 /// Where the columns are; -1: there is none.
 struct Columns {
-  int joint = -1, angle = -1, side = -1, percent = -1, mean = -1, deviation = -1;
+  int joint = -1, angle = -1, side = -1, unit = -1, percent = -1, mean = -1, deviation = -1;
 
   bool are_all() const { return std::min({joint, angle, percent, mean, deviation}) >= 0; }
 };
 
 Columns FindColumns(const Cells& heads) {
   Columns columns;
-  const std::pair<const char*, int*> names[] = {
-      {"joint", &columns.joint},       {"angle", &columns.angle},
-      {"side", &columns.side},         {"percent", &columns.percent},
-      {"mean_degrees", &columns.mean}, {"sd_degrees", &columns.deviation},
-      {"mean", &columns.mean},         {"sd", &columns.deviation}};
+  const std::pair<const char*, int*> names[] = {{"joint", &columns.joint},
+                                                {"angle", &columns.angle},
+                                                {"side", &columns.side},
+                                                {"unit", &columns.unit},
+                                                {"percent", &columns.percent},
+                                                {"mean_degrees", &columns.mean},
+                                                {"sd_degrees", &columns.deviation},
+                                                {"mean", &columns.mean},
+                                                {"sd", &columns.deviation}};
   for (std::size_t i = 0; i < heads.size(); ++i) {
     for (const auto& [name, column] : names) {
       if (EqualIgnoringCase(heads[i], name)) *column = static_cast<int>(i);
@@ -118,6 +122,7 @@ class BandReader {
 
   void AddRow(const Cells& cells) {
     const auto text = [&](int column) { return ToUtf8(ToLower(Cell(cells, column))); };
+    if (columns_.unit >= 0 && text(columns_.unit) != "degrees") return;
     const std::string side = text(columns_.side);
     if (!side.empty() && side != "left" && side != "right") {
       Throw(fmt::format("side is \"{}\"; give left or right, or nothing for both",

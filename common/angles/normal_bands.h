@@ -31,8 +31,9 @@ struct NormalBands {
 inline constexpr std::size_t kMostNormalBytes = std::size_t{16} << 20;
 
 /// A CSV whose header names joint, angle, percent, mean_degrees and sd_degrees (or mean and sd), in
-/// any order, and perhaps side: what --export-gait writes of others is such a file. Percent grow
-/// from 0 to 100 in each angle; between them it is linear. Lines that begin with # say the source.
+/// any order, and perhaps side, and unit, of which degrees alone count: what --export-gait writes
+/// of others is such a file. Percent grow from 0 to 100 in each angle; between them it is linear.
+/// Lines that begin with # say the source.
 /// @throws Error with all that is wrong.
 NormalBands ParseNormalBands(std::string_view content, const std::string& file);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/contacts/person_mass.h"
 #include "common/io/xml/xml_text.h"
 
 namespace mmm_converter {
@@ -55,7 +54,8 @@ std::string FormatContactsCsv(const Contacts& contacts) {
   return text;
 }
 
-std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& forces) {
+std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& forces,
+                               const std::optional<MassByPlates>& mass) {
   std::vector<std::string> list;
   for (const FootContact& one : contacts.contacts) {
     list.push_back(
@@ -79,14 +79,14 @@ std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& f
                     Name(one.bearer), JsonNumber(one.distances[0]), JsonNumber(one.distances[1]),
                     one.is_part_of_foot));
   }
-  std::string mass = "null";
-  if (const auto found = EstimateMass(contacts, forces)) {
-    mass = fmt::format(R"({{"kg": {}, "deviation_kg": {}, "intervals": {}}})", Decimal(found->mass),
-                       Decimal(found->deviation), found->intervals);
+  std::string borne = "null";
+  if (mass) {
+    borne = fmt::format(R"({{"kg": {}, "deviation_kg": {}, "intervals": {}}})", Decimal(mass->mass),
+                        Decimal(mass->deviation), mass->intervals);
   }
   return fmt::format(
       "{{\n  \"contacts\": {},\n  \"events\": {},\n  \"loads\": {},\n  \"mass\": {}\n}}\n",
-      JsonList(list), JsonList(events), JsonList(loads), mass);
+      JsonList(list), JsonList(events), JsonList(loads), borne);
 }
 
 }  // namespace mmm_converter

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/contacts/contacts.h"
+#include "common/contacts/person_mass.h"
 
 namespace mmm_converter {
 
@@ -25,6 +27,7 @@ const char* ContextOf(Side side);
 
 /// The same as the CSV, with the events as C3D files name them ("Foot Strike", "Foot Off"), who was
 /// found on the plates, and the mass that they tell.
-std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& forces);
+std::string FormatContactsJson(const Contacts& contacts, const RecordedForces& forces,
+                               const std::optional<MassByPlates>& mass);
 
 }  // namespace mmm_converter

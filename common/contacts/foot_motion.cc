@@ -16,13 +16,14 @@ namespace mmm_converter {
 namespace {
 
 // Of a treadmill.
-constexpr double kSlowestBelt = 0.3;   // [m/s]
+constexpr double kSlowestBelt = 0.15;  // [m/s] belts begin at 0.2
 constexpr double kAlike = 0.25;        // [m/s] between velocities of feet that it carries
 constexpr double kCarriedShare = 0.3;  // of a low foot's time; who runs hardly stands longer
 constexpr double kSameWay = 0.9;       // cosine between the velocities below both feet
-constexpr double kMostTravel = 0.2;    // of the belt's speed
-constexpr double kShortestRun = 3;     // [s]
-constexpr double kLowFoot = 0.05;      // [m] above where a foot is in a tenth of the time
+constexpr double kMostTravel = 0.5;    // of the belt's speed: persons drift along it
+constexpr double kShortestRun = 1.5;   // [s] two strides, at least
+constexpr double kSameBelt = 0.1;  // [m/s] from a belt's speed: carried, neither coming nor going
+constexpr double kLowFoot = 0.05;  // [m] above where a foot is in a tenth of the time
 
 constexpr double kCutoff = 12;  // [Hz] a foot is stopped by the ground within some 50 ms
 
@@ -68,6 +69,19 @@ std::array<Eigen::Vector3d, 2> EndsOf(const FootSegments& foot,
           X_WT * Eigen::Vector3d(0, kTipBefore * length, sole - toes)};
 }
 
+/// The centre of mass, or the root of a model without masses [m].
+Eigen::Vector3d BodyCentre(const KinematicModel& model,
+                           const std::vector<Eigen::Isometry3d>& X_WS) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < X_WS.size(); ++i) {
+    const Segment& segment = model.segments()[i];
+    moment += segment.mass * (X_WS[i] * segment.p_SB);
+    mass += segment.mass;
+  }
+  return mass > 0 ? Eigen::Vector3d(moment / mass) : Eigen::Vector3d(X_WS[0].translation());
+}
+
 /// After a low-pass [m/s].
 Eigen::Matrix3Xd VelocityOf(const Eigen::Matrix3Xd& path, double rate) {
   const Eigen::Index frames = path.cols();
@@ -99,6 +113,16 @@ std::pair<Eigen::Vector3d, double> UsualOf(const std::vector<Eigen::Vector3d>& v
     }
     if (near / all > usual.second) usual = {sum / near, near / all};
   }
+  for (int i = 0; i < 3; ++i) {
+    std::array<std::vector<double>, 2> carried;
+    for (const Eigen::Vector3d& one : velocities) {
+      if ((one - usual.first).norm() > kSameBelt) continue;
+      for (Eigen::Index axis = 0; axis < 2; ++axis) {
+        carried[static_cast<std::size_t>(axis)].push_back(one[axis]);
+      }
+    }
+    if (!carried[0].empty()) usual.first << Median(carried[0]), Median(carried[1]), 0;
+  }
   return usual;
 }
 
@@ -116,16 +140,14 @@ std::vector<Eigen::Vector3d> LowVelocities(const FootPath& foot, const Eigen::Ma
   return velocities;
 }
 
-/// Of the middle of both feet, from the first to the last second [m/s].
+/// Of the body, or of the middle of both feet: the slope of a straight line [m/s].
 Eigen::Vector3d TravelOf(const FootMotion& motion) {
-  const auto second = std::max<Eigen::Index>(1, std::lround(motion.rate));
   const Eigen::Index frames = motion.num_frames();
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  for (const FootPath& foot : motion.feet) {
-    way += foot.heel.rightCols(second).rowwise().mean() / 2;
-    way -= foot.heel.leftCols(second).rowwise().mean() / 2;
-  }
-  return way * motion.rate / static_cast<double>(frames - second);
+  const Eigen::Matrix3Xd path =
+      motion.body.cols() == frames ? motion.body : (motion.feet[0].heel + motion.feet[1].heel) / 2;
+  const Eigen::VectorXd times =
+      Eigen::VectorXd::LinSpaced(frames, -0.5, 0.5) * static_cast<double>(frames - 1) / motion.rate;
+  return path * times / times.squaredNorm();
 }
 
 }  // namespace
@@ -156,8 +178,10 @@ FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion) {
     foot.heel.resize(3, motion.num_frames());
     foot.toe.resize(3, motion.num_frames());
   }
+  moved.body.resize(3, motion.num_frames());
   for (int k = 0; k < motion.num_frames(); ++k) {
     const auto X_WS = SegmentPoses(model, ModelPosture(model, motion, k));
+    moved.body.col(k) = BodyCentre(model, X_WS);
     for (const Side side : kSides) {
       const auto [heel, toe] = EndsOf(SegmentsOf(model, side), X_WS);
       FootPath& path = moved.feet[static_cast<std::size_t>(side)];

@@ -24,11 +24,16 @@ struct FootPath {
   Eigen::Vector3d belt = Eigen::Vector3d::Zero();  ///< of a treadmill, below this foot [m/s]
 };
 
+/// By side: the frames in which enough of the leg is seen.
+using KnownLegs = std::array<std::vector<bool>, 2>;
+
 /// Both feet of a tracked person.
 struct FootMotion {
   double rate = 0;        ///< [Hz]
   double first_time = 0;  ///< [s]
   std::array<FootPath, 2> feet;
+  /// The centre of mass, or the root of a model without masses, W [m]; empty: not known.
+  Eigen::Matrix3Xd body;
 
   const FootPath& foot(Side side) const { return feet[static_cast<std::size_t>(side)]; }
   int num_frames() const { return static_cast<int>(feet[0].heel.cols()); }
@@ -45,8 +50,8 @@ bool HasFeet(const KinematicModel& model);
 /// The segment that the ground pushes, of the sole or the heel. The model HasFeet.
 int FootSegment(const KinematicModel& model, Side side);
 
-/// Speeds and belts from where the feet are. A treadmill: low feet move alike, and the person does
-/// not travel.
+/// Speeds and belts from where the feet are. A treadmill: low feet move alike, and the person
+/// hardly travels.
 void FindSpeeds(FootMotion* motion);
 
 /// From the postures alone: where markers were on the feet does not matter.

@@ -15,6 +15,8 @@ constexpr double kStandsStill = 0.02;       // of the load: its standard deviati
 constexpr double kShortestStanding = 1;     // [s]
 constexpr double kDeviationOfAStep = 0.02;  // of the mass, by a single step of a walk
 constexpr double kLeastMass = 5;            // [kg] less is a plate that shakes
+constexpr double kUpright = 0.85;  // of the largest height of the body: who sits is on a chair, too
+constexpr double kAround = 0.05;   // [s] before and after a time that tell a speed
 
 struct Interval {
   double begin = 0, end = 0;  // [s]
@@ -35,7 +37,33 @@ bool AreAllOnPlates(const Contacts& contacts, const Interval& interval) {
     if (is_there && one.plates.empty()) return false;
     is_any |= is_there;
   }
+  for (const PlateLoad& load : contacts.loads) {
+    const bool is_there = load.begin < interval.end && load.end > interval.begin;
+    if (is_there && (load.is_part_of_foot || load.bearer == Bearer::kUnknown)) return false;
+  }
   return is_any;
+}
+
+/// The mean height of the body within [begin, end) [m].
+double HeightIn(const FootMotion& motion, double begin, double end) {
+  const int first = motion.frame(begin);
+  const int count = std::max(1, motion.frame(end) - first);
+  return motion.body.row(2).segment(first, count).mean();
+}
+
+/// By how much faster the body moves upwards at the end of an interval [m/s].
+double FasterUpwards(const FootMotion& motion, const Interval& interval) {
+  if (motion.body.cols() == 0) return 0;
+  const auto speed = [&](double time) {
+    return (HeightIn(motion, time, time + kAround) - HeightIn(motion, time - kAround, time)) /
+           kAround;
+  };
+  return speed(interval.end) - speed(interval.begin);
+}
+
+bool IsUpright(const FootMotion& motion, const Interval& interval) {
+  if (motion.body.cols() == 0) return true;
+  return HeightIn(motion, interval.begin, interval.end) >= kUpright * motion.body.row(2).maxCoeff();
 }
 
 std::vector<Interval> StepsOf(const Contacts& contacts) {
@@ -82,13 +110,14 @@ std::optional<Load> LoadOf(const RecordedForces& forces, const Interval& interva
 }
 
 /// Seconds of the recording in which the load is steady.
-std::vector<double> StandingLoads(const Contacts& contacts, const RecordedForces& forces) {
+std::vector<double> StandingLoads(const Contacts& contacts, const RecordedForces& forces,
+                                  const FootMotion& motion) {
   std::vector<double> loads;
   const double seconds = static_cast<double>(forces.plates[0].force.cols()) / forces.rate;
   for (int i = 0; (i + 1) * kShortestStanding <= seconds; ++i) {
     const Interval one = {forces.first_time + i * kShortestStanding,
                           forces.first_time + (i + 1) * kShortestStanding};
-    if (!AreAllOnPlates(contacts, one)) continue;
+    if (!AreAllOnPlates(contacts, one) || !IsUpright(motion, one)) continue;
     const auto load = LoadOf(forces, one);
     if (load && load->deviation < kStandsStill * load->mean) loads.push_back(load->mean);
   }
@@ -97,12 +126,17 @@ std::vector<double> StandingLoads(const Contacts& contacts, const RecordedForces
 
 }  // namespace
 
-std::optional<MassByPlates> EstimateMass(const Contacts& contacts, const RecordedForces& forces) {
+std::optional<MassByPlates> EstimateMass(const Contacts& contacts, const RecordedForces& forces,
+                                         const FootMotion& motion) {
   if (forces.plates.empty()) return std::nullopt;
   std::vector<double> masses;
-  for (const double load : StandingLoads(contacts, forces)) masses.push_back(load / kGravity);
+  for (const double load : StandingLoads(contacts, forces, motion)) {
+    masses.push_back(load / kGravity);
+  }
   for (const Interval& step : StepsOf(contacts)) {
-    if (const auto load = LoadOf(forces, step)) masses.push_back(load->mean / kGravity);
+    const auto load = LoadOf(forces, step);
+    const double faster = FasterUpwards(motion, step) / (step.end - step.begin);
+    if (load) masses.push_back(load->mean / (kGravity + faster));
   }
   std::erase_if(masses, [](double mass) { return mass < kLeastMass; });
   if (masses.empty()) return std::nullopt;

@@ -14,9 +14,10 @@ struct MassByPlates {
   int intervals = 0;     ///< from the middle of a step to that of the next, or of standing
 };
 
-/// The mean vertical force is the weight where the body is as fast upwards at the end as at the
-/// beginning: from mid-stance to mid-stance of steps one after the other, and while a person stands
-/// still. Only times count in which all feet on the ground are on plates. Nothing: there are none.
-std::optional<MassByPlates> EstimateMass(const Contacts& contacts, const RecordedForces& forces);
+/// The mean vertical force is the weight, and what makes the body faster upwards: from mid-stance
+/// to mid-stance of steps one after the other, and while a person stands upright and still. Only
+/// times count in which all feet on the ground are whole on plates. Nothing: there are none.
+std::optional<MassByPlates> EstimateMass(const Contacts& contacts, const RecordedForces& forces,
+                                         const FootMotion& motion);
 
 }  // namespace mmm_converter

@@ -124,18 +124,6 @@ bool IsPartly(Side side, const LoadedFrames& frames, const RecordedForces& force
   return beside > kStandsThere * (frames.end - frames.begin);
 }
 
-/// Of a body that a file of forces names: "calcn_r", "right_foot".
-Bearer BearerOfName(const std::string& name) {
-  const std::string text = ToLower(name);
-  if (text.ends_with("_r") || text.starts_with("r_") || text.find("right") != std::string::npos) {
-    return Bearer::kRight;
-  }
-  if (text.ends_with("_l") || text.starts_with("l_") || text.find("left") != std::string::npos) {
-    return Bearer::kLeft;
-  }
-  return Bearer::kUnknown;
-}
-
 Bearer Decide(const PlateLoad& load, const Distances& distances, const LoadedFrames& frames,
               const SlowFeet& slow, const PlateForces& plate) {
   const double left = load.distances[0];
@@ -158,6 +146,17 @@ Bearer Decide(const PlateLoad& load, const Distances& distances, const LoadedFra
 const char* Name(Bearer bearer) {
   constexpr const char* kNames[] = {"left", "right", "both", "unknown"};
   return kNames[static_cast<int>(bearer)];
+}
+
+Bearer BearerOfName(const std::string& name) {
+  const std::string text = ToLower(name);
+  if (text.ends_with("_r") || text.starts_with("r_") || text.find("right") != std::string::npos) {
+    return Bearer::kRight;
+  }
+  if (text.ends_with("_l") || text.starts_with("l_") || text.find("left") != std::string::npos) {
+    return Bearer::kLeft;
+  }
+  return Bearer::kUnknown;
 }
 
 bool IsOver(const ForcePlate& plate, const Eigen::Vector3d& p_W) {

@@ -13,6 +13,10 @@ namespace {
 // recorded walks are when plates say so.
 constexpr double kStandsBelow = 0.8;
 constexpr double kLeavesAbove = 1.0;
+// Feet of slow persons never swing so fast: a share of their own fastest swing then, and what a
+// foot of one who stands still does not reach [m/s].
+constexpr double kSlowShare = 0.4;
+constexpr double kSlowestStep = 0.15;
 constexpr double kLeastLow = 0.06;        // [m] above the ground, at least
 constexpr double kDeviations = 3;         // of the heights of standing feet
 constexpr double kShortest = 0.05;        // [s] of a contact, and of a gap
@@ -48,6 +52,16 @@ bool IsLow(const Eigen::Vector3d& p, const Floor& floor, const RecordedForces& f
   return p.z() <= floor.height + floor.low;
 }
 
+/// What a foot that stands is slower than, of kStandsBelow.
+double SlownessOf(const FootMotion& motion) {
+  double fastest = 0;
+  for (const FootPath& foot : motion.feet) {
+    const Eigen::VectorXd slower = foot.heel_speed.cwiseMin(foot.toe_speed);
+    if (slower.size() > 0) fastest = std::max(fastest, slower.maxCoeff());
+  }
+  return std::clamp(kSlowShare * fastest, kSlowestStep, kStandsBelow) / kStandsBelow;
+}
+
 /// The slower end of a foot that is low; else faster than what leaves.
 Eigen::VectorXd LowSpeed(const FootPath& foot, const Floor& floor, const RecordedForces& forces) {
   Eigen::VectorXd speed(foot.heel.cols());
@@ -66,19 +80,20 @@ double CrossingBefore(const Eigen::VectorXd& values, Eigen::Index k, double leve
   return static_cast<double>(k - 1) + (step == 0 ? 1 : (level - values[k - 1]) / step);
 }
 
-std::vector<SlowFoot> SlowTimes(const Eigen::VectorXd& speed, double rate) {
+std::vector<SlowFoot> SlowTimes(const Eigen::VectorXd& speed, double rate, double slowness) {
+  const double below = slowness * kStandsBelow, above = slowness * kLeavesAbove;
   std::vector<SlowFoot> times;
   bool stands = false;
   const Eigen::Index last = speed.size() - 1;
   for (Eigen::Index k = 0; k <= last; ++k) {
-    if (!stands && speed[k] < kStandsBelow) {
-      const double begin = k == 0 ? 0 : CrossingBefore(speed, k, kStandsBelow);
+    if (!stands && speed[k] < below) {
+      const double begin = k == 0 ? 0 : CrossingBefore(speed, k, below);
       stands = true;
       if (!times.empty() && begin - times.back().end < kShortest * rate) continue;
       times.push_back({begin, static_cast<double>(last)});
-    } else if (stands && !(speed[k] <= kLeavesAbove)) {
+    } else if (stands && !(speed[k] <= above)) {
       stands = false;
-      times.back().end = CrossingBefore(speed, k, kLeavesAbove);
+      times.back().end = CrossingBefore(speed, k, above);
     }
   }
   if (stands) times.back().end = static_cast<double>(last);
@@ -92,8 +107,9 @@ SlowFeet FindSlowFeet(const FootMotion& motion, const RecordedForces& forces) {
   SlowFeet slow;
   if (motion.num_frames() < 3) return slow;
   const Floor floor = FindFloor(motion);
+  const double slowness = SlownessOf(motion);
   for (std::size_t i = 0; i < slow.size(); ++i) {
-    slow[i] = SlowTimes(LowSpeed(motion.feet[i], floor, forces), motion.rate);
+    slow[i] = SlowTimes(LowSpeed(motion.feet[i], floor, forces), motion.rate, slowness);
   }
   return slow;
 }

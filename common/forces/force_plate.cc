@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -38,23 +39,6 @@ std::string WhyRefused(const C3dForcePlate& stored, const C3dAnalog& analog) {
   if (stored.type == 4 && !stored.calibration) return "is of type 4 and has no CAL_MATRIX";
   if (!stored.corners || !stored.corners->allFinite()) return "its corners are not stated";
   return "";
-}
-
-/// The frame of the surface: x from the mean of two edges, z from them and the other two.
-bool PlaceBetweenCorners(ForcePlate* plate) {
-  const auto& c = plate->corners;
-  const Eigen::Vector3d x = (c.col(0) - c.col(1) + c.col(3) - c.col(2)) / 2;
-  const Eigen::Vector3d along = (c.col(0) - c.col(3) + c.col(1) - c.col(2)) / 2;
-  const Eigen::Vector3d z = x.cross(along);
-  plate->half_size = {x.norm() / 2, along.norm() / 2};
-  if (plate->half_size.minCoeff() < kSmallestEdge || z.norm() < kSmallestEdge * kSmallestEdge) {
-    return false;
-  }
-  plate->R_WP.col(0) = x.normalized();
-  plate->R_WP.col(2) = z.normalized();
-  plate->R_WP.col(1) = plate->R_WP.col(2).cross(plate->R_WP.col(0));
-  plate->p_WP = c.rowwise().mean();
-  return true;
 }
 
 /// ORIGIN leads from the sensors up to the surface: its z is negative in P. Many files hold it the
@@ -87,21 +71,77 @@ void PlaceOrigin(const Eigen::Vector3d& stored, ForcePlate* plate, Warnings* war
   }
 }
 
-/// [N m] of the unit of a moment's channel. No unit of moments: newtons times the file's unit.
-double MomentUnit(const std::string& text, double file_unit) {
+std::string LettersOf(const std::string& text) {
   std::string letters;
   for (const char c : ToLower(text)) {
     if (c >= 'a' && c <= 'z') letters += c;
   }
+  return letters;
+}
+
+/// [N] of the unit of a force's channel; what is no unit of forces is newtons.
+double ForceUnit(const std::string& text) {
+  const std::string letters = LettersOf(text);
+  if (letters == "kn" || letters.starts_with("kilonewton")) return 1e3;
+  if (letters == "lbf" || letters == "lbs" || letters == "lb") return 4.4482216;
+  return 1;
+}
+
+/// [N m] of the unit of a moment's channel. No unit of moments: newtons times the file's unit.
+double MomentUnit(const std::string& text, double file_unit) {
+  std::string letters = LettersOf(text);
+  const double newtons = letters.starts_with("kn") ? 1e3 : 1;
+  if (newtons > 1) letters.erase(0, 1);
   if (!letters.starts_with('n')) return file_unit;
-  if (letters.ends_with("mm")) return 1e-3;
-  if (letters.ends_with("cm")) return 1e-2;
+  if (letters.ends_with("mm")) return newtons * 1e-3;
+  if (letters.ends_with("cm")) return newtons * 1e-2;
   const bool is_in_metres = letters.ends_with("m") || letters.ends_with("meter") ||
                             letters.ends_with("meters") || letters.ends_with("metre");
-  return is_in_metres && letters.size() > 1 ? 1 : file_unit;
+  return is_in_metres && letters.size() > 1 ? newtons : file_unit;
+}
+
+constexpr double kNoPlate = 0.1;         // [m] an edge of a plate is longer
+constexpr double kLargestPlate = 20;     // [m] a belt is shorter
+constexpr double kUsualPlate = 0.5;      // [m]
+constexpr double kFarthestSensor = 0.3;  // [m] below the surface
+
+/// Corners are sometimes in another unit than points: the one that makes them a plate's.
+void CorrectCornerUnit(Eigen::Vector3d* origin, ForcePlate* plate, Warnings* warnings) {
+  const auto edge = [&] { return (plate->corners.col(0) - plate->corners.col(1)).norm(); };
+  const double stated = edge();
+  const auto is_plate = [](double size) { return size >= kNoPlate && size <= kLargestPlate; };
+  if (!(stated > 0) || is_plate(stated)) return;
+  double best = 1;
+  const auto apart = [&](double scale) { return std::abs(std::log(scale * stated / kUsualPlate)); };
+  for (const double scale : {1e3, 1e-3, 1e2, 1e-2, 10.0, 0.1, 25.4, 1 / 25.4}) {
+    if (apart(scale) < apart(best)) best = scale;
+  }
+  if (!is_plate(best * stated)) return;
+  Warn(warnings, fmt::format("force plate {}: its corners are {:.3g} mm apart in the unit of the "
+                             "points; taken to be in another one, which makes that {:.3g} m",
+                             plate->number, kMillimetres * stated, best * stated));
+  plate->corners *= best;
+  if (best * origin->norm() <= kFarthestSensor) *origin *= best;
 }
 
 }  // namespace
+
+// The frame of the surface: x from the mean of two edges, z from them and the other two.
+bool PlaceBetweenCorners(ForcePlate* plate) {
+  const auto& c = plate->corners;
+  const Eigen::Vector3d x = (c.col(0) - c.col(1) + c.col(3) - c.col(2)) / 2;
+  const Eigen::Vector3d along = (c.col(0) - c.col(3) + c.col(1) - c.col(2)) / 2;
+  const Eigen::Vector3d z = x.cross(along);
+  plate->half_size = {x.norm() / 2, along.norm() / 2};
+  if (plate->half_size.minCoeff() < kSmallestEdge || z.norm() < kSmallestEdge * kSmallestEdge) {
+    return false;
+  }
+  plate->R_WP.col(0) = x.normalized();
+  plate->R_WP.col(2) = z.normalized();
+  plate->R_WP.col(1) = plate->R_WP.col(2).cross(plate->R_WP.col(0));
+  plate->p_WP = c.rowwise().mean();
+  return true;
+}
 
 std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& analog, double unit,
                                         Warnings* warnings) {
@@ -112,9 +152,12 @@ std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& an
     std::string refused = WhyRefused(stored, analog);
     ForcePlate plate;
     plate.number = number;
+    Eigen::Vector3d origin = unit * stored.origin.value_or(Eigen::Vector3d::Zero());
+    if (!origin.allFinite()) origin.setZero();
     if (refused.empty()) {
       plate.type = static_cast<PlateType>(stored.type);
       plate.corners = unit * *stored.corners;
+      CorrectCornerUnit(&origin, &plate, warnings);
       if (!PlaceBetweenCorners(&plate)) refused = "its corners do not span a surface";
     }
     if (!refused.empty()) {
@@ -127,15 +170,19 @@ std::vector<ForcePlate> ReadForcePlates(const C3dFile& file, const C3dAnalog& an
     }
     plate.file_unit = unit;
     plate.moment_unit = unit;
+    const auto unit_of = [&](int channel) -> const std::string& {
+      return analog.channels[static_cast<std::size_t>(channel)].unit;
+    };
+    if (plate.type != PlateType::kCalibratedChannels) {
+      const std::size_t vertical = plate.type == PlateType::kEightForces ? 4 : 2;
+      plate.force_unit = ForceUnit(unit_of(plate.channels[vertical]));
+    }
     if (plate.type == PlateType::kForcesAndMoments || plate.type == PlateType::kForcesAndCop) {
-      const int last = plate.channels.back();  // Mz or Tz
-      plate.moment_unit = MomentUnit(analog.channels[static_cast<std::size_t>(last)].unit, unit);
+      plate.moment_unit = MomentUnit(unit_of(plate.channels.back()), unit);  // of Mz or Tz
     }
     plate.calibration = stored.calibration;
     if (plate.type == PlateType::kEightForces) plate.cop_polynomial = stored.cop_polynomial;
-    const Eigen::Vector3d origin = stored.origin.value_or(Eigen::Vector3d::Zero());
-    PlaceOrigin(origin.allFinite() ? Eigen::Vector3d(unit * origin) : Eigen::Vector3d::Zero(),
-                &plate, warnings);
+    PlaceOrigin(origin, &plate, warnings);
     plates.push_back(std::move(plate));
   }
   return plates;

@@ -34,10 +34,14 @@ struct ForcePlate {
   std::optional<Eigen::Matrix<double, 6, 6>> calibration;     ///< moments in N x file unit
   std::optional<Eigen::Matrix<double, 6, 2>> cop_polynomial;  ///< in file units
   double file_unit = 1e-3;                                    ///< [m]
+  double force_unit = 1;                                      ///< of the channels [N]
   double moment_unit = 1e-3;                                  ///< of the channels [N m]
   bool is_origin_sign_known = true;  ///< false: its z is 0, and x and y may stand either way
   bool has_moments = true;           ///< false: forces alone, as the sensors' places are not stated
 };
+
+/// Sets R_WP, p_WP and half_size from the corners; false: they do not span a surface.
+bool PlaceBetweenCorners(ForcePlate* plate);
 
 /// The plates of a file that can be read; the others are refused in a warning that names the plate
 /// and the reason. unit [m]: of lengths. Corners 1 to 4 lie at (+x, +y), (-x, +y), (-x, -y), (+x,

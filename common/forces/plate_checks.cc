@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/math/statistics.h"
@@ -24,6 +25,15 @@ constexpr double kLoadedShare = 0.2;   // of the peak: what positions of the pre
 constexpr double kShortest = 0.05;     // [s] of a gap that stays, and of a load
 constexpr double kBesidePlate = 0.05;  // [m] a foot's pressure may be told beyond the edge
 constexpr double kMostlyOn = 0.5;      // of the loaded samples
+constexpr double kSubtracted = 25;     // [N] 21 of OpenSim's sample are kept, as OpenSim keeps them
+constexpr double kUnloadedPiece = 0.5;  // [s] in which a level hardly drifts
+constexpr double kStandsStill = 0.02;   // [s] noise alone moves a channel within this time
+constexpr double kStandsLong = 0.1;     // [s] one steep end is enough
+constexpr double kSteep = 2;            // of the extreme, each second: no smooth summit is so steep
+constexpr double kLeastRange = 100;     // [N] of a channel of forces
+constexpr double kLeastMomentRange = 10;  // [N m]
+constexpr double kFlat = 0.002;           // of the extreme: noise of a converter at its end
+constexpr int kSlopeSamples = 3;          // beside a flat top
 
 /// Whether most of the loaded centre of pressure lies on the plate. Nothing: it is never loaded.
 std::optional<bool> IsOnPlate(const PlateForces& forces) {
@@ -85,6 +95,14 @@ std::vector<LoadInterval> LoadsOf(const PlateForces& forces, double rate) {
   return loads;
 }
 
+/// What no channel of a plate ends at, in the channel's unit.
+double LeastRange(const ForcePlate& plate, Eigen::Index row) {
+  const bool is_cop = plate.type == PlateType::kForcesAndCop && row >= 3;
+  if (is_cop || plate.type == PlateType::kCalibratedChannels) return 0;  // not in newtons
+  const bool is_moment = plate.type == PlateType::kForcesAndMoments && row >= 3;
+  return is_moment ? kLeastMomentRange / plate.moment_unit : kLeastRange / plate.force_unit;
+}
+
 }  // namespace
 
 Eigen::VectorXd VerticalForce(const PlateForces& forces) {
@@ -107,6 +125,109 @@ std::optional<double> UnloadedLevel(const Eigen::VectorXd& vertical) {
   }
   if (sorted[best + count - 1] - sorted[best] > kUnloadedSpread) return std::nullopt;
   return Median(std::span(sorted).subspan(best, count));
+}
+
+void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* channels,
+                      Warnings* warnings) {
+  PlateForces forces = ForcesOfPlate(plate, *channels);
+  const auto level = UnloadedLevel(VerticalForce(forces));
+  if (!level) return;
+  JudgeLoads(rate, &forces, nullptr);
+  const auto around = static_cast<int>(std::lround(kShortest * rate));
+  const auto longest = static_cast<int>(std::lround(kUnloadedPiece * rate));
+  const auto samples = static_cast<int>(channels->cols());
+  std::vector<bool> is_unloaded(static_cast<std::size_t>(samples));
+  for (int k = 0; k < samples; ++k) {
+    is_unloaded[static_cast<std::size_t>(k)] =
+        std::abs(forces.Load(k)) < kContactThreshold && channels->col(k).allFinite();
+  }
+  for (const LoadInterval& load : forces.loads) {
+    const auto from = is_unloaded.begin() + std::max(0, load.begin - around);
+    std::fill(from, is_unloaded.begin() + std::min(samples, load.end + around), false);
+  }
+  std::vector<std::pair<double, Eigen::VectorXd>> pieces;  // the middle sample, and the mean
+  for (int k = 0; k < samples;) {
+    int end = k;
+    while (end < samples && end - k < longest && is_unloaded[static_cast<std::size_t>(end)]) ++end;
+    if (end - k >= std::max(around, 1)) {
+      pieces.emplace_back((k + end - 1) / 2.0, channels->middleCols(k, end - k).rowwise().mean());
+    }
+    k = std::max(end, k + 1);
+  }
+  if (pieces.empty()) return;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(channels->rows());
+  for (const auto& [middle, levels] : pieces) mean += levels / static_cast<double>(pieces.size());
+  const PlateForces unloaded = ForcesOfPlate(plate, mean);
+  if (std::max(std::abs(*level), unloaded.force.norm()) <= kSubtracted) return;
+  std::size_t next = 0;
+  for (int k = 0; k < samples; ++k) {
+    while (next < pieces.size() && pieces[next].first < k) ++next;
+    const auto& after = pieces[std::min(next, pieces.size() - 1)];
+    const auto& before = pieces[next == 0 ? 0 : next - 1];
+    const double span = after.first - before.first;
+    const double share = span > 0 ? (k - before.first) / span : 0;
+    channels->col(k) -= (1 - share) * before.second + share * after.second;
+  }
+  Warn(warnings,
+       fmt::format(
+           "force plate {}: {:.0f} N{} while nobody is on it; this is taken away from all of "
+           "its channels",
+           plate.number, *level,
+           unloaded.moment.allFinite() ? fmt::format(" upwards, {:.0f} N and {:.1f} N m in all",
+                                                     unloaded.force.norm(), unloaded.moment.norm())
+                                       : ""));
+}
+
+void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* warnings) {
+  constexpr const char* kNames[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+  const Eigen::MatrixXd& channels = forces->channels;
+  const auto shortest = std::max(5, static_cast<int>(std::lround(kStandsStill * rate)));
+  for (Eigen::Index row = 0; row < channels.rows(); ++row) {
+    const auto v = channels.row(row);
+    double extreme = 0;
+    for (const double one : v) {
+      if (std::isfinite(one)) extreme = std::max(extreme, std::abs(one));
+    }
+    if (extreme < LeastRange(forces->plate, row)) continue;
+    const auto is_steep = [&](int from, int to) {
+      if (from < 0 || to >= v.size()) return false;
+      return std::abs(v[to] - v[from]) / kSlopeSamples * rate > kSteep * extreme;
+    };
+    std::vector<LoadInterval> found;
+    for (const LoadInterval& load : forces->loads) {
+      for (int k = load.begin; k < load.end;) {
+        int end = k + 1;
+        const bool is_extreme = std::abs(v[k]) >= (1 - kFlat) * extreme && extreme > 0;
+        while (is_extreme && end < load.end && std::abs(v[end] - v[k]) <= 2 * kFlat * extreme) {
+          ++end;
+        }
+        const int steep_ends =
+            is_steep(k - 1 - kSlopeSamples, k - 1) + is_steep(end, end + kSlopeSamples);
+        if (is_extreme && end - k >= shortest &&
+            steep_ends >= (end - k >= kStandsLong * rate ? 1 : 2)) {
+          found.push_back({k, end});
+        }
+        k = end;
+      }
+    }
+    if (found.empty()) continue;
+    std::string times;
+    for (const LoadInterval& one : found) {
+      times += fmt::format("{}{:.2f} to {:.2f} s", times.empty() ? "" : ", ",
+                           first_time + one.begin / rate, first_time + one.end / rate);
+    }
+    const bool is_named = forces->plate.type == PlateType::kForcesAndMoments;
+    Warn(warnings,
+         fmt::format("force plate {}: {} is saturated, it stands at {:.6g} from {}; what the plate "
+                     "tells then is wrong",
+                     forces->plate.number,
+                     is_named
+                         ? kNames[row]
+                         : fmt::format("channel {}",
+                                       forces->plate.channels[static_cast<std::size_t>(row)] + 1),
+                     v[found.front().begin], times));
+    forces->clipped.insert(forces->clipped.end(), found.begin(), found.end());
+  }
 }
 
 void CorrectUnits(const Eigen::MatrixXd& channels, ForcePlate* plate, Warnings* warnings) {

@@ -29,6 +29,15 @@ void CorrectOrigin(const Eigen::MatrixXd& channels, ForcePlate* plate, Warnings*
 /// rate: of samples [Hz].
 void JudgeLoads(double rate, PlateForces* forces, Warnings* warnings);
 
+/// Takes away from each channel what it shows while nobody is on the plate, between these times on
+/// straight lines, where that is more than 25 N. rate: of samples [Hz].
+void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* channels,
+                      Warnings* warnings);
+
+/// Fills clipped: a loaded channel that stands still at its extreme between steep slopes, or long
+/// beside one, is at the end of its range. first_time: of sample 0 [s].
+void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* warnings);
+
 /// No centre of pressure where a moment's channel stands still while the plate is loaded.
 void LeaveOutSaturated(const Eigen::MatrixXd& channels, PlateForces* forces, Warnings* warnings);
 

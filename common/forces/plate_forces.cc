@@ -16,11 +16,12 @@ struct Measured {
 Measured FromForcesAndCop(const ForcePlate& plate, const Eigen::MatrixXd& v) {
   const Eigen::RowVectorXd x = plate.file_unit * v.row(3);
   const Eigen::RowVectorXd y = plate.file_unit * v.row(4);
-  Measured measured{v.topRows(3), Rows(3, v.cols())};
-  measured.moment.row(0) = y.cwiseProduct(v.row(2));
-  measured.moment.row(1) = -x.cwiseProduct(v.row(2));
+  Measured measured{plate.force_unit * v.topRows(3), Rows(3, v.cols())};
+  const Rows& f = measured.force;
+  measured.moment.row(0) = y.cwiseProduct(f.row(2));
+  measured.moment.row(1) = -x.cwiseProduct(f.row(2));
   measured.moment.row(2) =
-      x.cwiseProduct(v.row(1)) - y.cwiseProduct(v.row(0)) + plate.moment_unit * v.row(5);
+      x.cwiseProduct(f.row(1)) - y.cwiseProduct(f.row(0)) + plate.moment_unit * v.row(5);
   return measured;
 }
 
@@ -34,6 +35,8 @@ Measured FromEightForces(const ForcePlate& plate, const Eigen::MatrixXd& v) {
   measured.moment.row(0) = b * (v.row(4) + v.row(5) - v.row(6) - v.row(7));
   measured.moment.row(1) = a * (-v.row(4) + v.row(5) + v.row(6) - v.row(7));
   measured.moment.row(2) = b * (v.row(1) - v.row(0)) + a * (v.row(2) - v.row(3));
+  measured.force *= plate.force_unit;
+  measured.moment *= plate.force_unit;
   return measured;
 }
 
@@ -50,7 +53,7 @@ Measured FromChannels(const ForcePlate& plate, const Eigen::MatrixXd& v) {
     case PlateType::kForcesAndMoments:
       break;
   }
-  return {v.topRows(3), plate.moment_unit * v.bottomRows(3)};
+  return {plate.force_unit * v.topRows(3), plate.moment_unit * v.bottomRows(3)};
 }
 
 /// From the sensors to the middle of the surface: m_s = m + f x o.

@@ -12,7 +12,7 @@
 
 namespace mmm_converter {
 
-/// Analog samples [begin, end) in which a plate bears somebody.
+/// Analog samples [begin, end), most often those in which a plate bears somebody.
 struct LoadInterval {
   int begin = 0, end = 0;
 };
@@ -21,6 +21,8 @@ struct LoadInterval {
 /// NaN where a channel has no number.
 struct PlateForces {
   ForcePlate plate;
+  /// As ForcesOfPlate took them: other readings of the plate are made of them. Empty: of a table.
+  Eigen::MatrixXd channels;
   Eigen::Matrix3Xd force;        ///< f_W [N], against the person: up under a foot
   Eigen::Matrix3Xd moment;       ///< m_W about p_WP [N m]
   Eigen::Matrix3Xd cop;          ///< centre of pressure p_W, on the surface [m]; NaN: not known
@@ -28,10 +30,11 @@ struct PlateForces {
   double unloaded_level = 0;     ///< vertical force while nobody is on it [N]
   bool is_seen_unloaded = false;
   bool is_reversed = false;   ///< the file held the forces on the plate, not on the person
-  bool tells_contact = true;  ///< false: the sign of its forces can't be told
+  bool tells_contact = true;  ///< false: the sign or the place of its forces can't be told
   double largest_load = 0;    ///< vertical, above the unloaded level [N]
   std::string applied_to;     ///< the body, where a file of forces says it: "calcn_r"
   std::vector<LoadInterval> loads;
+  std::vector<LoadInterval> clipped;  ///< a channel stands at the end of its range
 
   /// Along the surface's normal, up, above the unloaded level [N].
   double Load(int sample) const {

@@ -11,6 +11,7 @@
 #include "common/io/c3d/c3d_file.h"
 #include "common/io/recording/recording_axes.h"
 #include "common/support/parallel.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -49,12 +50,36 @@ PlateForces ReadPlate(ForcePlate plate, const Eigen::MatrixXd& samples, const Re
                       const std::optional<C3dZeroFrames>& zero, Warnings* warnings) {
   Eigen::MatrixXd channels = ChannelsOf(plate, samples);
   if (zero) SubtractBaseline(plate, *zero, all.samples_per_frame, &channels, warnings);
+  SubtractUnloaded(all.rate, plate, &channels, warnings);
   CorrectUnits(channels, &plate, warnings);
   CorrectOrigin(channels, &plate, warnings);
   PlateForces forces = ForcesOfPlate(plate, channels);
   JudgeLoads(all.rate, &forces, warnings);
   LeaveOutSaturated(channels, &forces, warnings);
+  forces.channels = std::move(channels);
+  FindClipped(all.rate, all.first_time, &forces, warnings);
   return forces;
+}
+
+/// Says so where force channels are there and no plates are described.
+void WarnOfUndescribed(const C3dAnalog& analog, Warnings* warnings) {
+  std::vector<std::string> found;
+  for (const C3dAnalogChannel& channel : analog.channels) {
+    std::string letters;
+    for (const char c : ToLower(channel.label)) {
+      if (c >= 'a' && c <= 'z') letters += c;
+    }
+    const auto is_force = [&](const char* name) {
+      return letters == name || letters == std::string("force") + name;
+    };
+    if (is_force("fx") || is_force("fy") || is_force("fz")) found.push_back(channel.label);
+  }
+  if (found.size() < 3) return;
+  Warn(warnings,
+       fmt::format("the file has force channels ({}, {}, {}{}), but does not describe the "
+                   "plates (no FORCE_PLATFORM group that names corners): no forces are "
+                   "read",
+                   found[0], found[1], found[2], found.size() > 3 ? " ..." : ""));
 }
 
 }  // namespace
@@ -70,7 +95,12 @@ RecordedForces ReadForces(const std::string& path, Warnings* warnings, std::opti
   std::vector<ForcePlate> plates = ReadForcePlates(file, analog, *unit, warnings);
   forces.rate = analog.rate;
   forces.samples_per_frame = std::max(analog.samples_per_frame, 1);
-  if (plates.empty()) return forces;
+  forces.first_time =
+      IsFrameRate(file.layout().rate) ? file.layout().first_time(file.layout().rate) : 0;
+  if (plates.empty()) {
+    if (ReadC3dForcePlates(file.parameters(), nullptr).empty()) WarnOfUndescribed(analog, warnings);
+    return forces;
+  }
   const Eigen::MatrixXd samples = ReadC3dAnalogSamples(&file, analog);
   const auto zero = ReadC3dZeroFrames(file.parameters());
   forces.plates.resize(plates.size());
@@ -82,6 +112,7 @@ RecordedForces ReadForces(const std::string& path, Warnings* warnings, std::opti
   for (const Warnings& one : of_plates) {
     if (warnings != nullptr) warnings->Append(one);
   }
+  forces.first_time = 0;
   return forces;
 }
 

@@ -14,6 +14,7 @@
 #include "common/io/tables/osim_tables.h"
 #include "common/judge/conversion_verdict.h"
 #include "common/pipeline/force_exports.h"
+#include "common/pipeline/ground_study.h"
 #include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/advice.h"
@@ -205,7 +206,8 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   // A skeleton tells its lengths itself.
   plan.self_calibrates =
       request.self_calibrate && !plan.object && plan.input.recording.body.empty();
-  CheckForces(request.exports, &plan);
+  ReadPlates(request.exports, &plan);
+  if (plan.forces) plan.events = EventsOfFile(plan.input, request.input.events);
   plan.patient = request.input.patient;
   if (const std::string& file = plan.patient.normal_file; !file.empty()) {
     plan.normal = std::make_shared<const NormalBands>(
@@ -248,6 +250,7 @@ ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int
     WarnOfUnknownTurns(report.plan.input, report.plan.setup.mapping, report.result.residuals,
                        &report.warnings);
   }
+  StudyPlates(&report);
   MeasureAndJudge(&report);
   return report;
 }
@@ -262,6 +265,8 @@ void MeasureAndJudge(ConversionReport* report) {
                        ScalingOf(plan.person, plan.converter.config),
                        is_height_stated ? plan.person.height.source : "", report->result,
                        report->figures, plan.input.names.get()});
+  if (!report->ground) return;
+  for (const std::string& doubt : report->ground->doubts) AddDoubt(doubt, &report->verdict);
 }
 
 ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,

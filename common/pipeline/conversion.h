@@ -25,6 +25,7 @@ namespace mmm_converter {
 struct GroundStudy;
 struct NormalBands;
 struct RecordedForces;
+struct StoredEvents;
 
 /// To which robot a motion is brought. No file: to none.
 struct RobotRequest {
@@ -75,7 +76,8 @@ struct ConversionPlan {
   bool self_calibrates = false;              ///< before it is tracked
   bool keeps_covariances = false;
   bool takes_covariances = false;                ///< where the converter has them
-  std::shared_ptr<const RecordedForces> forces;  ///< where an export is made of them
+  std::shared_ptr<const RecordedForces> forces;  ///< of plates, where the model has feet
+  std::shared_ptr<const StoredEvents> events;    ///< of feet; null: the file has none
   std::set<std::string> opened;                  ///< files; see OpenedFiles
   PatientRequest patient;
   std::shared_ptr<const NormalBands> normal;  ///< null: no file was named
@@ -88,7 +90,7 @@ struct ConversionReport {
   ConversionResult result;
   ConversionFigures figures;
   Verdict verdict;
-  std::shared_ptr<const GroundStudy> ground;  ///< where an export is made of it
+  std::shared_ptr<const GroundStudy> ground;  ///< where there are plates, or an export is of it
   Warnings warnings;                          ///< those of the plan, and what was noticed since
 };
 

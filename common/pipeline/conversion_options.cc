@@ -99,6 +99,11 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
           "OpenSim's .mot or ExternalLoads",
           "those of the recording's force plates", task::kConvert | task::kCheckDynamics,
           &request->input.forces_file, {.of_motions = "none: the ground is assumed"}),
+      Row({"events", "events", "events"}, {OptionKind::kChoice, "file|found"},
+          "when feet come to the ground and leave it, for contacts and strides: as the file says, "
+          "or as it is found, which then replaces the file's events in copies of it",
+          "the file's of a foot where it has all that are found", task::kConvert,
+          &request->input.events),
       Row({"up", "up", "up"}, {OptionKind::kAxis, "AXIS"},
           "the file's axis that points up: x, y, z, -x, -y or -z", "", kReadings | task::kInfo,
           set_up, {.remedy = Remedy::kUpAxis}),

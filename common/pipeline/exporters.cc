@@ -254,8 +254,9 @@ const std::vector<Exporter>& Exporters() {
        "recording with these events, else CSV",
        WriteContacts},
       {"gait", "export-gait", "csv", "joint angles over the gait cycle, as CSV",
-       "joint angles in degrees over the gait cycle, their mean and deviation of each foot's "
-       "strides, as CSV; .json has cadence, speed, lengths and times of all strides, too",
+       "joint angles over the gait cycle, and with force plates moments and powers, their mean and "
+       "deviation of each foot's strides, as CSV; .json has cadence, speed, lengths and times of "
+       "all strides, and work, too",
        WriteGait},
       {"grf", "export-grf", "mot", "ground reaction forces for OpenSim",
        "what force plates measured as OpenSim's .mot, with axes and time of the TRC, and the "

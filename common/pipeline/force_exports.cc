@@ -2,6 +2,7 @@
 #include "common/pipeline/force_exports.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "common/angles/gait_table.h"
 #include "common/contacts/contact_table.h"
 #include "common/contacts/external_loads_writer.h"
+#include "common/contacts/stored_events.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces_table.h"
 #include "common/pipeline/conversion.h"
@@ -66,19 +68,41 @@ bool IsC3d(const std::string& file) {
   return ToLower(fs::path(file).extension().string()) == ".c3d";
 }
 
-/// Those of the recording but where and what contacts tell, and these.
+/// What there is to say of strides; empty: nothing.
+std::string GaitSentence(const Gait& gait) {
+  std::vector<std::string> texts;
+  if (gait.left_out > 0) {
+    texts.push_back(fmt::format("{} strides are left out: a leg is hidden in them", gait.left_out));
+  }
+  if (gait.turns > 0) {
+    texts.push_back(fmt::format("{} strides over a turn are left out of the means", gait.turns));
+  }
+  if (gait.strides.empty() && texts.empty()) {
+    texts.push_back(fmt::format(
+        "no foot came to the ground twice within {:g} s: there is no stride", kLongestStride));
+  }
+  if (gait.kind != GaitKind::kWalking && !gait.strides.empty()) {
+    texts.push_back(fmt::format("most strides are of {}", Name(gait.kind)));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+/// Those of the recording, and what contacts tell beyond; where found ones count, these instead of
+/// the person's among the recording's.
 std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
   const PoseTrajectory& motion = report.result.trajectory;
   const std::string& person = report.plan.input.recording.subject;
+  const auto& stored = report.plan.events;
+  const bool replaces = stored && stored->choice == EventChoice::kFound;
   std::vector<C3dEvent> events = ReadC3dEvents(C3dFile(report.plan.input.recording.file), nullptr);
   std::erase_if(events, [&](const C3dEvent& one) {
-    const std::string label = ToLower(one.label);
-    const bool is_told = label == "foot strike" || label == "foot off";
     const bool is_of_person = one.subject.empty() || person.empty() || one.subject == person;
-    return one.is_in_header || (is_told && is_of_person && one.time >= motion.first_time &&
-                                one.time <= motion.time(motion.num_frames() - 1));
+    return one.is_in_header ||
+           (replaces && FootEventOf(one) && is_of_person && one.time >= motion.first_time &&
+            one.time <= motion.time(motion.num_frames() - 1));
   });
   for (const ContactEvent& one : EventsOf(contacts)) {
+    if (!replaces && IsAmong(FootEventsOf(events, person), one)) continue;
     events.push_back({one.time, one.label, ContextOf(one.side), person, false});
   }
   std::stable_sort(events.begin(), events.end(),
@@ -96,15 +120,26 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
     return;
   }
   const bool is_json = fs::path(file).extension() == ".json";
-  WriteFileAtomically(
-      file, is_json ? FormatContactsJson(contacts, *ground->forces) : FormatContactsCsv(contacts));
+  WriteFileAtomically(file, is_json ? FormatContactsJson(contacts, *ground->forces, ground->mass)
+                                    : FormatContactsCsv(contacts));
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {
-  const auto ground = StudyGround(report);
-  const Gait gait = ground->gait ? *ground->gait : GaitOf(report, *ground);
+  WriteGaitOf(file, {&report});
+}
+
+void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports) {
+  std::vector<Gait> gaits;
+  gaits.reserve(reports.size());
+  std::vector<GaitTrial> trials;
+  for (const ConversionReport* report : reports) {
+    const auto ground = StudyGround(*report);
+    gaits.push_back(ground->gait ? *ground->gait : GaitOf(*report, *ground));
+    const std::string name = fs::path(report->plan.input.recording.file).stem().string();
+    trials.push_back({name, &gaits.back()});
+  }
   const bool is_json = fs::path(file).extension() == ".json";
-  WriteFileAtomically(file, is_json ? FormatGaitJson(gait) : FormatGaitCsv(gait));
+  WriteFileAtomically(file, is_json ? FormatGaitJson(trials) : FormatGaitCsv(trials));
 }
 
 void WriteGrf(const std::string& file, const ConversionReport& report) {
@@ -134,9 +169,14 @@ void WriteJointForces(const std::string& file, const ConversionReport& report) {
   }
 }
 
+void StudyPlates(ConversionReport* report) {
+  const auto& forces = report->plan.forces;
+  if (forces && !forces->plates.empty()) report->ground = StudyGround(*report, &report->warnings);
+}
+
 void CompareForces(const ExportFiles& files, ConversionReport* report) {
   if (!NeedForces(files)) return;
-  auto ground = std::make_shared<GroundStudy>(*StudyGround(*report));
+  auto ground = std::make_shared<GroundStudy>(*StudyGround(*report, &report->warnings));
   report->ground = ground;
   const auto table = files.find(kGrf);
   if (table != files.end() && ground->contacts.loads.empty()) {
@@ -145,35 +185,36 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
                     "has times and no forces",
                     ForcesFile(report->plan.input), table->second));
   }
+  if (table != files.end() || files.count(kJointForces) > 0) {
+    if (std::string unapplied = UnappliedSentence(*ground); !unapplied.empty()) {
+      report->warnings.Add(std::move(unapplied));
+    }
+  }
   const auto joint_forces = files.find(kJointForces);
   if (joint_forces != files.end()) {
     ground->joint_forces = JointForcesOf(*report, *ground, HasDeviations(joint_forces->second));
     const Residuals residuals = MeasureResiduals(*ground->joint_forces);
-    const std::string sentence = SentenceOf(residuals, *ground->joint_forces);
-    if (residuals.frames == 0) {
-      report->warnings.Add(sentence);
-    } else if (!residuals.is_within) {
-      AddDoubt(sentence, &report->verdict);
+    if (residuals.frames == 0 || !residuals.is_within) {
+      report->warnings.Add(SentenceOf(residuals, *ground->joint_forces));
     }
   }
   if (files.count(kGait) > 0) {
     ground->gait = GaitOf(*report, *ground);
-    if (ground->gait->left_out > 0) {
-      report->warnings.Add(fmt::format("{} of {} strides are left out: a leg is hidden in them",
-                                       ground->gait->left_out,
-                                       ground->gait->left_out + ground->gait->strides.size()));
-    } else if (ground->gait->strides.empty()) {
-      report->warnings.Add("no foot came to the ground twice within 2.5 s: there is no stride");
+    if (std::string told = GaitSentence(*ground->gait); !told.empty()) {
+      report->warnings.Add(std::move(told));
     }
+  }
+  if (files.count(kGait) > 0 || files.count(kContacts) > 0) {
+    for (const std::string& note : ground->event_notes) report->warnings.Add(note);
   }
   CompareMass(*ground, report);
 }
 
-void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
-  if (!NeedForces(files)) return;
-  const bool needs_plates = files.count(kGrf) > 0 || files.count(kJointForces) > 0;
+void ReadPlates(const ExportFiles& files, ConversionPlan* plan) {
   const Recording& recording = plan->input.recording;
-  if (!HasFeet(*plan->setup.model)) {
+  const bool has_feet = HasFeet(*plan->setup.model);
+  const bool is_needed = NeedForces(files);
+  if (is_needed && !has_feet) {
     throw Error(fmt::format(
         "{}: contacts, strides and joint forces need the feet of MMM's model, or segments calcn_l, "
         "calcn_r, toes_l and toes_r as OpenSim's persons have; {} lacks them",
@@ -189,7 +230,15 @@ void CheckForces(const ExportFiles& files, ConversionPlan* plan) {
   if (files.count(kJointForces) > 0 && !(plan->setup.model->total_mass() > 0)) {
     throw Error(plan->input.model_file + ": has no masses, hence no dynamics");
   }
-  plan->forces = std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
+  if (!has_feet || plan->object) return;
+  const bool needs_plates = files.count(kGrf) > 0 || files.count(kJointForces) > 0;
+  try {
+    plan->forces =
+        std::make_shared<const RecordedForces>(GroundForces(plan->input, &plan->warnings));
+  } catch (const Error& error) {
+    if (is_needed || !plan->input.forces_file.empty()) throw;
+    plan->warnings.Add(fmt::format("the force plates can't be read: {}", error.what()));
+  }
   if (!needs_plates) return;
   CheckHasPlates(*plan->forces, plan->input);
   CheckHasForces(*plan->forces, plan->input, &plan->warnings);

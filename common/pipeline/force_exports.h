@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/pipeline/exporters.h"
 
@@ -15,8 +16,11 @@ class OutputPlan;
 /// When which foot is on the ground: JSON where the file is called so, else CSV.
 void WriteContacts(const std::string& file, const ConversionReport& report);
 
-/// Strides, and angles over them: JSON where the file is called so, else the angles as CSV.
+/// Strides, and what angles, forces, moments and powers are over them: JSON where the file is
+/// called so, else the latter as CSV.
 void WriteGait(const std::string& file, const ConversionReport& report);
+/// Of several recordings, each under its file's name.
+void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports);
 
 /// The ground's forces for OpenSim: a table, and beside it the ExternalLoads, called as the table
 /// with ".xml".
@@ -26,12 +30,17 @@ void WriteGrf(const std::string& file, const ConversionReport& report);
 /// OpenSim's, or as .json what the residuals say.
 void WriteJointForces(const std::string& file, const ConversionReport& report);
 
-/// Before anything is tracked: says what there is to say of the plates.
+/// Before anything is tracked: reads the plates of a person's recording, whatever is asked for.
 /// @throws Error where an export can't be made.
-void CheckForces(const ExportFiles& files, ConversionPlan* plan);
+void ReadPlates(const ExportFiles& files, ConversionPlan* plan);
 
-/// After it is tracked, where an export is of forces: warns where the plates tell another mass than
-/// was given, or where motion and forces do not fit together.
+/// After it is tracked and before it is judged, whatever is exported: studies the ground where
+/// there are plates.
+void StudyPlates(ConversionReport* report);
+
+/// Before exports are written: computes what these need, and warns of what they lack, where the
+/// plates tell another mass than was given, or where motion and forces do not fit together. No
+/// verdict depends on it.
 void CompareForces(const ExportFiles& files, ConversionReport* report);
 
 /// Says in the plan which files exports write.

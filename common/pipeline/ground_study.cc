@@ -2,8 +2,10 @@
 #include "common/pipeline/ground_study.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,12 +13,15 @@
 
 #include "common/angles/anatomical_angles.h"
 #include "common/contacts/person_mass.h"
+#include "common/contacts/plate_readings.h"
+#include "common/contacts/stored_events.h"
 #include "common/forces/recording_forces.h"
 #include "common/judge/coverage.h"
 #include "common/kinetics/foot_wrenches.h"
 #include "common/kinetics/moment_deviations.h"
 #include "common/motion/marker_residuals.h"
 #include "common/pipeline/conversion.h"
+#include "common/pipeline/gait_forces.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -24,18 +29,6 @@
 
 namespace mmm_converter {
 namespace {
-
-/// Without the frames before the person was seen.
-PoseTrajectory TrackedMotion(const ConversionResult& result) {
-  PoseTrajectory motion = result.trajectory;
-  const int begin = FramesBeforeFirstSeen(result.residuals);
-  motion.first_time = motion.time(begin);
-  motion.standard_deviations.resize(0, 0);
-  motion.velocities.resize(0, 0);
-  motion.accelerations.resize(0, 0);
-  motion.postures.erase(motion.postures.begin(), motion.postures.begin() + begin);
-  return motion;
-}
 
 /// Those of a trajectory whose first `begin` frames are left out.
 std::vector<PoseCovariance> CovariancesFrom(int begin, const ConversionResult& result) {
@@ -54,90 +47,6 @@ KinematicModel WithMass(const KinematicModel& model, double mass) {
     segment.inertia *= scale;
   }
   return KinematicModel(std::move(description));
-}
-
-/// The moment against the one that makes an angle grow.
-const char* OppositeOf(std::string_view motion) {
-  if (motion == "flexion") return "extension moment";
-  if (motion == "dorsiflexion") return "plantar flexion moment";
-  if (motion == "adduction") return "abduction moment";
-  if (motion == "inversion") return "eversion moment";
-  return motion == "internal rotation" ? "external rotation moment" : nullptr;
-}
-
-bool IsOfLeg(std::string_view joint) {
-  return joint == "hip" || joint == "knee" || joint == "ankle";
-}
-
-/// By the model's joints, as far as they are known.
-Eigen::MatrixXd ByJoints(const KinematicModel& model, const JointForces& found) {
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Constant(model.num_joints(), found.num_frames(), kNaN);
-  for (std::size_t i = 0; i < found.names.size(); ++i) {
-    const int joint = model.FindJoint(found.names[i]);
-    if (joint >= 0) forces.row(joint) = found.forces.row(static_cast<Eigen::Index>(i));
-  }
-  return forces;
-}
-
-/// In body weights; NaN: no plate measures it.
-AnatomicalAngles VerticalForces(const ConversionReport& report, const GroundStudy& ground) {
-  const PoseTrajectory& motion = report.result.trajectory;
-  const FootWrenches feet = WrenchesOnFeet(
-      ground.contacts, *ground.forces, {motion.rate, motion.first_time, motion.num_frames()}, 0);
-  AnatomicalAngles rows;
-  rows.rate = motion.rate;
-  rows.first_time = motion.first_time;
-  rows.values.resize(2, motion.num_frames());
-  const double weight = KnownMass(report, ground) * kStandardGravity;
-  for (const Side side : kSides) {
-    rows.angles.push_back({"ground", Name(side), "vertical force"});
-    const FootWrench& foot = feet[static_cast<std::size_t>(side)];
-    for (int k = 0; k < motion.num_frames(); ++k) {
-      rows.values(static_cast<Eigen::Index>(side), k) =
-          foot.is_known[static_cast<std::size_t>(k)] ? foot.force(2, k) / weight : kNaN;
-    }
-  }
-  return rows;
-}
-
-/// What the root would still need, for the strides of each foot.
-AnatomicalAngles ResidualRows(const JointForces& found) {
-  AnatomicalAngles rows;
-  rows.rate = found.rate;
-  rows.first_time = found.first_time;
-  rows.values.resize(4, found.num_frames());
-  for (const Side side : kSides) {
-    rows.angles.push_back({"residual", Name(side), "force"});
-    rows.angles.push_back({"residual", Name(side), "moment"});
-  }
-  for (Eigen::Index i = 0; i < rows.values.rows(); i += 2) {
-    rows.values.row(i) =
-        found.residuals.topRows<3>().colwise().norm() / (found.mass * kStandardGravity);
-    rows.values.row(i + 1) = found.residuals.bottomRows<3>().colwise().norm() / found.mass;
-  }
-  return rows;
-}
-
-/// Of muscles, by mass.
-AnatomicalAngles LegMoments(const ConversionReport& report, const JointForces& found) {
-  const KinematicModel& model = *report.plan.setup.model;
-  const PoseTrajectory motion = TrackedMotion(report.result);
-  const AnatomicalAngles angles = ComputeAnatomicalAngles(model, motion);
-  const Eigen::MatrixXd moments = AnatomicalMoments(model, motion, ByJoints(model, found));
-  AnatomicalAngles rows;
-  rows.rate = motion.rate;
-  rows.first_time = motion.first_time;
-  rows.values.resize(moments.rows(), moments.cols());
-  for (std::size_t i = 0; i < angles.angles.size(); ++i) {
-    const AnatomicalAngle& angle = angles.angles[i];
-    const char* name = OppositeOf(angle.motion);
-    if (!IsOfLeg(angle.joint) || name == nullptr) continue;
-    rows.values.row(static_cast<Eigen::Index>(rows.angles.size())) =
-        -moments.row(static_cast<Eigen::Index>(i)) / found.mass;
-    rows.angles.push_back({angle.joint, angle.side, name});
-  }
-  rows.values.conservativeResize(static_cast<Eigen::Index>(rows.angles.size()), Eigen::NoChange);
-  return rows;
 }
 
 /// Where a leg shows what the verdict asks of it; without limbs, where the body is seen. By frame
@@ -176,6 +85,23 @@ bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs&
   return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
 }
 
+constexpr double kMostTimes = 1.5;                // of a stated mass: what people carry is less
+constexpr double kLightest = 8, kHeaviest = 250;  // [kg] persons who walk
+
+/// Empty: the plates bore what a person weighs.
+std::string DoubtOfScale(const std::optional<MassByPlates>& borne, const PersonValue& stated) {
+  if (!borne) return "";
+  const bool is_stated = stated.value > 0 && !IsAssumed(stated);
+  const bool is_far =
+      is_stated ? std::max(borne->mass / stated.value, stated.value / borne->mass) > kMostTimes
+                : borne->mass < kLightest || borne->mass > kHeaviest;
+  if (!is_far) return "";
+  return fmt::format(
+      "the force plates bore {:.3g} kg{}: their forces are of another scale", borne->mass,
+      is_stated ? fmt::format(", the person's mass is {:.3g} kg ({})", stated.value, stated.source)
+                : "");
+}
+
 /// A table of other times tells nothing, and is as long as it likes.
 void CheckIsOfRecording(const RecordedForces& forces, const Input& input) {
   const MarkerSequence& markers = input.recording.markers;
@@ -193,11 +119,39 @@ void CheckIsOfRecording(const RecordedForces& forces, const Input& input) {
 
 }  // namespace
 
+PoseTrajectory TrackedMotion(const ConversionResult& result) {
+  PoseTrajectory motion = result.trajectory;
+  const int begin = FramesBeforeFirstSeen(result.residuals);
+  motion.first_time = motion.time(begin);
+  motion.standard_deviations.resize(0, 0);
+  motion.velocities.resize(0, 0);
+  motion.accelerations.resize(0, 0);
+  motion.postures.erase(motion.postures.begin(), motion.postures.begin() + begin);
+  return motion;
+}
+
 RecordedForces GroundForces(const Input& input, Warnings* warnings) {
   if (input.forces_file.empty()) return ForcesOf(input.recording, warnings);
   RecordedForces forces = ForcesOf(input.forces_file, input.recording.up_axis, warnings);
   CheckIsOfRecording(forces, input);
   return forces;
+}
+
+std::shared_ptr<const StoredEvents> EventsOfFile(const Input& input, const std::string& choice) {
+  const Recording& recording = input.recording;
+  auto stored = std::make_shared<StoredEvents>();
+  if (choice == "file") stored->choice = EventChoice::kFile;
+  if (choice == "found") stored->choice = EventChoice::kFound;
+  if (recording.format == "C3D") {
+    stored->events =
+        FootEventsOf(ReadC3dEvents(C3dFile(recording.file), nullptr), recording.subject);
+  }
+  if (!stored->events.empty()) return stored;
+  if (choice != "file") return nullptr;
+  throw Error(
+      fmt::format("{}: has no events of feet (\"Foot Strike\" and \"Foot Off\" of Left and "
+                  "Right); without {} they are found",
+                  recording.file, OptionText("events")));
 }
 
 void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* warnings) {
@@ -230,21 +184,63 @@ void CheckHasPlates(const RecordedForces& forces, const Input& input) {
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, Warnings* warnings) {
   if (report.ground) return report.ground;
   GroundStudy ground;
-  ground.forces = report.plan.forces;
-  if (!ground.forces) {
-    ground.forces =
-        std::make_shared<const RecordedForces>(GroundForces(report.plan.input, warnings));
-  }
   ground.feet = MoveFeet(*report.plan.setup.model, TrackedMotion(report.result));
-  ground.contacts = FindContacts(ground.feet, *ground.forces);
-  ground.mass = EstimateMass(ground.contacts, *ground.forces);
+  const auto& as_read = report.plan.forces;
+  auto forces = std::make_shared<RecordedForces>(as_read ? *as_read : RecordedForces());
+  ground.doubts = FitPlatesToFeet(ground.feet, FindKnownLegs(report), forces.get(), warnings);
+  for (const PlateForces& one : forces->plates) {
+    if (one.clipped.empty()) continue;
+    ground.doubts.push_back(
+        fmt::format("force plate {} is saturated from {:.2f} s on, and tells too little",
+                    one.plate.number, forces->time(one.clipped.front().begin)));
+  }
+  ground.contacts = FindContacts(ground.feet, *forces);
+  ground.steps = report.plan.events
+                     ? WithStoredEvents(*report.plan.events, ground.feet, ground.contacts, *forces,
+                                        &ground.event_notes)
+                     : ground.contacts;
+  ground.mass = EstimateMass(ground.contacts, *forces, ground.feet);
+  if (std::string doubt = DoubtOfScale(ground.mass, report.plan.person.mass); !doubt.empty()) {
+    ground.doubts.push_back(std::move(doubt));
+  }
+  ground.forces = std::move(forces);
   return std::make_shared<const GroundStudy>(std::move(ground));
+}
+
+std::string UnappliedSentence(const GroundStudy& ground) {
+  const RecordedForces& forces = *ground.forces;
+  double all = 0, unapplied = 0;
+  std::vector<std::string> texts;
+  for (const PlateLoad& load : ground.contacts.loads) {
+    const PlateForces& plate = forces.plates[load.plate];
+    double impulse = 0;
+    for (int k = load.samples.begin; k < load.samples.end; ++k) {
+      if (std::isfinite(plate.Load(k))) impulse += plate.Load(k) / forces.rate;
+    }
+    all += impulse;
+    if (load.bearer == Bearer::kLeft || load.bearer == Bearer::kRight) continue;
+    unapplied += impulse;
+    texts.push_back(
+        fmt::format("plate {} from {:.3f} to {:.3f} s ({}{})", plate.plate.number, load.begin,
+                    load.end, load.bearer == Bearer::kBoth ? "both feet" : "no foot is known there",
+                    ground.mass ? fmt::format(", {:.0f} % of the body weight on average",
+                                              kPercent * impulse / (load.end - load.begin) /
+                                                  (ground.mass->mass * kStandardGravity))
+                                : ""));
+  }
+  if (texts.empty()) return "";
+  constexpr std::size_t kMost = 6;
+  const std::size_t more = texts.size() > kMost ? texts.size() - kMost : 0;
+  texts.resize(texts.size() - more);
+  return fmt::format("{:.0f} % of what the plates bore is applied to no foot: {}{}",
+                     kPercent * unapplied / all, fmt::join(texts, ", "),
+                     more > 0 ? fmt::format(" and {} more times", more) : "");
 }
 
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground) {
   const FootMotion& feet = ground.feet;
   const KnownLegs known = FindKnownLegs(report);
-  Contacts seen = ground.contacts;
+  Contacts seen = ground.steps;
   std::erase_if(seen.contacts, [&](const FootContact& one) { return !IsTold(one, feet, known); });
   for (FootContact& one : seen.contacts) {
     if (!one.plates.empty()) continue;
@@ -293,20 +289,9 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
   const AnatomicalAngles angles =
       ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
-  return AnalyzeGait(ground.feet, ground.contacts, angles, FindKnownLegs(report));
-}
-
-std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
-                                     const Gait& gait) {
-  if (ground.forces->plates.empty() || !(report.plan.setup.model->total_mass() > 0)) return {};
-  std::vector<GaitCycle> cycles = CyclesOf(VerticalForces(report, ground), gait.strides);
-  const JointForces found =
-      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
-  for (const AnatomicalAngles& rows : {LegMoments(report, found), ResidualRows(found)}) {
-    const std::vector<GaitCycle> more = CyclesOf(rows, gait.strides);
-    cycles.insert(cycles.end(), more.begin(), more.end());
-  }
-  return cycles;
+  Gait gait = AnalyzeGait(ground.feet, ground.steps, angles, FindKnownLegs(report));
+  AddForces(report, ground, &gait);
+  return gait;
 }
 
 }  // namespace mmm_converter

@@ -14,13 +14,18 @@
 namespace mmm_converter {
 
 struct ConversionReport;
+struct ConversionResult;
 struct Input;
+struct StoredEvents;
 
 /// What is known of the ground under a tracked person: found once for a conversion.
 struct GroundStudy {
-  std::shared_ptr<const RecordedForces> forces;
+  std::shared_ptr<const RecordedForces> forces;  ///< read as the feet have it: FitPlatesToFeet
+  std::vector<std::string> doubts;  ///< what speaks against the plates, for the verdict
   FootMotion feet;
   Contacts contacts;
+  Contacts steps;                        ///< the same, with the file's events where they count
+  std::vector<std::string> event_notes;  ///< what there is to say of the file's events
   std::optional<MassByPlates> mass;
   std::optional<JointForces> joint_forces;  ///< where they are exported
   std::optional<Gait> gait;                 ///< where it is exported
@@ -28,6 +33,11 @@ struct GroundStudy {
 
 /// Forces of the recording's file, or of the one that is beside it.
 RecordedForces GroundForces(const Input& input, Warnings* warnings);
+
+/// When feet come to the ground by the recording's file, and which of it counts ("file", "found";
+/// empty: the default). Null: it does not say.
+/// @throws Error where it has to say and does not.
+std::shared_ptr<const StoredEvents> EventsOfFile(const Input& input, const std::string& choice);
 
 /// @throws Error where the recording has no plates.
 void CheckHasPlates(const RecordedForces& forces, const Input& input);
@@ -38,10 +48,17 @@ void CheckHasForces(const RecordedForces& forces, const Input& input, Warnings* 
 /// Of which file the forces are.
 const std::string& ForcesFile(const Input& input);
 
-/// That of the report where it has one. warnings: of plates that were not read before; may be null.
-/// @throws Error where the model has no feet (HasFeet), and as GroundForces.
+/// Without the frames before the person was seen.
+PoseTrajectory TrackedMotion(const ConversionResult& result);
+
+/// That of the report where it has one. warnings: of what plates were taken for; may be null.
+/// @throws Error where the model has no feet (HasFeet).
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,
                                                Warnings* warnings = nullptr);
+
+/// What plates bore that is given to no foot: when, and which share of all that they bore it is. In
+/// a sentence; empty: all is given.
+std::string UnappliedSentence(const GroundStudy& ground);
 
 /// Those that plates tell, and of a foot off the plates those that its leg shows: what begins or
 /// ends while that is hidden has no begin or end.
@@ -58,15 +75,11 @@ std::string MassSentence(const ConversionReport& report, const GroundStudy& grou
 JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& ground,
                           bool with_deviations);
 
-/// Strides, and angles over them; of these is left out what was hidden.
+/// Strides, and over them angles, without what was hidden, and where there are plates and a mass
+/// what legs bear and exert: of joint "ground" the "vertical force" in body weights; of hips, knees
+/// and ankles the "extension moment" and so on that muscles exert [N m/kg], each about the axis of
+/// its angle, and their "power" [W/kg]; of joint "residual" what the root would still need, "force"
+/// in body weights and "moment" [N m/kg].
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground);
-
-/// What legs bear and exert over the strides of `gait`: of joint "ground" the "vertical force" in
-/// body weights; of hips, knees and ankles the "extension moment" and so on that muscles exert [N
-/// m/kg], each about the axis of its angle; of joint "residual" what the root would still need,
-/// "force" in body weights and "moment" [N m/kg]. Empty: there are no plates, or the model has no
-/// mass.
-std::vector<GaitCycle> ForceCyclesOf(const ConversionReport& report, const GroundStudy& ground,
-                                     const Gait& gait);
 
 }  // namespace mmm_converter

@@ -86,7 +86,7 @@ TEST(PatientRealFiles, StridesAreScoredAgainstNormalBands) {
   std::string bands = "# Source: the same\n";
   for (const char* side : {"left", "right"}) {
     for (const char* end : {"0", "100"}) {
-      bands += std::string("foot,") + side + ",progression," + end + ",0,0,,2\n";
+      bands += std::string(",foot,") + side + ",progression,degrees," + end + ",0,0,,2\n";
     }
   }
   WriteText(csv, ReadText(csv) + bands);

@@ -121,6 +121,7 @@ class Conversions(Case):
                 (lambda: mmmconverter.convert(self.folder / "absent.c3d"), FileNotFoundError, "no such file"),
                 (lambda: mmmconverter.read(self.folder / "absent.c3d"), FileNotFoundError, "no such file"),
                 (lambda: mmmconverter.convert(recording, unit="mm"), ValueError, "give it to read"),
+                (lambda: mmmconverter.convert(SAMPLE, heigth=1), TypeError, r"convert\(\).*'heigth'.*'height'"),
                 (lambda: mmmconverter.convert(SAMPLE, height=[1]), TypeError, r"height: \[1\].*float"),
                 (lambda: mmmconverter.convert(SAMPLE, frames=range(0, 20, 2)), ValueError, "without a step"),
                 (lambda: mmmconverter.Recording.from_arrays(["a", "b"], 1000 * np.arange(6).reshape(1, 2, 3), 100),

@@ -41,6 +41,30 @@ class RealRecordings(Case):
                                    [1.1726, 0.84287, 0], [1.1726, 0.37932, 0]], atol=1e-7)
         np.testing.assert_allclose(plates[1]["origin"], [0, 0, 0.05715], atol=1e-7)
 
+    def test_strides_of_two_trials(self):
+        results = [mmmconverter.convert(SHARED / f"reports/{name}.c3d", progress=False)
+                   for name in ("f_base_type2", "w_treadmill_2800ms")]
+        strides = mmmconverter.strides(results)
+        self.assertEqual(set(strides.trials), {"f_base_type2", "w_treadmill_2800ms"})
+        knee = strides["left knee flexion"]
+        self.assertEqual(knee.shape, (strides.sides.count("left"), 101))
+        self.assertGreater(knee.mean(axis=0).max(), 40)
+        ground = results[0].ground
+        self.assertEqual(ground.kind, "walking")
+        self.assertAlmostEqual(ground.mass["kg"], 70, delta=0.7)
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            return
+        self.assertAlmostEqual(ground.parameters["left mean"]["stride_length_m"], 1.2, delta=0.02)
+        self.assertIn("left ankle power [W/kg]", ground.powers.columns)
+        self.assertIn("left knee extension moment [N m/kg]", ground.moments.columns)
+        self.assertEqual(list(ground.loads["foot"]), ["left", "right"])
+        self.assertEqual(set(ground.contacts["foot"]), {"left", "right"})
+        self.assertIn("left knee flexion [deg]", ground.cycles.columns)
+        self.assertTrue(ground.work.empty)  # no foot is on plates over a whole stride
+        self.assertEqual(len(strides.to_dataframe()), len(strides))
+
     def test_forces_are_what_opensim_stored(self):
         recording = mmmconverter.read(SHARED / "forces/walking2.c3d")
         forces = recording.forces

@@ -17,6 +17,7 @@ NaN. Arrays have frames first.
 from ._angles import Angles
 from ._batch import Batch, batch
 from ._conversions import Conversion, convert
+from ._ground import Ground, Strides, strides
 from ._live import Live, LiveBody, LivePosture, live
 from ._mmmconverter import Error, version_text as _version_text
 from ._models import Estimate, Model, Poses, Tracker, read_model
@@ -30,7 +31,7 @@ Error.__module__ = __name__
 __version__ = _version_text().split()[1]
 
 __all__ = [
-    "Angles", "Batch", "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "LabelledRecording",
-    "LearnedMarkers", "Live", "LiveBody", "LivePosture", "Model", "Motion", "Poses", "Recording", "Retargeted", "Subject", "Tracker", "batch", "calibrate",
+    "Angles", "Batch", "Calibration", "Comparison", "Conversion", "Dynamics", "Error", "Estimate", "Ground", "LabelledRecording",
+    "LearnedMarkers", "Live", "LiveBody", "LivePosture", "Model", "Motion", "Poses", "Recording", "Retargeted", "Strides", "Subject", "Tracker", "batch", "calibrate",
     "check_dynamics", "compare", "convert", "label", "learn_markers", "live", "read", "read_model", "read_motion", "read_motions",
-    "read_subject", "retarget"]
+    "read_subject", "retarget", "strides"]

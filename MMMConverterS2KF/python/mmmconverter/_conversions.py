@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _mmmconverter
 from ._angles import Angles
+from ._ground import Ground
 from ._models import Model
 from ._options import with_options
 from ._present import Kept, Presented, WrongValue, input_text, of_raw, path_text
@@ -50,6 +51,8 @@ class Conversion(Postures, Presented):
         squared; where postures are smooth (config="s2kf_offline").
     angles : Angles
         Flexion, adduction and rotation of the joints in degrees, by their anatomical names.
+    ground : Ground, or None
+        Contacts, strides, and with force plates loads, moments and powers; None: the model has no feet.
     marker_labels : list of str
     residuals : numpy.ndarray, shape (frames, M)
         Distances of measured from model markers in metres; NaN: not seen.
@@ -79,7 +82,7 @@ class Conversion(Postures, Presented):
         """For pickle and copies: all numbers. A copy has no model, and writes nothing."""
         names = ("rate", "verdict", "reasons", "warnings", "text", "times", "joint_names", "postures", "sd",
                  "velocities", "accelerations", "residuals", "covariances", "marker_labels", "incidents",
-                 "frames", "angles", "summary")
+                 "frames", "angles", "summary", "ground")
         return {"_source": self._source, "_raw": Kept({name: getattr(self._raw, name) for name in names})}
 
     # What is computed or copied once.
@@ -96,6 +99,7 @@ class Conversion(Postures, Presented):
     frames = functools.cached_property(lambda self: self._raw.frames)
     angles = functools.cached_property(lambda self: Angles(self.times, *self._raw.angles))
     model = functools.cached_property(lambda self: Model(self._raw.model))
+    ground = functools.cached_property(lambda self: self._raw.ground and Ground(self._raw.ground))
 
     @property
     def root_positions(self) -> np.ndarray:

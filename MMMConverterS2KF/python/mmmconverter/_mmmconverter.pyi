@@ -75,6 +75,7 @@ class Conversion:
     residuals: np.ndarray
     covariances: Optional[Tuple[np.ndarray, np.ndarray]]
     angles: Tuple[List[Tuple[str, str, str]], np.ndarray, Optional[np.ndarray]]
+    ground: Optional[Dict[str, Any]]
     marker_labels: List[str]
     incidents: List[Dict[str, Any]]
     frames: Dict[str, np.ndarray]

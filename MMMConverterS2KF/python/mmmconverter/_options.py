@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The options of the package's functions: those of the program, from one table in the compiled part."""
 
+import difflib
 import functools
 import inspect
 
@@ -22,7 +23,12 @@ def with_options(task):
 
         @functools.wraps(function)
         def checked(*arguments, **keywords):
-            full.bind(*arguments, **keywords)  # TypeError: an unexpected keyword
+            for name in keywords:
+                if name not in full.parameters:
+                    near = difflib.get_close_matches(name, full.parameters, 1)
+                    raise TypeError(f"{function.__name__}() has no argument {name!r}" +
+                                    (f"; did you mean {near[0]!r}?" if near else ""))
+            full.bind(*arguments, **keywords)
             return function(*arguments, **keywords)
 
         described = "".join(f"    {name} : {words}, optional\n        {text[0].upper()}{text[1:]}.\n"

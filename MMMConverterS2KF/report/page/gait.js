@@ -17,7 +17,7 @@ const kCycleSamples = 101;
 // [°] rms over the cycle: beyond, an angle misleads (McGinley et al. 2009, Gait & Posture 29), and the chart says so.
 const kDoubtful = 5;
 const kUntold = 20;  // [°] of trunk and arms: nothing in the recording tells them
-const kLeastRange = {"°": 20, "N m/kg": 0.4, "body weights": 0.4};  // of a chart: what hardly changes looks so
+const kLeastRange = {"°": 20, "N m/kg": 0.4, "W/kg": 0.4, "body weights": 0.4};  // of a chart: what hardly changes looks so
 const kSides = ["left", "right"];
 const kSideDashes = {left: null, right: [6, 2.5]};
 
@@ -33,6 +33,7 @@ const kForceGrid = [
   ["hip extension moment", "hip abduction moment", "hip external rotation moment"],
   ["knee extension moment", "knee abduction moment", "knee external rotation moment"],
   ["ankle plantar flexion moment", "ankle eversion moment", "ankle external rotation moment"],
+  ["hip power", "knee power", "ankle power"],
   ["ground vertical force", "residual force", "residual moment"],
 ];
 // What grows upwards, by title.

@@ -177,10 +177,17 @@ std::vector<C3dForcePlate> ReadC3dForcePlates(const C3dParameters& parameters, W
     if (calibration.size() == kCalibrationNumbers) {
       plate.calibration = Eigen::Map<const Eigen::Matrix<double, 6, 6>>(calibration.data());
     }
-    const std::vector<double> polynomial =
-        NumbersOf(parameters.Find("FORCE_PLATFORM", "FPCOPPOLY"), i, kPolynomialNumbers);
+    const C3dParameter* const polynomials = parameters.Find("FORCE_PLATFORM", "FPCOPPOLY");
+    const std::vector<double> polynomial = NumbersOf(polynomials, i, kPolynomialNumbers);
     if (polynomial.size() == kPolynomialNumbers) {
-      plate.cop_polynomial = Eigen::Map<const Eigen::Matrix<double, 6, 2>>(polynomial.data());
+      const bool is_across = polynomials->dimensions.size() >= 2 &&
+                             polynomials->dimensions[0] == 2 && polynomials->dimensions[1] == 6;
+      plate.cop_polynomial =
+          is_across
+              ? Eigen::Matrix<double, 6, 2>(
+                    Eigen::Map<const Eigen::Matrix<double, 2, 6>>(polynomial.data()).transpose())
+              : Eigen::Matrix<double, 6, 2>(
+                    Eigen::Map<const Eigen::Matrix<double, 6, 2>>(polynomial.data()));
     }
   }
   return plates;

@@ -48,6 +48,27 @@ RecordingOrigin OriginOf(const C3dParameters& parameters) {
   return origin;
 }
 
+constexpr double kLightest = 5, kHeaviest = 300;  // [kg] persons
+
+/// PROCESSING:BODYMASS of Nexus, and what others call it. Nothing: of several persons, or of none.
+std::optional<double> StatedMass(const C3dParameters& parameters) {
+  for (const C3dParameter& one : parameters.all()) {
+    if (one.group != "PROCESSING" && !one.group.starts_with("SUBJECT") && one.group != "PATIENT") {
+      continue;
+    }
+    std::string letters;
+    for (const char c : one.name) {
+      if (c >= 'A' && c <= 'Z') letters += c;
+    }
+    const bool is_mass = letters.find("BODYMASS") != std::string::npos || letters == "MASS" ||
+                         letters == "MASSKG" || letters == "WEIGHTKG" || letters == "WEIGHT";
+    if (!is_mass || one.type < 1 || one.size() != 1) continue;
+    const double mass = one.Number(0).value_or(0);
+    if (mass >= kLightest && mass <= kHeaviest) return mass;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, warnings) {
@@ -68,6 +89,7 @@ C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, 
   info_.comment = parameters.Text("MANUFACTURER", "COMMENT");
   info_.origin = OriginOf(parameters);
   info_.up = parameters.Text("POINT", "Y_SCREEN");
+  info_.stated_mass = StatedMass(parameters);
 }
 
 MarkerSequence C3dReader::ReadPoints(const std::vector<int>& points,

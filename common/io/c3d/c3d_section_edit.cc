@@ -140,8 +140,8 @@ std::string NumberRecord(const std::string& name, int group, int type, std::vect
 }
 
 // What each event has; other parameters of the group stay.
-constexpr const char* kOfEvents[] = {"USED",     "TIMES",        "LABELS",  "CONTEXTS",
-                                     "SUBJECTS", "DESCRIPTIONS", "ICON_IDS"};
+constexpr const char* kOfEvents[] = {"USED",     "TIMES",        "LABELS",   "CONTEXTS",
+                                     "SUBJECTS", "DESCRIPTIONS", "ICON_IDS", "GENERIC_FLAGS"};
 
 bool IsOfEvents(std::string name) {
   while (!name.empty() && name.back() >= '0' && name.back() <= '9') name.pop_back();
@@ -155,6 +155,7 @@ std::string EventRecords(const std::vector<C3dEvent>& events, int group, C3dProc
   unsigned char word[2];
   unsigned char number[4];
   std::string used, times, icons;
+  const std::string flags(events.size(), '\0');
   StoreC3dWord(count, processor, word);
   used.append(word, word + 2);
   for (const C3dEvent& event : events) {
@@ -181,6 +182,7 @@ std::string EventRecords(const std::vector<C3dEvent>& events, int group, C3dProc
   return NumberRecord("USED", group, 2, {}, used, processor) + texts("LABELS", &C3dEvent::label) +
          texts("CONTEXTS", &C3dEvent::context) + texts("SUBJECTS", &C3dEvent::subject) +
          NumberRecord("ICON_IDS", group, 2, {count}, icons, processor) +
+         NumberRecord("GENERIC_FLAGS", group, 1, {count}, flags, processor) +
          NumberRecord("TIMES", group, 4, {2, count}, times, processor);
 }
 

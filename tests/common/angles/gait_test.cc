@@ -41,6 +41,8 @@ class GaitTest : public ::testing::Test {
         const double steps = std::floor(k / kRate - first + 1e-6);
         foot.heel.col(k) << kStride * (first + steps), is_left ? kWidth : 0, 0;
       }
+      foot.toe = foot.heel;
+      foot.toe.row(0).array() += 0.25;
       for (double begin = first; begin < 2.6; begin += 1) {
         FootContact contact;
         contact.side = side;
@@ -127,6 +129,58 @@ TEST_F(GaitTest, StridesOfAHiddenLegAreLeftOut) {
   EXPECT_EQ(gait.left_out, 1);
 }
 
+TEST_F(GaitTest, LengthsAreOnTheBelt) {
+  const Gait ground = AnalyzeGait(feet_, contacts_, angles_, known_);
+  for (FootPath& foot : feet_.feet) {
+    foot.belt << -0.9, 0, 0;
+    for (int k = 0; k < kFrames; ++k) {
+      foot.heel.col(k) += k / kRate * foot.belt;
+      foot.toe.col(k) += k / kRate * foot.belt;
+    }
+  }
+  const Gait belt = AnalyzeGait(feet_, contacts_, angles_, known_);
+  ASSERT_EQ(belt.strides.size(), ground.strides.size());
+  for (std::size_t i = 0; i < belt.strides.size(); ++i) {
+    EXPECT_NEAR(belt.strides[i].length, ground.strides[i].length, kSame);
+    EXPECT_NEAR(belt.strides[i].step_length, ground.strides[i].step_length, kSame);
+  }
+}
+
+TEST_F(GaitTest, StridesOverATurnAreLeftOut) {
+  feet_.feet[0].toe.rightCols(60) = feet_.feet[0].heel.rightCols(60);
+  feet_.feet[0].toe.rightCols(60).row(1).array() += 0.25;  // to the left from 2.41 s on
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  EXPECT_THAT(gait.strides, SizeIs(2));
+  EXPECT_EQ(gait.turns, 1);
+}
+
+TEST_F(GaitTest, WhoWalksSlowlyHasStridesOfSixSeconds) {
+  const double slow = 4;
+  feet_.rate /= slow;
+  angles_.rate /= slow;
+  for (FootContact& one : contacts_.contacts) {
+    *one.begin *= slow;
+    if (one.end) *one.end *= slow;
+  }
+  const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
+  ASSERT_THAT(gait.strides, SizeIs(3));
+  EXPECT_NEAR(gait.strides[0].time(), slow, kSame);
+}
+
+TEST_F(GaitTest, KindsOfGait) {
+  EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, GaitKind::kWalking);
+  EXPECT_NEAR(AnalyzeGait(feet_, contacts_, angles_, known_).strides[1].double_support, 0.2, kSame);
+  for (FootPath& foot : feet_.feet) foot.toe.row(0).array() -= 0.5;
+  EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, GaitKind::kBackwards);
+  for (FootContact& one : contacts_.contacts) {
+    if (one.end) *one.end -= 0.3;
+  }
+  const Gait run = AnalyzeGait(feet_, contacts_, angles_, known_);
+  EXPECT_EQ(run.kind, GaitKind::kRunning);
+  EXPECT_TRUE(std::isnan(run.strides[0].double_support));
+  EXPECT_NEAR(run.strides[0].step_length, kStride / 2, kSame);
+}
+
 TEST_F(GaitTest, StandingIsNoStride) {
   for (FootContact& one : contacts_.contacts) *one.begin *= 4;
   EXPECT_THAT(AnalyzeGait(feet_, contacts_, angles_, known_).strides, SizeIs(0));
@@ -134,13 +188,12 @@ TEST_F(GaitTest, StandingIsNoStride) {
 
 TEST_F(GaitTest, Tables) {
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
-  const std::string csv = FormatGaitCsv(gait);
-  EXPECT_THAT(
-      csv,
-      StartsWith("joint,side,angle,percent,mean_degrees,sd_degrees,uncertainty_degrees,strides\n"));
-  EXPECT_THAT(csv, HasSubstr("\nknee,left,flexion,50,-54.430991,4.051423,1.145916,2\n"));
-  EXPECT_THAT(csv, HasSubstr("\npelvis,right,tilt,100,0,,1.145916,1\n"));
-  const auto json = nlohmann::json::parse(FormatGaitJson(gait));
+  const std::string csv = FormatGaitCsv({{"walk", &gait}});
+  EXPECT_THAT(csv, StartsWith("trial,joint,side,angle,unit,percent,mean,sd,uncertainty,strides\n"));
+  EXPECT_THAT(csv,
+              HasSubstr("\nwalk,knee,left,flexion,degrees,50,-54.430991,4.051423,1.145916,2\n"));
+  EXPECT_THAT(csv, HasSubstr("\nwalk,pelvis,right,tilt,degrees,100,0,,1.145916,1\n"));
+  const auto json = nlohmann::json::parse(FormatGaitJson({{"walk", &gait}}));
   EXPECT_NEAR(json["summary"]["left"]["cadence_steps_per_min"]["mean"], 120, 1e-6);
   EXPECT_EQ(json["summary"]["left"]["step_width_m"]["strides"], 2);
   EXPECT_TRUE(json["summary"]["right"]["step_width_m"]["sd"].is_null());
@@ -152,7 +205,7 @@ TEST_F(GaitTest, Tables) {
 TEST_F(GaitTest, WithoutContactsNothing) {
   const Gait gait = AnalyzeGait(feet_, {}, angles_, known_);
   EXPECT_THAT(gait.cycles, SizeIs(0));
-  const auto json = nlohmann::json::parse(FormatGaitJson(gait));
+  const auto json = nlohmann::json::parse(FormatGaitJson({{"walk", &gait}}));
   EXPECT_TRUE(json["summary"]["left"]["cadence_steps_per_min"]["mean"].is_null());
 }
 

@@ -264,7 +264,7 @@ TEST_F(WalkTest, TablesSayTheSame) {
   const std::string csv = FormatContactsCsv(contacts);
   EXPECT_NE(csv.find("left,0.52,0.002,1.5,0.002,1\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find("right,,,"), std::string::npos) << csv;
-  const auto json = nlohmann::json::parse(FormatContactsJson(contacts, forces));
+  const auto json = nlohmann::json::parse(FormatContactsJson(contacts, forces, {}));
   EXPECT_EQ(json["contacts"].size(), 5U);
   EXPECT_EQ(json["contacts"][0]["plates"], nlohmann::json({1}));
   EXPECT_EQ(json["loads"][0]["foot"], "left");
@@ -327,7 +327,7 @@ TEST_F(WalkTest, FromMidStanceToMidStanceThePlatesBearTheWeight) {
   first.force.row(2).segment(1300, 200).setConstant(386.7);
   second.force.row(2).segment(1300, 200).setConstant(300);
   const RecordedForces forces = ForcesOf({first, second});
-  const auto mass = EstimateMass(FindContacts(Walk(), forces), forces);
+  const auto mass = EstimateMass(FindContacts(Walk(), forces), forces, Walk());
   ASSERT_TRUE(mass);
   EXPECT_NEAR(mass->mass, 70, 1e-6);
   EXPECT_GE(mass->intervals, 1);
@@ -336,7 +336,7 @@ TEST_F(WalkTest, FromMidStanceToMidStanceThePlatesBearTheWeight) {
 
 TEST_F(WalkTest, AFootBesideThePlatesTellsNoMass) {
   const RecordedForces forces = ForcesOf({Plate(1, kLeftX, 0.1, 0.12, 0.52, 1.5)});
-  EXPECT_FALSE(EstimateMass(FindContacts(Walk(), forces), forces));
+  EXPECT_FALSE(EstimateMass(FindContacts(Walk(), forces), forces, Walk()));
 }
 
 }  // namespace

@@ -198,6 +198,36 @@ TEST_F(PlateLoadsTest, AMomentThatNeverChangesTellsNoCentreOfPressure) {
   EXPECT_THAT(warnings.texts()[0], HasSubstr("its moment My never changes"));
 }
 
+TEST_F(PlateLoadsTest, WhatAnUnloadedPlateShowsIsTakenAway) {
+  ForcePlate plate = TurnedPlate(PlateType::kForcesAndMoments);
+  plate.origin.setZero();
+  Eigen::MatrixXd stepped = Eigen::MatrixXd::Zero(6, 1000);
+  stepped.row(2) = Step(0);
+  for (const int row : {0, 2}) {
+    Eigen::MatrixXd channels = stepped;
+    channels.row(row).array() += 40;
+    SubtractUnloaded(kRate, plate, &channels, &warnings);
+    EXPECT_LT((channels - stepped).cwiseAbs().maxCoeff(), 1e-9) << row;
+  }
+  EXPECT_THAT(warnings.texts(), SizeIs(2));
+  SubtractUnloaded(kRate, plate, &stepped, &warnings);
+  EXPECT_THAT(warnings.texts(), SizeIs(2));
+}
+
+TEST_F(PlateLoadsTest, AFlatTopWithNoiseIsSaturated) {
+  Eigen::VectorXd vertical = Step(0);
+  vertical.segment(300, 10) = Eigen::VectorXd::LinSpaced(10, -50, -650);
+  PlateForces forces = Judge(vertical);
+  forces.channels = Eigen::MatrixXd::Zero(6, 1000);
+  forces.channels.row(2) = vertical;
+  for (int k = 310; k < 700; ++k) forces.channels(2, k) += k % 2 == 0 ? 0.3 : -0.3;
+  FindClipped(kRate, 0, &forces, &warnings);
+  ASSERT_THAT(forces.clipped, SizeIs(1));
+  EXPECT_EQ(forces.clipped[0].begin, 310);
+  EXPECT_EQ(forces.clipped[0].end, 700);
+  EXPECT_THAT(warnings.texts().back(), HasSubstr("Fz is saturated"));
+}
+
 TEST_F(PlateLoadsTest, MomentsInAnotherUnitAreFound) {
   ForcePlate plate = TurnedPlate(PlateType::kForcesAndMoments);
   plate.R_WP = Eigen::Vector3d(1, -1, -1).asDiagonal();

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "common/contacts/plate_bearers.h"
+#include "common/math/statistics.h"
+
+namespace mmm_converter {
+
+// Distances of the centre of pressure from what a foot has on the ground, means of stances [m]:
+// right plates of recorded walks have 5 to 75 mm, with feet half beside them 98; corners in another
+// order 100 to 220, other faults more.
+inline constexpr double kUnderFoot = 0.06;
+inline constexpr double kBesideFoot = 0.09;
+inline constexpr double kFarFromFoot = 0.15;
+inline constexpr double kStillPressure = 1e-3;  ///< [m] what moves less in a stance is not measured
+
+/// Times in which a plate bears somebody: frames of the motion, and the sample of each.
+struct Stance {
+  std::vector<int> frames;
+  std::vector<Eigen::Index> samples;
+};
+
+/// How well a reading fits the feet.
+struct Fit {
+  std::vector<double> distances;  ///< mean of each stance [m]
+  double travel = HUGE_VAL;       ///< of the pressure, the least of the stances [m]
+  double vertical = 0;            ///< mean force [N]
+  double along = 1;               ///< cosine between forces and ways to the body
+
+  double mean() const { return Mean(distances); }
+  bool IsUp() const { return vertical > 0; }
+  bool IsGood() const {
+    return !distances.empty() && IsUp() && along > 0 && travel >= kStillPressure &&
+           Max(distances) <= kUnderFoot;
+  }
+};
+
+/// What a person's feet say of plates.
+class StanceFeet {
+ public:
+  /// known: as FitPlatesToFeet. All must outlive it.
+  StanceFeet(const FootMotion& motion, const KnownLegs& known, const RecordedForces& forces);
+
+  /// The person's stances on a plate. is_table: all loads are the person's.
+  std::vector<Stance> StancesOn(const PlateForces& plate, bool is_table) const;
+
+  /// Adds a stance with these forces and centres of pressure, a column for each of its frames.
+  /// bearer: the foot that stands; kUnknown: the nearer one.
+  void Measure(const Stance& stance, const Eigen::Matrix3Xd& force, const Eigen::Matrix3Xd& cop,
+               Bearer bearer, Fit* fit) const;
+
+ private:
+  double Distance(int frame, const Eigen::Vector3d& p, Bearer bearer) const;
+  double HeightOf(std::size_t frame) const;
+  bool IsOfPerson(const ForcePlate& plate, int begin, int end) const;
+
+  const FootMotion& motion_;
+  const RecordedForces& forces_;
+  SlowFeet slow_;
+  std::vector<bool> shows_;  // by frame
+};
+
+}  // namespace mmm_converter

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Recordings of a made walker whose forces, lengths and events are known, with what files are known
+// to hold wrong: the right number, or told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/cli/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/strict_tables.h"
+
+namespace mmm_converter {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ReadStrictMot;
+using testing::ReadText;
+using testing::RunProgram;
+using testing::StrictTable;
+using testing::TestFolder;
+
+class RealGround : public ::testing::Test {
+ protected:
+  void SetUp() override { MMM_CONVERTER_NEEDS_SHARED_DATA(); }
+
+  static std::string Out(const char* name) { return TestFolder() + "/" + name; }
+  static std::string Recording(const std::string& name) {
+    return testing::SharedData("reports/" + name);
+  }
+
+  struct Converted {
+    std::string said;
+    nlohmann::json verdict;
+  };
+
+  static Converted Convert(const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"convert",    Recording(name), "-o",
+                                          Out("o.xml"), "--summary",     Out("o.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto run = RunProgram(arguments);
+    EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
+    return {run.out + run.err, nlohmann::json::parse(ReadText(Out("o.json")))["verdict"]};
+  }
+
+  /// In the middle of the left foot's stance, at 1.7 s, within 1 % of the weight and 10 mm.
+  static void ExpectForces(const std::string& name) {
+    constexpr double kForce = 0.01 * 686.7, kCentre = 0.01;
+    const StrictTable grf = ReadStrictMot(ReadText(Out("grf.mot")));
+    const auto row = static_cast<std::size_t>(std::lround((1.7 - grf.At(0, "time")) * 1000));
+    const auto at = [&](const char* column) { return grf.At(row, column); };
+    EXPECT_NEAR(at("ground_force_1_vx"), -15.129, kForce) << name;
+    EXPECT_NEAR(at("ground_force_1_vy"), 686.7, kForce) << name;
+    EXPECT_NEAR(at("ground_force_1_vz"), 27.468, kForce) << name;
+    EXPECT_NEAR(at("ground_force_1_px"), 1.857, kCentre) << name;
+    EXPECT_NEAR(at("ground_force_1_pz"), -0.091, kCentre) << name;
+  }
+};
+
+TEST_F(RealGround, PlatesThatFilesDescribeWrongAreReadRightAndTold) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"f_kilonewton.c3d", ""},
+      {"f_corners_180.c3d", "corners in the order 3, 4, 1, 2"},
+      {"f_type4_volts_nm.c3d", "moments in N m"},
+      {"f_baseline.c3d", "N while nobody is on it"}};
+  for (const auto& [name, told] : cases) {
+    const Converted run = Convert(name, {"--export-grf", Out("grf.mot")});
+    ExpectForces(name);
+    if (*told == '\0') {
+      EXPECT_THAT(run.said, Not(HasSubstr("force plate"))) << name;
+    } else {
+      EXPECT_THAT(run.said, HasSubstr(told)) << name;
+    }
+    EXPECT_EQ(run.verdict["level"], "good") << name << run.verdict;
+  }
+}
+
+TEST_F(RealGround, PointsOfATableInMillimetres) {
+  const Converted run = Convert(
+      "f_none.c3d", {"--forces", Recording("g_points_in_mm.mot"), "--export-grf", Out("grf.mot")});
+  EXPECT_THAT(run.said, HasSubstr("points in mm"));
+  ExpectForces("g_points_in_mm.mot");
+}
+
+TEST_F(RealGround, ASaturatedPlateIsAReasonOfTheVerdict) {
+  const Converted run = Convert("f_saturated_fz.c3d", {});
+  EXPECT_THAT(run.said, HasSubstr("Fz is saturated"));
+  EXPECT_THAT(run.said, HasSubstr("from 1.4"));
+  EXPECT_EQ(run.verdict["level"], "check");
+  ASSERT_EQ(run.verdict["reasons"].size(), 1) << run.verdict;
+}
+
+TEST_F(RealGround, LoadsOfNoFootAreTold) {
+  const Converted run = Convert(
+      "f_treadmill_cross.c3d", {"--export-grf", Out("grf.mot"), "--export-gait", Out("gait.json")});
+  EXPECT_FALSE(nlohmann::json::parse(ReadText(Out("gait.json")))["work"].empty());
+  EXPECT_EQ(run.verdict["level"], "good") << run.verdict;
+  EXPECT_THAT(run.said, HasSubstr("is applied to no foot"));
+  EXPECT_THAT(run.said, HasSubstr("plate 2 from 1.94"));
+  EXPECT_THAT(run.said, HasSubstr("plate 1 from 3.59"));
+}
+
+TEST_F(RealGround, StridesOfSeveralTrialsAreOneTableAndForceChannelsWithoutPlatesAreTold) {
+  const char* const names[] = {"f_channels_without_group", "w_treadmill_2800ms"};
+  std::vector<std::string> arguments = {"convert", "--export-gait", Out("gait.csv")};
+  for (const char* name : names) {
+    const std::string copy = TestFolder() + "/" + name + ".c3d";
+    std::filesystem::copy_file(Recording(name + std::string(".c3d")), copy);
+    arguments.push_back(copy);
+  }
+  const auto run = RunProgram(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("has force channels"));
+  const std::string table = ReadText(Out("gait.csv"));
+  EXPECT_THAT(table, HasSubstr("\nf_channels_without_group,knee,left,flexion,degrees,50,"));
+  EXPECT_THAT(table, HasSubstr("\nw_treadmill_2800ms,knee,right,flexion,degrees,100,"));
+}
+
+TEST_F(RealGround, EventsOfTheFileCountWhereTheUserSaysSo) {
+  const auto refused = RunProgram({"convert", Recording("f_base_type2.c3d"), "-o", Out("o.xml"),
+                                   "--events", "file", "--export-contacts", Out("c.json")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("has no events of feet"));
+  // Its eleven events are of two strides of a longer walk.
+  const std::string walk = testing::SharedData("field/btk_FunctionalWalk.c3d");
+  const auto run = RunProgram({"convert", walk, "-o", Out("o.xml"), "--events", "file",
+                               "--export-contacts", Out("c.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out + run.err, HasSubstr("are by the file's events"));
+  const auto events = nlohmann::json::parse(ReadText(Out("c.json")))["events"];
+  ASSERT_EQ(events.size(), 11);
+  EXPECT_NEAR(events[0]["time_s"].get<double>(), 4.525, 1e-3);
+}
+
+void ExpectNear(const nlohmann::json& figure, double value, double share) {
+  ASSERT_TRUE(figure["mean"].is_number());
+  EXPECT_NEAR(figure["mean"].get<double>(), value, share * value);
+}
+
+/// The made walker, whose plates and strides are known.
+TEST_F(RealGround, StridesAndSteps) {
+  struct Walk {
+    const char* file;
+    double time, length, step;
+    const char* kind;
+    bool turns;
+  };
+  const Walk walks[] = {{"f_base_type2.c3d", 1.1, 1.2, 0.6, "walking", false},
+                        {"w_turn180.c3d", 1.1, 1.2, 0.6, "walking", true},
+                        {"w_running.c3d", 0.7, 2.3, 1.15, "running", false},
+                        {"w_slow_stride_2800ms.c3d", 2.8, 0.5, 0.25, "walking", false}};
+  for (const Walk& walk : walks) {
+    SCOPED_TRACE(walk.file);
+    const bool has_plates = &walk == &walks[0];
+    std::vector<std::string> more = {"--height", "1.75", "--export-gait", Out("gait.json")};
+    if (has_plates) more.insert(more.end(), {"--export-grf", Out("grf.mot")});
+    const Converted run = Convert(walk.file, more);
+    const auto gait = nlohmann::json::parse(ReadText(Out("gait.json")));
+    for (const char* side : {"left", "right"}) {
+      const auto& summary = gait["summary"][side];
+      ExpectNear(summary["stride_time_s"], walk.time, 0.02);
+      ExpectNear(summary["cadence_steps_per_min"], 120 / walk.time, 0.02);
+      ExpectNear(summary["stride_length_m"], walk.length, 0.02);
+      ExpectNear(summary["speed_m_per_s"], walk.length / walk.time, 0.02);
+      ExpectNear(summary["step_length_m"], walk.step, 0.05);
+    }
+    EXPECT_EQ(gait["kind"], walk.kind);
+    EXPECT_EQ(gait["strides_over_turns"].get<int>() > 0, walk.turns);
+    EXPECT_EQ(run.said.find("over a turn") != std::string::npos, walk.turns);
+    if (!has_plates) continue;
+    ExpectForces(walk.file);
+    EXPECT_THAT(run.said, Not(HasSubstr("force plate")));
+    EXPECT_EQ(run.verdict["level"], "good") << run.verdict;
+    EXPECT_THAT(gait["forces"].dump(), HasSubstr("W/kg"));
+  }
+}
+
+}  // namespace
+}  // namespace mmm_converter
