@@ -258,6 +258,11 @@ const std::vector<Exporter>& Exporters() {
        "deviation of each foot's strides, as CSV; .json has cadence, speed, lengths and times of "
        "all strides, and work, too",
        WriteGait},
+      {"c3d", "export-c3d", "c3d", "the recording with angles, moments, powers and events, as C3D",
+       "the C3D recording with joint angles, with force plates moments and powers, and events of "
+       "the "
+       "feet, as points that Nexus and Mokka show",
+       WriteResults, false, false, CheckAnatomy},
       {"grf", "export-grf", "mot", "ground reaction forces for OpenSim",
        "what force plates measured as OpenSim's .mot, with axes and time of the TRC, and the "
        "ExternalLoads as .xml beside it",

@@ -17,6 +17,7 @@
 #include "common/contacts/stored_events.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces_table.h"
+#include "common/pipeline/c3d_results.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/ground_study.h"
 #include "common/support/advice.h"
@@ -35,6 +36,7 @@ namespace fs = std::filesystem;
 constexpr const char* kContacts = "contacts";
 constexpr const char* kGrf = "grf";
 constexpr const char* kGait = "gait";
+constexpr const char* kResults = "c3d";
 constexpr const char* kJointForces = "inverse-dynamics";
 constexpr double kMostApart = 0.03;  // of the mass
 constexpr double kDeviations = 2;
@@ -43,7 +45,7 @@ bool HasDeviations(const std::string& file) { return fs::path(file).extension() 
 
 bool NeedForces(const ExportFiles& files) {
   return files.count(kGrf) > 0 || files.count(kContacts) > 0 || files.count(kJointForces) > 0 ||
-         files.count(kGait) > 0;
+         files.count(kGait) > 0 || files.count(kResults) > 0;
 }
 
 /// Empty: nothing stands beside what is no file.
@@ -122,6 +124,14 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatContactsJson(contacts, *ground->forces, ground->mass)
                                     : FormatContactsCsv(contacts));
+}
+
+void WriteResults(const std::string& file, const ConversionReport& report) {
+  const auto ground = StudyGround(report);
+  const std::vector<C3dResult> results =
+      ground->results.empty() ? C3dResultsOf(report, *ground) : ground->results;
+  WriteC3dWithResults(report.plan.input.recording.file, results,
+                      AllEvents(SeenContacts(report, *ground), report), file);
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {
@@ -204,7 +214,11 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
       report->warnings.Add(std::move(told));
     }
   }
-  if (files.count(kGait) > 0 || files.count(kContacts) > 0) {
+  if (files.count(kResults) > 0) {
+    ground->results = C3dResultsOf(*report, *ground);
+    CheckC3dResults(report->plan.input.recording.file, ground->results);
+  }
+  if (files.count(kGait) > 0 || files.count(kContacts) > 0 || files.count(kResults) > 0) {
     for (const std::string& note : ground->event_notes) report->warnings.Add(note);
   }
   CompareMass(*ground, report);
@@ -220,12 +234,13 @@ void ReadPlates(const ExportFiles& files, ConversionPlan* plan) {
         "calcn_r, toes_l and toes_r as OpenSim's persons have; {} lacks them",
         recording.file, plan->input.model_file));
   }
-  const auto contacts = files.find(kContacts);
-  if (contacts != files.end() && IsC3d(contacts->second) && recording.format != "C3D") {
-    throw Error(
-        fmt::format("{}: events go to a copy of the recording, and {} is no C3D file; "
-                    "give a .json or .csv",
-                    contacts->second, recording.file));
+  for (const char* name : {kContacts, kResults}) {
+    const auto copy = files.find(name);
+    if (copy == files.end() || (name == kContacts && !IsC3d(copy->second))) continue;
+    if (recording.format == "C3D") continue;
+    throw Error(fmt::format("{}: is a copy of the recording with events, and {} is no C3D file; {}",
+                            copy->second, recording.file,
+                            name == kContacts ? "give a .json or .csv" : "take another export"));
   }
   if (files.count(kJointForces) > 0 && !(plan->setup.model->total_mass() > 0)) {
     throw Error(plan->input.model_file + ": has no masses, hence no dynamics");

@@ -16,6 +16,9 @@ class OutputPlan;
 /// When which foot is on the ground: JSON where the file is called so, else CSV.
 void WriteContacts(const std::string& file, const ConversionReport& report);
 
+/// The recording's C3D file with angles, moments and powers as points, and with events.
+void WriteResults(const std::string& file, const ConversionReport& report);
+
 /// Strides, and what angles, forces, moments and powers are over them: JSON where the file is
 /// called so, else the latter as CSV.
 void WriteGait(const std::string& file, const ConversionReport& report);

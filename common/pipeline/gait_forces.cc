@@ -156,17 +156,29 @@ std::vector<JointWork> WorkOf(const AnatomicalAngles& rows, const std::vector<St
   return works;
 }
 
+/// Nothing: there are no plates, or the model has no mass.
+std::optional<JointForces> FindJointForces(const ConversionReport& report,
+                                           const GroundStudy& ground) {
+  if (ground.forces->plates.empty() || !(report.plan.setup.model->total_mass() > 0)) return {};
+  return ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
+}
+
 }  // namespace
 
+std::optional<AnatomicalAngles> LegMomentsOf(const ConversionReport& report,
+                                             const GroundStudy& ground) {
+  const std::optional<JointForces> found = FindJointForces(report, ground);
+  if (!found) return {};
+  return LegMoments(report, *found);
+}
+
 void AddForces(const ConversionReport& report, const GroundStudy& ground, Gait* gait) {
-  if (ground.forces->plates.empty() || gait->strides.empty() ||
-      !(report.plan.setup.model->total_mass() > 0)) {
-    return;
-  }
-  const JointForces found =
-      ground.joint_forces ? *ground.joint_forces : JointForcesOf(report, ground, false);
-  const AnatomicalAngles legs = LegMoments(report, found);
-  for (const AnatomicalAngles& rows : {VerticalForces(report, ground), legs, ResidualRows(found)}) {
+  if (gait->strides.empty()) return;
+  const std::optional<JointForces> found = FindJointForces(report, ground);
+  if (!found) return;
+  const AnatomicalAngles legs = LegMoments(report, *found);
+  for (const AnatomicalAngles& rows :
+       {VerticalForces(report, ground), legs, ResidualRows(*found)}) {
     const std::vector<GaitCycle> more = CyclesOf(rows, gait->strides);
     gait->forces.insert(gait->forces.end(), more.begin(), more.end());
   }

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
+#include "common/angles/anatomical_angles.h"
 #include "common/pipeline/ground_study.h"
 
 namespace mmm_converter {
+
+/// Moments and powers of the legs' muscles by mass, as GaitOf has them, a row for each and a column
+/// for each frame of TrackedMotion. Nothing: there are no plates, or the model has no mass.
+std::optional<AnatomicalAngles> LegMomentsOf(const ConversionReport& report,
+                                             const GroundStudy& ground);
 
 /// Fills forces and work of the gait's strides (GaitOf), where there are plates and the model has a
 /// mass.

@@ -49,32 +49,6 @@ KinematicModel WithMass(const KinematicModel& model, double mass) {
   return KinematicModel(std::move(description));
 }
 
-/// Where a leg shows what the verdict asks of it; without limbs, where the body is seen. By frame
-/// of TrackedMotion.
-KnownLegs FindKnownLegs(const ConversionReport& report) {
-  const MarkerSequence& markers = report.plan.input.recording.markers;
-  const Eigen::MatrixXd& residuals = report.result.residuals;
-  const std::vector<Limb> limbs = LimbsOf(report.plan.setup);
-  KnownLegs known;
-  for (const Side side : kSides) {
-    const std::string name = fmt::format("{} leg", Name(side));
-    const auto limb =
-        std::find_if(limbs.begin(), limbs.end(), [&](const Limb& one) { return one.name == name; });
-    std::vector<bool>& leg = known[static_cast<std::size_t>(side)];
-    for (int k = FramesBeforeFirstSeen(residuals); k < markers.num_frames(); ++k) {
-      bool is_known = residuals.col(k).array().isFinite().any();
-      if (is_known && limb != limbs.end()) {
-        const auto seen = std::count_if(limb->labels.begin(), limb->labels.end(), [&](int label) {
-          return IsSeen(markers.frame(k).col(label));
-        });
-        is_known = limb->IsKnownBy(static_cast<int>(seen));
-      }
-      leg.push_back(is_known);
-    }
-  }
-  return known;
-}
-
 /// Whether it is told by plates, or by a leg that is seen for most of it.
 bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs& known) {
   const std::vector<bool>& leg = known[static_cast<std::size_t>(contact.side)];
@@ -118,6 +92,30 @@ void CheckIsOfRecording(const RecordedForces& forces, const Input& input) {
 }
 
 }  // namespace
+
+KnownLegs FindKnownLegs(const ConversionReport& report) {
+  const MarkerSequence& markers = report.plan.input.recording.markers;
+  const Eigen::MatrixXd& residuals = report.result.residuals;
+  const std::vector<Limb> limbs = LimbsOf(report.plan.setup);
+  KnownLegs known;
+  for (const Side side : kSides) {
+    const std::string name = fmt::format("{} leg", Name(side));
+    const auto limb =
+        std::find_if(limbs.begin(), limbs.end(), [&](const Limb& one) { return one.name == name; });
+    std::vector<bool>& leg = known[static_cast<std::size_t>(side)];
+    for (int k = FramesBeforeFirstSeen(residuals); k < markers.num_frames(); ++k) {
+      bool is_known = residuals.col(k).array().isFinite().any();
+      if (is_known && limb != limbs.end()) {
+        const auto seen = std::count_if(limb->labels.begin(), limb->labels.end(), [&](int label) {
+          return IsSeen(markers.frame(k).col(label));
+        });
+        is_known = limb->IsKnownBy(static_cast<int>(seen));
+      }
+      leg.push_back(is_known);
+    }
+  }
+  return known;
+}
 
 PoseTrajectory TrackedMotion(const ConversionResult& result) {
   PoseTrajectory motion = result.trajectory;

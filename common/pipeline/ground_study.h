@@ -9,6 +9,7 @@
 #include "common/angles/gait.h"
 #include "common/contacts/contacts.h"
 #include "common/contacts/person_mass.h"
+#include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces.h"
 
 namespace mmm_converter {
@@ -29,6 +30,7 @@ struct GroundStudy {
   std::optional<MassByPlates> mass;
   std::optional<JointForces> joint_forces;  ///< where they are exported
   std::optional<Gait> gait;                 ///< where it is exported
+  std::vector<C3dResult> results;           ///< where they are exported
 };
 
 /// Forces of the recording's file, or of the one that is beside it.
@@ -55,6 +57,10 @@ PoseTrajectory TrackedMotion(const ConversionResult& result);
 /// @throws Error where the model has no feet (HasFeet).
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report,
                                                Warnings* warnings = nullptr);
+
+/// Where a leg shows what the verdict asks of it; without limbs, where the body is seen. By frame
+/// of TrackedMotion.
+KnownLegs FindKnownLegs(const ConversionReport& report);
 
 /// What plates bore that is given to no foot: when, and which share of all that they bore it is. In
 /// a sentence; empty: all is given.

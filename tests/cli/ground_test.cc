@@ -4,13 +4,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/io/c3d/c3d_events.h"
+#include "common/io/c3d/c3d_reader.h"
+#include "common/support/units.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/strict_tables.h"
@@ -179,6 +184,41 @@ TEST_F(RealGround, StridesAndSteps) {
     EXPECT_EQ(run.verdict["level"], "good") << run.verdict;
     EXPECT_THAT(gait["forces"].dump(), HasSubstr("W/kg"));
   }
+}
+
+// Results of a recording go back into a copy of it as points, and say what the tables say.
+TEST_F(RealGround, ResultsGoBackIntoTheRecording) {
+  Convert("f_baseline.c3d",
+          {"--export-c3d", Out("walk.c3d"), "--export-angles", Out("angles.csv")});
+  C3dReader reader(Out("walk.c3d"));
+  const auto value = [&](const char* label, int frame) -> Eigen::Vector3d {
+    const auto& labels = reader.info().labels;
+    const auto found = std::find(labels.begin(), labels.end(), label);
+    EXPECT_NE(found, labels.end()) << label;
+    const C3dPoint point =
+        reader.ReadFrame(frame)[static_cast<std::size_t>(found - labels.begin())];
+    return point.valid ? point.position : Eigen::Vector3d::Constant(kNaN).eval();
+  };
+  constexpr int kFrame = 150;
+  int compared = 0;
+  const auto expect = [&](const std::string& row, const std::string& begin, const char* label,
+                          int j) {
+    if (!row.starts_with(begin)) return;
+    EXPECT_NEAR(value(label, kFrame)[j], std::stod(row.substr(begin.size())), 1e-4) << row;
+    ++compared;
+  };
+  std::istringstream rows(ReadText(Out("angles.csv")));
+  for (std::string row; std::getline(rows, row);) {
+    expect(row, "1.5,knee,left,flexion,", "LKneeAngles", 0);
+    expect(row, "1.5,hip,right,adduction,", "RHipAngles", 1);
+    expect(row, "1.5,pelvis,right,obliquity,", "RPelvisAngles", 1);
+    expect(row, "1.5,ankle,left,dorsiflexion,", "LAnkleAngles", 0);
+  }
+  EXPECT_EQ(compared, 4);
+  // In the middle of the left foot's stance its leg bears the person.
+  EXPECT_TRUE(value("LAnkleMoment", 170).allFinite());
+  EXPECT_TRUE(value("LKneePower", 170).allFinite());
+  EXPECT_GE(ReadC3dEvents(C3dFile(Out("walk.c3d")), nullptr).size(), 4);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
@@ -15,6 +17,7 @@
 #include "common/support/error.h"
 #include "common/support/text.h"
 #include "common/support/text_pieces.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -22,8 +25,24 @@ namespace {
 using FileBytes = std::vector<unsigned char>;
 using Points = std::vector<C3dRelabelledPoint>;
 using Events = std::vector<C3dEvent>;
+using Results = std::vector<C3dResult>;
 
 constexpr std::size_t kLongestLabel = 127;  // so that 255 labels fit behind a 16 bit offset
+
+constexpr int kLargestInteger = 32767;
+
+/// How POINT states results of a kind.
+struct ResultTerms {
+  const char* list;
+  const char* units;  // the parameter that states the unit
+  const char* unit;   // where it is not there
+};
+
+ResultTerms TermsOf(C3dResultKind kind) {
+  if (kind == C3dResultKind::kAngle) return {"ANGLES", "ANGLE_UNITS", "deg"};
+  if (kind == C3dResultKind::kMoment) return {"MOMENTS", "MOMENT_UNITS", "Nmm/kg"};
+  return {"POWERS", "POWER_UNITS", "W/kg"};
+}
 
 constexpr std::uint64_t Blocks(std::uint64_t bytes) { return (bytes + kBlock - 1) / kBlock; }
 
@@ -70,7 +89,7 @@ bool HasNamesInDescriptions(const C3dParameters& parameters) {
 
 /// The stored labels or descriptions of the new points; where nothing is stored and a label is
 /// asked for, as C3dPointNames has it.
-std::vector<std::string> NewTexts(const C3dFile& file, const Points& points,
+std::vector<std::string> NewTexts(const C3dFile& file, const Points& points, const Results& results,
                                   const std::vector<std::string>& names, const char* list,
                                   bool are_names) {
   std::vector<std::string> stored = C3dSectionEdit::StoredTexts(file.parameters(), list);
@@ -83,6 +102,10 @@ std::vector<std::string> NewTexts(const C3dFile& file, const Points& points,
     std::string text = like < stored.size() ? stored[like] : "";
     if (are_names && (is_renamed || Trim(text).empty())) text = point.label;
     texts.push_back(std::move(text));
+  }
+  if (are_names && !results.empty()) {
+    for (const C3dResult& result : results) texts.push_back(result.label);
+    return texts;
   }
   if (is_in_place) return stored;
   // Of lists that are longer than the points; of those that are shorter, nothing is added.
@@ -142,8 +165,36 @@ void LayOutRest(const C3dFile& file, std::size_t num_points, Frame* frame) {
   frame->rest_bytes = file.data_bytes() - padded;
 }
 
-FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, const Events* events,
-                            Frame* frame) {
+/// What the file's unit of results is for theirs, by what it states.
+double UnitOf(const C3dParameters& parameters, C3dResultKind kind) {
+  const std::string unit = ToLower(parameters.Text("POINT", TermsOf(kind).units));
+  if (kind == C3dResultKind::kAngle) return unit.starts_with("rad") ? 1 / kDegrees : 1;
+  const bool is_of_thousandths =
+      kind == C3dResultKind::kMoment ? unit.find("mm") != unit.npos : unit.starts_with("mw");
+  return is_of_thousandths || (unit.empty() && kind == C3dResultKind::kMoment) ? kMillimetres : 1;
+}
+
+/// As the file lists and states results.
+void ListResults(const C3dParameters& parameters, const Results& results, C3dSectionEdit* section) {
+  for (const C3dResultKind kind :
+       {C3dResultKind::kAngle, C3dResultKind::kMoment, C3dResultKind::kPower}) {
+    const ResultTerms terms = TermsOf(kind);
+    std::vector<std::string> texts = C3dSectionEdit::StoredTexts(parameters, terms.list);
+    while (!texts.empty() && Trim(texts.back()).empty()) texts.pop_back();
+    const std::size_t before = texts.size();
+    for (const C3dResult& result : results) {
+      if (result.kind == kind) texts.push_back(result.label);
+    }
+    if (texts.size() == before) continue;
+    section->SetPointTexts(terms.list, texts);
+    if (parameters.Text("POINT", terms.units).empty()) {
+      section->SetPointTexts(terms.units, {terms.unit});
+    }
+  }
+}
+
+FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, const Results& results,
+                            const Events* events, Frame* frame) {
   const C3dLayout& layout = file->layout();
   const C3dParameters& parameters = file->parameters();
   const std::uint64_t section_start = file->section_start();
@@ -153,14 +204,16 @@ FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, const Events* e
   const int stated_blocks = old_section[2];
   C3dSectionEdit section(std::move(old_section), parameters, file->path());
   const std::vector<std::string> names = C3dPointNames(*file, nullptr);
-  section.SetPointTexts("LABELS", NewTexts(*file, points, names, "LABELS", true));
+  section.SetPointTexts("LABELS", NewTexts(*file, points, results, names, "LABELS", true));
   if (parameters.Find("POINT", "DESCRIPTIONS") != nullptr) {
-    section.SetPointTexts("DESCRIPTIONS", NewTexts(*file, points, names, "DESCRIPTIONS",
+    section.SetPointTexts("DESCRIPTIONS", NewTexts(*file, points, results, names, "DESCRIPTIONS",
                                                    HasNamesInDescriptions(parameters)));
   }
+  ListResults(parameters, results, &section);
   if (events != nullptr) section.SetEvents(*events);
-  if (points.size() != static_cast<std::size_t>(layout.points)) {
-    const int count = static_cast<int>(points.size());
+  const std::size_t all_points = points.size() + results.size();
+  if (all_points != static_cast<std::size_t>(layout.points)) {
+    const int count = static_cast<int>(all_points);
     StoreC3dWord(count, layout.processor, header + 2 * (2 - 1));
     const C3dParameter* const used = parameters.Find("POINT", "USED");
     if (used != nullptr) section.SetNumber(*used, count);
@@ -189,8 +242,11 @@ FileBytes BytesBeforeFrames(C3dFile* file, const Points& points, const Events* e
 /// Makes frames of the output from those of the input, which must come in their order.
 class FrameMaker {
  public:
-  FrameMaker(const C3dLayout& layout, const Points& points)
-      : layout_(layout), points_(points), next_(points.size(), 0) {
+  FrameMaker(const C3dFile& file, const Points& points, const Results& results)
+      : layout_(file.layout()), points_(points), results_(results), next_(points.size(), 0) {
+    for (const C3dResult& result : results) {
+      units_.push_back(UnitOf(file.parameters(), result.kind));
+    }
     if (layout.floats) {
       StoreC3dFloat(-1, layout.processor, &unseen_[12]);
     } else {
@@ -210,13 +266,36 @@ class FrameMaker {
                    : unseen_;
       out->append(reinterpret_cast<const char*>(from), point_bytes);
     }
+    for (std::size_t i = 0; i < results_.size(); ++i) AppendResult(i, frame, out);
     const std::uint64_t of_points = point_bytes * static_cast<std::uint64_t>(layout_.points);
     out->append(reinterpret_cast<const char*>(stored + of_points), layout_.frame_bytes - of_points);
   }
 
  private:
+  void AppendResult(std::size_t i, int frame, std::string* out) const {
+    const C3dResult& result = results_[i];
+    const Eigen::Index column = frame - result.first_frame;
+    unsigned char point[16];
+    std::copy(std::begin(unseen_), std::end(unseen_), point);
+    if (column >= 0 && column < result.values.cols() && result.values.col(column).allFinite()) {
+      const Eigen::Vector3d value = units_[i] * result.values.col(column);
+      for (int j = 0; j < 3; ++j) {
+        if (layout_.floats) {
+          StoreC3dFloat(static_cast<float>(value[j]), layout_.processor, &point[4 * j]);
+        } else {
+          StoreC3dWord(static_cast<int>(std::lround(value[j] / layout_.scale)), layout_.processor,
+                       &point[2 * j]);
+        }
+      }
+      std::fill_n(&point[layout_.floats ? 12 : 6], layout_.floats ? 4 : 2, 0);
+    }
+    out->append(reinterpret_cast<const char*>(point), layout_.floats ? 16 : 8);
+  }
+
   const C3dLayout& layout_;
   const Points& points_;
+  const Results& results_;
+  std::vector<double> units_;      // of each result
   std::vector<std::size_t> next_;  // stretch of each point
   unsigned char unseen_[16] = {};
 };
@@ -231,9 +310,9 @@ void CopyRest(C3dFile* file, const Frame& frame, PieceWriter* pieces) {
   }
 }
 
-void WriteFrames(C3dFile* file, const Points& points, PieceWriter* pieces) {
+void WriteFrames(C3dFile* file, const Points& points, const Results& results, PieceWriter* pieces) {
   const C3dLayout& layout = file->layout();
-  FrameMaker maker(layout, points);
+  FrameMaker maker(*file, points, results);
   file->ReadAllFrames([&](int first, int count, const unsigned char* stored) {
     for (int i = 0; i < count; ++i) {
       maker.Append(first + i, stored + layout.frame_bytes * static_cast<std::uint64_t>(i),
@@ -244,45 +323,88 @@ void WriteFrames(C3dFile* file, const Points& points, PieceWriter* pieces) {
 }
 
 /// events: null: as they are.
-void WriteChanged(C3dFile* file, const Points& points, const Events* events,
+void WriteChanged(C3dFile* file, const Points& points, const Results& results, const Events* events,
                   const std::string& output) {
   CheckLayout(*file);
   const C3dLayout& layout = file->layout();
   Frame frame;
-  const std::int64_t more = static_cast<std::int64_t>(points.size()) - layout.points;
+  const std::size_t all_points = points.size() + results.size();
+  const std::int64_t more = static_cast<std::int64_t>(all_points) - layout.points;
   frame.bytes = layout.frame_bytes + static_cast<std::uint64_t>(more * (layout.floats ? 16 : 8));
-  LayOutRest(*file, points.size(), &frame);
-  frame.before = BytesBeforeFrames(file, points, events, &frame);
+  LayOutRest(*file, all_points, &frame);
+  frame.before = BytesBeforeFrames(file, points, results, events, &frame);
   WriteFileAtomically(output, [&](const TextSink& sink) {
     PieceWriter pieces(sink);
     pieces.text()->append(file->leading_zeros(), '\0');
     pieces.text()->append(frame.before.begin(), frame.before.end());
-    WriteFrames(file, points, &pieces);
+    WriteFrames(file, points, results, &pieces);
     pieces.text()->append(frame.padding, '\0');
     CopyRest(file, frame, &pieces);
     pieces.Flush();
   });
 }
 
-}  // namespace
-
-void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelledPoint>& points,
-                        const std::string& output) {
-  CheckPoints(input, points);
-  C3dFile file(input);
-  WriteChanged(&file, points, nullptr, output);
-}
-
-void WriteC3dWithEvents(const std::string& input, const std::vector<C3dEvent>& events,
-                        const std::string& output) {
-  C3dFile file(input);
+Points AllPoints(const C3dFile& file) {
   const std::vector<std::string> names = C3dPointNames(file, nullptr);
   Points points;
   for (int i = 0; i < file.layout().points; ++i) {
     points.push_back(
         {names[static_cast<std::size_t>(i)], i, {{0, static_cast<int>(file.layout().frames), i}}});
   }
-  WriteChanged(&file, points, &events, output);
+  return points;
+}
+
+void CheckResults(const C3dFile& file, const Results& results) {
+  const C3dLayout& layout = file.layout();
+  CheckLayout(file);
+  if (layout.points + results.size() > kFullWord) {
+    throw Error(fmt::format("{}: {} points and {} results; at most {} fit", file.path(),
+                            layout.points, results.size(), kFullWord));
+  }
+  if (layout.floats) return;
+  for (const C3dResult& result : results) {
+    const double unit = UnitOf(file.parameters(), result.kind),
+                 most = kLargestInteger * layout.scale;
+    for (const double value : result.values.reshaped()) {
+      if (!(std::abs(unit * value) > most)) continue;
+      throw Error(
+          fmt::format("{}: {} reaches {:.0f}, and the file's 16 bit integers of scale {:g} hold at "
+                      "most {:.0f}; "
+                      "take a recording that stores floats",
+                      file.path(), result.label, unit * value, layout.scale, most));
+    }
+  }
+}
+
+}  // namespace
+
+void WriteRelabelledC3d(const std::string& input, const Points& points, const std::string& output) {
+  CheckPoints(input, points);
+  C3dFile file(input);
+  WriteChanged(&file, points, {}, nullptr, output);
+}
+
+void WriteC3dWithEvents(const std::string& input, const Events& events, const std::string& output) {
+  C3dFile file(input);
+  WriteChanged(&file, AllPoints(file), {}, &events, output);
+}
+
+void WriteC3dWithResults(const std::string& input, const Results& results, const Events& events,
+                         const std::string& output) {
+  C3dFile file(input);
+  CheckResults(file, results);
+  const std::vector<std::string> taken = C3dPointNames(file, nullptr);
+  Results free = results;
+  for (C3dResult& result : free) {
+    while (std::find(taken.begin(), taken.end(), result.label) != taken.end()) {
+      result.label += "_MMM";
+    }
+  }
+  WriteChanged(&file, AllPoints(file), free, &events, output);
+}
+
+void CheckC3dResults(const std::string& input, const Results& results) {
+  CheckResults(C3dFile(input), results);
 }
 
 }  // namespace mmm_converter

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -38,5 +39,25 @@ void WriteRelabelledC3d(const std::string& input, const std::vector<C3dRelabelle
 /// those of the header stay. @throws Error as WriteRelabelledC3d, and for more than 255 events.
 void WriteC3dWithEvents(const std::string& input, const std::vector<C3dEvent>& events,
                         const std::string& output);
+
+/// What points that are computed from markers hold; POINT lists them as ANGLES, MOMENTS, POWERS.
+enum class C3dResultKind { kAngle, kMoment, kPower };
+
+/// Three values for each frame, stored as a point is, as gait laboratories have joint angles.
+struct C3dResult {
+  std::string label;
+  C3dResultKind kind = C3dResultKind::kAngle;
+  int first_frame = 0;      ///< of the file, counted from 0; it may lie before the file's
+  Eigen::Matrix3Xd values;  ///< a column a frame [deg, N m/kg or W/kg]; NaN: not known
+};
+
+/// As WriteC3dWithEvents, with results behind the points and in POINT's list of their kind. Units
+/// are those that the file states (ANGLE_UNITS and so on), else deg, Nmm/kg and W/kg. A label that
+/// the file has is written with "_MMM" behind it.
+/// @throws Error as WriteC3dWithEvents, and where the file's 16 bit integers can't hold a value.
+void WriteC3dWithResults(const std::string& input, const std::vector<C3dResult>& results,
+                         const std::vector<C3dEvent>& events, const std::string& output);
+/// @throws Error as WriteC3dWithResults, but of what only writing shows.
+void CheckC3dResults(const std::string& input, const std::vector<C3dResult>& results);
 
 }  // namespace mmm_converter

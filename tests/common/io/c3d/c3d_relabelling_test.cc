@@ -11,6 +11,7 @@
 #include "common/io/c3d/c3d_reader.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 #include "tests/support/c3d_bytes.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/strict_c3d.h"
@@ -196,6 +197,65 @@ TEST(C3dRelabellingRealFiles, OtherNumbersOfPointsForEveryProcessor) {
       for (int i = 0; i < 5; ++i) points.push_back({"*" + std::to_string(i + 1), 2, {}});
     }
   }
+}
+
+// Results stand behind the points, in the file's own unit and list; where they are not known they
+// are marked invalid.
+TEST(C3dRelabellingRealFiles, ResultsAreWrittenAndTheRestKept) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  for (const std::string name :
+       {"intel_float", "intel_int", "dec_float", "dec_int", "mips_float", "mips_int"}) {
+    SCOPED_TRACE(name);
+    const std::string file = testing::SharedData("recordings/synthetic/kit53_" + name + ".c3d");
+    const StrictC3d before = ReadStrictC3d(ReadFileContent(file));
+    Eigen::Matrix3Xd values(3, 3);
+    values << 10, kNaN, -7, 20, 2, -8, 30, 3, -9;
+    const std::string taken = before.labels.front();
+    WriteC3dWithResults(file,
+                        {{taken, C3dResultKind::kAngle, -1, values},
+                         {"LHipMoment", C3dResultKind::kMoment, 4, values / 100},
+                         {"LHipPower", C3dResultKind::kPower, 4, values}},
+                        {{0.5, "Foot Strike", "Left", "", false}}, Output());
+    const StrictC3d after = ReadStrictC3d(ReadFileContent(Output()));
+    EXPECT_EQ(after.analog, before.analog);
+    EXPECT_EQ(after.points, before.points + 3);
+    for (int k = 0; k < before.frames; ++k) {
+      const std::vector<std::string> words(after.words[k].begin(), after.words[k].end() - 3);
+      ASSERT_EQ(words, before.words[k]);
+    }
+    C3dReader reader(Output());
+    const std::size_t first = before.labels.size();
+    const auto value = [&](int frame, std::size_t i) {
+      return reader.ReadFrame(frame)[first + i].position;
+    };
+    const double step = reader.info().layout.scale;
+    EXPECT_FALSE(reader.ReadFrame(0)[first].valid);
+    EXPECT_LT((value(1, 0) - Eigen::Vector3d(-7, -8, -9)).norm(), step);
+    EXPECT_FALSE(reader.ReadFrame(2)[first].valid);
+    EXPECT_LT((value(4, 1) - Eigen::Vector3d(100, 200, 300)).norm(), step);
+    EXPECT_LT((value(6, 2) - Eigen::Vector3d(-7, -8, -9)).norm(), step);
+    const C3dFile written(Output());
+    const C3dParameters& parameters = written.parameters();
+    EXPECT_EQ(after.labels[first], taken + "_MMM");
+    EXPECT_EQ(parameters.Text("POINT", "ANGLES"), taken + "_MMM");
+    EXPECT_EQ(parameters.Text("POINT", "ANGLE_UNITS"), "deg");
+    EXPECT_EQ(parameters.Text("POINT", "MOMENT_UNITS"), "Nmm/kg");
+    EXPECT_EQ(parameters.Text("POINT", "POWERS"), "LHipPower");
+    EXPECT_EQ(ReadC3dEvents(C3dFile(Output()), nullptr).size(), 1);
+  }
+}
+
+TEST(C3dRelabellingRealFiles, ResultsThatIntegersCannotHoldAreRefused) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const std::string file = testing::SharedData("recordings/synthetic/kit53_intel_int.c3d");
+  const double most = 32767 * C3dFile(file).layout().scale / 1000;
+  const auto moment = [](double value) -> std::vector<C3dResult> {
+    return {{"LHipMoment", C3dResultKind::kMoment, 0, Eigen::Matrix3Xd::Constant(3, 1, value)}};
+  };
+  CheckC3dResults(file, moment(0.99 * most));
+  EXPECT_THROW(CheckC3dResults(file, moment(1.01 * most)), Error);
+  EXPECT_THROW(WriteC3dWithResults(file, moment(-1.01 * most), {}, Output()), Error);
+  EXPECT_FALSE(fs::exists(Output()));
 }
 
 /// Two points, an analog channel with two samples a frame, three frames.
