@@ -24,7 +24,10 @@ constexpr double kMuchNearer = 0.4;
 constexpr double kDistinct = 0.01;  // [m] between the best reading and the next one
 constexpr double kLongStand = 0.3;  // [s] of a foot on a plate
 constexpr double kOnPlate = 0.08;   // [m] between a plate and the toes on it
-constexpr double kAway = -0.4;      // cosine between the forces and the ways to the body
+// Cosine between the forces and the ways to the body: right plates have 0.4 to 0.95, and 0.5 at
+// most with exchanged horizontal forces.
+constexpr double kElsewhere = 0.35;
+constexpr double kTowards = 0.7;
 
 constexpr std::array<std::array<int, 4>, 8> kOrders = {{{0, 1, 2, 3},
                                                         {2, 3, 0, 1},
@@ -56,9 +59,16 @@ const std::vector<Exchange>& Exchanges() {
   static const std::vector<Exchange> all = {
       Diagonal("Mx and My of the other sign", Six{1, 1, 1, -1, -1, 1}),
       Diagonal("Mx of the other sign", Six{1, 1, 1, -1, 1, 1}),
-      Diagonal("My of the other sign", Six{1, 1, 1, 1, -1, 1}), Swap("Mx and My exchanged", 3, 4)};
+      Diagonal("My of the other sign", Six{1, 1, 1, 1, -1, 1}),
+      Swap("Mx and My exchanged", 3, 4),
+      Swap("Fx and Fy exchanged", 0, 1),
+      Diagonal("Fx of the other sign", Six{-1, 1, 1, 1, 1, 1}),
+      Diagonal("Fy of the other sign", Six{1, -1, 1, 1, 1, 1}),
+      Diagonal("Fx and Fy of the other sign", Six{-1, -1, 1, 1, 1, 1})};
   return all;
 }
+
+const Exchange& ExchangedHorizontally() { return Exchanges()[4]; }
 
 /// What a plate's file can mean. Default: what it says.
 struct Reading {
@@ -244,9 +254,24 @@ class Plates {
     }
     if (fit.travel < kStillPressure)
       return "its centre of pressure stands still for a whole stance";
-    if (fit.along < kAway) return "its forces lean away from the person";
+    if (fit.LeansAway()) return "its forces lean away from the person";
+    if (LeansElsewhere(plate, fit)) return "its forces do not lean to the person";
     if (AreMomentsTooSmall(plate)) return "its centre of pressure hardly leaves the middle of it";
     return "";
+  }
+
+  /// Whether horizontal forces point to the person when they are exchanged.
+  bool LeansElsewhere(std::size_t plate, const Fit& own) const {
+    const PlateType type = forces_.plates[plate].plate.type;
+    if (own.Towards() > kElsewhere || type == PlateType::kEightForces) return false;
+    Reading exchanged;
+    exchanged.exchange = &ExchangedHorizontally();
+    return FitOf(plate, exchanged).Towards() > kTowards;
+  }
+
+  bool IsMeasured(std::size_t plate, const Fit& fit) const {
+    return fit.IsUp() && fit.travel >= kStillPressure && !fit.LeansAway() &&
+           !LeansElsewhere(plate, fit);
   }
 
   /// Whether a larger unit of moments brings the pressure much nearer to the feet: where a foot
@@ -283,7 +308,7 @@ class Plates {
         const Fit fit = FitOf(i, reading);
         const std::size_t from = reading.SourceOf(i);
         if (stances_[from].empty()) continue;
-        if (!fit.IsGood()) return HUGE_VAL;
+        if (!fit.IsGood() || fit.Towards() < kElsewhere) return HUGE_VAL;
         sum += fit.mean();
         ++count;
       }
@@ -294,7 +319,7 @@ class Plates {
     for (const std::size_t i : plates) {
       const Fit fit = FitOf(i, {});
       own += fit.mean() / static_cast<double>(plates.size());
-      is_beside |= fit.IsUp() && fit.travel >= kStillPressure && fit.along >= kAway;
+      is_beside |= IsMeasured(i, fit);
     }
     const double most = is_beside ? kNearer * own : kUnderFoot;
     std::size_t stances = 0;
@@ -350,8 +375,7 @@ class Plates {
   void Refuse(std::size_t i, std::vector<std::string>* doubts, Warnings* warnings) {
     PlateForces& plate = forces_.plates[i];
     const Fit fit = FitOf(i, {});
-    const bool is_measured = fit.IsUp() && fit.travel >= kStillPressure && fit.along >= kAway;
-    if (is_measured && Median(fit.distances) <= kFarFromFoot) {  // a foot half beside it
+    if (IsMeasured(i, fit) && Median(fit.distances) <= kFarFromFoot) {  // a foot half beside it
       Warn(warnings, fmt::format("force plate {}: {}; it is kept as the file has it",
                                  plate.plate.number, WhyNot(i, fit)));
       return;
@@ -410,9 +434,10 @@ void WarnOfDeadPlates(const FootMotion& motion, const RecordedForces& forces, Wa
 std::vector<std::string> FitPlatesToFeet(const FootMotion& motion, const KnownLegs& known,
                                          RecordedForces* forces, Warnings* warnings) {
   if (forces->plates.empty() || motion.num_frames() < 3) return {};
-  if (forces->plates.front().channels.size() == 0) {
-    return FitTableToFeet(motion, known, forces, warnings);
-  }
+  const bool is_table = forces->plates.front().channels.size() == 0;
+  const std::string late = StanceFeet(motion, known, *forces).Lateness(is_table);
+  if (!late.empty()) return {late};
+  if (is_table) return FitTableToFeet(motion, known, forces, warnings);
   std::vector<std::string> doubts = Plates(motion, known, forces).Correct(warnings);
   if (doubts.empty()) WarnOfDeadPlates(motion, *forces, warnings);
   return doubts;

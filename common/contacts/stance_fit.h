@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "common/contacts/plate_bearers.h"
@@ -30,11 +31,20 @@ struct Fit {
   double travel = HUGE_VAL;       ///< of the pressure, the least of the stances [m]
   double vertical = 0;            ///< mean force [N]
   double along = 1;               ///< cosine between forces and ways to the body
+  /// Of slants of forces with those of the ways to the body, and of each with itself, along x and y
+  /// of W: sums over all frames.
+  Eigen::Array2d with = {0, 0}, slants = {0, 0}, ways = {0, 0};
+  double frames = 0;
+
+  /// As `along`, of all stances; 1: forces are too upright to tell.
+  double Towards() const;
+  /// Whether forces lean away from the body, along x or y of W alone, too.
+  bool LeansAway() const;
 
   double mean() const { return Mean(distances); }
   bool IsUp() const { return vertical > 0; }
   bool IsGood() const {
-    return !distances.empty() && IsUp() && along > 0 && travel >= kStillPressure &&
+    return !distances.empty() && IsUp() && along > 0 && !LeansAway() && travel >= kStillPressure &&
            Max(distances) <= kUnderFoot;
   }
 };
@@ -53,8 +63,13 @@ class StanceFeet {
   void Measure(const Stance& stance, const Eigen::Matrix3Xd& force, const Eigen::Matrix3Xd& cop,
                Bearer bearer, Fit* fit) const;
 
+  /// How much later than the feet all forces are, where the pressure then is much nearer to these;
+  /// in a sentence; empty: they come together. is_table: as StancesOn has it.
+  std::string Lateness(bool is_table) const;
+
  private:
   double Distance(int frame, const Eigen::Vector3d& p, Bearer bearer) const;
+  double DistanceWith(int shift, const std::vector<std::vector<Stance>>& stances) const;
   double HeightOf(std::size_t frame) const;
   bool IsOfPerson(const ForcePlate& plate, int begin, int end) const;
 

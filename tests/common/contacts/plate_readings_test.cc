@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -182,6 +183,44 @@ TEST_F(PlateReadingsTest, MomentsOfOtherSignsOrderAndUnits) {
     ASSERT_FALSE(warnings_.texts().empty()) << told;
     EXPECT_THAT(warnings_.texts()[0], HasSubstr(told));
     ExpectTrue();
+  }
+}
+
+TEST_F(PlateReadingsTest, HorizontalForcesExchangedOrOfAnotherSign) {
+  const auto exchange = [](Eigen::MatrixXd* channels) { channels->row(0).swap(channels->row(1)); };
+  const auto turn = [](int row) {
+    return [row](Eigen::MatrixXd* channels) { channels->row(row) *= -1; };
+  };
+  const std::pair<const char*, std::function<void(Eigen::MatrixXd*)>> faults[] = {
+      {"Fx and Fy exchanged", exchange},
+      {"Fx of the other sign", turn(0)},
+      {"Fy of the other sign", turn(1)}};
+  for (const auto& [told, spoil] : faults) {
+    warnings_ = {};
+    for (int i = 0; i < 2; ++i) {
+      Eigen::MatrixXd channels = MakeChannels(i);
+      spoil(&channels);
+      forces_.plates[i] = ReadPlate(TruePlate(i), channels);
+    }
+    EXPECT_THAT(Fit(), IsEmpty()) << told;
+    ASSERT_FALSE(warnings_.texts().empty()) << told;
+    EXPECT_THAT(warnings_.texts()[0], HasSubstr(told));
+    ExpectTrue();
+  }
+}
+
+TEST_F(PlateReadingsTest, ForcesThatComeLateAreTold) {
+  for (const int late : {150, -150}) {
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::MatrixXd on_time = MakeChannels(i);
+      Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(6, kSamples);
+      channels.middleCols(std::max(late, 0), kSamples - 150) =
+          on_time.middleCols(std::max(-late, 0), kSamples - 150);
+      forces_.plates[i] = ReadPlate(TruePlate(i), channels);
+    }
+    const std::vector<std::string> doubts = Fit();
+    ASSERT_THAT(doubts, SizeIs(1));
+    EXPECT_THAT(doubts[0], HasSubstr(late > 0 ? "come 150 ms later than" : "come 150 ms earlier"));
   }
 }
 
