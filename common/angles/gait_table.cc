@@ -163,6 +163,7 @@ std::string TrialJson(const GaitTrial& trial) {
 
 const char* ForceUnitOf(std::string_view motion) {
   if (motion.ends_with("force")) return "body weights";
+  if (motion == "EMG") return "mV";
   return motion == "power" ? "W/kg" : "N m/kg";
 }
 

@@ -208,6 +208,7 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
       request.self_calibrate && !plan.object && plan.input.recording.body.empty();
   ReadPlates(request.exports, &plan);
   if (plan.forces) plan.events = EventsOfFile(plan.input, request.input.events);
+  plan.emg = EmgOf(plan.input, request.input.emg, &plan.warnings);
   plan.patient = request.input.patient;
   if (const std::string& file = plan.patient.normal_file; !file.empty()) {
     plan.normal = std::make_shared<const NormalBands>(

@@ -22,6 +22,7 @@
 
 namespace mmm_converter {
 
+struct Emg;
 struct GroundStudy;
 struct NormalBands;
 struct RecordedForces;
@@ -78,6 +79,7 @@ struct ConversionPlan {
   bool takes_covariances = false;                ///< where the converter has them
   std::shared_ptr<const RecordedForces> forces;  ///< of plates, where the model has feet
   std::shared_ptr<const StoredEvents> events;    ///< of feet; null: the file has none
+  std::shared_ptr<const Emg> emg;                ///< null: none is asked for
   std::set<std::string> opened;                  ///< files; see OpenedFiles
   PatientRequest patient;
   std::shared_ptr<const NormalBands> normal;  ///< null: no file was named

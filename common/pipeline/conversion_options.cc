@@ -104,6 +104,10 @@ std::vector<Option> ReadingOptions(ConversionRequest* request) {
           "or as it is found, which then replaces the file's events in copies of it",
           "the file's of a foot where it has all that are found", task::kConvert,
           &request->input.events),
+      Row({"emg", "emg", "emg"}, {OptionKind::kText, "LABELS"},
+          "analog channels of muscles, separated by commas, or \"all\" that are called EMG: "
+          "high-passed (20 Hz), rectified, low-passed (6 Hz), over the strides beside the angles",
+          "", task::kConvert, &request->input.emg),
       Row({"up", "up", "up"}, {OptionKind::kAxis, "AXIS"},
           "the file's axis that points up: x, y, z, -x, -y or -z", "", kReadings | task::kInfo,
           set_up, {.remedy = Remedy::kUpAxis}),

@@ -185,4 +185,16 @@ void AddForces(const ConversionReport& report, const GroundStudy& ground, Gait* 
   gait->work = WorkOf(legs, gait->strides);
 }
 
+void AddEmg(const Emg& emg, Gait* gait) {
+  AnatomicalAngles rows;
+  rows.rate = emg.rate;
+  rows.first_time = emg.first_time;
+  rows.values = emg.envelopes;
+  for (const EmgChannel& one : emg.channels) {
+    rows.angles.push_back({one.muscle.c_str(), one.side.c_str(), "EMG"});
+  }
+  const std::vector<GaitCycle> cycles = CyclesOf(rows, gait->strides);
+  gait->forces.insert(gait->forces.end(), cycles.begin(), cycles.end());
+}
+
 }  // namespace mmm_converter

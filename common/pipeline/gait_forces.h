@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/angles/anatomical_angles.h"
+#include "common/forces/emg.h"
 #include "common/pipeline/ground_study.h"
 
 namespace mmm_converter {
@@ -16,5 +17,9 @@ std::optional<AnatomicalAngles> LegMomentsOf(const ConversionReport& report,
 /// Fills forces and work of the gait's strides (GaitOf), where there are plates and the model has a
 /// mass.
 void AddForces(const ConversionReport& report, const GroundStudy& ground, Gait* gait);
+
+/// The same of muscles, whose "EMG" [mV] is over the strides of their side, or of both feet. emg
+/// must outlive the gait.
+void AddEmg(const Emg& emg, Gait* gait);
 
 }  // namespace mmm_converter

@@ -15,6 +15,7 @@
 #include "common/contacts/person_mass.h"
 #include "common/contacts/plate_readings.h"
 #include "common/contacts/stored_events.h"
+#include "common/forces/emg.h"
 #include "common/forces/recording_forces.h"
 #include "common/judge/coverage.h"
 #include "common/kinetics/foot_wrenches.h"
@@ -179,6 +180,17 @@ void CheckHasPlates(const RecordedForces& forces, const Input& input) {
               OptionText("forces"));
 }
 
+std::shared_ptr<const Emg> EmgOf(const Input& input, const std::string& labels,
+                                 Warnings* warnings) {
+  if (labels.empty()) return nullptr;
+  const Recording& recording = input.recording;
+  if (recording.format != "C3D") {
+    throw Error(fmt::format("{}: has no analog channels, as it is no C3D file; leave out {}",
+                            recording.file, OptionText("emg")));
+  }
+  return std::make_shared<const Emg>(ReadEmg(recording.file, labels, warnings));
+}
+
 std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, Warnings* warnings) {
   if (report.ground) return report.ground;
   GroundStudy ground;
@@ -289,6 +301,7 @@ Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
       ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
   Gait gait = AnalyzeGait(ground.feet, ground.steps, angles, FindKnownLegs(report));
   AddForces(report, ground, &gait);
+  if (report.plan.emg) AddEmg(*report.plan.emg, &gait);
   return gait;
 }
 

@@ -16,6 +16,7 @@ namespace mmm_converter {
 
 struct ConversionReport;
 struct ConversionResult;
+struct Emg;
 struct Input;
 struct StoredEvents;
 
@@ -40,6 +41,9 @@ RecordedForces GroundForces(const Input& input, Warnings* warnings);
 /// empty: the default). Null: it does not say.
 /// @throws Error where it has to say and does not.
 std::shared_ptr<const StoredEvents> EventsOfFile(const Input& input, const std::string& choice);
+
+/// Channels of the recording's file (ReadEmg); null: none is asked for. @throws Error
+std::shared_ptr<const Emg> EmgOf(const Input& input, const std::string& labels, Warnings* warnings);
 
 /// @throws Error where the recording has no plates.
 void CheckHasPlates(const RecordedForces& forces, const Input& input);

@@ -38,6 +38,8 @@ class Ground(Presented):
     moments, powers, forces : pandas.DataFrame
         The same of joint moments [N m/kg] and powers [W/kg], and of the ground's vertical force in body
         weights; empty without force plates.
+    emg : pandas.DataFrame
+        The same of muscles [mV], of the channels that `emg` names.
     work : pandas.DataFrame
         What hips, knees and ankles give and take in a stride [J/kg].
     mass : dict or None
@@ -59,6 +61,7 @@ class Ground(Presented):
     moments = property(lambda self: self._curves("forces", lambda one: one["unit"] == "N m/kg"))
     powers = property(lambda self: self._curves("forces", lambda one: one["unit"] == "W/kg"))
     forces = property(lambda self: self._curves("forces", lambda one: one["joint"] == "ground"))
+    emg = property(lambda self: self._curves("forces", lambda one: one["unit"] == "mV"))
     cycles = property(lambda self: self._curves("cycles", lambda one: True))
 
     @property

@@ -296,7 +296,9 @@ class GaitPart {
       (normal ? normal.bands : []).filter((one) => `${one.joint} ${one.what}` === title))]));
     this.charts = Array.from(charts.values());
     const placed = new Set();
-    for (const [kind, grid] of [["angles", kGrid], ["forces", kForceGrid]]) {
+    const muscles = Array.from(charts.keys()).filter((title) => title.endsWith(" EMG"));
+    const muscleGrid = Array.from({length: Math.ceil(muscles.length / 3)}, (_, i) => muscles.slice(3 * i, 3 * i + 3));
+    for (const [kind, grid] of [["angles", kGrid], ["forces", kForceGrid], ["emg", muscleGrid]]) {
       const hosts = [];
       let row = 0;
       for (const titles of grid.filter((names) => names.some((title) => charts.has(title)))) {

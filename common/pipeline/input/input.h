@@ -44,6 +44,7 @@ struct InputRequest {
   /// What was read of the file before, or made of arrays, and is then no file. Null: is read.
   WithWarnings<std::shared_ptr<const Recording>> recording = {};
   std::string events = {};  ///< of feet: "file" or "found"; empty: the file's where it has all
+  std::string emg = {};     ///< labels of analog channels, or "all"; empty: none
 };
 
 struct NamedRecording;
