@@ -58,6 +58,7 @@ Json CyclesCase() {
   Json cycles = Json::array();
   for (const char* side : {"left", "right"}) {
     cycles.push_back(CycleCase("ground", side, "vertical force", "body weights"));
+    cycles.push_back(CycleCase("TA", side, "EMG", "mV"));
     cycles.push_back(CycleCase("knee", side, "flexion", "°"));
     cycles.push_back(CycleCase("hip", side, "internal rotation", "°", 17));
     cycles.push_back(CycleCase("foot", side, "progression", "°"));

@@ -29,6 +29,7 @@ class GroundPage(PageCase):
                          ["1.3", "", "1", "60.0", "", "1", "+191.8", "steps/min"])
         self.assertEqual(self.texts("#gait-table tbody th")[-1], "Double support")
         self.assertEqual(self.texts("#gait-forces-charts b"), ["vertical force"])
+        self.assertEqual(self.texts("#gait-emg-charts b"), ["TA EMG"])
         self.assertEqual(self.texts("#gait-angles-charts b"), ["hip internal rotation", "knee flexion", "foot progression"])
         self.assertEqual(self.texts("#gait-more-charts b"), ["elbow flexion"])
         self.assertIn("nothing in the recording tells them: wrist flexion", self.text("#gait-untold"))

@@ -62,6 +62,35 @@ function makeMarkerTable(markers) {
       determinedCell(one.observability))));
 }
 
+// Lengths of limbs: title, from where to where, by the model's names without their side.
+const kLengths = [["thigh", "Hx_joint", "Kx_joint"], ["shank", "Kx_joint", "Ax_joint"], ["leg, hip to ankle", "Hx_joint", "Ax_joint"],
+  ["upper arm", "Sx_joint", "Ex_joint"], ["forearm", "Ex_joint", "Wx_joint"]];
+
+// Along the bones from a segment to one that it carries [mm]; NaN: the model has no such.
+function boneLength({segments}, from, to) {
+  let length = 0;
+  let i = segments.findIndex(({name}) => name === to);
+  while (i > 0 && segments[i].name !== from) {
+    length += Math.hypot(...segments[i].position);
+    i = segments[i].parent;
+  }
+  return i > 0 ? 1000 * length : NaN;
+}
+
+// Null: the model has none of them.
+function makeLengthTable(model) {
+  const rows = kLengths.map(([title, from, to]) => [title, ...["L", "R"].map((side) => boneLength(model, side + from, side + to))]);
+  const hips = ["LHx_joint", "RHx_joint"].map((name) => model.segments.find((one) => one.name === name));
+  if (hips.every(Boolean) && hips[0].parent === hips[1].parent) {
+    const [left, right] = hips.map(({position}) => position);
+    rows.push(["between the hips", 1000 * Math.hypot(...left.map((value, i) => value - right[i])), NaN]);
+  }
+  const known = rows.filter((row) => row.slice(1).some(Number.isFinite));
+  return known.length === 0 ? null : makePersonTable("Lengths of limbs", ["Length", "left, mm", "right, mm"],
+    known.map(([title, ...values]) => element("tr", {}, element("th", {scope: "row"}, title),
+      ...values.map((value) => element("td", {}, Number.isFinite(value) ? formatNumber(value, 0) : "")))));
+}
+
 class PersonPart {
   show(trial) {
     const subject = trial.subject;
@@ -73,6 +102,7 @@ class PersonPart {
       (subject.height_m === null ? "" : `${formatNumber(subject.height_m, 3)} m, `) +
       `${formatNumber(subject.mass_kg, 1)} kg` +
       (sources.length ? `, calibrated on ${sources.join(", ")}.` : ".");
+    replaceContent(byId("person-lengths"), makeLengthTable(trial.model));
     replaceContent(byId("person-segments"), makeSegmentTable(subject.segments));
     replaceContent(byId("person-markers"), makeMarkerTable(subject.markers));
   }
