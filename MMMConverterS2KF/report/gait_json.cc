@@ -97,11 +97,10 @@ Json FigureJson(const std::vector<double>& values) {
 Json BandsJson(const NormalBands& normal) {
   Json bands = Json::array();
   for (const NormalBand& one : normal.bands) {
-    const double sign = one.side ? OwnSideSign(one.joint, one.motion, *one.side) : 1;
     bands.push_back({{"joint", one.joint},
                      {"what", one.motion},
                      {"side", one.side ? Json(Name(*one.side)) : Json(nullptr)},
-                     {"mean", SamplesJson(one.mean, sign, 2)},
+                     {"mean", SamplesJson(one.mean, 1, 2)},
                      {"sd", SamplesJson(one.deviation, 1, 2)}});
   }
   return {{"source", normal.source}, {"bands", bands}};

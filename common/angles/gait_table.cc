@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/angles/normal_bands.h"
 #include "common/io/xml/xml_text.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
@@ -112,6 +113,11 @@ std::string ListJson(const std::array<double, GaitCycle::kSamples>& values, doub
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
+/// Angles of the middle of the body are as the side of the strides sees them.
+double OwnSign(const GaitCycle& cycle) {
+  return OwnSideSign(cycle.angle.joint, cycle.angle.motion, cycle.side);
+}
+
 std::string ForceJson(const GaitCycle& one) {
   return fmt::format(
       R"({{"joint": "{}", "side": "{}", "what": "{}", "unit": "{}", "strides": {}, "mean": {}, "sd": {}}})",
@@ -125,13 +131,15 @@ std::string WorkJson(const JointWork& one) {
       one.joint, one.side, Json(one.generated), Json(one.absorbed), one.strides);
 }
 
+/// sign: of the mean.
 void AppendRows(const std::string& trial, const GaitCycle& cycle, const char* unit, double scale,
-                std::string* text) {
+                double sign, std::string* text) {
   for (int i = 0; i < GaitCycle::kSamples; ++i) {
-    *text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", trial, cycle.angle.joint,
-                         Name(cycle.side), cycle.angle.motion, unit, i,
-                         Number(scale * cycle.mean[i], ""), Number(scale * cycle.deviation[i], ""),
-                         Number(scale * cycle.uncertainty[i], ""), cycle.strides);
+    *text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", trial, cycle.angle.joint, Name(cycle.side),
+                    cycle.angle.motion, unit, i, Number(sign * scale * cycle.mean[i], ""),
+                    Number(scale * cycle.deviation[i], ""),
+                    Number(scale * cycle.uncertainty[i], ""), cycle.strides);
   }
 }
 
@@ -143,7 +151,7 @@ std::string TrialJson(const GaitTrial& trial) {
     cycles.push_back(fmt::format(
         R"({{"joint": "{}", "side": "{}", "angle": "{}", "strides": {}, "mean_degrees": {}, "sd_degrees": {}, "uncertainty_degrees": {}}})",
         one.angle.joint, Name(one.side), one.angle.motion, one.strides,
-        ListJson(one.mean, kDegrees), ListJson(one.deviation, kDegrees),
+        ListJson(one.mean, OwnSign(one) * kDegrees), ListJson(one.deviation, kDegrees),
         ListJson(one.uncertainty, kDegrees)));
   }
   for (const GaitCycle& one : gait.forces) forces.push_back(ForceJson(one));
@@ -172,9 +180,9 @@ std::string FormatGaitCsv(const std::vector<GaitTrial>& trials) {
   for (const GaitTrial& trial : trials) {
     const std::string name = NameOf(trial);
     for (const GaitCycle& one : trial.gait->cycles)
-      AppendRows(name, one, "degrees", kDegrees, &text);
+      AppendRows(name, one, "degrees", kDegrees, OwnSign(one), &text);
     for (const GaitCycle& one : trial.gait->forces) {
-      AppendRows(name, one, ForceUnitOf(one.angle.motion), 1, &text);
+      AppendRows(name, one, ForceUnitOf(one.angle.motion), 1, 1, &text);
     }
   }
   return text;

@@ -21,7 +21,7 @@ const char* ForceUnitOf(std::string_view motion);
 /// Angles, forces, moments and powers over the gait cycle, a row for each of these, side and
 /// percent: trial, joint, side (whose strides), angle (or "extension moment", "power"), unit,
 /// percent, mean, sd (among the strides), uncertainty (of the angle itself), strides. Empty: not
-/// known.
+/// known. Turns of pelvis, trunk and neck to a side have the sign of the side (OwnSideSign).
 std::string FormatGaitCsv(const std::vector<GaitTrial>& trials);
 
 /// All strides, their means and deviations of each side, and angles in degrees, forces, moments and

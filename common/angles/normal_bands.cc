@@ -211,12 +211,9 @@ double OwnSideSign(std::string_view joint, std::string_view motion, Side side) {
 
 double VariableScore(const GaitCycle& stride, const NormalBand& normal) {
   const double stride_sign = OwnSideSign(stride.angle.joint, stride.angle.motion, stride.side);
-  // A band of one side is as it was exported; one of both has the side's own sign already.
-  const double normal_sign =
-      normal.side ? OwnSideSign(normal.joint, normal.motion, *normal.side) : 1;
   double squares = 0;
   for (int i = 0; i < GaitCycle::kSamples; ++i) {
-    const double apart = kDegrees * stride_sign * stride.mean[i] - normal_sign * normal.mean[i];
+    const double apart = kDegrees * stride_sign * stride.mean[i] - normal.mean[i];
     squares += apart * apart;
   }
   return std::sqrt(squares / GaitCycle::kSamples);

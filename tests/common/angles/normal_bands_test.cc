@@ -108,7 +108,7 @@ TEST(GaitProfile, ABandOfASideIsAsItWasExported) {
   normal.joint = "pelvis";
   normal.motion = "rotation";
   normal.side = Side::kLeft;
-  normal.mean.fill(4);
+  normal.mean.fill(-4);  // of the own side, which turns back
   GaitCycle stride;
   stride.angle = {"pelvis", "", "rotation"};
   stride.side = Side::kLeft;
