@@ -247,10 +247,10 @@ class FrameMaker {
     for (const C3dResult& result : results) {
       units_.push_back(UnitOf(file.parameters(), result.kind));
     }
-    if (layout.floats) {
-      StoreC3dFloat(-1, layout.processor, &unseen_[12]);
+    if (layout_.floats) {
+      StoreC3dFloat(-1, layout_.processor, &unseen_[12]);
     } else {
-      StoreC3dWord(-1, layout.processor, &unseen_[6]);
+      StoreC3dWord(-1, layout_.processor, &unseen_[6]);
     }
   }
 
