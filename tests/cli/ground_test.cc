@@ -23,6 +23,7 @@
 namespace mmm_converter {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -193,6 +194,26 @@ TEST_F(RealGround, StridesAndSteps) {
     EXPECT_THAT(run.reasons, IsEmpty());
     EXPECT_THAT(gait["forces"].dump(), HasSubstr("W/kg"));
   }
+}
+
+TEST_F(RealGround, MusclesStandBesideTheAnglesOverTheStrides) {
+  const std::string walk = testing::SharedData("field/btk_FunctionalWalk.c3d");
+  const auto run = RunProgram({"convert", walk, "-o", Out("o.xml"), "--emg", "emg3,EMG4",
+                               "--export-gait", Out("gait.json")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  int muscles = 0;
+  for (const auto& one : nlohmann::json::parse(ReadText(Out("gait.json")))["forces"]) {
+    if (one["what"] != "EMG") continue;
+    EXPECT_EQ(one["unit"], "mV");
+    EXPECT_THAT(one["joint"], AnyOf("EMG3", "EMG4"));
+    EXPECT_GT(one["mean"][50], 0);
+    ++muscles;
+  }
+  EXPECT_EQ(muscles, 4);  // each over the strides of either foot
+  const auto refused = RunProgram({"convert", walk, "-o", Out("p.xml"), "--emg", "EMG99"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("has no analog channel EMG99; its analog channels are "));
+  EXPECT_FALSE(std::filesystem::exists(Out("p.xml")));
 }
 
 // Results of a recording go back into a copy of it as points, and say what the tables say.
