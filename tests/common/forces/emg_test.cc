@@ -31,29 +31,29 @@ TEST(Emg, SidesOfLabels) {
   EXPECT_EQ(of({"L", "R ", "L_"}), ":L :R  :L_ ");
 }
 
-constexpr int kSamplesPerFrame = 10;
-constexpr int kFrames = 300;
-constexpr double kFrameRate = 100;
-constexpr double kStep = 1e-3;  // [s] of a sample
+constexpr int kEmgSamples = 10;
+constexpr int kEmgFrames = 300;
+constexpr double kEmgRate = 100;
+constexpr double kEmgStep = 1e-3;  // [s] of a sample
 
 /// A muscle that is active in [1, 2) s with 0.2 mV at 100 Hz on a drift of 5 mV, in volts.
-double VoltageAt(double t) {
+double EmgVoltage(double t) {
   const double drift = 5e-3 * std::sin(2 * std::numbers::pi * 0.3 * t);
   return drift + (t >= 1 && t < 2 ? 2e-4 * std::sin(2 * std::numbers::pi * 100 * t) : 0);
 }
 
-std::string Recording(const std::string& unit) {
+std::string EmgRecording(const std::string& unit) {
   C3dSection section;
   section.Group(1, "POINT").Word(1, "USED", {1}).Word(1, "DATA_START", {3});
-  section.Texts(1, "LABELS", 4, "A   ").Float(1, "RATE", kFrameRate);
-  section.Group(2, "ANALOG").Word(2, "USED", {1}).Float(2, "RATE", kFrameRate * kSamplesPerFrame);
+  section.Texts(1, "LABELS", 4, "A   ").Float(1, "RATE", kEmgRate);
+  section.Group(2, "ANALOG").Word(2, "USED", {1}).Float(2, "RATE", kEmgRate * kEmgSamples);
   section.Texts(2, "LABELS", 4, "L TA").Texts(2, "UNITS", static_cast<int>(unit.size()), unit);
   section.Texts(2, "DESCRIPTIONS", 3, "emg").Float(2, "GEN_SCALE", 1).Float(2, "SCALE", 1);
-  C3dBytes bytes{.points = 1, .analog_words = kSamplesPerFrame, .analog_samples = kSamplesPerFrame};
-  for (int k = 0; k < kFrames; ++k) {
+  C3dBytes bytes{.points = 1, .analog_words = kEmgSamples, .analog_samples = kEmgSamples};
+  for (int k = 0; k < kEmgFrames; ++k) {
     std::vector<float> frame = {1, 2, 3, 0};
-    for (int i = 0; i < kSamplesPerFrame; ++i) {
-      frame.push_back(static_cast<float>(VoltageAt((k * kSamplesPerFrame + i) * kStep)));
+    for (int i = 0; i < kEmgSamples; ++i) {
+      frame.push_back(static_cast<float>(EmgVoltage((k * kEmgSamples + i) * kEmgStep)));
     }
     bytes.frames.push_back(frame);
   }
@@ -64,10 +64,10 @@ std::string Recording(const std::string& unit) {
 
 TEST(Emg, TheEnvelopeIsTheMeanOfTheRectifiedMuscle) {
   for (const char* labels : {"all", "l ta"}) {
-    const Emg emg = ReadEmg(Recording("V   "), labels, nullptr);
+    const Emg emg = ReadEmg(EmgRecording("V   "), labels, nullptr);
     ASSERT_EQ(emg.envelopes.rows(), 1);
-    ASSERT_EQ(emg.envelopes.cols(), kFrames);
-    EXPECT_NEAR(emg.rate, kFrameRate, 1e-9);
+    ASSERT_EQ(emg.envelopes.cols(), kEmgFrames);
+    EXPECT_NEAR(emg.rate, kEmgRate, 1e-9);
     EXPECT_EQ(emg.channels[0].side, "left");
     const double mean = 0.2 * 2 / std::numbers::pi;  // [mV] of a rectified sine
     EXPECT_NEAR(emg.envelopes(0, 150), mean, 0.01 * mean);
@@ -80,7 +80,7 @@ TEST(Emg, TheEnvelopeIsTheMeanOfTheRectifiedMuscle) {
 TEST(Emg, WhatIsNoMuscleIsRefused) {
   const auto error = [](const std::string& unit, const char* labels) -> std::string {
     try {
-      ReadEmg(Recording(unit), labels, nullptr);
+      ReadEmg(EmgRecording(unit), labels, nullptr);
     } catch (const Error& refused) {
       return refused.what();
     }
@@ -90,7 +90,7 @@ TEST(Emg, WhatIsNoMuscleIsRefused) {
               HasSubstr("has no analog channel L TB; its analog channels are L TA"));
   EXPECT_THAT(error("N   ", "all"), HasSubstr("channel L TA is in N, and EMG is a voltage"));
   Warnings warnings;
-  ReadEmg(Recording("    "), "all", &warnings);
+  ReadEmg(EmgRecording("    "), "all", &warnings);
   ASSERT_EQ(warnings.texts().size(), 1);
   EXPECT_THAT(warnings.texts()[0], HasSubstr("taken as volts"));
 }
