@@ -55,7 +55,8 @@ class RealGround : public ::testing::Test {
     const auto run = RunProgram(arguments);
     EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
     Converted converted = {run.out + run.err, {}};
-    for (const auto& one : nlohmann::json::parse(ReadText(Out("o.json")))["verdict"]["reasons"]) {
+    const auto summary = nlohmann::json::parse(ReadText(Out("o.json")));
+    for (const auto& one : summary["verdict"]["reasons"]) {
       const auto reason = one.get<std::string>();
       // The walker was made without the model: its ankles bend by 38 degrees, the model's by 30.
       const bool is_of_ankles = reason.find("at their limits") != reason.npos &&
@@ -202,7 +203,8 @@ TEST_F(RealGround, MusclesStandBesideTheAnglesOverTheStrides) {
                                "--export-gait", Out("gait.json")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   int muscles = 0;
-  for (const auto& one : nlohmann::json::parse(ReadText(Out("gait.json")))["forces"]) {
+  const auto gait = nlohmann::json::parse(ReadText(Out("gait.json")));
+  for (const auto& one : gait["forces"]) {
     if (one["what"] != "EMG") continue;
     EXPECT_EQ(one["unit"], "mV");
     EXPECT_THAT(one["joint"], AnyOf("EMG3", "EMG4"));

@@ -36,10 +36,10 @@ constexpr int kEmgFrames = 300;
 constexpr double kEmgRate = 100;
 constexpr double kEmgStep = 1e-3;  // [s] of a sample
 
-/// A muscle that is active in [1, 2) s with 0.2 mV at 100 Hz on a drift of 5 mV, in volts.
+/// A muscle that is active in [1, 2) s with 0.2 mV at 113 Hz on a drift of 5 mV, in volts.
 double EmgVoltage(double t) {
   const double drift = 5e-3 * std::sin(2 * std::numbers::pi * 0.3 * t);
-  return drift + (t >= 1 && t < 2 ? 2e-4 * std::sin(2 * std::numbers::pi * 100 * t) : 0);
+  return drift + (t >= 1 && t < 2 ? 2e-4 * std::sin(2 * std::numbers::pi * 113 * t) : 0);
 }
 
 std::string EmgRecording(const std::string& unit) {
