@@ -42,6 +42,15 @@ const std::vector<OptionGroup> kOtherOptions = {
     {"Calibration",
      {{"calibrate-seconds", "S", "how long to gather movement for it; default: 15", ""},
       {"subject-out", "FILE", "with --self-calibrate: also write the person", ""}}},
+    {"Robot that follows",
+     {{"joint-speed", "RAD/S", "the most of any joint; default: its own, or 20", ""},
+      {"joint-acceleration", "RAD/S2",
+       "the most of any joint; default: its speed in 0.1 s, 50 to 250", ""},
+      {"root-speed", "M/S", "the most of its root; default: 6", ""},
+      {"rest-after", "S",
+       "how long it holds where it is while nobody is seen, before it goes to its posture at rest; "
+       "default: 2",
+       ""}}},
     {"Running",
      {{"loop", "", "a replay begins again at its end", ""},
       {"seconds", "S", "end after so many seconds; default: when the source ends, or with Ctrl-C",
@@ -83,7 +92,8 @@ void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
 
 void CheckRobot(const Arguments& arguments, const LiveRequest& request) {
   if (request.robot.file.empty()) {
-    for (const char* option : {"map", "sole-height", "hold"}) {
+    for (const char* option : {"map", "sole-height", "hold", "joint-speed", "joint-acceleration",
+                               "root-speed", "rest-after"}) {
       if (!arguments.Has(option)) continue;
       throw UsageError(fmt::format("live: --{} is of a robot; give --robot too", option));
     }
@@ -108,6 +118,22 @@ void CheckRobot(const Arguments& arguments, const LiveRequest& request) {
     throw UsageError(fmt::format(
         "live: {} takes persons only; send a robot's postures to zmq:// or ws://", address));
   }
+}
+
+FollowOptions FollowOptionsOf(const Arguments& arguments) {
+  FollowOptions options;
+  const auto read = [&](const char* name, double least, double most, const char* unit) {
+    const auto value = arguments.GetNumber(name, unit);
+    if (value && !(*value >= least && *value <= most)) {
+      throw UsageError(fmt::format("live: --{} is {}, from {:g} to {:g}", name, unit, least, most));
+    }
+    return value;
+  };
+  options.joint_speed = read("joint-speed", 0.01, 1000, "rad/s");
+  options.joint_acceleration = read("joint-acceleration", 0.1, 1e5, "rad/s^2");
+  options.root_speed = read("root-speed", 0.01, 100, "m/s");
+  options.rest_after = read("rest-after", 0, 1e6, "seconds");
+  return options;
 }
 
 LiveRequest MakeLiveRequest(const Arguments& arguments) {
@@ -136,6 +162,7 @@ LiveRequest MakeLiveRequest(const Arguments& arguments) {
   for (const char* option : {"summary", "report"}) {
     if (const auto file = arguments.Get(option)) request.more_outputs.push_back(*file);
   }
+  request.follow = FollowOptionsOf(arguments);
   request.sinks = arguments.GetAll("to");
   request.view_address = arguments.Get("view-at").value_or("");
   request.view = arguments.Has("view") || !request.view_address.empty();

@@ -128,7 +128,7 @@ class LiveRun {
     if (body->index > 0) {
       OtherObject& object = report_.objects[static_cast<std::size_t>(body->index - 1)];
       if (pose.is_tracking) ++object.tracked;
-    } else if (pose.is_tracking) {
+    } else if (pose.is_tracking && !pose.is_held) {
       ++report_.tracked;
       report_.waits.Add(std::chrono::duration<double>(stream_.taken() - pose.received).count());
       report_.delays.Add(std::chrono::duration<double>(pose.tracked - pose.received).count());

@@ -37,6 +37,11 @@ std::string DescribeRobot(const RetargetFigures& robot) {
   if (!std::isnan(robot.direction)) {
     text += fmt::format("; limbs {:.1f} degrees from the person's", kDegrees * robot.direction);
   }
+  text += fmt::format(
+      "; joints {:.3g} rad/s^2 rms, the root at most {:.1f} m/s; lost the person {} "
+      "times and held for {:.1f} s, jumped {} times",
+      robot.acceleration, robot.root_speed, robot.followed.holds, robot.followed.held,
+      robot.followed.jumps);
   return text + fmt::format("; limits of position broken {} times, of velocity {} times",
                             robot.position_breaks, robot.velocity_breaks);
 }
@@ -54,6 +59,12 @@ Json RobotJson(const RetargetFigures& robot, const Verdict& verdict) {
           {"penetration_m", Number(robot.penetration, 6)},
           {"floating_m", Number(robot.floating, 6)},
           {"direction_rad", Number(robot.direction)},
+          {"acceleration_rad_s2", Number(robot.acceleration)},
+          {"root_speed_m_s", Number(robot.root_speed)},
+          {"holds", robot.followed.holds},
+          {"held_s", Number(robot.followed.held)},
+          {"returns", robot.followed.returns},
+          {"jumps", robot.followed.jumps},
           {"position_limits_broken", robot.position_breaks},
           {"velocity_limits_broken", robot.velocity_breaks},
           {"joints_at_limits", joints},

@@ -26,6 +26,8 @@ constexpr Limit kPath = {0.05, 0.3};           // from 1
 constexpr Limit kTouch = {0.01, kNever};       // [m]: capsules are no closer to the bodies
 constexpr Limit kAtLimit = {0.1, kNever};      // share of the frames
 constexpr Limit kJump = {0.5, 1.5};            // [rad] from frame to frame
+constexpr Limit kAcceleration = {60, kNever};  // [rad/s^2] rms: karate has 25
+constexpr Limit kRootSpeed = {6.01, kNever};   // [m/s]: a sprinter's, scaled
 // [m]: a quarter of a palm's width of 80 mm; robots that reach what the person holds are within 10.
 constexpr Limit kOffHold = {0.02, kNever};
 constexpr std::size_t kMostJointsNamed = 4, kMostTouchesNamed = 3;
@@ -66,6 +68,21 @@ void JudgeHolds(const RetargetFigures& figures, VerdictReasons* reasons) {
                   "average",
                   worst->hand, kMillimetres * worst->most, worst->object, worst->most_time,
                   kMillimetres * worst->mean));
+}
+
+void JudgeFollowing(const FollowedFigures& followed, VerdictReasons* reasons) {
+  const auto times = [](int count) {
+    return fmt::format("{} time{}", count, count == 1 ? "" : "s");
+  };
+  if (followed.holds > 0) {
+    reasons->Add(Level::kCheck, fmt::format("the person was lost {}: the robot held for {:.1f} s",
+                                            times(followed.holds), followed.held));
+  }
+  if (followed.jumps > 0) {
+    reasons->Add(Level::kCheck,
+                 fmt::format("the person jumped, or was far from the robot for long, {}",
+                             times(followed.jumps)));
+  }
 }
 
 /// Of few contacts a share says nothing.
@@ -135,6 +152,11 @@ Verdict JudgeRetargeting(const RetargetFigures& figures, const Verdict* of_conve
   reasons.AddBeyond(kJump, figures.largest_jump,
                     fmt::format("a joint jumps by {:.0f} degrees from a frame to the next",
                                 figures.largest_jump * kDegrees));
+  reasons.AddBeyond(kAcceleration, figures.acceleration,
+                    fmt::format("joints shake: {:.0f} rad/s^2 rms", figures.acceleration));
+  reasons.AddBeyond(kRootSpeed, figures.root_speed,
+                    fmt::format("the root moves at {:.1f} m/s", figures.root_speed));
+  JudgeFollowing(figures.followed, &reasons);
   reasons.AddBeyond(
       kPath, std::abs(figures.path - 1),
       fmt::format("the path is {:.2f} times as long as the legs allow", figures.path));

@@ -29,6 +29,7 @@ struct PoseFrame {
   double time = 0;          ///< by the source's clock [s]
   SteadyTime received, tracked;
   bool is_tracking = false;  ///< else the person is waited for, and the estimate says nothing
+  bool is_held = false;      ///< the posture is a robot's whose person is not seen
   FrameEstimate estimate;
   Eigen::Matrix3Xd points;   ///< 3 x labels [m], z up; NaN: not seen
   StreamCounts counts;       ///< of the source, until this frame

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/square.h"
 #include "common/retarget/foot_figures.h"
 
 namespace mmm_converter {
@@ -14,6 +15,10 @@ FollowWatch::FollowWatch(const Robot& robot, const RobotBody& body)
       angles_(Eigen::VectorXd::Zero(robot.model.num_joints())),
       at_limit_(angles_),
       at_speed_(angles_),
+      speeds_(angles_),
+      lowest_(Eigen::VectorXd::Constant(angles_.size(), INFINITY)),
+      highest_(-lowest_),
+      accelerations_(angles_),
       is_held_(robot.model.num_joints()) {
   for (const int joint : body.held) is_held_[joint] = true;
   for (std::string& name : NamesOfLimbs(body.map)) limbs_.emplace_back().name = std::move(name);
@@ -22,11 +27,23 @@ FollowWatch::FollowWatch(const Robot& robot, const RobotBody& body)
 void FollowWatch::Take(const Frame& frame) {
   const double dt = has_before_ ? frame.time - before_ : 0;
   ++frames_;
+  TakeState(frame.state, dt);
   TakeFeet(frame, dt);
   TakeJoints(frame.posture, dt);
-  TakeLimbs(frame);
+  if (frame.state != FollowState::kHolds) TakeLimbs(frame);
   has_before_ = true;
   before_ = frame.time;
+  last_dt_ = std::max(0.0, dt);
+}
+
+void FollowWatch::TakeState(FollowState state, double dt) {
+  FollowedFigures& followed = figures_.followed;
+  if (state == FollowState::kHolds && dt > 0) followed.held += dt;
+  if (state != state_ && state == FollowState::kHolds) ++followed.holds;
+  if (state != state_ && state == FollowState::kReturns) {
+    ++(state_ == FollowState::kHolds ? followed.returns : followed.jumps);
+  }
+  state_ = state;
 }
 
 void FollowWatch::TakeFeet(const Frame& frame, double dt) {
@@ -58,12 +75,22 @@ void FollowWatch::TakeJoints(const Posture& posture, double dt) {
     const JointState state = StateOf(robot_, j, q, speed);
     figures_.position_breaks += state.is_beyond ? 1 : 0;
     figures_.velocity_breaks += state.is_too_fast ? 1 : 0;
+    lowest_[j] = std::min(lowest_[j], q);
+    highest_[j] = std::max(highest_[j], q);
+    const double velocity = dt > 0 ? (q - angles_[j]) / dt : 0;
+    if (dt > 0 && last_dt_ > 0) accelerations_[j] += Square((velocity - speeds_[j]) / dt);
+    speeds_[j] = velocity;
     if (dt > 0) figures_.largest_jump = std::max(figures_.largest_jump, speed * dt);
     if (is_held_[j]) continue;
     at_limit_[j] += state.is_at_limit ? 1 : 0;
     at_speed_[j] += state.is_at_speed ? 1 : 0;
   }
   angles_ = posture.joint_angles;
+  if (dt > 0 && last_dt_ > 0) ++changes_;
+  if (dt > 0) {
+    figures_.root_speed = std::max(figures_.root_speed, (posture.position - place_).norm() / dt);
+  }
+  place_ = posture.position;
 }
 
 void FollowWatch::TakeLimbs(const Frame& frame) {
@@ -90,6 +117,9 @@ RetargetFigures FollowWatch::Figures() const {
   figures.slide = share(slides_, pairs_);
   figures.floating = share(height_, contacts_);
   figures.path = figures.toe_slide = figures.direction95 = NAN;
+  const Eigen::ArrayXd moves = ((highest_ - lowest_).array() > kMoves).cast<double>();
+  figures.acceleration =
+      std::sqrt((moves * accelerations_.array()).sum() / std::max(1.0, moves.sum() * changes_));
   double sum = 0;
   for (LimbFigures limb : limbs_) {
     limb.mean = share(limb.mean, known_);

@@ -18,7 +18,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kBeyond = 2e-6;      // [rad] of a position beyond its limit that counts
-constexpr double kMoves = 0.01;       // [rad] of a joint that moves
 constexpr double kAtLimit = 1e-3;     // [rad]
 constexpr double kAtSpeed = 0.98;     // of a velocity limit
 constexpr double kLeastShare = 0.02;  // of the frames at a limit that are worth a word
@@ -118,6 +117,8 @@ void MeasureSmoothness(const PoseTrajectory& motion, RetargetFigures* figures) {
   for (int k = 1; k < frames; ++k) {
     lowest = lowest.cwiseMin(q(k));
     highest = highest.cwiseMax(q(k));
+    const double way = (motion.postures[k].position - motion.postures[k - 1].position).norm();
+    figures->root_speed = std::max(figures->root_speed, way * motion.rate);
     if (joints == 0) continue;
     figures->largest_jump =
         std::max(figures->largest_jump, (q(k) - q(k - 1)).cwiseAbs().maxCoeff());

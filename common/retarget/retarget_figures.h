@@ -47,6 +47,13 @@ struct HoldFigures {
   double mean = 0, most = 0, most_time = 0;
 };
 
+/// What a robot did that followed a stream.
+struct FollowedFigures {
+  int holds = 0, returns = 0;  ///< when its person was lost, and seen again
+  double held = 0;             ///< [s]
+  int jumps = 0;               ///< of the person, or begun anew far from them
+};
+
 /// A robot's motion in numbers; what each counts is in README.md.
 struct RetargetFigures {
   double rate = 0;  ///< [Hz]
@@ -68,6 +75,8 @@ struct RetargetFigures {
   double acceleration = 0;            ///< rms of the joints that move [rad/s^2]
   double jerk = 0;                    ///< [rad/s^3]
   double largest_jump = 0;            ///< of a joint, from frame to frame [rad]
+  double root_speed = 0;              ///< the most [m/s]
+  FollowedFigures followed;
   double direction = 0, direction95 = 0;
   std::vector<LimbFigures> limbs;
   std::vector<JointFigures> joints;  ///< that are at a limit for a while, the longest first
@@ -75,6 +84,8 @@ struct RetargetFigures {
   bool is_mirrored = false, is_backwards = false;
   double path = 0;  ///< length over what the legs allow; NaN: the person stays
 };
+
+inline constexpr double kMoves = 0.01;  ///< [rad] of a joint that moves
 
 /// Of a joint in one frame; speed: since the frame before [rad/s].
 struct JointState {

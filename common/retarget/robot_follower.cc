@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/math/rotation.h"
-#include "common/motion/marker_synthesis.h"
+#include "common/math/square.h"
 
 namespace mmm_converter {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr FootDeviations kFollowed = {0.0001, 0.001, 0.006, 0.1};
-constexpr int kStepsAFrame = 3, kFirstSteps = 30;
+constexpr int kStepsAFrame = 3, kFirstSteps = 30, kStepsAnew = 15;
 constexpr double kStepDamping = 5;  // [1/rad^2]
 // What draws a step of 10 ms to none, and its change to none: of the root's place [1/m^2], its turn
 // and joints [1/rad^2]. Less than aims, so that the robot is hardly late.
@@ -26,6 +26,14 @@ constexpr double kSwiftness = 40;      // [1/s] of what follows a foot's pitch a
 constexpr double kDraw = 0.35;         // [s] in which a swing leaves its place
 constexpr double kRaised = 2;          // [s] after which the floor is where all of the feet are
 constexpr double kTooLong = 0.5;       // [s] between frames of a track
+// Of a person who jumps from frame to frame: beyond what people do, and what estimates are off.
+constexpr double kJumpSpeed = 12, kJumpWay = 0.05;    // [m/s], [m] of the hips
+constexpr double kJumpTurning = 30, kJumpTurn = 0.2;  // [rad/s], [rad] of the pelvis
+constexpr double kFar = 5;                            // deviations of aims, rms
+constexpr double kWorthIt = 0.5;      // of the cost, of a posture that is worth a return
+constexpr double kPatience = 0.2;     // [s] far off; twice as long each time it is to no end, until
+constexpr double kMostPatience = 5;   // [s]
+constexpr double kOtherFloor = 0.04;  // [m] above or below 0, of a floor that is not at 0
 constexpr double kStepRounding = 1e-9;
 constexpr double kLeftBelow = 5e-4;  // [m] of the floor
 
@@ -62,7 +70,8 @@ RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const
       H_(6 + robot.model.num_joints(), 6 + robot.model.num_joints()),
       b_(H_.rows()),
       step_(H_.rows()),
-      factor_(H_.rows()) {
+      factor_(H_.rows()),
+      patience_(kPatience) {
   for (const PersonAim& one : person_aims_) problem_.aims.push_back(MakeAim(one, 1));
   for (std::size_t i = 0; i < 2 && body.feet; ++i) {
     for (Aim& aim : MakeFootAims((*body.feet)[i], 1)) {
@@ -73,6 +82,7 @@ RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const
   if (before != nullptr && before->has_begun_) {
     posture_ = before->posture_;
     has_begun_ = true;
+    MoveFloor(before->Floor());
   }
   lower_.resize(robot.model.num_joints());
   upper_.resize(robot.model.num_joints());
@@ -80,11 +90,16 @@ RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const
 
 void RobotFollower::WatchPerson(double time) {
   const auto& X_WS = person_.poses();
-  person_posture_ = PostureOfBody(human_.map, X_WS);
   for (std::size_t i = 0; i < 2; ++i) {
     R_feet_[i] = X_WS[human_.map.legs[i]->end].linear() * human_.R_FA[i];
     points_[i][0].Take(X_WS[human_.heels[i].segment] * human_.heels[i].p_S, time);
     points_[i][1].Take(X_WS[human_.toes[i].segment] * human_.toes[i].p_S, time);
+  }
+}
+
+void RobotFollower::MoveFloor(double by) {
+  for (auto& foot : points_) {
+    for (PointWatch& point : foot) point.SetLevel(point.level() + by);
   }
 }
 
@@ -268,7 +283,58 @@ void RobotFollower::Solve(int iterations, double dt) {
     posture_.position.z() += std::max(0.0, equations_.DepthOf(posture_) - kLeftBelow);
 }
 
-void RobotFollower::Begin(const Posture& person, double time) {
+// Of who was not seen before: the lowest point of the feet is on it.
+void RobotFollower::FindFloor() {
+  double lowest = INFINITY;
+  for (std::size_t i = 0; i < 2; ++i) {
+    lowest = std::min({lowest, points_[i][0].height_of_level() - human_.heel_heights[i],
+                       points_[i][1].height_of_level() - human_.toe_heights[i]});
+  }
+  if (std::abs(lowest) < kOtherFloor) return;
+  for (std::size_t i = 0; i < 2; ++i) {
+    points_[i][0].SetLevel(human_.heel_heights[i] + lowest);
+    points_[i][1].SetLevel(human_.toe_heights[i] + lowest);
+  }
+}
+
+void RobotFollower::FitAnew() {
+  const int joints = robot_.model.num_joints();
+  for (int j = 0; j < joints; ++j) {
+    lower_[j] = robot_.model.joint(j).lower;
+    upper_[j] = robot_.model.joint(j).upper;
+  }
+  const Posture upright = FirstPosture(person_posture_, scale_, robot_, body_);
+  if (!has_begun_) {
+    posture_ = StartTrajectory(problem_, upright).front();
+    return Solve(kFirstSteps, 1 / rate_);
+  }
+  Posture leaning = upright;
+  if (!robot_.model.is_root_fixed()) {
+    leaning.orientation =
+        Eigen::Quaterniond(person_posture_.R_pelvis * body_.map.R_WA.transpose()) *
+        ZeroPosture(robot_.model).orientation;
+  }
+  std::array<Posture, 4> starts = {upright, leaning, leaning, upright};
+  starts[0].joint_angles = starts[1].joint_angles = posture_.joint_angles;
+  starts[2].joint_angles = body_.rest;
+  starts[3].joint_angles = 0.7 * body_.rest + 0.15 * (lower_.cwiseMax(-3) + upper_.cwiseMin(3));
+  Posture best = posture_;
+  double least = INFINITY;
+  for (const Posture& start : starts) {
+    posture_ = start;
+    posture_.joint_angles = start.joint_angles.cwiseMax(lower_).cwiseMin(upper_);
+    Solve(kStepsAnew, 1 / rate_);
+    const double cost = equations_.CostOf(0, posture_);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = posture_;
+  }
+  posture_ = best;
+}
+
+void RobotFollower::Begin(double time) {
+  is_following_ = false;
+  const bool is_known = has_begun_;
   for (auto& foot : points_) {
     for (PointWatch& point : foot) point.Forget();
   }
@@ -276,31 +342,52 @@ void RobotFollower::Begin(const Posture& person, double time) {
     foot.stands = false;
     foot.drawn_for = kDraw;
   }
-  raised_for_ = 0;
-  person_.Compute(person);
+  raised_for_ = far_for_ = 0;
   WatchPerson(time);
+  if (!is_known) FindFloor();
   SetAims(1 / rate_);
-  Posture first = FirstPosture(person_posture_, scale_, robot_, body_);
-  if (!has_begun_) {
-    posture_ = StartTrajectory(problem_, first).front();
-    for (int j = 0; j < robot_.model.num_joints(); ++j) {
-      lower_[j] = robot_.model.joint(j).lower;
-      upper_[j] = robot_.model.joint(j).upper;
-    }
-  } else {
-    posture_.position = first.position;
-    posture_.orientation = first.orientation;
-    Bound(1 / rate_);
-  }
-  Solve(kFirstSteps, 1 / rate_);
+  FitAnew();
   speed_.setZero(6 + robot_.model.num_joints());
+}
+
+bool RobotFollower::HasJumped(const BodyPosture& before, double dt) const {
+  const double way = (person_posture_.mid_hip - before.mid_hip).norm();
+  const Eigen::AngleAxisd turn(before.R_pelvis.transpose() * person_posture_.R_pelvis);
+  return way > kJumpWay + kJumpSpeed * dt || std::abs(turn.angle()) > kJumpTurn + kJumpTurning * dt;
+}
+
+bool RobotFollower::IsStuck(double dt) {
+  double sum = 0;
+  for (std::size_t n = 0; n < person_aims_.size(); ++n) {
+    const Aim& aim = problem_.aims[n];
+    const Eigen::Isometry3d& X = robot_state_.X_WS(aim.segment);
+    const Vector3d now = aim.is_direction ? X.linear() * aim.local : X * aim.local;
+    sum += aim.weight.col(0).cwiseProduct(aim.target.col(0) - now).squaredNorm();
+  }
+  const bool is_far = sum > Square(kFar) * static_cast<double>(person_aims_.size());
+  far_for_ = is_far ? far_for_ + dt : 0;
+  if (!is_far) patience_ = kPatience;
+  if (far_for_ < patience_) return false;
+  patience_ = std::min(2 * patience_, kMostPatience);
+  far_for_ = 0;
+  const Posture now = posture_;
+  const double cost = equations_.CostOf(0, posture_);
+  FitAnew();
+  if (equations_.CostOf(0, posture_) < kWorthIt * cost) return true;
+  posture_ = now;
+  return false;
 }
 
 const Posture& RobotFollower::Follow(const Posture& person, double time) {
   const double dt = time - time_;
-  if (!(dt > 0 && dt < kTooLong)) is_following_ = false;
-  if (is_following_) {
-    person_.Compute(person);
+  const BodyPosture last = person_posture_;
+  person_.Compute(person);
+  person_posture_ = PostureOfBody(human_.map, person_.poses());
+  is_anew_ = !is_following_ || !(dt > 0 && dt < kTooLong) || HasJumped(last, dt) || IsStuck(dt);
+  if (is_anew_) {
+    Begin(time);
+    robot_state_.Compute(posture_);
+  } else {
     WatchPerson(time);
     MoveLevels(dt);
     SetAims(dt);
@@ -310,28 +397,13 @@ const Posture& RobotFollower::Follow(const Posture& person, double time) {
     speed_.head<3>() = (posture_.position - before_.position) / dt;
     speed_.segment<3>(3) = Log(before_.orientation.conjugate() * posture_.orientation) / dt;
     speed_.tail(lower_.size()) = (posture_.joint_angles - before_.joint_angles) / dt;
-  } else {
-    Begin(person, time);
-    robot_state_.Compute(posture_);
   }
   for (std::size_t i = 0; i < 2 && body_.feet; ++i) feet_[i].last = AnglesOfFoot(i);
   robot_state_.Compute(posture_);
-  last_dt_ = is_following_ ? dt : 1 / rate_;
+  last_dt_ = is_anew_ ? 1 / rate_ : dt;
   has_begun_ = is_following_ = true;
   time_ = time;
   return posture_;
-}
-
-Retargeted FollowMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
-                        const Robot& robot, const RobotBody& body) {
-  Retargeted result = DescribePerson(human_model, motion, robot, body);
-  RobotFollower follower(std::make_shared<KinematicModel>(human_model), robot, body, motion.rate);
-  for (int k = 0; k < motion.num_frames(); ++k) {
-    result.motion.postures.push_back(
-        follower.Follow(ModelPosture(human_model, motion, k), motion.time(k)));
-  }
-  result.keeps_limits = true;
-  return result;
 }
 
 }  // namespace mmm_converter

@@ -15,7 +15,8 @@ namespace mmm_converter {
 
 /// A robot that follows a person frame by frame, each by the frames until then alone: aims as
 /// RetargetMotion's, contacts by PointWatch. A foot stays where the robot had it as the person's
-/// touched the ground; joints go no farther from their last angles than their velocities allow.
+/// touched the ground; joints go no farther from their last angles than their velocities allow. It
+/// begins anew, wherever it was, where the person jumps or it is far from the person for long.
 class RobotFollower {
  public:
   /// Robot and body stay valid. before: whose robot goes on from its joints; null: none. @throws
@@ -24,16 +25,20 @@ class RobotFollower {
                 const RobotBody& body, double rate, const RobotFollower* before = nullptr);
 
   /// time: of the frame [s]. The posture is valid until the next call. Allocates in the first
-  /// two frames, and where a part touches the floor or another one for the first time.
+  /// two frames, where it begins anew, and where a part touches the floor or another one for the
+  /// first time.
   const Posture& Follow(const Posture& person, double time);
 
-  /// The next frame begins a track. Joints go on from where they are.
+  /// The next frame begins anew.
   void Interrupt() { is_following_ = false; }
 
   double scale() const { return scale_; }
+  /// Of the lowest point of feet or trunk below the floor [m].
+  double DepthOf(const Posture& posture) { return equations_.DepthOf(posture); }
   // Of the last frame:
   const BodyPosture& person() const { return person_posture_; }
   const std::vector<Eigen::Isometry3d>& X_WS() const { return robot_state_.poses(); }
+  bool is_anew() const { return is_anew_; }
   bool stands(std::size_t foot) const { return feet_[foot].stands; }
 
  private:
@@ -53,8 +58,15 @@ class RobotFollower {
     double drawn_for = 0;             ///< [s] since it left the ground; beyond its end: no draw
   };
 
-  void Begin(const Posture& person, double time);
+  void Begin(double time);
+  /// From several postures: the nearest counts.
+  void FitAnew();
+  bool HasJumped(const BodyPosture& before, double dt) const;
+  /// Too far from the person for too long.
+  bool IsStuck(double dt);
   void WatchPerson(double time);
+  void FindFloor();
+  void MoveFloor(double by);
   void MoveLevels(double dt);
   double Floor() const;
   void AimFeet(double dt);
@@ -94,11 +106,8 @@ class RobotFollower {
   Eigen::VectorXd b_, step_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double time_ = 0, last_dt_ = 0;  // of the last frame [s]
-  bool has_begun_ = false, is_following_ = false;
+  double far_for_ = 0, patience_;  // [s]
+  bool has_begun_ = false, is_following_ = false, is_anew_ = false;
 };
-
-/// A whole motion followed frame by frame, as a stream's would be.
-Retargeted FollowMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
-                        const Robot& robot, const RobotBody& body);
 
 }  // namespace mmm_converter

@@ -87,10 +87,11 @@ PostureMessage PostureMessageFormat::Format(const LiveBody& body, const PoseFram
                                             SteadyTime now) const {
   PostureMessage message;
   message.header = fmt::format(
-      "{},\"frame\":{},\"time\":{},\"tracking\":{},\"received_ns\":{:.0f},\"sent_ns\":{:.0f},"
+      "{},\"frame\":{},\"time\":{},\"tracking\":{},\"held\":{},\"received_ns\":{:.0f},\"sent_ns\":{"
+      ":.0f},"
       "\"dropped\":{}}}",
-      fixed_, frame.number, frame.time, frame.is_tracking, Nanoseconds(frame.received),
-      Nanoseconds(now), frame.dropped);
+      fixed_, frame.number, frame.time, frame.is_tracking, frame.is_held,
+      Nanoseconds(frame.received), Nanoseconds(now), frame.dropped);
   const KinematicModel& model = *body.setup.model;
   const FrameEstimate& estimate = frame.estimate;
   const bool is_tracking = frame.is_tracking;

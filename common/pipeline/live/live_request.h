@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/pipeline/conversion.h"
+#include "common/retarget/motion_governor.h"
 
 namespace mmm_converter {
 
@@ -21,6 +22,7 @@ inline const char* DescribeCalibrationTime() { return "1 to 120 seconds"; }
 struct LiveRequest : ConversionRequest {
   /// Seconds of moving about that the person is estimated from, where that is asked for; else 0.
   double calibration_time = 0;
+  FollowOptions follow;            ///< of the robot
   bool loops = false;              ///< of a replay
   std::vector<std::string> sinks;  ///< addresses that postures are sent to
   bool view = false;               ///< serve the page

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/live/pose_frame.h"
 #include "common/pipeline/robot.h"
 #include "common/retarget/follow_figures.h"
-#include "common/retarget/robot_follower.h"
+#include "common/retarget/guarded_follower.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
 
-/// A robot that follows whom a session tracks: its postures in the place of theirs.
+/// A robot that follows whom a session tracks: its postures in the place of theirs, and of every
+/// frame since somebody was seen first.
 class LiveRobot {
  public:
   /// @throws Error where the robot can't be read, or its limbs or soles are not known.
-  LiveRobot(const RobotRequest& request, Warnings* warnings);
+  LiveRobot(const RobotRequest& request, const FollowOptions& options, Warnings* warnings);
 
   /// @throws Error where the person's model has no legs and arms that are known.
   void Take(const std::shared_ptr<const LiveBody>& person, const PoseFrame& pose);
@@ -28,12 +32,25 @@ class LiveRobot {
   /// Of all frames until then.
   RetargetFigures figures() const { return watch_.Figures(); }
 
+  /// What there is to say since the last call, line by line.
+  std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
+
  private:
+  bool IsSeen(const PoseFrame& pose);
+  void Name(std::int64_t number, double time);
+
   LoadedRobot robot_;
+  FollowOptions options_;
   std::shared_ptr<const LiveBody> person_, body_;
-  std::unique_ptr<RobotFollower> follower_;
+  std::unique_ptr<GuardedFollower> follower_;
   FollowWatch watch_;
   PoseFrame frame_;
+  int most_seen_ = 0;             // markers of the person
+  double seen_time_ = -INFINITY;  // of the last frame that showed enough of them [s]
+  FollowState named_ = FollowState::kTracks;
+  bool named_rest_ = false;
+  double lost_time_ = 0, name_jump_at_ = -INFINITY;  // [s]
+  std::vector<std::string> news_;
 };
 
 }  // namespace mmm_converter

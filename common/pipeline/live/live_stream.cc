@@ -51,7 +51,7 @@ LiveStream::LiveStream(const LiveRequest& request, LiveSource source, Give give,
   }
   if (request.robot.file.empty()) return;
   Warnings warnings;
-  robot_ = std::make_unique<LiveRobot>(request.robot, &warnings);
+  robot_ = std::make_unique<LiveRobot>(request.robot, request.follow, &warnings);
   for (const std::string& text : warnings.texts()) tell_(true, text);
 }
 
@@ -175,6 +175,7 @@ int LiveStream::starts() const {
 void LiveStream::Pass(const LiveSession& session, const PoseFrame& pose) {
   if (!robot_ || session.body()->index > 0) return give_(session.body(), pose);
   robot_->Take(session.body(), pose);
+  for (std::string& text : robot_->TakeNews()) tell_(true, std::move(text));
   give_(robot_->body(), robot_->frame());
 }
 

@@ -15,7 +15,7 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/retarget/follow_figures.h"
-#include "common/retarget/robot_follower.h"
+#include "common/retarget/guarded_follower.h"
 #include "common/support/data_directory.h"
 #include "tests/support/shared_data.h"
 
@@ -90,7 +90,7 @@ TEST(LiveAllocation, ARobotThatFollowsAllocatesNothing) {
       ScaleWinter(ReadMmmModel(DataFile("models/mmm.xml")), {1.8, 70, {}}));
   const Robot robot = ReadRobotFile(testing::SourcePath("examples/robot/biped.urdf"));
   const RobotBody body = FindRobotBody(robot, {}, {});
-  RobotFollower follower(person, robot, body, 100);
+  GuardedFollower follower(person, robot, body, 100, {});
   FollowWatch watch(robot, body);
   const PoseTrajectory motion = MakeRaisedKnee(*person);
   std::vector<Posture> postures;
@@ -103,11 +103,7 @@ TEST(LiveAllocation, ARobotThatFollowsAllocatesNothing) {
     const int frame = k % motion.num_frames();
     const long before = allocations;
     const Posture& posture = follower.Follow(postures[frame], k / motion.rate);
-    watch.Take({follower.person(),
-                posture,
-                follower.X_WS(),
-                {follower.stands(0), follower.stands(1)},
-                k / motion.rate});
+    watch.Take(follower, posture, k / motion.rate);
     if (k >= motion.num_frames()) counted += allocations - before;
   }
   EXPECT_EQ(counted, 0);

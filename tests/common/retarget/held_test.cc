@@ -10,11 +10,11 @@
 #include "common/judge/retarget_verdict.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/retarget/follow_figures.h"
+#include "common/retarget/guarded_follower.h"
 #include "common/retarget/held_joints.h"
 #include "common/retarget/held_objects.h"
 #include "common/retarget/retarget.h"
 #include "common/retarget/retarget_figures.h"
-#include "common/retarget/robot_follower.h"
 #include "common/support/error.h"
 #include "tests/common/retarget/biped.h"
 #include "tests/common/retarget/squat.h"
@@ -192,15 +192,11 @@ TEST(FollowWatchTest, CountsAsTheFiguresOfAWholeMotionDo) {
   const PoseTrajectory motion = Squat(person);
   const RetargetFigures all =
       MeasureRetargeting(FollowMotion(person, motion, robot, body), robot, body);
-  RobotFollower follower(std::make_shared<KinematicModel>(person), robot, body, motion.rate);
+  GuardedFollower follower(std::make_shared<KinematicModel>(person), robot, body, motion.rate, {});
   FollowWatch watch(robot, body);
   for (int k = 0; k < motion.num_frames(); ++k) {
     const Posture posture = follower.Follow(ModelPosture(person, motion, k), motion.time(k));
-    watch.Take({follower.person(),
-                posture,
-                follower.X_WS(),
-                {follower.stands(0), follower.stands(1)},
-                motion.time(k)});
+    watch.Take(follower, posture, motion.time(k));
   }
   const RetargetFigures counted = watch.Figures();
   EXPECT_EQ(counted.num_frames, 200);
@@ -220,7 +216,7 @@ TEST(FollowWatchTest, CountsAsTheFiguresOfAWholeMotionDo) {
   std::vector<Eigen::Isometry3d> X_WS = follower.X_WS();
   for (int k = 0; k < 11; ++k) {
     for (Eigen::Isometry3d& X : X_WS) X.translation().x() += 0.001;
-    pushed.Take({follower.person(), posture, X_WS, {true, true}, 0.01 * k});
+    pushed.Take({follower.person(), posture, X_WS, {true, true}, FollowState::kTracks, 0.01 * k});
   }
   EXPECT_EQ(pushed.Figures().slide, 1);
 }
