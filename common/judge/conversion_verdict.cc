@@ -81,7 +81,9 @@ class Judge {
     JudgeTrack();
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
-    JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
+    if (evidence_.names != nullptr) {  // else places are known too badly to tell
+      JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
+    }
     JudgeHeight(is_far);
     if (is_far || evidence_.names != nullptr) {
       JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);
