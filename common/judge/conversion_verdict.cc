@@ -81,17 +81,25 @@ class Judge {
     JudgeTrack();
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
-    if (evidence_.names != nullptr) {  // else places are known too badly to tell
+    if (AreAtLandmarks()) {  // else places are known too badly to tell
       JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
     }
     JudgeHeight(is_far);
-    if (is_far || evidence_.names != nullptr) {
+    if (is_far || AreAtLandmarks()) {
       JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);
     }
     return reasons_.Conclude();
   }
 
  private:
+  // By names, or by a set that knows most places better than one of reference markers does.
+  bool AreAtLandmarks() const {
+    const std::vector<MarkerAssignment>& all = evidence_.setup.assignments();
+    const auto known = std::count_if(
+        all.begin(), all.end(), [](const MarkerAssignment& one) { return one.noise_scale < 1; });
+    return evidence_.names != nullptr || 2 * known > static_cast<long>(all.size());
+  }
+
   void JudgeLength() {
     if (markers_.num_frames() >= kFewestFrames) return;
     reasons_.Add(Level::kCheck,
