@@ -90,7 +90,8 @@ void BeltWatch::Take(const std::array<std::array<PointWatch, 2>, 2>& feet, const
   has_hips_ = true;
   for (const auto& [heel, toe] : feet) {
     const bool is_flat = heel.height() < kFlatHeight && toe.height() < kFlatHeight &&
-                         (heel.velocity() - toe.velocity()).norm() < kTurns;
+                         (heel.velocity() - toe.velocity()).norm() < kTurns &&
+                         std::abs(heel.velocity().z() + toe.velocity().z()) < kTurns;
     if (!is_flat) continue;
     Vector3d now = 0.5 * (heel.velocity() + toe.velocity()) + velocity_;
     now.z() = 0;

@@ -286,7 +286,8 @@ const std::vector<RobotExporter>& RobotExporters() {
        "needs the order",
        true, false, WriteBeyondMimic, nullptr, kMimicRate},
       {"mjlab", "export-mjlab", "npz",
-       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", false, false, WriteMjlab, nullptr, kMimicRate},
+       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", false, false, WriteMjlab,
+       nullptr, kMimicRate},
       {"phc", "export-phc", "pkl",
        "root, joints and their rotation vectors as PHC and ASAP have them (a pickle that joblib "
        "reads), 30 Hz; names beside it",
