@@ -286,17 +286,16 @@ void SaveRobotMotion(RetargetedMotion* motion, const std::string& file) {
   WriteRobotMotion(&motion->report);
 }
 
-void ExportRobotMotion(const RetargetedMotion& motion, const std::string& format,
-                       const std::string& file, std::optional<double> rate,
-                       const std::optional<std::string>& order) {
+void ExportRobot(RetargetedMotion* motion, const std::string& format, const std::string& file,
+                 std::optional<double> rate, const std::optional<std::string>& order) {
   const py::gil_scoped_release release;
   RobotExportOptions options;
   options.rate = rate;
-  options.motion_name = motion.report.motion_name;
+  options.motion_name = motion->report.motion_name;
   if (order) options.order = ParseRobotOrder(*order);
   const RobotExporter& exporter = FindRobotExporter(format);
-  CheckOutputs(motion, FilesOf(exporter, file));
-  exporter.write(file, motion.report.robot, motion.report.retargeted.motion, options);
+  CheckOutputs(*motion, FilesOf(exporter, file));
+  ExportRobotMotion(exporter, file, options, &motion->report);
 }
 
 void WriteRobotPage(const RetargetedMotion& motion, const std::string& file) {
@@ -385,7 +384,7 @@ void BindStudies(py::module_* module) {
                                                     static_cast<int>(motion.joint_names.size()));
                              })
       .def("save", &SaveRobotMotion)
-      .def("export", &ExportRobotMotion)
+      .def("export", &ExportRobot)
       .def("report", &WriteRobotPage);
   module->def("retarget", &Retarget);
   module->def("calibrate", &Calibrate);

@@ -45,6 +45,8 @@ std::string DescribeFeet(const RetargetReport& report) {
   }
   std::string floor = fmt::format("feet at most {:.1f} mm below it, at {:.2f} s",
                                   kMillimetres * figures.penetration, figures.penetration_time);
+  const double belt = report.retargeted.belt.norm();
+  if (belt > 0) floor += fmt::format("; it is a treadmill's belt, at {:.2f} m/s", belt);
   if (figures.highest_stance > 0) {
     floor += fmt::format("; they stand on what is up to {:.2f} m above it", figures.highest_stance);
   }
@@ -160,6 +162,36 @@ Json JointsJson(const RetargetFigures& figures) {
   return joints;
 }
 
+Json FilesJson(const RetargetReport& report) {
+  Json files = Json::array();
+  for (const RateFit& fit : report.fits) {
+    const RetargetFigures& figures = fit.figures;
+    files.push_back({{"files", fit.files},
+                     {"rate_hz", Number(fit.rate)},
+                     {"frames", figures.num_frames},
+                     {"slide", Number(figures.slide)},
+                     {"penetration_m", Number(figures.penetration, 6)},
+                     {"floating_m", Number(figures.floating, 6)},
+                     {"direction_rad", Number(figures.direction)},
+                     {"acceleration_rad_s2", Number(figures.acceleration)},
+                     {"position_limits_broken", figures.position_breaks},
+                     {"velocity_limits_broken", figures.velocity_breaks},
+                     {"verdict", ToJson(fit.verdict)}});
+  }
+  return files;
+}
+
+std::string DescribeFit(const RateFit& fit) {
+  const RetargetFigures& figures = fit.figures;
+  std::string text = JoinNames(fit.files, ", ") + ": ";
+  if (!std::isnan(figures.slide)) {
+    text += fmt::format("feet slide in {:.1f} %, at most {:.1f} mm below the floor; ",
+                        kPercent * figures.slide, kMillimetres * figures.penetration);
+  }
+  return text + fmt::format("{:.1f} degrees, {:.3g} rad/s^2; {}", figures.direction * kDegrees,
+                            figures.acceleration, DescribeVerdict(fit.verdict));
+}
+
 }  // namespace
 
 std::string FormatRetargetSummary(const RetargetReport& report) {
@@ -189,6 +221,9 @@ std::string FormatRetargetSummary(const RetargetReport& report) {
     text += RetargetLine("path", fmt::format("{:.3f} of what the legs allow", figures.path));
   }
   text += RetargetLine("written", JoinNames(report.written, ", "));
+  for (const RateFit& fit : report.fits) {
+    text += RetargetLine(fmt::format("at {:g} Hz", fit.rate), DescribeFit(fit));
+  }
   return text + RetargetLine("verdict", DescribeVerdict(report.verdict));
 }
 
@@ -214,6 +249,7 @@ Json ToJson(const RetargetReport& report) {
                {"deepest_body", TextOrNull(figures.deepest_body)},
                {"floating_m", Number(figures.floating, 6)},
                {"highest_stance_m", Number(figures.highest_stance, 4)},
+               {"belt_m_s", Number(report.retargeted.belt.norm())},
                {"position_limits_broken", figures.position_breaks},
                {"velocity_limits_broken", figures.velocity_breaks},
                {"acceleration_rad_s2", Number(figures.acceleration)},
@@ -232,6 +268,7 @@ Json ToJson(const RetargetReport& report) {
                {"size_not_known", report.body.capsules.unknown}};
   json["conversion_verdict"] =
       report.conversion_verdict ? ToJson(*report.conversion_verdict) : Json();
+  json["files_at_other_rates"] = FilesJson(report);
   json["verdict"] = ToJson(report.verdict);
   json["not_shown"] = TextOrNull(report.unshown);
   json["warnings"] = report.warnings.texts();

@@ -26,7 +26,9 @@ constexpr Limit kPath = {0.05, 0.3};           // from 1
 constexpr Limit kTouch = {0.01, kNever};       // [m]: capsules are no closer to the bodies
 constexpr Limit kAtLimit = {0.1, kNever};      // share of the frames
 constexpr Limit kJump = {0.5, 1.5};            // [rad] from frame to frame
-constexpr Limit kAcceleration = {60, kNever};  // [rad/s^2] rms: karate has 25
+constexpr double kMostHeld = 0.3;              // of the time that a robot follows
+constexpr double kMostJumps = 0.2;             // a second
+constexpr Limit kAcceleration = {60, 150};     // [rad/s^2] rms: karate has 25
 constexpr Limit kRootSpeed = {6.01, kNever};   // [m/s]: a sprinter's, scaled
 // [m]: a quarter of a palm's width of 80 mm; robots that reach what the person holds are within 10.
 constexpr Limit kOffHold = {0.02, kNever};
@@ -74,12 +76,16 @@ void JudgeFollowing(const FollowedFigures& followed, VerdictReasons* reasons) {
   const auto times = [](int count) {
     return fmt::format("{} time{}", count, count == 1 ? "" : "s");
   };
+  const double seconds = std::max(followed.seconds, 1e-3);
   if (followed.holds > 0) {
-    reasons->Add(Level::kCheck, fmt::format("the person was lost {}: the robot held for {:.1f} s",
-                                            times(followed.holds), followed.held));
+    const bool is_much = followed.held > kMostHeld * seconds;
+    reasons->Add(is_much ? Level::kFailed : Level::kCheck,
+                 fmt::format("the person was lost {}: the robot held for {:.1f} s",
+                             times(followed.holds), followed.held));
   }
   if (followed.jumps > 0) {
-    reasons->Add(Level::kCheck,
+    const bool is_much = followed.jumps > std::max(1.0, kMostJumps * seconds);
+    reasons->Add(is_much ? Level::kFailed : Level::kCheck,
                  fmt::format("the person jumped, or was far from the robot for long, {}",
                              times(followed.jumps)));
   }

@@ -14,18 +14,20 @@ constexpr double kLevelTime = 1;                                 // [s] in which
 
 }  // namespace
 
-double PointWatch::SpeedAt(const Eigen::Vector3d& p_W, double time) const {
+Eigen::Vector3d PointWatch::VelocityAt(const Eigen::Vector3d& p_W, double time) const {
   for (int i = 1; i <= count_; ++i) {
     const Sample& before = samples_[(next_ - i + kSamples) % kSamples];
     const double span = time - before.time;
     if (span < kSpan - 1e-6 && i < count_) continue;
-    return span > 0 ? (p_W - before.p).norm() / span : 0;
+    if (!(span > 0)) break;
+    return (p_W - before.p) / span;
   }
-  return 0;
+  return Eigen::Vector3d::Zero();
 }
 
 void PointWatch::Take(const Eigen::Vector3d& p_W, double time) {
-  const double speed = SpeedAt(p_W, time);
+  velocity_ = VelocityAt(p_W, time);
+  const double speed = velocity_.norm();
   const double dt = count_ > 0 ? time - samples_[(next_ - 1 + kSamples) % kSamples].time : 0;
   p_ = p_W;
   is_slow_ = speed < kStandsBelow;

@@ -21,6 +21,8 @@ class PointWatch {
 
   bool is_on() const { return is_on_; }
   double level() const { return level_; }  ///< [m]
+  double height() const { return p_.z() - level_; }
+  const Eigen::Vector3d& velocity() const { return velocity_; }  ///< [m/s]
   /// Stands still, but so high that its level may be another one.
   bool is_raised() const { return is_slow_ && height_ > 0; }
   bool is_low() const { return is_slow_ && height_ <= 0; }
@@ -32,12 +34,12 @@ class PointWatch {
     Eigen::Vector3d p;
     double time = 0;
   };
-  double SpeedAt(const Eigen::Vector3d& p_W, double time) const;
+  Eigen::Vector3d VelocityAt(const Eigen::Vector3d& p_W, double time) const;
 
   static constexpr int kSamples = 64;
   std::array<Sample, kSamples> samples_;
   int count_ = 0, next_ = 0;
-  Eigen::Vector3d p_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
   double level_;
   double height_ = 0;  // above what still tells the level [m]
   bool is_on_ = false, is_slow_ = false;

@@ -38,7 +38,8 @@ void FollowWatch::Take(const Frame& frame) {
 
 void FollowWatch::TakeState(FollowState state, double dt) {
   FollowedFigures& followed = figures_.followed;
-  if (state == FollowState::kHolds && dt > 0) followed.held += dt;
+  followed.seconds += std::max(0.0, dt);
+  if (state == FollowState::kHolds) followed.held += std::max(0.0, dt);
   if (state != state_ && state == FollowState::kHolds) ++followed.holds;
   if (state != state_ && state == FollowState::kReturns) {
     ++(state_ == FollowState::kHolds ? followed.returns : followed.jumps);

@@ -31,7 +31,8 @@ GuardedFollower::GuardedFollower(std::shared_ptr<const KinematicModel> person, c
       body_(body),
       rate_(rate > 0 ? rate : 100),
       rest_after_(options.rest_after.value_or(kRestAfter)),
-      follower_(std::move(person), robot, body, rate, before ? &before->follower_ : nullptr),
+      follower_(std::move(person), robot, body, rate, LimitsOf(robot, options),
+                before ? &before->follower_ : nullptr),
       governor_(before != nullptr ? before->governor_ : MotionGovernor(LimitsOf(robot, options))),
       robot_state_(robot.model) {
   if (before == nullptr) return;
@@ -39,6 +40,8 @@ GuardedFollower::GuardedFollower(std::shared_ptr<const KinematicModel> person, c
   held_for_ = before->held_for_;
   time_ = before->time_;
   rest_ = before->rest_;
+  belt_ = before->belt_;
+  belt_way_ = before->belt_way_;
 }
 
 /// A robot that got no frame for a while stands, and goes on as from one frame to the next.
@@ -58,13 +61,19 @@ const Posture& GuardedFollower::Finish() {
     posture_.position.z() += std::max(0.0, follower_.DepthOf(posture_) - kLiftAbove);
   }
   robot_state_.Compute(posture_);
+  posture_.position += follower_.scale() * belt_way_;
   return posture_;
 }
 
 const Posture& GuardedFollower::Follow(const Posture& person, double time) {
   const double dt = StepTo(time);
   if (!IsFinite(person)) return HoldFor(dt);
-  const Posture& goal = follower_.Follow(person, time);
+  belt_way_ += dt * belt_.velocity();
+  on_belt_ = person;
+  on_belt_.position -= belt_way_;
+  const Posture& goal = follower_.Follow(on_belt_, time);
+  follower_.is_anew() ? belt_.Interrupt()
+                      : belt_.Take(follower_.points(), follower_.person().mid_hip, dt);
   if (!IsFinite(goal)) return HoldFor(dt);
   if (!has_begun()) {
     governor_.Start(goal);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/retarget/belt.h"
 #include "common/retarget/motion_governor.h"
 #include "common/retarget/robot_follower.h"
 
@@ -17,7 +18,7 @@ enum class FollowState {
 };
 
 /// A RobotFollower whose robot never goes faster than its limits, with a posture for every frame
-/// since the person was seen first.
+/// since the person was seen first. The belt of a treadmill is the floor.
 class GuardedFollower {
  public:
   /// As RobotFollower.
@@ -32,7 +33,7 @@ class GuardedFollower {
 
   bool has_begun() const { return governor_.has_started(); }
   double scale() const { return follower_.scale(); }
-  // Of the last frame:
+  // Of the last frame; poses and the person on the belt, which stands:
   FollowState state() const { return state_; }
   bool rests() const { return state_ == FollowState::kHolds && held_for_ >= rest_after_; }
   const BodyPosture& person() const { return follower_.person(); }
@@ -56,7 +57,9 @@ class GuardedFollower {
   FollowState state_ = FollowState::kTracks;
   double held_for_ = 0;  // [s]
   double time_ = 0;      // of the last frame [s]
-  Posture rest_, posture_;
+  BeltWatch belt_;
+  Eigen::Vector3d belt_way_ = Eigen::Vector3d::Zero();  // that it went [m]
+  Posture rest_, posture_, on_belt_;
 };
 
 /// A whole motion followed frame by frame, as a stream's would be.

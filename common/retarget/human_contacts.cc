@@ -180,6 +180,23 @@ Support FindSupport(const FootStates& states, const HumanMotion& motion, std::si
   return support;
 }
 
+/// Of frames of which either end is on, on one thing.
+void FindStances(const FootStates& states, std::size_t i, FootContacts* foot) {
+  bool stands = false;
+  for (int k = 0; k < static_cast<int>(foot->heel.size()); ++k) {
+    const bool on = foot->heel[k] || foot->toe[k];
+    const bool is_other = stands && states.support(i, k) != states.support(i, k - 1);
+    if (on && (!stands || is_other)) foot->stances.push_back({k, k});
+    if (on) foot->stances.back().end = k + 1;
+    stands = on;
+  }
+}
+
+/// Of `count` frames, the one nearest to frame k at another rate.
+Eigen::Index NearestFrame(int k, double from, double to, Eigen::Index count) {
+  return std::min<Eigen::Index>(std::lround(k * from / to), count - 1);
+}
+
 }  // namespace
 
 PointState StateOf(const Eigen::Matrix3Xd& path, double rate) {
@@ -229,14 +246,39 @@ std::array<FootContacts, 2> FindFootContacts(const FootStates& states, double ra
   for (std::size_t i = 0; i < 2; ++i) {
     feet[i].heel = FindOn(states.heels[i], rate);
     feet[i].toe = FindOn(states.toes[i], rate);
-    bool stands = false;
-    for (int k = 0; k < static_cast<int>(feet[i].heel.size()); ++k) {
-      const bool on = feet[i].heel[k] || feet[i].toe[k];
-      const bool is_other = stands && states.support(i, k) != states.support(i, k - 1);
-      if (on && (!stands || is_other)) feet[i].stances.push_back({k, k});
-      if (on) feet[i].stances.back().end = k + 1;
-      stands = on;
+    FindStances(states, i, &feet[i]);
+  }
+  return feet;
+}
+
+FootStates AtRate(const FootStates& states, double from, double to, int frames) {
+  FootStates other = states;
+  const auto sample = [&](const Eigen::VectorXd& of, Eigen::VectorXd* values) {
+    if (of.size() == 0) return;
+    values->resize(frames);
+    for (int k = 0; k < frames; ++k) (*values)[k] = of[NearestFrame(k, from, to, of.size())];
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    sample(states.heels[i].height, &other.heels[i].height);
+    sample(states.heels[i].speed, &other.heels[i].speed);
+    sample(states.toes[i].height, &other.toes[i].height);
+    sample(states.toes[i].speed, &other.toes[i].speed);
+    sample(states.supports[i], &other.supports[i]);
+  }
+  return other;
+}
+
+std::array<FootContacts, 2> AtRate(const std::array<FootContacts, 2>& contacts,
+                                   const FootStates& states, double from, double to) {
+  std::array<FootContacts, 2> feet;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto count = static_cast<Eigen::Index>(contacts[i].heel.size());
+    for (int k = 0; k < static_cast<int>(states.heels[i].height.size()); ++k) {
+      const auto at = static_cast<std::size_t>(NearestFrame(k, from, to, count));
+      feet[i].heel.push_back(contacts[i].heel[at]);
+      feet[i].toe.push_back(contacts[i].toe[at]);
     }
+    FindStances(states, i, &feet[i]);
   }
   return feet;
 }

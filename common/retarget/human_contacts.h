@@ -45,6 +45,11 @@ struct FootContacts {
 };
 std::array<FootContacts, 2> FindFootContacts(const FootStates& states, double rate);
 
+/// Of as many frames at another rate, the nearest ones.
+FootStates AtRate(const FootStates& states, double from, double to, int frames);
+std::array<FootContacts, 2> AtRate(const std::array<FootContacts, 2>& contacts,
+                                   const FootStates& states, double from, double to);
+
 /// Below 40 mm and 0.3 m/s in this frame: what figures count as contact.
 inline bool IsInContact(const PointState& point, int k) {
   return point.height[k] < 0.04 && point.speed[k] < 0.3;

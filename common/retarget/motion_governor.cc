@@ -15,7 +15,7 @@ namespace {
 // Of joints whose file states no speed: what knees of humanoids are built for.
 constexpr double kJointSpeed = 20, kSlidingSpeed = 1;     // [rad/s], [m/s]
 constexpr double kSpeedsUpIn = 0.1;                       // [s] to a joint's speed, within
-constexpr double kLeastRise = 50, kMostRise = 250;        // [rad/s^2]
+constexpr double kLeastRise = 50, kMostRise = 200;        // [rad/s^2]
 constexpr double kRootSpeed = 6, kRootRise = 100;         // [m/s], [m/s^2]
 constexpr double kTurningSpeed = 20, kTurningRise = 250;  // [rad/s], [rad/s^2]
 constexpr double kBraking = 0.7;  // of an acceleration, with which what nears its target slows down
@@ -25,27 +25,29 @@ constexpr double kBlendSpeed = 0.7, kBlendRise = 0.5;          // of the limits,
 constexpr double kQuinticSpeed = 1.875, kQuinticRise = 5.774;  // the most of Fading, over its time
 constexpr double kBelowLimit = 1 - 1e-9;
 
-/// The tangent vector from one posture to another.
-void Difference(const Posture& from, const Posture& to, Eigen::VectorXd* difference) {
-  difference->head<3>() = to.position - from.position;
-  difference->segment<3>(3) = Log(from.orientation.conjugate() * to.orientation);
-  difference->tail(from.joint_angles.size()) = to.joint_angles - from.joint_angles;
-}
-
 void Advance(const Eigen::VectorXd& difference, Posture* posture) {
   posture->position += difference.head<3>();
   posture->orientation = (posture->orientation * Exp(difference.segment<3>(3))).normalized();
   posture->joint_angles += difference.tail(posture->joint_angles.size());
 }
 
-/// The speed at which a way [m, rad] is gone so that one stops at its end, slowing down by
-/// `rise` [1/s^2] a frame of dt [s].
+}  // namespace
+
+void DifferenceOf(const Posture& from, const Posture& to, Eigen::VectorXd* difference) {
+  difference->head<3>() = to.position - from.position;
+  difference->segment<3>(3) = Log(from.orientation.conjugate() * to.orientation);
+  difference->tail(from.joint_angles.size()) = to.joint_angles - from.joint_angles;
+}
+
 double StoppingSpeed(double way, double rise, double dt) {
   const double half = 0.5 * rise * dt;
   return std::min(way / dt, std::sqrt(half * half + 2 * rise * way) - half);
 }
 
-}  // namespace
+double SpeedTowards(double target_speed, double missing, double rise, double dt) {
+  const double nearing = StoppingSpeed(std::abs(missing), kBraking * rise, dt);
+  return target_speed + std::copysign(nearing, missing);
+}
 
 MotionLimits LimitsOf(const Robot& robot, const FollowOptions& options) {
   const int joints = robot.model.num_joints();
@@ -101,7 +103,7 @@ double MotionGovernor::BlendTime(Eigen::Index begin, Eigen::Index end) const {
 }
 
 void MotionGovernor::Blend(const Posture& target, double shortest, double longest) {
-  Difference(target, posture_, &off_);
+  DifferenceOf(target, posture_, &off_);
   off_speed_ = speed_;
   joint_blend_ = std::clamp(BlendTime(3, off_.size()), shortest, longest);
   root_blend_ = std::max(joint_blend_, BlendTime(0, 3));
@@ -119,13 +121,11 @@ void MotionGovernor::Go(const Posture& target, double dt) {
     }
     Advance(missing_, &target_);
   }
-  Difference(target_before_, target_, &target_speed_);
+  DifferenceOf(target_before_, target_, &target_speed_);
   target_speed_ /= dt;
-  Difference(posture_, target_before_, &missing_);
+  DifferenceOf(posture_, target_before_, &missing_);
   for (Eigen::Index i = 0; i < missing_.size(); ++i) {
-    const double nearing =
-        StoppingSpeed(std::abs(missing_[i]), kBraking * limits_.acceleration[i], dt);
-    wanted_[i] = target_speed_[i] + std::copysign(nearing, missing_[i]);
+    wanted_[i] = SpeedTowards(target_speed_[i], missing_[i], limits_.acceleration[i], dt);
   }
   std::swap(target_before_, target_);
   Move(dt);

@@ -24,6 +24,17 @@ struct MotionLimits {
 /// Speeds of joints as its file has them, at most what is asked for.
 MotionLimits LimitsOf(const Robot& robot, const FollowOptions& options);
 
+/// The tangent vector from one posture to another, of the right size already.
+void DifferenceOf(const Posture& from, const Posture& to, Eigen::VectorXd* difference);
+
+/// The speed at which a way [m, rad] is gone so that one stops at its end, slowing down by
+/// `rise` [1/s^2] in frames of dt [s].
+double StoppingSpeed(double way, double rise, double dt);
+
+/// The speed of what moves at `speed` and is to be `missing` farther, where that moves at
+/// `target_speed`.
+double SpeedTowards(double target_speed, double missing, double rise, double dt);
+
 /// Postures that go where they are to go, but no faster than limits allow, and come to a stop there
 /// without going beyond: each joint by itself.
 class MotionGovernor {

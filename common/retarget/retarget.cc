@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/model/forward_kinematics.h"
+#include "common/retarget/belt.h"
 #include "common/retarget/held_joints.h"
 #include "common/retarget/retarget_targets.h"
 #include "common/support/error.h"
@@ -42,6 +43,10 @@ void TakeObjects(const std::vector<TrackedObject>& objects, const RobotBody& bod
 
 }  // namespace
 
+Eigen::Vector3d WayOfBelt(const Retargeted& retargeted, int k) {
+  return retargeted.scale * k / retargeted.motion.rate * retargeted.belt;
+}
+
 double FloorOf(const Retargeted& retargeted) {
   double floor = 0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -51,12 +56,22 @@ double FloorOf(const Retargeted& retargeted) {
 }
 
 Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
-                          const Robot& robot, const RobotBody& body) {
+                          const Robot& robot, const RobotBody& body,
+                          const PoseTrajectory* recorded) {
   const HumanBody person = FindHumanBody(human_model);
   Retargeted result;
-  result.human = MoveHuman(human_model, person, motion);
+  result.human = MoveHuman(human_model, person, recorded != nullptr ? *recorded : motion);
+  result.belt = FindBelt(result.human);
+  MoveAgainst(result.belt, &result.human);
   result.states = StatesOf(result.human);
-  result.contacts = FindFootContacts(result.states, motion.rate);
+  const double rate = result.human.rate;
+  result.contacts = FindFootContacts(result.states, rate);
+  if (recorded != nullptr) {
+    result.human = MoveHuman(human_model, person, motion);
+    MoveAgainst(result.belt, &result.human);
+    result.states = AtRate(result.states, rate, motion.rate, motion.num_frames());
+    result.contacts = AtRate(result.contacts, result.states, rate, motion.rate);
+  }
   result.ankle_height = person.ankle_height;
   result.heel_heights = person.heel_heights;
   result.scale = body.size / (body.feet ? person.leg_length() : person.arm_length());
@@ -70,12 +85,13 @@ Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajector
 
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body,
-                          const std::vector<TrackedObject>& objects) {
+                          const std::vector<TrackedObject>& objects,
+                          const PoseTrajectory* recorded) {
   if (motion.num_frames() < kFewestFrames) {
     throw Error(fmt::format("a motion of {} frames; at least {} are brought to a robot",
                             motion.num_frames(), kFewestFrames));
   }
-  Retargeted result = DescribePerson(human_model, motion, robot, body);
+  Retargeted result = DescribePerson(human_model, motion, robot, body, recorded);
   TakeObjects(objects, body, &result);
   FootTracks feet = ScaledFeet(result, body);
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);
@@ -91,6 +107,9 @@ Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajector
   result.iterations = fit.iterations;
   result.keeps_limits = fit.has_converged;
   result.motion.postures = std::move(fit.postures);
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    result.motion.postures[static_cast<std::size_t>(k)].position += WayOfBelt(result, k);
+  }
   return result;
 }
 

@@ -16,6 +16,8 @@ namespace mmm_converter {
 struct Retargeted {
   PoseTrajectory motion;  ///< of all joints of the robot's model, as many frames as the person's
   double scale = 1;       ///< robot over person
+  /// Velocity of the belt of a treadmill; `human` is as on a belt that stands [m/s].
+  Eigen::Vector3d belt = Eigen::Vector3d::Zero();
   HumanMotion human;
   FootStates states;
   std::array<FootContacts, 2> contacts;
@@ -27,19 +29,25 @@ struct Retargeted {
   bool keeps_limits = false;  ///< FitResult::has_converged
 };
 
-/// What is known of the person: all but the robot's postures.
+/// What is known of the person: all but the robot's postures. recorded: the motion at its own rate,
+/// which tells contacts; null: it is that.
 Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
-                          const Robot& robot, const RobotBody& body);
+                          const Robot& robot, const RobotBody& body,
+                          const PoseTrajectory* recorded = nullptr);
+
+/// Of the robot's, until frame k [m].
+Eigen::Vector3d WayOfBelt(const Retargeted& retargeted, int k);
 
 /// Height of the floor on which the person stands [m].
 double FloorOf(const Retargeted& retargeted);
 
 /// README.md has the algorithm. human_model: a person's, of MMM or OpenSim. objects: as many frames
-/// as the motion's.
+/// as the motion's. recorded: as of DescribePerson.
 /// @throws Error where the person's model is not known, the motion has fewer than three frames, or
 /// there are objects for a robot without legs, which has no place in the person's world.
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body,
-                          const std::vector<TrackedObject>& objects = {});
+                          const std::vector<TrackedObject>& objects = {},
+                          const PoseTrajectory* recorded = nullptr);
 
 }  // namespace mmm_converter

@@ -221,7 +221,9 @@ RetargetFigures MeasureRetargeting(const Retargeted& retargeted, const Robot& ro
   figures.num_frames = retargeted.motion.num_frames();
   figures.keeps_limits = retargeted.keeps_limits;
   PosesOverTime X_WS;
-  for (const Posture& posture : retargeted.motion.postures) {
+  for (int k = 0; k < figures.num_frames; ++k) {
+    Posture posture = retargeted.motion.postures[static_cast<std::size_t>(k)];
+    posture.position -= WayOfBelt(retargeted, k);
     X_WS.push_back(SegmentPoses(robot.model, posture));
   }
   figures.slide = figures.toe_slide = figures.floating = figures.path = NAN;

@@ -49,9 +49,9 @@ struct HoldFigures {
 
 /// What a robot did that followed a stream.
 struct FollowedFigures {
-  int holds = 0, returns = 0;  ///< when its person was lost, and seen again
-  double held = 0;             ///< [s]
-  int jumps = 0;               ///< of the person, or begun anew far from them
+  int holds = 0, returns = 0;    ///< when its person was lost, and seen again
+  double held = 0, seconds = 0;  ///< [s], of these
+  int jumps = 0;                 ///< of the person, or begun anew far from them
 };
 
 /// A robot's motion in numbers; what each counts is in README.md.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/math/rotation.h"
-#include "common/math/square.h"
 
 namespace mmm_converter {
 namespace {
@@ -14,28 +13,19 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr FootDeviations kFollowed = {0.0001, 0.001, 0.006, 0.1};
-constexpr int kStepsAFrame = 3, kFirstSteps = 30, kStepsAnew = 15;
+constexpr int kStepsAFrame = 3;
 constexpr double kStepDamping = 5;  // [1/rad^2]
 // What draws a step of 10 ms to none, and its change to none: of the root's place [1/m^2], its turn
 // and joints [1/rad^2]. Less than aims, so that the robot is hardly late.
 constexpr double kFrameTime = 0.01;
-constexpr double kSlow[] = {50, 10, 30}, kSteady[] = {400, 50, 150};
+constexpr double kSlow[] = {50, 10, 300}, kSteady[] = {400, 50, 150};
 constexpr double kFloorSpring = 1e9;   // [1/m^2]
 constexpr double kFarthestStep = 0.5;  // [rad]
-constexpr double kSwiftness = 40;      // [1/s] of what follows a foot's pitch and height
+constexpr double kSwiftness = 25;      // [1/s] of what follows a foot's pitch and height
 constexpr double kDraw = 0.35;         // [s] in which a swing leaves its place
 constexpr double kRaised = 2;          // [s] after which the floor is where all of the feet are
 constexpr double kTooLong = 0.5;       // [s] between frames of a track
-// Of a person who jumps from frame to frame: beyond what people do, and what estimates are off.
-constexpr double kJumpSpeed = 12, kJumpWay = 0.05;    // [m/s], [m] of the hips
-constexpr double kJumpTurning = 30, kJumpTurn = 0.2;  // [rad/s], [rad] of the pelvis
-constexpr double kFar = 5;                            // deviations of aims, rms
-constexpr double kWorthIt = 0.5;      // of the cost, of a posture that is worth a return
-constexpr double kPatience = 0.2;     // [s] far off; twice as long each time it is to no end, until
-constexpr double kMostPatience = 5;   // [s]
-constexpr double kOtherFloor = 0.04;  // [m] above or below 0, of a floor that is not at 0
-constexpr double kStepRounding = 1e-9;
-constexpr double kLeftBelow = 5e-4;  // [m] of the floor
+constexpr double kLeftBelow = 5e-4;    // [m] of the floor
 
 /// Distance between places of a foot and its edge where it bears.
 const Vector3d& PivotOf(const RobotFoot& foot, double pitch) {
@@ -52,7 +42,8 @@ void RobotFollower::Follower::Go(double to, double dt) {
 }
 
 RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const Robot& robot,
-                             const RobotBody& body, double rate, const RobotFollower* before)
+                             const RobotBody& body, double rate, MotionLimits limits,
+                             const RobotFollower* before)
     : person_model_(std::move(person)),
       robot_(robot),
       body_(body),
@@ -71,7 +62,7 @@ RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const
       b_(H_.rows()),
       step_(H_.rows()),
       factor_(H_.rows()),
-      patience_(kPatience) {
+      limits_(std::move(limits)) {
   for (const PersonAim& one : person_aims_) problem_.aims.push_back(MakeAim(one, 1));
   for (std::size_t i = 0; i < 2 && body.feet; ++i) {
     for (Aim& aim : MakeFootAims((*body.feet)[i], 1)) {
@@ -216,7 +207,7 @@ void RobotFollower::SetAims(double dt) {
 void RobotFollower::Bound(double dt) {
   for (int j = 0; j < robot_.model.num_joints(); ++j) {
     const Segment& joint = robot_.model.joint(j);
-    const double step = (1 - kStepRounding) * robot_.velocity_limits[j] * dt;
+    const double step = limits_.speed[6 + j] * dt;
     const double q = posture_.joint_angles[j];
     lower_[j] = std::max(joint.lower, q - step);
     upper_[j] = std::min(joint.upper, q + step);
@@ -281,101 +272,6 @@ void RobotFollower::Solve(int iterations, double dt) {
   }
   if (body_.feet && !robot_.model.is_root_fixed())
     posture_.position.z() += std::max(0.0, equations_.DepthOf(posture_) - kLeftBelow);
-}
-
-// Of who was not seen before: the lowest point of the feet is on it.
-void RobotFollower::FindFloor() {
-  double lowest = INFINITY;
-  for (std::size_t i = 0; i < 2; ++i) {
-    lowest = std::min({lowest, points_[i][0].height_of_level() - human_.heel_heights[i],
-                       points_[i][1].height_of_level() - human_.toe_heights[i]});
-  }
-  if (std::abs(lowest) < kOtherFloor) return;
-  for (std::size_t i = 0; i < 2; ++i) {
-    points_[i][0].SetLevel(human_.heel_heights[i] + lowest);
-    points_[i][1].SetLevel(human_.toe_heights[i] + lowest);
-  }
-}
-
-void RobotFollower::FitAnew() {
-  const int joints = robot_.model.num_joints();
-  for (int j = 0; j < joints; ++j) {
-    lower_[j] = robot_.model.joint(j).lower;
-    upper_[j] = robot_.model.joint(j).upper;
-  }
-  const Posture upright = FirstPosture(person_posture_, scale_, robot_, body_);
-  if (!has_begun_) {
-    posture_ = StartTrajectory(problem_, upright).front();
-    return Solve(kFirstSteps, 1 / rate_);
-  }
-  Posture leaning = upright;
-  if (!robot_.model.is_root_fixed()) {
-    leaning.orientation =
-        Eigen::Quaterniond(person_posture_.R_pelvis * body_.map.R_WA.transpose()) *
-        ZeroPosture(robot_.model).orientation;
-  }
-  std::array<Posture, 4> starts = {upright, leaning, leaning, upright};
-  starts[0].joint_angles = starts[1].joint_angles = posture_.joint_angles;
-  starts[2].joint_angles = body_.rest;
-  starts[3].joint_angles = 0.7 * body_.rest + 0.15 * (lower_.cwiseMax(-3) + upper_.cwiseMin(3));
-  Posture best = posture_;
-  double least = INFINITY;
-  for (const Posture& start : starts) {
-    posture_ = start;
-    posture_.joint_angles = start.joint_angles.cwiseMax(lower_).cwiseMin(upper_);
-    Solve(kStepsAnew, 1 / rate_);
-    const double cost = equations_.CostOf(0, posture_);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = posture_;
-  }
-  posture_ = best;
-}
-
-void RobotFollower::Begin(double time) {
-  is_following_ = false;
-  const bool is_known = has_begun_;
-  for (auto& foot : points_) {
-    for (PointWatch& point : foot) point.Forget();
-  }
-  for (Foot& foot : feet_) {
-    foot.stands = false;
-    foot.drawn_for = kDraw;
-  }
-  raised_for_ = far_for_ = 0;
-  WatchPerson(time);
-  if (!is_known) FindFloor();
-  SetAims(1 / rate_);
-  FitAnew();
-  speed_.setZero(6 + robot_.model.num_joints());
-}
-
-bool RobotFollower::HasJumped(const BodyPosture& before, double dt) const {
-  const double way = (person_posture_.mid_hip - before.mid_hip).norm();
-  const Eigen::AngleAxisd turn(before.R_pelvis.transpose() * person_posture_.R_pelvis);
-  return way > kJumpWay + kJumpSpeed * dt || std::abs(turn.angle()) > kJumpTurn + kJumpTurning * dt;
-}
-
-bool RobotFollower::IsStuck(double dt) {
-  double sum = 0;
-  for (std::size_t n = 0; n < person_aims_.size(); ++n) {
-    const Aim& aim = problem_.aims[n];
-    const Eigen::Isometry3d& X = robot_state_.X_WS(aim.segment);
-    const Vector3d now = aim.is_direction ? X.linear() * aim.local : X * aim.local;
-    sum += aim.weight.col(0).cwiseProduct(aim.target.col(0) - now).squaredNorm();
-  }
-  const bool is_far = sum > Square(kFar) * static_cast<double>(person_aims_.size());
-  far_for_ = is_far ? far_for_ + dt : 0;
-  if (!is_far) patience_ = kPatience;
-  if (far_for_ < patience_) return false;
-  patience_ = std::min(2 * patience_, kMostPatience);
-  far_for_ = 0;
-  const Posture now = posture_;
-  const double cost = equations_.CostOf(0, posture_);
-  FitAnew();
-  if (equations_.CostOf(0, posture_) < kWorthIt * cost) return true;
-  posture_ = now;
-  return false;
 }
 
 const Posture& RobotFollower::Follow(const Posture& person, double time) {

@@ -8,6 +8,7 @@
 
 #include "common/retarget/contact_watch.h"
 #include "common/retarget/foot_turns.h"
+#include "common/retarget/motion_governor.h"
 #include "common/retarget/retarget_targets.h"
 #include "common/retarget/trajectory_window.h"
 
@@ -15,14 +16,15 @@ namespace mmm_converter {
 
 /// A robot that follows a person frame by frame, each by the frames until then alone: aims as
 /// RetargetMotion's, contacts by PointWatch. A foot stays where the robot had it as the person's
-/// touched the ground; joints go no farther from their last angles than their velocities allow. It
+/// touched the ground; joints go no farther from their last angles than their speeds allow. It
 /// begins anew, wherever it was, where the person jumps or it is far from the person for long.
 class RobotFollower {
  public:
   /// Robot and body stay valid. before: whose robot goes on from its joints; null: none. @throws
   /// Error where the person's model is not known.
   RobotFollower(std::shared_ptr<const KinematicModel> person, const Robot& robot,
-                const RobotBody& body, double rate, const RobotFollower* before = nullptr);
+                const RobotBody& body, double rate, MotionLimits limits,
+                const RobotFollower* before = nullptr);
 
   /// time: of the frame [s]. The posture is valid until the next call. Allocates in the first
   /// two frames, where it begins anew, and where a part touches the floor or another one for the
@@ -39,6 +41,8 @@ class RobotFollower {
   const BodyPosture& person() const { return person_posture_; }
   const std::vector<Eigen::Isometry3d>& X_WS() const { return robot_state_.poses(); }
   bool is_anew() const { return is_anew_; }
+  /// Heels and toes of the person.
+  const std::array<std::array<PointWatch, 2>, 2>& points() const { return points_; }
   bool stands(std::size_t foot) const { return feet_[foot].stands; }
 
  private:
@@ -105,8 +109,9 @@ class RobotFollower {
   Eigen::MatrixXd H_;
   Eigen::VectorXd b_, step_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  double time_ = 0, last_dt_ = 0;  // of the last frame [s]
-  double far_for_ = 0, patience_;  // [s]
+  MotionLimits limits_;
+  double time_ = 0, last_dt_ = 0;      // of the last frame [s]
+  double far_for_ = 0, patience_ = 0;  // [s]
   bool has_begun_ = false, is_following_ = false, is_anew_ = false;
 };
 

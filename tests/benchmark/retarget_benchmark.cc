@@ -16,8 +16,8 @@
 
 #include "common/io/robot_file.h"
 #include "common/pipeline/dynamics/checked_motion.h"
-#include "common/retarget/retarget_figures.h"
 #include "common/retarget/guarded_follower.h"
+#include "common/retarget/retarget_figures.h"
 
 namespace mmm_converter {
 namespace {

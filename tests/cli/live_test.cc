@@ -12,6 +12,7 @@
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording.h"
+#include "common/support/units.h"
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
 
@@ -95,6 +96,40 @@ TEST(Live, ARobotFollowsThePerson) {
   const auto refused = RunProgram(sends);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("takes persons only"));
+}
+
+TEST(Live, ARobotHoldsWhileItsPersonIsLostAndThatIsTold) {
+  const std::string& folder = TestFolder();
+  MarkerSequence markers = ReadRecording(Handstand(), {}).markers.Slice(0, 250);
+  for (int k = 100; k < 220; ++k) markers.frame(k).setConstant(kNaN);
+  WriteC3d(folder + "/gap.c3d", markers, {});
+  const std::string robot = testing::SourcePath("examples/robot/biped.urdf");
+  std::vector<std::string> words = {"live",
+                                    "replay:" + folder + "/gap.c3d@max",
+                                    "--height",
+                                    "1.8",
+                                    "--robot",
+                                    robot,
+                                    "-o",
+                                    folder + "/gap.xml",
+                                    "--strict",
+                                    "--summary",
+                                    folder + "/gap.json"};
+  const auto run = RunProgram(words);
+  EXPECT_EQ(run.exit_code, 3) << run.err;  // nearly half of the time
+  EXPECT_THAT(run.err, ::testing::AllOf(HasSubstr("the person is lost; the robot holds"),
+                                        HasSubstr("the robot returns to the person, after 1.")));
+  EXPECT_THAT(run.out, HasSubstr("the person was lost 1 time: the robot held for 1."));
+  const nlohmann::json summary = nlohmann::json::parse(ReadText(folder + "/gap.json"))["robot"];
+  EXPECT_EQ(summary["holds"], 1);
+  EXPECT_EQ(summary["returns"], 1);
+  EXPECT_LT(summary["acceleration_rad_s2"], 60);
+  // A posture of each frame, whoever is seen.
+  EXPECT_EQ(ReadMmmMotionFile(folder + "/gap.xml").motions.front().trajectory.num_frames(), 250);
+  words.insert(words.end(), {"--joint-speed", "0"});
+  const auto refused = RunProgram(words);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--joint-speed is rad/s, from 0.01 to 1000"));
 }
 
 TEST(Live, ExportsAndPagesAreThoseOfAConversion) {

@@ -63,6 +63,16 @@ TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("verdict"), HasSubstr(File("o.csv.names.json"))));
   const auto summary = nlohmann::json::parse(ReadText(File("o.json")));
   EXPECT_THAT(summary["verdict"]["level"], ::testing::AnyOf("good", "check"));
+  const auto& fits = summary["files_at_other_rates"];
+  ASSERT_EQ(fits.size(), 2U);
+  EXPECT_EQ(fits[0]["files"][0], File("o.csv"));
+  EXPECT_EQ(fits[0]["rate_hz"], 30);
+  EXPECT_EQ(fits[1]["rate_hz"], 50);
+  for (const auto& fit : fits) {
+    EXPECT_LT(fit["penetration_m"], 0.002);
+    EXPECT_EQ(fit["velocity_limits_broken"], 0);
+  }
+  EXPECT_THAT(run.out, HasSubstr("at 30 Hz"));
   EXPECT_THAT(ReadText(File("o.xml")), HasSubstr("left_hip_pitch"));
   const auto rows = ReadNumbers(ReadText(File("o.csv")));
   EXPECT_EQ(rows.size(), 30U);  // of 0.99 s

@@ -273,7 +273,7 @@ const std::vector<RobotExporter>& RobotExporters() {
       {"lafan1", "export-lafan1", "csv",
        "root and joints as Unitree's LAFAN1 files have them (CSV without a header; x y z, qx qy qz "
        "qw, joints), 30 Hz; names beside it",
-       false, true, WriteLafan},
+       false, true, WriteLafan, nullptr, kLafanRate},
       {"gmr", "export-gmr", "pkl", "root, joints and bodies as GMR and TWIST have them (pickle)",
        false, false, WriteGmr},
       {"mujoco", "export-mujoco", "npz",
@@ -284,13 +284,14 @@ const std::vector<RobotExporter>& RobotExporters() {
       {"beyondmimic", "export-beyondmimic", "npz",
        "joints and bodies that move, with velocities, as BeyondMimic has them (NumPy), 50 Hz; "
        "needs the order",
-       true, false, WriteBeyondMimic},
+       true, false, WriteBeyondMimic, nullptr, kMimicRate},
       {"mjlab", "export-mjlab", "npz",
-       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", false, false, WriteMjlab},
+       "the same as mjlab has them, in MuJoCo's order (NumPy), 50 Hz", false, false, WriteMjlab,
+       nullptr, kMimicRate},
       {"phc", "export-phc", "pkl",
        "root, joints and their rotation vectors as PHC and ASAP have them (a pickle that joblib "
        "reads), 30 Hz; names beside it",
-       false, true, WritePhc, CheckPhc}};
+       false, true, WritePhc, CheckPhc, kLafanRate}};
   return exporters;
 }
 

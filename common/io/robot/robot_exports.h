@@ -33,6 +33,7 @@ struct RobotExporter {
                 const RobotExportOptions& options) = nullptr;
   /// @throws Error where `write` would for the robot or the options. Null: it would not.
   void (*check)(const Robot& robot, const RobotExportOptions& options) = nullptr;
+  double rate = 0;  ///< [Hz] that its readers expect; 0: the motion's
 };
 
 const std::vector<RobotExporter>& RobotExporters();

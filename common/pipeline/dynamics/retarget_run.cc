@@ -14,6 +14,7 @@
 #include "common/model/model_scaling.h"
 #include "common/model/posture.h"
 #include "common/motion/marker_residuals.h"
+#include "common/motion/resampled.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/support/atomic_file.h"
@@ -139,6 +140,45 @@ RobotExportOptions ExportOptionsOf(const RobotRequest& robot, const RetargetRepo
   return options;
 }
 
+PoseTrajectory AtRate(const PoseTrajectory& motion, double rate) {
+  JointBounds none;
+  none.upper.setConstant(static_cast<Eigen::Index>(motion.joint_names.size()), INFINITY);
+  none.lower = -none.upper;
+  none.velocity = none.upper;
+  return Resample(motion, rate, none);
+}
+
+/// Null: the motion's own rate.
+RateFit* FitAt(double rate, RetargetReport* report) {
+  constexpr double kSameRate = 1e-6;  // of it
+  const double own = report->retargeted.motion.rate;
+  if (std::abs(rate - own) < kSameRate * own) return nullptr;
+  for (RateFit& fit : report->fits) {
+    if (fit.rate == rate) return &fit;
+  }
+  const PoseTrajectory motion = AtRate(report->person, rate);
+  Warnings told_before;
+  RateFit fit;
+  fit.rate = rate;
+  fit.retargeted =
+      RetargetMotion(*report->person_model, motion, report->robot, report->body,
+                     AlignObjects(motion, report->objects, &told_before), &report->person);
+  fit.figures = MeasureRetargeting(fit.retargeted, report->robot, report->body);
+  fit.verdict = JudgeRetargeting(
+      fit.figures, report->conversion_verdict ? &*report->conversion_verdict : nullptr);
+  report->fits.push_back(std::move(fit));
+  return &report->fits.back();
+}
+
+void TakeWorse(const std::string& file, const RateFit& fit, Verdict* verdict) {
+  if (fit.verdict.level <= verdict->level) return;
+  *verdict = fit.verdict;
+  const std::string name = fs::path(file).filename().string();
+  for (std::string& reason : verdict->reasons) {
+    reason = fmt::format("{} ({:g} Hz): {}", name, fit.rate, reason);
+  }
+}
+
 void CheckFiles(const RetargetRequest& request, const std::string& output) {
   OutputPlan plan;
   NameInputs(request, &plan);
@@ -219,7 +259,20 @@ void CheckRobotExport(const RobotExporter& format, const RobotRequest& robot,
 
 void WriteRobotExport(const RobotExporter& format, const std::string& file,
                       const RobotRequest& robot, RetargetReport* report) {
-  format.write(file, report->robot, report->retargeted.motion, ExportOptionsOf(robot, *report));
+  ExportRobotMotion(format, file, ExportOptionsOf(robot, *report), report);
+}
+
+void ExportRobotMotion(const RobotExporter& format, const std::string& file,
+                       const RobotExportOptions& options, RetargetReport* report) {
+  const double own = format.rate > 0 ? format.rate : report->retargeted.motion.rate;
+  const double rate = options.rate.value_or(own);
+  RateFit* fit = IsExportRate(rate) ? FitAt(rate, report) : nullptr;  // else it is refused below
+  const PoseTrajectory& motion = fit ? fit->retargeted.motion : report->retargeted.motion;
+  format.write(file, report->robot, motion, options);
+  if (fit != nullptr) {
+    fit->files.push_back(file);
+    TakeWorse(file, *fit, &report->verdict);
+  }
   for (std::string& one : FilesOf(format, file)) report->written.push_back(std::move(one));
 }
 

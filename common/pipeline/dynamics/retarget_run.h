@@ -28,6 +28,16 @@ struct RetargetRequest {
   const ConversionReport* converted = nullptr;
 };
 
+/// The motion at the rate of files that are written, which is not the recording's: a fit of its
+/// own.
+struct RateFit {
+  double rate = 0;  ///< [Hz]
+  Retargeted retargeted;
+  RetargetFigures figures;
+  Verdict verdict;
+  std::vector<std::string> files = {};
+};
+
 struct RetargetReport {
   std::string file, motion_name;
   std::string robot_file, output;
@@ -36,7 +46,7 @@ struct RetargetReport {
   std::vector<RecordedObject> objects;
   Retargeted retargeted;
   RetargetFigures figures;
-  Verdict verdict;
+  Verdict verdict;                            ///< the worst of what is written
   std::optional<Verdict> conversion_verdict;  ///< of a recording
   Warnings warnings;
   std::string unshown = {};               ///< of the person, in words; empty: nothing
@@ -44,6 +54,7 @@ struct RetargetReport {
   std::shared_ptr<const KinematicModel> person_model = nullptr;
   PoseTrajectory person = {};         ///< as many frames as the robot's
   std::set<std::string> opened = {};  ///< files; see OpenedFiles
+  std::vector<RateFit> fits = {};     ///< at other rates
 };
 
 /// Says in the plan which files the request names.
@@ -62,9 +73,13 @@ RetargetRequest RequestFor(const ConversionRequest& conversion, const Conversion
 void CheckRobotExport(const RobotExporter& format, const RobotRequest& robot,
                       const RetargetReport& report);
 
-/// Writes `file`, as the conversion's request says of the robot. @throws Error
+/// Writes `file`, as the conversion's request says of the robot, from a fit at the file's rate.
+/// @throws Error
 void WriteRobotExport(const RobotExporter& format, const std::string& file,
                       const RobotRequest& robot, RetargetReport* report);
+
+void ExportRobotMotion(const RobotExporter& format, const std::string& file,
+                       const RobotExportOptions& options, RetargetReport* report);
 
 /// An MMM motion with the robot's model. @throws Error; the file is then as it was before.
 void WriteRobotMotion(RetargetReport* report);

@@ -13,6 +13,7 @@
 #include "common/io/robot_file.h"
 #include "common/io/urdf/urdf_robot.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/motion/resampled.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/retarget/guarded_follower.h"
 #include "common/retarget/retarget_figures.h"
@@ -80,6 +81,34 @@ TEST(RetargetTest, AFixedTrunkMovesItsArms) {
   const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
   EXPECT_LT(MeasureRetargeting(result, robot, body).direction, 1 * kDegree);
   EXPECT_LT(result.motion.postures[70].position.norm(), 1e-3);
+}
+
+TEST(RetargetTest, FeetStandStillAtTheRateOfAFile) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  const PoseTrajectory recorded = Squat(person);
+  JointBounds none;
+  none.upper.setConstant(recorded.postures[0].joint_angles.size(), INFINITY);
+  none.velocity = none.upper;
+  none.lower = -none.upper;
+  const Retargeted own = RetargetMotion(person, recorded, robot, body);
+  for (const double rate : {10.0, 30.0, 240.0}) {
+    const PoseTrajectory motion = Resample(recorded, rate, none);
+    const Retargeted result = RetargetMotion(person, motion, robot, body, {}, &recorded);
+    ASSERT_EQ(result.motion.num_frames(), motion.num_frames());
+    const RetargetFigures figures = MeasureRetargeting(result, robot, body);
+    EXPECT_EQ(figures.rate, rate);
+    EXPECT_EQ(figures.slide, 0) << rate;
+    EXPECT_LT(figures.penetration, 3e-4) << rate;
+    EXPECT_EQ(figures.velocity_breaks, 0) << rate;
+    // Contacts are the recording's.
+    for (int k = 0; k < motion.num_frames(); ++k) {
+      const auto at =
+          static_cast<std::size_t>(std::min<std::ptrdiff_t>(std::lround(k * 100 / rate), 199));
+      EXPECT_EQ(result.contacts[0].heel[k], own.contacts[0].heel[at]) << rate << " " << k;
+    }
+  }
 }
 
 TEST(RetargetTest, FrameByFrameFeetStandStillAndLimitsAreKept) {
