@@ -107,7 +107,10 @@ Description DescribeModel(const FileStart& file, const ReadRecordingOptions&) {
   std::optional<Robot> robot;
   if (IsUrdf(file.head) || IsMjcf(file.head)) robot = ReadRobotFile(file.path, &warnings);
   if (robot) {
-    for (const int end : LowestEnds(robot->model)) ReadMeshes(end, &*robot, &warnings);
+    for (const int end : LowestEnds(robot->model)) {
+      const bool has_sole = FindSole(*robot, end, {}, nullptr).has_value();
+      ReadMeshes(end, &*robot, has_sole ? nullptr : &warnings);
+    }
   }
   const KinematicModel model = robot ? robot->model : ReadModelFile(file.path, &warnings).model;
   std::string text = fmt::format(

@@ -63,9 +63,17 @@ SoleChoice SoleChoiceOf(const RobotRequest& request) {
   return choice;
 }
 
-void ReadFeet(const BodyMap& map, Robot* robot, Warnings* warnings) {
+/// Where shapes tell what a sole is, meshes that are not there are no loss.
+void ReadFeet(const BodyMap& map, const SoleChoice& choice, Robot* robot, Warnings* warnings) {
+  if (choice.depth || choice.take == SoleChoice::Take::kShapes) return;
+  SoleChoice of_shapes;
+  of_shapes.take = SoleChoice::Take::kShapes;
   for (const Side side : kSides) {
-    if (map.leg(side)) ReadMeshes(map.leg(side)->end, robot, warnings);
+    if (!map.leg(side)) continue;
+    const int end = map.leg(side)->end;
+    const bool are_needed =
+        choice.take == SoleChoice::Take::kMeshes || !FindSole(*robot, end, of_shapes, nullptr);
+    ReadMeshes(end, robot, are_needed ? warnings : nullptr);
   }
 }
 
@@ -88,7 +96,7 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   const SoleChoice sole = SoleChoiceOf(request);
   const BodyMapChoice map = MapChoiceOf(request);
   Warnings of_meshes;
-  ReadFeet(FindRobotMap(robot, map), &robot, &of_meshes);
+  ReadFeet(FindRobotMap(robot, map), sole, &robot, &of_meshes);
   RobotBody body = FindBody(robot, map, sole, of_meshes);
   if (warnings != nullptr) warnings->Append(of_meshes);
   if (body.feet && !(*body.feet)[0].doubt.empty()) Warn(warnings, (*body.feet)[0].doubt);
@@ -104,7 +112,7 @@ std::string DescribeRobotMap(const RobotRequest& request, Warnings* warnings) {
   const SoleChoice choice = SoleChoiceOf(request);
   Robot robot = ReadStandingRobot(request.file, warnings);
   const BodyMap map = FindRobotMap(robot, MapChoiceOf(request));
-  ReadFeet(map, &robot, warnings);
+  ReadFeet(map, choice, &robot, warnings);
   std::string text = FormatBodyMap(robot.model, map);
   for (const Side side : kSides) {
     if (!map.leg(side)) continue;
