@@ -16,7 +16,7 @@ cmake_minimum_required(VERSION 3.25)
 
 set(layers
     common/support common/math common/model common/motion common/fit
-    common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" "common/io/urdf|common/io/osim|common/io/mjcf|common/io/robot"
+    common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/mesh "common/io/urdf|common/io/osim|common/io/mjcf|common/io/robot"
     common/io common/io/landmarks common/io/skeleton "common/io/bvh|common/io/npz" common/io/recording
     common/convert "common/calibrate|common/forces" common/contacts "common/angles|common/kinetics" common/retarget
     common/label common/label/search "common/label/track|common/label/learn" common/judge

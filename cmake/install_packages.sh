@@ -8,7 +8,7 @@
 # As root or with sudo; where all are there already, neither is needed.
 set -eu
 
-run='cmake ninja-build g++ libeigen3-dev libboost-filesystem-dev libboost-program-options-dev libfmt-dev libspdlog-dev
+run='cmake ninja-build g++ libassimp-dev libeigen3-dev libboost-filesystem-dev libboost-program-options-dev libfmt-dev libspdlog-dev
   libtbb-dev libtinyxml2-dev liburdfdom-dev libxxhash-dev nlohmann-json3-dev libzmq3-dev cppzmq-dev zlib1g-dev libjs-dygraphs
   libjs-three'
 test='libgtest-dev libgmock-dev libsimbody-dev libxml2-utils liburdfdom-tools gnuplot-nox groff-base'

@@ -78,7 +78,7 @@ last="JOINT"/> for left and right legs and arms; limbs that it leaves out are no
 {}Examples
   MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf
   MMMConverterS2KF retarget walk.c3d --height 1.75 --robot g1.urdf -o g1_walk.xml
-  MMMConverterS2KF retarget jump_mmm.xml --robot h1.xml --sole-height 0.07 --summary jump.json
+  MMMConverterS2KF retarget jump_mmm.xml --robot h1.xml --sole shapes --summary jump.json
   MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf --export-lafan1 walk.csv --export-rate 50
   MMMConverterS2KF retarget walk_mmm.xml --robot g1.urdf --export-beyondmimic w.npz --order isaac
   MMMConverterS2KF retarget --robot g1.urdf --print-map --report g1.html

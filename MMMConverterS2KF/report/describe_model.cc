@@ -10,6 +10,7 @@
 #include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/model_file.h"
 #include "common/io/robot_file.h"
+#include "common/io/robot_meshes.h"
 #include "common/io/urdf/urdf_model_reader.h"
 #include "common/model/forward_kinematics.h"
 
@@ -78,18 +79,18 @@ std::vector<int> LowestEnds(const KinematicModel& model) {
 }
 
 void DescribeRobotParts(const Robot& robot, std::string* text, Json* json) {
-  *text += fmt::format("bodies     {}\nshapes     {}, meshes that are not read {}\n",
-                       robot.links.size(), robot.shapes.size(), robot.mesh_segments.size());
+  *text += fmt::format("bodies     {}\nshapes     {}, meshes {} (those of feet are read)\n",
+                       robot.links.size(), robot.shapes.size(), robot.meshes.size());
   (*json)["format"] = robot.format;
   (*json)["bodies"] = Json::array();
   for (const Robot::Link& link : robot.links) (*json)["bodies"].push_back(link.name);
   (*json)["shapes"] = robot.shapes.size();
-  (*json)["meshes"] = robot.mesh_segments.size();
+  (*json)["meshes"] = robot.meshes.size();
   (*json)["soles"] = Json::array();
   for (const int end : LowestEnds(robot.model)) {
     const std::string& name = robot.model.segments()[end].name;
     std::string reason;
-    const std::optional<Sole> sole = FindSole(robot, end, std::nullopt, &reason);
+    const std::optional<Sole> sole = FindSole(robot, end, {}, &reason);
     const std::string said =
         sole ? fmt::format("{:.1f} mm below, {}", 1e3 * sole->depth, sole->said) : reason;
     *text += fmt::format("sole       {}: {}\n", name, said);
@@ -105,6 +106,12 @@ Description DescribeModel(const FileStart& file, const ReadRecordingOptions&) {
   Warnings warnings;
   std::optional<Robot> robot;
   if (IsUrdf(file.head) || IsMjcf(file.head)) robot = ReadRobotFile(file.path, &warnings);
+  if (robot) {
+    for (const int end : LowestEnds(robot->model)) {
+      const bool has_sole = FindSole(*robot, end, {}, nullptr).has_value();
+      ReadMeshes(end, &*robot, has_sole ? nullptr : &warnings);
+    }
+  }
   const KinematicModel model = robot ? robot->model : ReadModelFile(file.path, &warnings).model;
   std::string text = fmt::format(
       "{}: model {}\nsegments   {}\nmass       {:.6g} kg\nnode sets  {}\njoints     {}\n",

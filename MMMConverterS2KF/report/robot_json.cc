@@ -27,6 +27,8 @@ const char* NameOf(ContactShape::Kind kind) {
       return "cylinder";
     case ContactShape::Kind::kEllipsoid:
       return "ellipsoid";
+    case ContactShape::Kind::kHull:
+      return "hull";
   }
   return "";
 }

@@ -10,15 +10,17 @@
 #include <map>
 
 #include "common/model/forward_kinematics.h"
+#include "common/support/advice.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
 
-constexpr std::array<const char*, 5> kShapeNames = {"box", "sphere", "capsule", "cylinder",
-                                                    "ellipsoid"};
-constexpr std::array<const char*, 5> kShapesNames = {"boxes", "spheres", "capsules", "cylinders",
-                                                     "ellipsoids"};
+constexpr std::array<const char*, 6> kShapeNames = {"box",      "sphere",    "capsule",
+                                                    "cylinder", "ellipsoid", "mesh"};
+constexpr std::array<const char*, 6> kShapesNames = {"boxes",     "spheres",    "capsules",
+                                                     "cylinders", "ellipsoids", "meshes"};
+constexpr double kDeeper = 0.002;  // [m], of a foot below the floor that a verdict tells
 
 double Sign(double x) { return (x > 0 ? 1.0 : 0.0) - (x < 0 ? 1.0 : 0.0); }
 
@@ -41,6 +43,9 @@ Eigen::Vector3d SupportOf(const ContactShape& shape, const Eigen::Vector3d& d) {
       const Eigen::Vector3d scaled = shape.half.cwiseProduct(d);
       return shape.half.cwiseProduct(scaled.normalized());
     }
+    case ContactShape::Kind::kHull:
+      return *std::max_element(shape.points.begin(), shape.points.end(),
+                               [&](const auto& a, const auto& b) { return a.dot(d) < b.dot(d); });
   }
   return Eigen::Vector3d::Zero();
 }
@@ -74,22 +79,79 @@ std::string BodyName(const Robot& robot, int root) {
   return robot.model.segments()[root].name;
 }
 
-/// Those of toes, too, as they are at rest.
-void AddShapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS, Sole* sole) {
-  std::map<ContactShape::Kind, int> counts;
-  for (const ContactShape& shape : robot.shapes) {
-    if (!IsAtOrBelow(robot.model, shape.segment, sole->segment)) continue;
-    ContactShape& added = sole->shapes.emplace_back(shape);
-    added.X_SG = X_WS[sole->segment].inverse() * X_WS[shape.segment] * shape.X_SG;
-    added.segment = sole->segment;
-    ++counts[shape.kind];
+/// In the axes of the sole's segment, as they are at rest.
+void AddShape(const std::vector<Eigen::Isometry3d>& X_WS, const ContactShape& shape, Sole* sole) {
+  ContactShape& added = sole->shapes.emplace_back(shape);
+  added.X_SG = X_WS[sole->segment].inverse() * X_WS[shape.segment] * shape.X_SG;
+  added.segment = sole->segment;
+}
+
+/// Those of a rigid body that were read: what touches, else all.
+std::vector<const RobotMesh*> MeshesOf(const Robot& robot, int body) {
+  std::vector<const RobotMesh*> meshes;
+  for (const bool touches : {true, false}) {
+    for (const RobotMesh& mesh : robot.meshes) {
+      if (mesh.touches != touches || mesh.hull.empty()) continue;
+      if (RigidRoot(robot.model, mesh.segment) == body) meshes.push_back(&mesh);
+    }
+    if (!meshes.empty()) break;
   }
+  return meshes;
+}
+
+bool AddShapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS, int body,
+               Sole* sole) {
+  const std::size_t before = sole->shapes.size();
+  for (const ContactShape& shape : robot.shapes) {
+    if (RigidRoot(robot.model, shape.segment) == body) AddShape(X_WS, shape, sole);
+  }
+  return sole->shapes.size() > before;
+}
+
+bool AddMeshes(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS, int body,
+               Sole* sole) {
+  const std::vector<const RobotMesh*> meshes = MeshesOf(robot, body);
+  for (const RobotMesh* mesh : meshes) {
+    ContactShape hull;
+    hull.kind = ContactShape::Kind::kHull;
+    hull.segment = mesh->segment;
+    hull.points = mesh->hull;
+    AddShape(X_WS, hull, sole);
+  }
+  return !meshes.empty();
+}
+
+std::string Describe(const Robot& robot, const Sole& sole) {
+  std::map<ContactShape::Kind, int> counts;
+  for (const ContactShape& shape : sole.shapes) ++counts[shape.kind];
   std::vector<std::string> said;
   for (const auto& [kind, count] : counts) {
     const auto i = static_cast<std::size_t>(kind);
     said.push_back(fmt::format("{} {}", count, count == 1 ? kShapeNames[i] : kShapesNames[i]));
   }
-  sole->said = JoinNames(said, " and ") + " of " + BodyName(robot, sole->segment);
+  return JoinNames(said, " and ") + " of " + BodyName(robot, sole.segment);
+}
+
+/// Of the foot and of toes below it, each body by itself.
+void AddBodies(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS,
+               SoleChoice::Take take, Sole* sole) {
+  for (int body = sole->segment; body < static_cast<int>(X_WS.size()); ++body) {
+    if (RigidRoot(robot.model, body) != body) continue;
+    if (!IsAtOrBelow(robot.model, body, sole->segment)) continue;
+    const bool takes_meshes = take == SoleChoice::Take::kMeshes;
+    const bool has =
+        takes_meshes ? AddMeshes(robot, X_WS, body, sole) : AddShapes(robot, X_WS, body, sole);
+    if (has) {
+      if (takes_meshes) sole->source = Sole::Source::kMeshes;
+      continue;
+    }
+    if (takes_meshes) {
+      AddShapes(robot, X_WS, body, sole);
+    } else if (take == SoleChoice::Take::kAny && AddMeshes(robot, X_WS, body, sole)) {
+      sole->source = Sole::Source::kMeshes;
+    }
+  }
+  if (!sole->shapes.empty()) sole->said = Describe(robot, *sole);
 }
 
 void AddPoint(const Eigen::Vector3d& p_SP, Sole* sole) {
@@ -114,20 +176,52 @@ void AddNamed(const Robot& robot, const std::vector<Place>& places, Eigen::Isome
 }
 
 std::string WhyNone(const Robot& robot, int root) {
-  const auto meshes =
-      std::count_if(robot.mesh_segments.begin(), robot.mesh_segments.end(),
-                    [&](int segment) { return RigidRoot(robot.model, segment) == root; });
+  const auto meshes = std::count_if(
+      robot.meshes.begin(), robot.meshes.end(),
+      [&](const RobotMesh& mesh) { return RigidRoot(robot.model, mesh.segment) == root; });
   const std::string body = BodyName(robot, root);
   if (meshes == 0) return fmt::format("{} has no shape that touches the ground", body);
   return fmt::format("{} has {} {}, which {} not read, and no box, sphere, capsule or cylinder",
                      body, meshes, meshes == 1 ? "mesh" : "meshes", meshes == 1 ? "is" : "are");
 }
 
-void MeasureDepth(Sole* sole) {
-  sole->depth = -std::numeric_limits<double>::infinity();
-  for (const ContactShape& shape : sole->shapes) {
-    sole->depth = std::max(sole->depth, sole->down_S.dot(SupportPoint(shape, sole->down_S)));
+double DepthOf(const Sole& sole) {
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const ContactShape& shape : sole.shapes) {
+    depth = std::max(depth, sole.down_S.dot(SupportPoint(shape, sole.down_S)));
   }
+  return depth;
+}
+
+/// Shapes for simulators may end above what was built.
+void CompareWithMeshes(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_WS, Sole* sole) {
+  Sole of_meshes;
+  of_meshes.segment = sole->segment;
+  of_meshes.down_S = sole->down_S;
+  AddBodies(robot, X_WS, SoleChoice::Take::kMeshes, &of_meshes);
+  const double deeper = DepthOf(of_meshes) - sole->depth;
+  if (!(deeper > kDeeper)) return;
+  sole->doubt = fmt::format(
+      "the sole is {}, and {} end{} {:.1f} mm lower; {} \"meshes\" or \"shapes\" says which counts",
+      sole->said, of_meshes.said, of_meshes.shapes.size() == 1 ? "s" : "", 1e3 * deeper,
+      OptionText("sole"));
+}
+
+void TakeGiven(const SoleChoice& choice, Sole* sole) {
+  sole->source = Sole::Source::kGiven;
+  sole->said = fmt::format("{:.0f} mm, as given", 1e3 * *choice.depth);
+  if (choice.size) {
+    sole->said = fmt::format("{:.0f} mm long, {:.0f} wide and {:.0f} below, as given",
+                             1e3 * choice.size->x(), 1e3 * choice.size->y(), 1e3 * *choice.depth);
+    sole->doubt = "the sole is as given, and nothing in the robot's file confirms it";
+  }
+  AddPoint(*choice.depth * sole->down_S, sole);
+}
+
+void TakeNamed(const Robot& robot, Sole* sole) {
+  sole->source = Sole::Source::kNamed;
+  AddNamed(robot, robot.sites, &Robot::Site::X_SP, "site", sole);
+  if (sole->shapes.empty()) AddNamed(robot, robot.links, &Robot::Link::X_SL, "link", sole);
 }
 
 }  // namespace
@@ -149,29 +243,32 @@ int RigidRoot(const KinematicModel& model, int segment) {
   return segment;
 }
 
-std::optional<Sole> FindSole(const Robot& robot, int segment, std::optional<double> given_depth,
+std::optional<Sole> FindSole(const Robot& robot, int segment, const SoleChoice& choice,
                              std::string* reason) {
   Sole sole;
   sole.segment = RigidRoot(robot.model, segment);
   const std::vector<Eigen::Isometry3d> X_WS = PosesAtRest(robot.model);
   sole.down_S = -X_WS[sole.segment].linear().row(2).transpose();
-  if (given_depth) {
-    sole.source = Sole::Source::kGiven;
-    sole.said = fmt::format("{:.0f} mm, as given", 1e3 * *given_depth);
-    AddPoint(*given_depth * sole.down_S, &sole);
-  } else {
-    AddShapes(robot, X_WS, &sole);
-  }
-  if (sole.shapes.empty()) {
-    sole.source = Sole::Source::kNamed;
-    AddNamed(robot, robot.sites, &Robot::Site::X_SP, "site", &sole);
-  }
-  if (sole.shapes.empty()) AddNamed(robot, robot.links, &Robot::Link::X_SL, "link", &sole);
+  choice.depth ? TakeGiven(choice, &sole) : AddBodies(robot, X_WS, choice.take, &sole);
+  const bool lacks_meshes =
+      choice.take == SoleChoice::Take::kMeshes && sole.source != Sole::Source::kMeshes;
+  if (lacks_meshes) sole.shapes.clear();
+  if (sole.shapes.empty() && choice.take == SoleChoice::Take::kAny) TakeNamed(robot, &sole);
   if (sole.shapes.empty()) {
     if (reason != nullptr) *reason = WhyNone(robot, sole.segment);
     return std::nullopt;
   }
-  MeasureDepth(&sole);
+  sole.depth = DepthOf(sole);
+  if (sole.source == Sole::Source::kShapes && choice.take == SoleChoice::Take::kAny) {
+    CompareWithMeshes(robot, X_WS, &sole);
+  }
+  const bool is_point = sole.source == Sole::Source::kNamed || sole.source == Sole::Source::kGiven;
+  if (is_point && sole.doubt.empty()) {
+    sole.doubt = fmt::format(
+        "the sole is known as a place only ({}): without the foot's length and width its heel and "
+        "its toes may be in the floor; {} gives them",
+        sole.said, OptionText("sole"));
+  }
   return sole;
 }
 

@@ -33,6 +33,7 @@ struct RobotRequest {
   std::string file;                   ///< URDF or MJCF
   std::string map_file;               ///< see ReadBodyMapChoice
   std::optional<double> sole_height;  ///< of the last ankle joint above the sole [m]
+  std::string sole;                   ///< "LENGTH,WIDTH,HEIGHT" [m], "meshes" or "shapes"
   std::string hold;                   ///< joints, see HoldJoints
   std::vector<std::string> objects;   ///< beside the person, see ReadObjects
   std::optional<double> export_rate;  ///< [Hz]

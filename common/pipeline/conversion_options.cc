@@ -231,6 +231,13 @@ std::vector<Option> RobotOptions(RobotRequest* robot) {
           "of the origin of the robot's last ankle link above the sole, where its file does not "
           "tell it",
           "", task::kRetarget | task::kLive, &robot->sole_height, {.absent = kInPython}),
+      Row({"sole", "robotSole", ""}, {OptionKind::kText, "L,W,H"},
+          "length and width of the robot's feet and the height of that origin above the sole, in "
+          "metres, where its file has neither shapes nor meshes; or which of both counts: shapes "
+          "or "
+          "meshes",
+          "shapes, for links without any meshes", task::kRetarget | task::kLive, &robot->sole,
+          {.absent = kInPython}),
       Row({"hold", "robotHold", ""}, {OptionKind::kText, "JOINT=DEG,..."},
           "angles of joints that follow nobody, as of fingers; * is any text, sliding joints are "
           "given in mm: left_hand_*=30,neck=0",

@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "common/io/robot_file.h"
+#include "common/io/robot_meshes.h"
 #include "common/retarget/body_map.h"
 #include "common/retarget/held_joints.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 
@@ -28,11 +31,75 @@ Robot ReadStandingRobot(const std::string& file, Warnings* warnings) {
   return robot;
 }
 
+[[noreturn]] void ThrowSole(const std::string& text) {
+  throw Error(
+      fmt::format("{}: \"{}\" is neither LENGTH,WIDTH,HEIGHT in metres, as 0.22,0.08,0.05, nor "
+                  "meshes or shapes",
+                  OptionText("sole"), text));
+}
+
+SoleChoice SoleChoiceOf(const RobotRequest& request) {
+  SoleChoice choice;
+  choice.depth = request.sole_height;
+  if (request.sole.empty()) return choice;
+  if (request.sole_height) {
+    throw Error(
+        fmt::format("{} and {}: give one of them", OptionText("sole"), OptionText("sole-height")));
+  }
+  if (request.sole == "meshes" || request.sole == "shapes") {
+    choice.take = request.sole == "meshes" ? SoleChoice::Take::kMeshes : SoleChoice::Take::kShapes;
+    return choice;
+  }
+  const std::vector<std::string> parts = Split(request.sole, ',');
+  if (parts.size() != 3) ThrowSole(request.sole);
+  Eigen::Vector3d sizes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number = ParseDouble(parts[i]);
+    if (!number || !std::isfinite(*number)) ThrowSole(request.sole);
+    sizes[static_cast<Eigen::Index>(i)] = *number;
+  }
+  choice.size = sizes.head<2>();
+  choice.depth = sizes.z();
+  return choice;
+}
+
+/// Where shapes tell what a sole is, meshes that are not there are no loss.
+void ReadFeet(const BodyMap& map, const SoleChoice& choice, Robot* robot, Warnings* warnings) {
+  if (choice.depth || choice.take == SoleChoice::Take::kShapes) return;
+  SoleChoice of_shapes;
+  of_shapes.take = SoleChoice::Take::kShapes;
+  for (const Side side : kSides) {
+    if (!map.leg(side)) continue;
+    const int end = map.leg(side)->end;
+    const bool are_needed =
+        choice.take == SoleChoice::Take::kMeshes || !FindSole(*robot, end, of_shapes, nullptr);
+    ReadMeshes(end, robot, are_needed ? warnings : nullptr);
+  }
+}
+
+/// An Error ends with what was noticed of meshes, which may be why the soles are not known.
+RobotBody FindBody(const Robot& robot, const BodyMapChoice& map, const SoleChoice& sole,
+                   const Warnings& of_meshes) {
+  try {
+    return FindRobotBody(robot, map, sole);
+  } catch (const Error& error) {
+    std::string message = error.what();
+    for (const std::string& text : of_meshes.texts()) message += "\n" + text;
+    throw Error(message, error.remedy());
+  }
+}
+
 }  // namespace
 
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   Robot robot = ReadStandingRobot(request.file, warnings);
-  RobotBody body = FindRobotBody(robot, MapChoiceOf(request), request.sole_height);
+  const SoleChoice sole = SoleChoiceOf(request);
+  const BodyMapChoice map = MapChoiceOf(request);
+  Warnings of_meshes;
+  ReadFeet(FindRobotMap(robot, map), sole, &robot, &of_meshes);
+  RobotBody body = FindBody(robot, map, sole, of_meshes);
+  if (warnings != nullptr) warnings->Append(of_meshes);
+  if (body.feet && !(*body.feet)[0].doubt.empty()) Warn(warnings, (*body.feet)[0].doubt);
   if (!request.objects.empty() && !body.feet) {
     throw Error(fmt::format("{}: {} needs a robot with legs, and this one has none", request.file,
                             OptionText("objects")));
@@ -42,17 +109,20 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
 }
 
 std::string DescribeRobotMap(const RobotRequest& request, Warnings* warnings) {
-  const Robot robot = ReadStandingRobot(request.file, warnings);
+  const SoleChoice choice = SoleChoiceOf(request);
+  Robot robot = ReadStandingRobot(request.file, warnings);
   const BodyMap map = FindRobotMap(robot, MapChoiceOf(request));
+  ReadFeet(map, choice, &robot, warnings);
   std::string text = FormatBodyMap(robot.model, map);
   for (const Side side : kSides) {
     if (!map.leg(side)) continue;
     std::string reason;
-    const auto sole = FindSole(robot, map.leg(side)->end, request.sole_height, &reason);
+    const auto sole = FindSole(robot, map.leg(side)->end, choice, &reason);
     text += fmt::format("{} sole: {}\n", Name(side),
                         sole ? sole->said
-                             : fmt::format("not known ({}); {} gives its height below {}", reason,
-                                           OptionText("sole-height"),
+                             : fmt::format("not known ({}); {} gives its size and its depth below "
+                                           "{}",
+                                           reason, OptionText("sole"),
                                            robot.model.segments()[map.leg(side)->end].name));
   }
   return text;

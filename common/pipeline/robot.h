@@ -11,8 +11,9 @@ struct LoadedRobot {
   RobotBody body;
 };
 
-/// The robot with its map. @throws Error where it can't be read, its limbs or soles are not known,
-/// or it has no legs and objects come along.
+/// The robot with its map and the meshes of its feet; what makes its soles doubtful is a warning.
+/// @throws Error where it can't be read, its limbs or soles are not known, or it has no legs and
+/// objects come along.
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings);
 
 /// The map of what can be read alone, as text, with where its soles are or why they are not known.

@@ -11,6 +11,7 @@
 #include "common/retarget/limb_chains.h"
 #include "common/retarget/limb_geometry.h"
 #include "common/support/error.h"
+#include "common/support/suggestion.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -209,11 +210,19 @@ int CarrierOf(const ZeroPose& zero, const std::vector<int>& chain) {
 }
 
 int FindJointNamed(const ZeroPose& zero, const std::string& name) {
-  const int segment = zero.model->FindSegment(name);
-  if (segment < 0 || !zero.Moves(segment)) {
-    Refuse(zero, fmt::format("the map names the joint \"{}\", which it has not", name));
+  const int segment = zero.model->FindSegment(std::string(Trim(name)));
+  if (segment >= 0 && zero.Moves(segment)) return segment;
+  if (segment >= 0) {
+    Refuse(zero, fmt::format("the map names the joint \"{}\", which does not move: it is fixed, "
+                             "slides in a URDF, or has equal limits",
+                             name));
   }
-  return segment;
+  std::vector<std::string> joints;
+  for (int j = 0; j < zero.model->num_joints(); ++j) joints.push_back(zero.model->joint(j).name);
+  const std::string near = ClosestName(name, joints);
+  Refuse(zero, fmt::format("the map names the joint \"{}\", which it has not{}; it has {}", name,
+                           near.empty() ? "" : fmt::format(" (did you mean {}?)", near),
+                           FirstNames(joints)));
 }
 
 LimbReading ChosenLimb(const ZeroPose& zero, const LimbChoice& choice, bool is_leg,

@@ -65,7 +65,7 @@ void CountOthersRule(const Eigen::Matrix3Xd& human, const Eigen::Matrix3Xd& robo
 double WayOf(const RobotFoot& foot, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   const double low_from = LowestOf(foot, from) + kBears, low_to = LowestOf(foot, to) + kBears;
   double largest = -1, smallest = INFINITY;
-  for (const FloorBall& ball : foot.balls) {
+  for (const FloorBall& ball : foot.bearing) {
     const Eigen::Vector3d p_S = ball.p_S - ball.radius * foot.R_FA.col(2);
     const Eigen::Vector3d before = from * p_S, after = to * p_S;
     const double way = (after - before).head<2>().norm();

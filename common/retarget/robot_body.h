@@ -20,11 +20,15 @@ struct RobotFoot {
   /// In the segment [m]: the sole below the ankle, and where it touches last as it is tilted.
   Eigen::Vector3d sole, heel, toe;
   std::vector<ContactShape> shapes;
-  std::vector<FloorBall> balls;  ///< points of these
-  bool rolls = true;             ///< an ankle joint turns it about its length
-  std::string said;              ///< Sole::said
-  double ankle_height = 0;       ///< above the sole [m]
-  double width = 0;              ///< of the sole [m]
+  std::vector<FloorBall> balls;    ///< points of these that stay above the floor
+  std::vector<FloorBall> bearing;  ///< what may bear: the balls; of meshes many more corners
+  /// Of each of bearing, forward and left of the sole: where it comes down as the foot rolls [m].
+  std::vector<Eigen::Vector2d> rolled;
+  double pivot = 0;         ///< height above the floor of what stays in place as it rolls [m]
+  bool rolls = true;        ///< an ankle joint turns it about its length
+  std::string said, doubt;  ///< as of Sole
+  double ankle_height = 0;  ///< above the sole [m]
+  double width = 0;         ///< of the sole [m]
 };
 
 /// Height of its lowest point [m].
@@ -54,9 +58,8 @@ struct RobotBody {
 /// of the limb.
 BodyMap FindRobotMap(const Robot& robot, const BodyMapChoice& choice);
 
-/// sole_height: of the last segment's origin above the sole, where the file does not tell it [m].
-/// @throws Error as FindBodyMap, and where it is not known where a sole is.
-RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice,
-                        std::optional<double> sole_height);
+/// @throws Error as FindBodyMap, and where it is not known where a sole is, or the robot is not in
+/// metres.
+RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice, const SoleChoice& sole);
 
 }  // namespace mmm_converter

@@ -78,8 +78,9 @@ TEST(Help, VersionSaysWithWhatTheProgramWasBuilt) {
   EXPECT_THAT(version, ContainsRegex("\nbuilt by [A-Za-z]+ [0-9.]+, with(out)? check-dyn"));
   EXPECT_THAT(version, ContainsRegex("\nwith ([-A-Za-z0-9]+ [0-9]+\\.[0-9.]+, )*[-A-Za-z0-9]+ "
                                      "[0-9]+\\.[0-9.]+\n$"));
-  for (const char* library : {"Boost 1.", "Eigen 3.", "fmt ", "nlohmann-json 3.", "oneTBB 20",
-                              "spdlog ", "tinyxml2 ", "urdfdom ", "xxHash 0.", "ZeroMQ 4."}) {
+  for (const char* library :
+       {"Boost 1.", "Eigen 3.", "fmt ", "nlohmann-json 3.", "oneTBB 20", "spdlog ", "assimp 5",
+        "tinyxml2 ", "urdfdom ", "xxHash 0.", "ZeroMQ 4."}) {
     EXPECT_THAT(version, HasSubstr(library));
   }
 }

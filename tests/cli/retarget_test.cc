@@ -13,6 +13,7 @@
 #include "tests/cli/moving_object.h"
 #include "tests/cli/program.h"
 #include "tests/common/retarget/biped.h"
+#include "tests/support/box_mesh.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/test_folder.h"
 
@@ -117,8 +118,53 @@ TEST_F(RetargetCommand, PrintsTheMapOfARobotWhoseSoleIsNotKnown) {
   const auto run = RunProgram({"retarget", "--robot", robot_, "--print-map"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("left_knee"), HasSubstr("sole: not known"),
-                             HasSubstr("--sole-height")));
+                             HasSubstr("--sole gives its size")));
   EXPECT_EQ(RunProgram(Words({"-o", File("none.xml"), "--print-map"})).exit_code, 1);
+}
+
+TEST_F(RetargetCommand, FeetAreTheirMeshes) {
+  testing::BipedShape shape;
+  shape.has_sole = false;
+  std::string text = testing::BipedText(shape);
+  for (const std::string side : {"left", "right"}) {
+    const std::string link = "<link name=\"" + side + "_ankle_roll_link\">";
+    text.replace(text.find(link), link.size(),
+                 link +
+                     "<collision><geometry><mesh filename=\"package://made/foot.STL\" "
+                     "scale=\"0.001 0.001 0.001\"/></geometry></collision>");
+  }
+  std::filesystem::create_directories(TestFolder() + "/made/urdf");
+  const std::string robot = TestFolder() + "/made/urdf/r.urdf";
+  WriteText(robot, text);
+  std::vector<std::string> words = Words({"-o", File("m.xml"), "--summary", File("m.json")});
+  std::replace(words.begin(), words.end(), robot_, robot);
+  const auto bare = RunProgram(words);
+  EXPECT_EQ(bare.exit_code, 1);
+  EXPECT_THAT(bare.err, AllOf(HasSubstr("package://made/foot.STL of left_ankle_roll_link is not"),
+                              HasSubstr("(--sole)")));
+  const std::string mesh = TestFolder() + "/made/foot.STL";
+  const testing::BoxMesh box = {{-60, -40, -80}, {140, 40, -60}};
+  WriteText(mesh, box.BinaryStl());
+  const auto run = RunProgram(words);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("sole        1 mesh of left_ankle_roll_link"));
+  // As the biped of the other tests, whose sole is a box of that size.
+  EXPECT_EQ(RunProgram(Words({"-o", File("b.xml"), "--summary", File("b.json")})).exit_code, 0);
+  const auto summary = nlohmann::json::parse(ReadText(File("m.json")));
+  const auto with_box = nlohmann::json::parse(ReadText(File("b.json")));
+  EXPECT_EQ(summary["scale"], with_box["scale"]);
+  EXPECT_NEAR(summary["penetration_m"].get<double>(), with_box["penetration_m"].get<double>(),
+              2e-4);
+  EXPECT_EQ(summary["verdict"]["level"], with_box["verdict"]["level"]);
+  words.insert(words.end(), {"--report", mesh});
+  EXPECT_THAT(RunProgram(words).err, HasSubstr("foot.STL"));
+  EXPECT_EQ(ReadText(mesh), box.BinaryStl());
+  words.resize(words.size() - 2);
+  words.insert(words.end(), {"--sole", "0.2,0.08,0.08"});
+  EXPECT_EQ(RunProgram(words).exit_code, 0);
+  const auto given = nlohmann::json::parse(ReadText(File("m.json")));
+  EXPECT_EQ(given["verdict"]["level"], "check");
+  EXPECT_THAT(given["verdict"]["reasons"].dump(), HasSubstr("the sole is as given"));
 }
 
 TEST_F(RetargetCommand, ObjectsComeAlong) {
@@ -169,6 +215,12 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   EXPECT_THAT(refusal(Words({"-o", out, "--hold", "left_finger=3"}), 1),
               AllOf(HasSubstr("--hold"), HasSubstr("left_hip_yaw")));
   EXPECT_THAT(refusal(Words({"-o", out, "--sole-height", "50"}), 1), HasSubstr("5 to 500 mm"));
+  for (const char* sole : {"0.2,0.08", "0.2,0.08,x", "200,80,50", "mesh"}) {
+    EXPECT_THAT(refusal(Words({"-o", out, "--sole", sole}), 1), HasSubstr("--sole")) << sole;
+  }
+  EXPECT_THAT(refusal(Words({"-o", out, "--sole", "shapes", "--sole-height", "0.05"}), 1),
+              HasSubstr("one of them"));
+  EXPECT_THAT(refusal(Words({"-o", out, "--sole", "meshes"}), 1), HasSubstr("(--sole)"));
   EXPECT_THAT(refusal(Words({"-o", out, "--objects", File("no.xml")}), 1),
               HasSubstr(File("no.xml")));
   EXPECT_THAT(

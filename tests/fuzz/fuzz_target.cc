@@ -23,6 +23,7 @@ const std::map<std::string, FuzzTarget>& FuzzTargets() {
       {"manifest", ReadManifestBytes},
       {"marker_file", ReadMarkerFileBytes},
       {"marker_set", ReadMarkerSetBytes},
+      {"mesh", ReadMeshBytes},
       {"mjcf", ReadMjcfBytes},
       {"mmm_model", ReadMmmModelBytes},
       {"mmm_motion", ReadMmmMotionBytes},

@@ -43,6 +43,7 @@ void ReadIkTasksBytes(std::string_view bytes);
 void ReadExternalLoadsBytes(std::string_view bytes);
 void ReadMarkerFileBytes(std::string_view bytes);
 void ReadOsimSetupBytes(std::string_view bytes);
+void ReadMeshBytes(std::string_view bytes);
 void ReadMjcfBytes(std::string_view bytes);
 void ReadUrdfBytes(std::string_view bytes);
 void ReadPersonBytes(std::string_view bytes);

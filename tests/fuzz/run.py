@@ -35,6 +35,7 @@ TARGETS = {
     "lcd_samples": (512, [], []),
     "manifest": (4096, ["MMMConverterS2KF/batch"], []),
     "marker_set": (4096, ["common/convert"], ["labels/*.xml"]),
+    "mesh": (8192, ["common/io/mesh"], []),
     "mmm_model": (8192, [MMM], ["mmm/models/*.xml"]),
     "mmm_motion": (8192, [MMM], ["mmm/*/*.xml"]),
     "motive_csv": (4096, [TRC], []),

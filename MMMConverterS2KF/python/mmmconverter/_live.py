@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from typing import TYPE_CHECKING, Iterator, List, Mapping, Optional
+from typing import TYPE_CHECKING, Iterator, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -139,6 +139,7 @@ class Live(Presented):
 
 @with_options("live")
 def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = None,
+         sole: Union[str, Sequence[float], None] = None,
          hold: Optional[Mapping[str, float]] = None, loop: bool = False,
          seconds: Optional[float] = None, calibrate_seconds: Optional[float] = None,
          **options: Unpack[LiveOptions]) -> Live:
@@ -156,7 +157,7 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
         "qtm://HOST", "natnet://HOST" or "replay:FILE@SPEED", as of the command.
     robot : path, optional
         A robot, URDF or MJCF, that follows the person: the postures are its.
-    map, sole_height, hold
+    map, sole_height, sole, hold
         Of the robot, as of `retarget`.
     loop : bool
         A replay begins again at its end.
@@ -189,8 +190,8 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
     request = keywords(options, file=source)
     if calibrate_seconds is not None and "self_calibrate" not in request:
         raise WrongValue("calibrate_seconds: is of self_calibrate")
-    if robot is None and (map is not None or sole_height is not None or hold):
-        raise WrongValue("map, sole_height and hold: are of robot")
+    if robot is None and (map is not None or sole_height is not None or sole is not None or hold):
+        raise WrongValue("map, sole_height, sole and hold: are of robot")
     request.update({name: path_text(file) for name, file in (("robot", robot), ("map", map)) if file is not None})
-    request.update(robot_options(hold))
+    request.update(robot_options(hold, sole))
     return Live(source, request, loop, calibrate_seconds or 0.0, seconds or 0.0, sole_height)

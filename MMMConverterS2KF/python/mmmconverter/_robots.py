@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Mapping, Optional
+from typing import TYPE_CHECKING, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -90,13 +90,17 @@ class Retargeted(Postures, Judged):
         return [("robot", self.summary["robot"]), ("frames", len(self.joints)), ("verdict", self.verdict)]
 
 
-def robot_options(hold):
-    """The option hold for the compiled part."""
-    return {"hold": ",".join(f"{name}={float(angle)!r}" for name, angle in hold.items())} if hold else {}
+def robot_options(hold, sole):
+    """The options hold and sole for the compiled part."""
+    options = {"hold": ",".join(f"{name}={float(angle)!r}" for name, angle in hold.items())} if hold else {}
+    if sole is not None:
+        options["sole"] = sole if isinstance(sole, str) else ",".join(repr(float(size)) for size in sole)
+    return options
 
 
 @with_options("retarget")
 def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
+             sole: Union[str, Sequence[float], None] = None,
              hold: Optional[Mapping[str, float]] = None, objects=None, progress: Progress = None,
              **options: Unpack[RetargetOptions]) -> Retargeted:
     """Brings a person's motion to a humanoid robot, as the command does.
@@ -111,6 +115,9 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
         Which joints are its limbs, instead of what its structure tells.
     sole_height : float, optional
         Of the last ankle link's origin above the sole [m], where the file does not tell it.
+    sole : (float, float, float) or str, optional
+        Length and width of the feet and the height of that origin [m], where the file has neither
+        shapes nor meshes; of both "shapes" or "meshes".
     hold : dict, optional
         Angles of joints that follow nobody [deg; sliding mm] by name; ``*`` is any text:
         ``{"left_hand_*": 30}``.
@@ -132,7 +139,7 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
     if isinstance(recording, Conversion) and request:
         raise WrongValue(f"{next(iter(request))}: a conversion is taken as it is; give it to convert()")
     request.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot),
-                   **robot_options(hold))
+                   **robot_options(hold, sole))
     if objects is not None:
         several = objects if isinstance(objects, (list, tuple)) else [objects]
         request["objects"] = [path_text(one) for one in several]

@@ -12,7 +12,7 @@ namespace {
 
 /// Of those that a robot is made of.
 bool HasDefaults(std::string_view element) {
-  return element == "joint" || element == "geom" || element == "site";
+  return element == "joint" || element == "geom" || element == "site" || element == "mesh";
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ int MjcfDefaults::Find(const std::string& name) const {
   return found == by_name_.end() ? -1 : found->second;
 }
 
-int MjcfDefaults::ClassOf(const XmlElement& element, int childclass, const char* attribute) {
+int MjcfDefaults::ClassOf(const XmlElement& element, int childclass, const char* attribute) const {
   const std::string* name = element.FindAttribute(attribute);
   if (name == nullptr) return childclass;
   const int found = Find(*name);

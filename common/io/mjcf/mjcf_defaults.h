@@ -20,7 +20,7 @@ class MjcfDefaults {
   /// -1: there is no such class.
   int Find(const std::string& name) const;
   /// The class of an element: its own, else childclass. What is wrong is an error of the text.
-  int ClassOf(const XmlElement& element, int childclass, const char* attribute);
+  int ClassOf(const XmlElement& element, int childclass, const char* attribute) const;
 
   /// An attribute's value for elements called `element`, of the class or the nearest one around it.
   /// nullptr: none has it.

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "common/io/mjcf/mjcf_geom.h"
+#include "common/io/mjcf/mjcf_meshes.h"
 #include "common/io/mjcf/mjcf_values.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -18,11 +21,15 @@ namespace {
 
 constexpr std::size_t kMaxJointsOfBody = 6;
 constexpr double kShortestAxis = 1e-9;
+constexpr double kLeastVolume = 0.1;  // of three axes that span space
 
 class MjcfDocumentReader {
  public:
   explicit MjcfDocumentReader(MjcfText* text)
-      : text_(*text), defaults_(text), settings_(ReadMjcfSettings(defaults_, text)) {}
+      : text_(*text),
+        defaults_(text),
+        settings_(ReadMjcfSettings(defaults_, text)),
+        meshes_(defaults_, settings_, text) {}
 
   MjcfDocument Read();
 
@@ -51,6 +58,7 @@ class MjcfDocumentReader {
   void ReadBody(const XmlElement& element, const Place& place);
   void ReadFrame(const XmlElement& element, Place place, Masses* masses);
   void ReadJoint(const XmlElement& element, const Place& place);
+  void FreeRoot(MjcfBody* body);
   void ReadRange(const MjcfAttributes& attributes, const XmlElement& element, MjcfJoint* joint);
   void ReadGeom(const XmlElement& element, const Place& place, Masses* masses);
   void ReadSite(const XmlElement& element, const Place& place);
@@ -65,6 +73,7 @@ class MjcfDocumentReader {
   MjcfText& text_;
   MjcfDefaults defaults_;
   MjcfSettings settings_;
+  MjcfMeshes meshes_;
   MjcfDocument document_;
   std::set<std::string> body_names_{"world"}, joint_names_, site_names_;
   std::vector<std::string> without_mass_;
@@ -142,6 +151,7 @@ void MjcfDocumentReader::ReadBody(const XmlElement& element, const Place& place)
   body.is_moved = attributes.Word("mocap", "false") == "true";
   Masses masses;
   ReadChildren(element, inside, &masses);
+  if (place.body < 0) FreeRoot(&BodyAt(inside.body));
   SetMass(masses, &BodyAt(inside.body));
 }
 
@@ -184,6 +194,31 @@ void MjcfDocumentReader::ReadJoint(const XmlElement& element, const Place& place
   body.joints.push_back(std::move(joint));
 }
 
+/// Three slides and three hinges of a body of the world are as good as a free joint.
+void MjcfDocumentReader::FreeRoot(MjcfBody* body) {
+  const auto slides = std::count_if(body->joints.begin(), body->joints.end(),
+                                    [](const MjcfJoint& joint) { return joint.slides; });
+  if (body->joints.size() != kMaxJointsOfBody || slides != 3) return;
+  const bool carries_joints =
+      std::any_of(document_.bodies.begin() + (body - document_.bodies.data()) + 1,
+                  document_.bodies.end(), [](const MjcfBody& one) { return !one.joints.empty(); });
+  if (!carries_joints) return;
+  Eigen::Matrix3d ways[2];
+  std::array<int, 2> counts = {0, 0};
+  for (const MjcfJoint& joint : body->joints) {
+    const std::size_t kind = joint.slides ? 0 : 1;
+    ways[kind].col(counts[kind]++) = joint.axis;
+  }
+  if (std::abs(ways[0].determinant()) < kLeastVolume) return;
+  if (std::abs(ways[1].determinant()) < kLeastVolume) return;
+  text_.Warn(
+      fmt::format("the three slides and three hinges of '{}' ({} to {}) are one free joint: "
+                  "files of the robot's motion have a position and a quaternion",
+                  body->name, body->joints.front().name, body->joints.back().name));
+  body->joints.clear();
+  body->is_free = true;
+}
+
 void MjcfDocumentReader::ReadRange(const MjcfAttributes& attributes, const XmlElement& element,
                                    MjcfJoint* joint) {
   const double unit = joint->slides ? 1 : settings_.angle;
@@ -221,8 +256,9 @@ void MjcfDocumentReader::ReadGeom(const XmlElement& element, const Place& place,
   if (geom.shape) {
     geom.shape->segment = place.body;
     (geom.touches ? document_.shapes : looks_).push_back(*geom.shape);
-  } else if (geom.touches) {
-    ++BodyAt(place.body).num_meshes;
+  } else if (attributes.Find("mesh") != nullptr) {
+    meshes_.Add(attributes, place.X_BF * attributes.Pose(), geom.touches, place.body, element,
+                &document_.meshes);
   }
   const double group = attributes.Number("group", 0);
   if (group < settings_.inertia_groups[0] || group > settings_.inertia_groups[1]) return;
@@ -314,8 +350,8 @@ MjcfDocument MjcfDocumentReader::Read() {
     for (const XmlElement& child : equality->children) ReadEquality(child);
   }
   ScaleMasses();
-  const bool has_meshes = std::any_of(document_.bodies.begin(), document_.bodies.end(),
-                                      [](const MjcfBody& body) { return body.num_meshes > 0; });
+  const bool has_meshes = std::any_of(document_.meshes.begin(), document_.meshes.end(),
+                                      [](const RobotMesh& mesh) { return mesh.touches; });
   if (document_.shapes.empty() && !has_meshes && !looks_.empty()) {
     text_.Warn(
         "no geom of it touches anything (contype and conaffinity are 0), so all its boxes, "

@@ -33,13 +33,12 @@ struct MjcfBody {
   int line = 0;
   int parent = -1;                                         ///< index of a body; -1: the world
   Eigen::Isometry3d X_PB = Eigen::Isometry3d::Identity();  ///< [m]
-  bool is_free = false;                                    ///< has a free joint; X_PB is its start
-  bool is_moved = false;                                   ///< a mocap body, which is no robot's
-  std::vector<MjcfJoint> joints;                           ///< in the order in which they act
-  double mass = 0;                                         ///< [kg]
-  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();          ///< centre of mass [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();       ///< about it, in B [kg m^2]
-  int num_meshes = 0;                                      ///< that touch
+  bool is_free = false;           ///< has a free joint, or six that are one; X_PB is its start
+  bool is_moved = false;          ///< a mocap body, which is no robot's
+  std::vector<MjcfJoint> joints;  ///< in the order in which they act
+  double mass = 0;                ///< [kg]
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();     ///< centre of mass [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about it, in B [kg m^2]
 };
 
 /// `<equality><joint>`: q1 - ref1 = sum of p_k (q2 - ref2)^k.
@@ -56,6 +55,7 @@ struct MjcfDocument {
   std::string name;  ///< empty: none
   std::vector<MjcfBody> bodies;
   std::vector<ContactShape> shapes;  ///< `segment` is the index of a body
+  std::vector<RobotMesh> meshes;     ///< so, too
   std::vector<Robot::Site> sites;    ///< so, too
   std::vector<MjcfCoupling> couplings;
   std::vector<MjcfTie> ties;

@@ -114,6 +114,8 @@ double VolumeAndMoments(const ContactShape& shape, Eigen::Vector3d* moments) {
       *moments = round(along, across) / whole;
       return whole;
     }
+    case Kind::kHull:
+      break;
   }
   return 0;
 }

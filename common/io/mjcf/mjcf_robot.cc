@@ -284,12 +284,13 @@ Robot MjcfRobotBuilder::Build() {
     shape.X_SG = link->X_SL * shape.X_SG;
     shapes.push_back(shape);
   }
-  std::vector<int> meshes;
-  for (std::size_t i = 0; i < document_.bodies.size(); ++i) {
-    const Robot::Link* link = link_of(static_cast<int>(i));
-    if (link != nullptr)
-      meshes.insert(meshes.end(), static_cast<std::size_t>(document_.bodies[i].num_meshes),
-                    link->segment);
+  std::vector<RobotMesh> meshes;
+  for (RobotMesh mesh : document_.meshes) {
+    const Robot::Link* link = link_of(mesh.segment);
+    if (link == nullptr) continue;
+    mesh.segment = link->segment;
+    mesh.A_SM = link->X_SL * mesh.A_SM;
+    meshes.push_back(std::move(mesh));
   }
   std::vector<std::array<int, 2>> ties;
   for (const MjcfTie& tie : document_.ties) {
@@ -311,7 +312,8 @@ Robot MjcfRobotBuilder::Build() {
           std::move(meshes),
           unknown,
           "MJCF",
-          std::move(ties)};
+          std::move(ties),
+          text_.file()};
 }
 
 }  // namespace

@@ -46,6 +46,12 @@ void ReadCompiler(const XmlElement& element, MjcfText* text, MjcfSettings* setti
   if (is("angle", "degree")) settings->angle = EIGEN_PI / 180;
   if (is("autolimits", "true")) settings->limits_by_range = true;
   if (is("autolimits", "false")) settings->limits_by_range = false;
+  for (const char* folder : {"assetdir", "meshdir"}) {
+    const std::string* found = element.FindAttribute(folder);
+    if (found != nullptr) settings->mesh_folder = Trim(*found);
+  }
+  if (is("strippath", "true")) settings->strips_paths = true;
+  if (is("strippath", "false")) settings->strips_paths = false;
   using Inertia = MjcfSettings::Inertia;
   if (is("inertiafromgeom", "true")) settings->inertia = Inertia::kFromGeoms;
   if (is("inertiafromgeom", "false")) settings->inertia = Inertia::kFromInertial;

@@ -20,7 +20,9 @@ struct MjcfSettings {
   bool limits_by_range = true;    ///< autolimits
   enum class Inertia { kAuto, kFromGeoms, kFromInertial } inertia = Inertia::kAuto;
   std::array<double, 2> inertia_groups = {0, 5};
-  double total_mass = -1;  ///< [kg]; not above 0: as it comes
+  double total_mass = -1;     ///< [kg]; not above 0: as it comes
+  std::string mesh_folder;    ///< meshdir, else assetdir
+  bool strips_paths = false;  ///< strippath
 };
 
 MjcfSettings ReadMjcfSettings(const MjcfDefaults& defaults, MjcfText* text);

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -22,6 +23,8 @@
 
 namespace mmm_converter {
 namespace {
+
+constexpr std::size_t kFewestOfRobot = 6;  // joints that turn, as of one limb
 
 /// What urdfdom would print, for as long as it lives.
 class CapturedLog : public console_bridge::OutputHandler {
@@ -53,9 +56,23 @@ void AppendElement(const XmlElement& element, std::string* xml) {
   }
   *xml += ">" + EscapeXml(element.text);
   for (const XmlElement& child : element.children) {
-    if (child.name != "collision") AppendElement(child, xml);
+    if (child.name != "collision" && child.name != "visual") AppendElement(child, xml);
   }
   *xml += "</" + element.name + ">";
+}
+
+/// urdfdom refuses joints that turn without a `<limit>`, and limits without effort and velocity.
+void CompleteLimit(XmlElement* joint) {
+  const std::string* type = joint->FindAttribute("type");
+  if (type == nullptr || Trim(*type) != "revolute") return;
+  auto limit = std::find_if(joint->children.begin(), joint->children.end(),
+                            [](const XmlElement& child) { return child.name == "limit"; });
+  if (limit == joint->children.end()) {
+    limit = joint->children.insert(limit, XmlElement{"limit", {}, {}, "", joint->line});
+  }
+  for (const char* name : {"effort", "velocity"}) {
+    if (limit->FindAttribute(name) == nullptr) limit->attributes.emplace_back(name, "0");
+  }
 }
 
 /// Of the URDF what a tree of joints, masses and shapes is made of. Of these urdfdom sees no
@@ -70,9 +87,10 @@ XmlElement Essence(const XmlElement& robot) {
   for (const XmlElement& element : robot.children) {
     if (element.name != "link" && element.name != "joint") continue;
     XmlElement& kept = essence.children.emplace_back(element);
+    if (element.name == "joint") CompleteLimit(&kept);
     if (element.name != "link") continue;
     std::erase_if(kept.children, [](const XmlElement& part) {
-      return part.name != "inertial" && part.name != "collision";
+      return part.name != "inertial" && part.name != "collision" && part.name != "visual";
     });
   }
   return essence;
@@ -136,6 +154,7 @@ class DocumentBuilder {
   void ReadAxis(const urdf::Joint& source, UrdfJoint* joint);
   void ReadLimits(const urdf::Joint& source, UrdfJoint* joint);
   void CheckLimits(const XmlElement& element, const UrdfJoint& joint);
+  void WidenLimits();
   void CheckMimic(const UrdfJoint& joint);
   void LinkChild(int joint);
 
@@ -144,6 +163,7 @@ class DocumentBuilder {
   Diagnostics& diagnostics_;
   UrdfDocument document_;
   std::map<std::string, int> link_indices_;
+  std::vector<std::size_t> without_limits_;  ///< joints that turn
 };
 
 void DocumentBuilder::FailToFind(const XmlElement& element) {
@@ -252,7 +272,7 @@ void DocumentBuilder::ReadLimits(const urdf::Joint& source, UrdfJoint* joint) {
        joint->name, joint->lower, joint->upper);
 }
 
-/// What a revolute joint does not say of its range counts as 0.
+/// One limit that a revolute joint does not say counts as 0; where it says none, none is known.
 void DocumentBuilder::CheckLimits(const XmlElement& element, const UrdfJoint& joint) {
   const XmlElement* limit = element.FindChild("limit");
   if (joint.type != UrdfJointType::kRevolute || limit == nullptr) return;
@@ -260,10 +280,37 @@ void DocumentBuilder::CheckLimits(const XmlElement& element, const UrdfJoint& jo
   for (const char* attribute : {"lower", "upper"}) {
     if (limit->FindAttribute(attribute) == nullptr) missing.push_back(attribute);
   }
-  if (missing.empty()) return;
+  if (missing.size() == 2) without_limits_.push_back(document_.joints.size());
+  if (missing.size() != 1) return;
   diagnostics_.AddWarning(
       limit->line, fmt::format("joint '{}': <limit> has no {}, which URDF takes for 0", joint.name,
                                fmt::join(missing, " and no ")));
+}
+
+/// Files of CAD programs have no limits, or 0 to 0 for all that turns.
+void DocumentBuilder::WidenLimits() {
+  std::vector<std::size_t> turning;
+  for (std::size_t i = 0; i < document_.joints.size(); ++i) {
+    if (document_.joints[i].type == UrdfJointType::kRevolute) turning.push_back(i);
+  }
+  const bool has_none = turning.size() >= kFewestOfRobot &&
+                        std::all_of(turning.begin(), turning.end(), [&](std::size_t i) {
+                          return document_.joints[i].lower == 0 && document_.joints[i].upper == 0;
+                        });
+  if (has_none) without_limits_ = turning;
+  std::vector<std::string> names;
+  for (const std::size_t i : without_limits_) {
+    UrdfJoint& joint = document_.joints[i];
+    joint.lower = -EIGEN_PI;
+    joint.upper = EIGEN_PI;
+    names.push_back(joint.name);
+  }
+  if (names.empty()) return;
+  diagnostics_.AddWarning(
+      0,
+      fmt::format("has no limits (<limit lower=\"\" upper=\"\">) of {}: half a turn to both sides "
+                  "counts",
+                  FirstNames(names)));
 }
 
 void DocumentBuilder::CheckMimic(const UrdfJoint& joint) {
@@ -321,6 +368,7 @@ UrdfDocument DocumentBuilder::Build() {
   for (const XmlElement* joint : robot_.FindChildren("joint")) AddJoint(*joint);
   const int num_joints = static_cast<int>(document_.joints.size());
   for (int joint = 0; joint < num_joints; ++joint) LinkChild(joint);
+  WidenLimits();
   diagnostics_.ThrowIfErrors();
   document_.root = link_indices_.at(model_.getRoot()->name);
   RemoveFloatingWorld(&document_);

@@ -51,7 +51,7 @@ struct UrdfDocument {
   int root = -1;  ///< index of the link; not the world's that only carries it by a floating joint
   /// Shapes of `<collision>`, `segment` being the index of the link.
   std::vector<ContactShape> shapes;
-  std::vector<int> mesh_links;  ///< that have meshes there, which are not read; one for each mesh
+  std::vector<RobotMesh> meshes;  ///< of `<collision>` and `<visual>`, so, too
 };
 
 /// Parses a URDF with urdfdom. What is suspicious, but can be used, is a warning of diagnostics.

@@ -39,9 +39,9 @@ void RemoveFloatingWorld(UrdfDocument* document) {
     MoveUp(world, &joint.child);
   }
   std::erase_if(document->shapes, [&](const ContactShape& one) { return one.segment == world; });
-  std::erase(document->mesh_links, world);
+  std::erase_if(document->meshes, [&](const RobotMesh& one) { return one.segment == world; });
   for (ContactShape& shape : document->shapes) MoveUp(world, &shape.segment);
-  for (int& link : document->mesh_links) MoveUp(world, &link);
+  for (RobotMesh& mesh : document->meshes) MoveUp(world, &mesh.segment);
 }
 
 }  // namespace mmm_converter

@@ -101,10 +101,12 @@ Robot UrdfRobotBuilder::Build() {
     shape.X_SG = place.X_SL * shape.X_SG;
     robot_.shapes.push_back(shape);
   }
-  for (const int link : document_.mesh_links) {
-    robot_.mesh_segments.push_back(places_[static_cast<std::size_t>(link)].segment);
+  for (RobotMesh mesh : document_.meshes) {
+    const Robot::Link& place = places_[static_cast<std::size_t>(mesh.segment)];
+    mesh.segment = place.segment;
+    mesh.A_SM = place.X_SL * mesh.A_SM;
+    robot_.meshes.push_back(std::move(mesh));
   }
-  std::sort(robot_.mesh_segments.begin(), robot_.mesh_segments.end());
   return std::move(robot_);
 }
 
@@ -113,7 +115,9 @@ Robot UrdfRobotBuilder::Build() {
 Robot ParseUrdfRobot(std::string_view content, const std::string& file, Warnings* warnings) {
   Diagnostics diagnostics(file, warnings);
   const UrdfDocument document = ParseUrdf(content, &diagnostics);
-  return UrdfRobotBuilder(document, MakeUrdfModel(document, &diagnostics)).Build();
+  Robot robot = UrdfRobotBuilder(document, MakeUrdfModel(document, &diagnostics)).Build();
+  robot.file = file;
+  return robot;
 }
 
 }  // namespace mmm_converter

@@ -10,7 +10,7 @@
 namespace mmm_converter {
 
 /// Parses a URDF with its shapes of `<collision>` and its limits of velocity. A joint that others
-/// mimic is as slow as these need it. `file` is only named in messages.
+/// mimic is as slow as these need it. `file` is named in messages, and tells where meshes are.
 /// @throws Error as ReadUrdfModel.
 Robot ParseUrdfRobot(std::string_view content, const std::string& file,
                      Warnings* warnings = nullptr);

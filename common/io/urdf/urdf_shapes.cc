@@ -74,6 +74,36 @@ bool ReadShape(const XmlElement& element, ContactShape* shape) {
   return element.Is("capsule") && ReadRound(element, ContactShape::Kind::kCapsule, shape);
 }
 
+/// `<mesh filename="" scale="">`; nothing where that is damaged.
+std::optional<RobotMesh> MeshOf(const XmlElement& element, const Eigen::Isometry3d& X_LG) {
+  const std::string* file = element.FindAttribute("filename");
+  if (file == nullptr || Trim(*file).empty()) return {};
+  RobotMesh mesh;
+  mesh.file = Trim(*file);
+  mesh.A_SM = X_LG;
+  if (element.FindAttribute("scale") != nullptr) {
+    const auto scale = Numbers(element, "scale", 3);
+    if (!scale || scale->cwiseAbs().minCoeff() == 0) return {};
+    mesh.A_SM.scale(Eigen::Vector3d(*scale));
+  }
+  return mesh;
+}
+
+/// What is looked at only has its use where what touches tells nothing.
+void AddVisualMeshes(const XmlElement& element, int link, UrdfDocument* document) {
+  for (const XmlElement* visual : element.FindChildren("visual")) {
+    const XmlElement* geometry = visual->FindChild("geometry");
+    const XmlElement* named = geometry == nullptr ? nullptr : geometry->FindChild("mesh");
+    const auto X = Origin(*visual);
+    if (named == nullptr || !X) continue;
+    auto mesh = MeshOf(*named, *X);
+    if (!mesh) continue;
+    mesh->segment = link;
+    mesh->touches = false;
+    document->meshes.push_back(*std::move(mesh));
+  }
+}
+
 }  // namespace
 
 void AddUrdfShapes(const XmlElement& element, int link, UrdfDocument* document,
@@ -81,18 +111,21 @@ void AddUrdfShapes(const XmlElement& element, int link, UrdfDocument* document,
   for (const XmlElement* collision : element.FindChildren("collision")) {
     const XmlElement* geometry = collision->FindChild("geometry");
     const bool is_empty = geometry == nullptr || geometry->children.empty();
-    if (!is_empty && geometry->children.front().Is("mesh")) {
-      document->mesh_links.push_back(link);
-      continue;
+    const auto X = Origin(*collision);
+    if (!is_empty && X && geometry->children.front().Is("mesh")) {
+      if (auto mesh = MeshOf(geometry->children.front(), *X)) {
+        mesh->segment = link;
+        document->meshes.push_back(*std::move(mesh));
+        continue;
+      }
     }
     ContactShape shape;
     shape.segment = link;
-    const auto X = Origin(*collision);
     if (is_empty || !X || !ReadShape(geometry->children.front(), &shape)) {
       diagnostics->AddWarning(
           collision->line,
           fmt::format("link '{}': a <collision> is not a box, sphere, cylinder or capsule of "
-                      "numbers in metres and is left out",
+                      "numbers in metres, or a mesh with a filename, and is left out",
                       document->links[static_cast<std::size_t>(link)].name),
           "collisions that can't be read");
       continue;
@@ -100,6 +133,7 @@ void AddUrdfShapes(const XmlElement& element, int link, UrdfDocument* document,
     shape.X_SG = *X;
     document->shapes.push_back(shape);
   }
+  AddVisualMeshes(element, link, document);
 }
 
 }  // namespace mmm_converter

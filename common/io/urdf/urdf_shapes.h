@@ -7,8 +7,8 @@
 
 namespace mmm_converter {
 
-/// Appends the shapes of a `<link>`'s `<collision>` elements, `link` being its index. Damaged ones
-/// are left out, with a warning.
+/// Appends the shapes of a `<link>`'s `<collision>` elements, and its meshes, `link` being its
+/// index. Damaged ones are left out, with a warning where they would touch.
 void AddUrdfShapes(const XmlElement& element, int link, UrdfDocument* document,
                    Diagnostics* diagnostics);
 

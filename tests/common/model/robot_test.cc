@@ -89,13 +89,13 @@ Robot Leg() {
 TEST(Sole, IsOfTheShapesOfTheRigidBody) {
   Robot robot = Leg();
   std::string reason;
-  EXPECT_FALSE(FindSole(robot, 2, std::nullopt, &reason));
+  EXPECT_FALSE(FindSole(robot, 2, {}, &reason));
   EXPECT_EQ(reason, "foot has no shape that touches the ground");
-  robot.mesh_segments = {1, 2};
-  EXPECT_FALSE(FindSole(robot, 2, std::nullopt, &reason));
+  robot.meshes = {{"a.stl", 1}, {"b.stl", 2}};
+  EXPECT_FALSE(FindSole(robot, 2, {}, &reason));
   EXPECT_THAT(reason, HasSubstr("foot has 2 meshes, which are not read"));
   robot.sites = {{"left_SOLE", 2, Eigen::Isometry3d::Identity()}};
-  auto sole = FindSole(robot, 1, std::nullopt, nullptr);
+  auto sole = FindSole(robot, 1, {}, nullptr);
   ASSERT_TRUE(sole);
   EXPECT_EQ(sole->source, Sole::Source::kNamed);
   EXPECT_EQ(sole->said, "site left_SOLE");
@@ -104,7 +104,7 @@ TEST(Sole, IsOfTheShapesOfTheRigidBody) {
   ball.segment = 2;
   ball.radius = 0.01;
   robot.shapes = {ball, ball};
-  sole = FindSole(robot, 2, std::nullopt, nullptr);
+  sole = FindSole(robot, 2, {}, nullptr);
   ASSERT_TRUE(sole);
   EXPECT_EQ(sole->source, Sole::Source::kShapes);
   EXPECT_EQ(sole->said, "2 spheres of foot");
@@ -112,7 +112,7 @@ TEST(Sole, IsOfTheShapesOfTheRigidBody) {
   EXPECT_NEAR(sole->depth, 0.05, kRobotRounding);
   EXPECT_TRUE(sole->down_S.isApprox(Eigen::Vector3d::UnitX(), kRobotRounding));
   EXPECT_TRUE(sole->shapes[0].X_SG.translation().isApprox(Eigen::Vector3d(0.04, 0, 0.1)));
-  sole = FindSole(robot, 2, 0.07, nullptr);
+  sole = FindSole(robot, 2, {0.07}, nullptr);
   ASSERT_TRUE(sole);
   EXPECT_EQ(sole->source, Sole::Source::kGiven);
   EXPECT_NEAR(sole->depth, 0.07, kRobotRounding);

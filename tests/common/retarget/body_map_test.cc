@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <vector>
 
+#include "common/io/urdf/urdf_robot.h"
 #include "common/retarget/foot_figures.h"
 #include "common/retarget/limb_chains.h"
 #include "common/retarget/robot_body.h"
@@ -243,10 +245,82 @@ TEST(RobotBodyTest, TheSoleIsFoundOrAskedFor) {
   BipedShape shape;
   shape.has_sole = false;
   EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, {}), Error);
-  EXPECT_NEAR(FindRobotBody(MakeBiped(shape), {}, 0.1).size, 0.82, 1e-9);
+  EXPECT_NEAR(FindRobotBody(MakeBiped(shape), {}, {0.1}).size, 0.82, 1e-9);
   for (const double none : {-0.1, 7.0, std::nan("")}) {
-    EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, none), Error) << none;
+    EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, {none}), Error) << none;
   }
+}
+
+TEST(RobotBodyTest, AGivenSoleIsABoxThatIsDoubted) {
+  BipedShape shape;
+  shape.has_sole = false;
+  const SoleChoice choice = {0.08, Eigen::Vector2d(0.2, 0.08)};
+  const RobotFoot foot = (*FindRobotBody(MakeBiped(shape), {}, choice).feet)[0];
+  EXPECT_TRUE(foot.toe.isApprox(Eigen::Vector3d(0.12, 0, -0.08), 1e-9));  // its mass is at 0.02
+  EXPECT_TRUE(foot.heel.isApprox(Eigen::Vector3d(-0.08, 0, -0.08), 1e-9));
+  EXPECT_NEAR(foot.width, 0.08, 1e-9);
+  EXPECT_THAT(foot.doubt, HasSubstr("as given"));
+  EXPECT_THAT((*FindRobotBody(MakeBiped(shape), {}, {0.08}).feet)[0].doubt,
+              HasSubstr("place only"));
+  EXPECT_EQ((*FindRobotBody(MakeBiped({}), {}, {}).feet)[0].doubt, "");
+  EXPECT_THROW(FindRobotBody(MakeBiped(shape), {}, {0.08, Eigen::Vector2d(200, 80)}), Error);
+}
+
+TEST(RobotBodyTest, AMeshOfARoundSoleBearsOnFewPoints) {
+  BipedShape shape;
+  shape.has_sole = false;
+  Robot robot = MakeBiped(shape);
+  for (const char* ankle : {"left_ankle_roll", "right_ankle_roll"}) {
+    RobotMesh& mesh = robot.meshes.emplace_back();
+    mesh.segment = robot.model.FindSegment(ankle);
+    for (int i = 0; i <= 40; ++i) {  // a cylinder across, of which the foot rolls
+      const double angle = EIGEN_PI * i / 40;
+      for (const double y : {-0.04, 0.04}) {
+        mesh.hull.emplace_back(0.1 * std::cos(angle), y, -0.02 - 0.06 * std::sin(angle));
+      }
+    }
+  }
+  const RobotFoot foot = (*FindRobotBody(robot, {}, {}).feet)[0];
+  EXPECT_EQ(foot.said, "1 mesh of left_ankle_roll_link");
+  EXPECT_LE(foot.balls.size(), 32U);
+  for (const double pitch : {-0.9, -0.3, 0.0, 0.2, 0.6, 0.9}) {
+    const Eigen::Isometry3d X = StandingFoot(foot, {0, 0}, 0, pitch, 0);
+    double lowest = 1;
+    for (const FloorBall& ball : foot.balls) lowest = std::min(lowest, (X * ball.p_S).z());
+    EXPECT_NEAR(LowestOf(foot, X), 0, 1e-12) << pitch;
+    EXPECT_LT(lowest, 0.001) << pitch;  // kHullTolerance, between its directions a little more
+  }
+}
+
+TEST(RobotBodyTest, ARobotInCentimetresIsTold) {
+  Robot robot = MakeBiped({});
+  ModelDescription large = DescriptionOf(robot.model);
+  for (Segment& segment : large.segments) {
+    segment.X_PF.translation() *= 100;
+    segment.p_SB *= 100;
+  }
+  robot.model = KinematicModel(std::move(large));
+  try {
+    FindRobotBody(robot, {}, {0.1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("centimetres"));
+  }
+}
+
+// As Onshape's exports are.
+TEST(BodyMapTest, JointsWithoutLimitsAreMappedByTheirAxesAndNames) {
+  const std::string limits =
+      std::regex_replace(testing::BipedText({}), std::regex(R"((lower|upper)="[-.0-9]*")"), "");
+  const Robot bare = ParseUrdfRobot(limits, "biped.urdf");
+  ASSERT_EQ(bare.model.num_joints(), 21);
+  const BodyMap known = FindBodyMap(MakeBiped({}).model, {}), map = FindBodyMap(bare.model, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(map.legs[i]->chain, known.legs[i]->chain);
+    EXPECT_EQ(map.legs[i]->fold, known.legs[i]->fold);
+    EXPECT_EQ(map.arms[i]->fold, known.arms[i]->fold);
+  }
+  EXPECT_TRUE(map.R_WA.isApprox(known.R_WA, 1e-9));
 }
 
 TEST(RobotBodyTest, ToesBelongToTheSole) {

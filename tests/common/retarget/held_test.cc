@@ -174,13 +174,13 @@ TEST(RetargetTest, ASoleInAnotherUnitIsQuestioned) {
   const Robot robot = MakeBiped({});
   for (const double height : {50.0, 0.00005, -0.05}) {
     try {
-      FindRobotBody(robot, {}, height);
+      FindRobotBody(robot, {}, {height});
       FAIL() << height;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr("5 to 500 mm"));
     }
   }
-  EXPECT_NO_THROW(FindRobotBody(robot, {}, 0.0));
+  EXPECT_NO_THROW(FindRobotBody(robot, {}, {0.0}));
 }
 
 TEST(FollowWatchTest, CountsAsTheFiguresOfAWholeMotionDo) {

@@ -25,7 +25,7 @@ void ReadMjcfBytes(std::string_view bytes) {
     Require(z == z, "a lowest point");
   }
   for (std::size_t i = 0; i < X_WS.size(); ++i) {
-    FindSole(robot, static_cast<int>(i), std::nullopt, nullptr);
+    FindSole(robot, static_cast<int>(i), {}, nullptr);
   }
 }
 

@@ -127,9 +127,31 @@ TEST(MjcfRobot, MovesAsMuJoCoMovesIt) {
   EXPECT_NEAR(SegmentOf(robot, "hz").mass, 8.377580409572783, 1e-12);
   EXPECT_NEAR(SegmentOf(robot, "k2").mass, 4.765191429188093, 1e-12);
   EXPECT_EQ(robot.shapes.size(), 5u);  // what the class "leg" lets touch
-  const auto sole = FindSole(robot, robot.model.FindSegment("t"), std::nullopt, nullptr);
+  const auto sole = FindSole(robot, robot.model.FindSegment("t"), {}, nullptr);
   ASSERT_TRUE(sole);
   EXPECT_EQ(sole->said, "1 box of toe");
+}
+
+TEST(MjcfRobot, ThreeSlidesAndThreeHingesOfTheRootAreAFreeJoint) {
+  const auto model = [](const std::string& last, const std::string& child) {
+    return "<mujoco><compiler angle='radian'/><worldbody><body name='p' pos='0 0 1'>"
+           "<joint name='tx' type='slide' axis='1 0 0'/><joint name='tz' type='slide' axis='0 0 "
+           "1'/>"
+           "<joint name='ty' type='slide' axis='0 1 0' range='-5 5'/>"
+           "<joint name='rx' axis='1 0 0'/><joint name='ry' axis='0 1 0'/><joint name='rz' axis='" +
+           last + "'/><geom size='0.1'/>" + child + "</body></worldbody></mujoco>";
+  };
+  const std::string child = "<body name='c'><joint name='j'/><geom size='0.1'/></body>";
+  Warnings warnings;
+  const Robot robot = ParseWith({}, model("0 0 1", child), &warnings);
+  EXPECT_FALSE(robot.model.is_root_fixed());
+  EXPECT_EQ(robot.model.num_joints(), 1);
+  EXPECT_EQ(robot.model.segments()[0].name, "p");
+  EXPECT_EQ(robot.model.segments()[0].X_PF.translation().norm(), 0);
+  EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("of 'p' (tx to rz) are one free joint")));
+  // Two axes alike, or nothing that it carries: a machine of six joints.
+  EXPECT_EQ(ParseWith({}, model("0 1 0", child)).model.num_joints(), 7);
+  EXPECT_EQ(ParseWith({}, model("0 0 1", "")).model.num_joints(), 6);
 }
 
 TEST(MjcfRobot, JointsHaveTheirRanges) {

@@ -175,14 +175,33 @@ TEST(UrdfModel, AFloatingJointUnderAWorldMovesTheRoot) {
   EXPECT_EQ(read.segment_of_link.count("world"), 0u);
 }
 
-TEST(UrdfModel, MissingLimitsCountAsZero) {
+TEST(UrdfModel, OneMissingLimitCountsAsZero) {
   Warnings warnings;
-  const UrdfModel read =
-      ParseUrdfModel(Hinge("revolute", "<limit effort='1' velocity='1'/>"), "r.urdf", &warnings);
-  EXPECT_THAT(warnings.texts(),
-              ElementsAre(HasSubstr("r.urdf:3: joint 'j': <limit> has no lower and no upper, which "
-                                    "URDF takes for 0"),
-                          HasSubstr("joint j (revolute with equal limits)")));
+  const UrdfModel read = ParseUrdfModel(
+      Hinge("revolute", "<limit upper='2' effort='1' velocity='1'/>"), "r.urdf", &warnings);
+  EXPECT_EQ(read.model.joint(0).lower, 0);
+  EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("r.urdf:3: joint 'j': <limit> has no lower, "
+                                                      "which URDF takes for 0")));
+}
+
+TEST(UrdfModel, JointsWithoutLimitsTurnHalfRoundAndAreTold) {
+  for (const char* limit : {"", "<limit/>", "<limit effort='1' velocity='1'/>"}) {
+    Warnings warnings;
+    const UrdfModel read = ParseUrdfModel(Hinge("revolute", limit), "r.urdf", &warnings);
+    EXPECT_DOUBLE_EQ(read.model.joint(0).lower, -EIGEN_PI);
+    EXPECT_DOUBLE_EQ(read.model.joint(0).upper, EIGEN_PI);
+    EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("r.urdf: has no limits"))) << limit;
+  }
+  std::string zeros = "<link name='l0'/>";
+  for (int i = 0; i < 6; ++i) {
+    const std::string number = std::to_string(i), next = std::to_string(i + 1);
+    zeros += "<link name='l" + next + "'/>" +
+             Joint("j" + number, "revolute", "l" + number, "l" + next,
+                   "<limit lower='0' upper='0' effort='0' velocity='0'/>");
+  }
+  Warnings warnings;
+  EXPECT_EQ(ParseUrdfModel(RobotText(zeros), "r.urdf", &warnings).model.num_joints(), 6);
+  EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("j0, j1, j2, j3, j4")));
 }
 
 TEST(UrdfModel, EndlessJointsHaveNoLimits) {
@@ -275,7 +294,7 @@ TEST(UrdfModel, ErrorsNameFileAndReason) {
                  Joint("j", "continuous", "a", "c", "<mimic joint='k' offset='1e200'/>")),
        "adds 1e+200"},
       {Hinge("ball", ""), "[j] has no known type [ball]"},
-      {Hinge("revolute", ""), "Joint [j] is of type REVOLUTE but it does not specify limits"},
+      {Hinge("prismatic", ""), "Joint [j] is of type PRISMATIC without limits"},
       {Hinge("revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"),
        "joint 'j': its limits are crossed: lower=\"2\" is above upper=\"1\""},
       {Hinge("revolute", "<limit lower='0' upper='90' effort='1' velocity='1'/>"),

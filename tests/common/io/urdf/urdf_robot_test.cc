@@ -40,7 +40,9 @@ TEST(UrdfRobot, HasShapesVelocitiesAndLinks) {
   EXPECT_TRUE(robot.shapes[0].X_SG.linear().col(2).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
   EXPECT_EQ(robot.shapes[0].X_SG.translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(robot.shapes[1].half, Eigen::Vector3d(1, 2, 3));
-  EXPECT_THAT(robot.mesh_segments, ElementsAre(1));
+  ASSERT_EQ(robot.meshes.size(), 1u);
+  EXPECT_EQ(robot.meshes[0].segment, 1);
+  EXPECT_EQ(robot.meshes[0].file, "m");
   EXPECT_THAT(warnings.texts(), ElementsAre(HasSubstr("link 'b': a <collision> is not a box")));
   ASSERT_EQ(robot.velocity_limits.size(), 2);
   EXPECT_EQ(robot.velocity_limits[0], 6);
@@ -83,7 +85,7 @@ TEST(UrdfRobotReal, SolesAreWhereTheyWereMeasured) {
     EXPECT_EQ(robot.model.num_joints(), one.joints);
     EXPECT_FALSE(robot.model.is_root_fixed());
     EXPECT_TRUE((robot.velocity_limits.array() < 100).all());
-    const auto sole = FindSole(robot, robot.model.FindSegment(one.joint), std::nullopt, nullptr);
+    const auto sole = FindSole(robot, robot.model.FindSegment(one.joint), {}, nullptr);
     ASSERT_TRUE(sole) << one.file;
     EXPECT_NEAR(sole->depth, one.depth, 1e-3) << one.file;  // the notes' mm
     EXPECT_EQ(sole->said, one.said);
