@@ -11,11 +11,12 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kShortestReturn = 0.3, kLongestReturn = 0.8;  // [s]
+constexpr double kShortestReturn = 0.3, kLongestReturn = 0.6;  // [s]
 constexpr double kRestAfter = 2;                               // [s]
 constexpr double kToRest = 2;                                  // [s], at least
 constexpr double kStoodStill = 0.1, kStoodFrames = 2.5;  // [s] without a frame: a robot stands
 constexpr double kLiftAbove = 5e-4;                      // [m] of depth in the floor
+constexpr double kLiftSpeed = 2;                         // [m/s]
 
 bool IsFinite(const Posture& posture) {
   return posture.position.allFinite() && posture.orientation.coeffs().allFinite() &&
@@ -40,6 +41,7 @@ GuardedFollower::GuardedFollower(std::shared_ptr<const KinematicModel> person, c
   held_for_ = before->held_for_;
   time_ = before->time_;
   rest_ = before->rest_;
+  lift_ = before->lift_;
   belt_ = before->belt_;
   belt_way_ = before->belt_way_;
 }
@@ -55,10 +57,13 @@ double GuardedFollower::StepTo(double time) {
   return 1 / rate_;
 }
 
-const Posture& GuardedFollower::Finish() {
+const Posture& GuardedFollower::Finish(double dt) {
   posture_ = governor_.posture();
   if (body_.feet && !robot_.model.is_root_fixed()) {
-    posture_.position.z() += std::max(0.0, follower_.DepthOf(posture_) - kLiftAbove);
+    const double wanted = std::max(0.0, follower_.DepthOf(posture_) - kLiftAbove);
+    const double most = std::clamp(governor_.speed_left(), 0.0, kLiftSpeed) * dt;
+    lift_ = std::clamp(wanted, lift_ - most, lift_ + most);
+    posture_.position.z() += lift_;
   }
   robot_state_.Compute(posture_);
   posture_.position += follower_.scale() * belt_way_;
@@ -84,7 +89,7 @@ const Posture& GuardedFollower::Follow(const Posture& person, double time) {
   }
   governor_.Go(goal, dt);
   if (!governor_.is_blending()) state_ = FollowState::kTracks;
-  return Finish();
+  return Finish(dt);
 }
 
 /// Where it stands, upright.
@@ -122,14 +127,14 @@ const Posture& GuardedFollower::HoldFor(double dt) {
   held_for_ += dt;
   if (held_for_ < rest_after_) {
     governor_.Brake(dt);
-    return Finish();
+    return Finish(dt);
   }
   if (!rested) {
     FindRest();
     governor_.Blend(rest_, kToRest, std::numeric_limits<double>::infinity());
   }
   governor_.Go(rest_, dt);
-  return Finish();
+  return Finish(dt);
 }
 
 Retargeted FollowMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
