@@ -16,7 +16,6 @@ constexpr double kRestAfter = 2;                               // [s]
 constexpr double kToRest = 2;                                  // [s], at least
 constexpr double kStoodStill = 0.1, kStoodFrames = 2.5;  // [s] without a frame: a robot stands
 constexpr double kLiftAbove = 5e-4;                      // [m] of depth in the floor
-constexpr double kLiftSpeed = 2;                         // [m/s]
 
 bool IsFinite(const Posture& posture) {
   return posture.position.allFinite() && posture.orientation.coeffs().allFinite() &&
@@ -41,7 +40,6 @@ GuardedFollower::GuardedFollower(std::shared_ptr<const KinematicModel> person, c
   held_for_ = before->held_for_;
   time_ = before->time_;
   rest_ = before->rest_;
-  lift_ = before->lift_;
   belt_ = before->belt_;
   belt_way_ = before->belt_way_;
 }
@@ -58,12 +56,14 @@ double GuardedFollower::StepTo(double time) {
 }
 
 const Posture& GuardedFollower::Finish(double dt) {
+  const bool had_one = posture_.joint_angles.size() > 0;
+  const Eigen::Vector3d before = posture_.position - follower_.scale() * belt_way_;
   posture_ = governor_.posture();
   if (body_.feet && !robot_.model.is_root_fixed()) {
-    const double wanted = std::max(0.0, follower_.DepthOf(posture_) - kLiftAbove);
-    const double most = std::clamp(governor_.speed_left(), 0.0, kLiftSpeed) * dt;
-    lift_ = std::clamp(wanted, lift_ - most, lift_ + most);
-    posture_.position.z() += lift_;
+    posture_.position.z() += std::max(0.0, follower_.DepthOf(posture_) - kLiftAbove);
+    const Eigen::Vector3d way = posture_.position - before;
+    const double most = governor_.fastest() * dt;
+    if (had_one && way.norm() > most) posture_.position = before + most * way.normalized();
   }
   robot_state_.Compute(posture_);
   posture_.position += follower_.scale() * belt_way_;

@@ -56,7 +56,6 @@ class GuardedFollower {
   SegmentJacobian robot_state_;
   FollowState state_ = FollowState::kTracks;
   double held_for_ = 0;  // [s]
-  double lift_ = 0;      // out of the floor [m]
   double time_ = 0;      // of the last frame [s]
   BeltWatch belt_;
   Eigen::Vector3d belt_way_ = Eigen::Vector3d::Zero();  // that it went [m]

@@ -43,8 +43,7 @@ class MotionGovernor {
 
   const Posture& posture() const { return posture_; }
   bool has_started() const { return has_started_; }
-  /// Of the root, that limits leave [m/s].
-  double speed_left() const { return limits_.speed[0] - speed_.head<3>().norm(); }
+  double fastest() const { return limits_.speed[0]; }  ///< of the root [m/s]
   bool is_blending() const { return elapsed_ < longest_blend(); }
 
   void Start(const Posture& posture);  ///< stands there
