@@ -11,7 +11,7 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kShortestReturn = 0.3, kLongestReturn = 0.8;  // [s]
+constexpr double kShortestReturn = 0.3, kLongestReturn = 0.6;  // [s]
 constexpr double kRestAfter = 2;                               // [s]
 constexpr double kToRest = 2;                                  // [s], at least
 constexpr double kStoodStill = 0.1, kStoodFrames = 2.5;  // [s] without a frame: a robot stands
@@ -55,10 +55,15 @@ double GuardedFollower::StepTo(double time) {
   return 1 / rate_;
 }
 
-const Posture& GuardedFollower::Finish() {
+const Posture& GuardedFollower::Finish(double dt) {
+  const bool had_one = posture_.joint_angles.size() > 0;
+  const Eigen::Vector3d before = posture_.position - follower_.scale() * belt_way_;
   posture_ = governor_.posture();
   if (body_.feet && !robot_.model.is_root_fixed()) {
     posture_.position.z() += std::max(0.0, follower_.DepthOf(posture_) - kLiftAbove);
+    const Eigen::Vector3d way = posture_.position - before;
+    const double most = governor_.fastest() * dt;
+    if (had_one && way.norm() > most) posture_.position = before + most * way.normalized();
   }
   robot_state_.Compute(posture_);
   posture_.position += follower_.scale() * belt_way_;
@@ -84,7 +89,7 @@ const Posture& GuardedFollower::Follow(const Posture& person, double time) {
   }
   governor_.Go(goal, dt);
   if (!governor_.is_blending()) state_ = FollowState::kTracks;
-  return Finish();
+  return Finish(dt);
 }
 
 /// Where it stands, upright.
@@ -122,14 +127,14 @@ const Posture& GuardedFollower::HoldFor(double dt) {
   held_for_ += dt;
   if (held_for_ < rest_after_) {
     governor_.Brake(dt);
-    return Finish();
+    return Finish(dt);
   }
   if (!rested) {
     FindRest();
     governor_.Blend(rest_, kToRest, std::numeric_limits<double>::infinity());
   }
   governor_.Go(rest_, dt);
-  return Finish();
+  return Finish(dt);
 }
 
 Retargeted FollowMotion(const KinematicModel& human_model, const PoseTrajectory& motion,

@@ -46,7 +46,7 @@ class GuardedFollower {
   double StepTo(double time);
   const Posture& HoldFor(double dt);
   void FindRest();
-  const Posture& Finish();
+  const Posture& Finish(double dt);
 
   const Robot& robot_;
   const RobotBody& body_;

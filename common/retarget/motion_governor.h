@@ -43,6 +43,7 @@ class MotionGovernor {
 
   const Posture& posture() const { return posture_; }
   bool has_started() const { return has_started_; }
+  double fastest() const { return limits_.speed[0]; }  ///< of the root [m/s]
   bool is_blending() const { return elapsed_ < longest_blend(); }
 
   void Start(const Posture& posture);  ///< stands there
