@@ -65,7 +65,8 @@ TEST(BatchSchema, HasEveryAttribute) {
   BatchEntry entry;
   for (const Option& attribute : AttributesOf(&entry)) {
     std::string xml;
-    for (const char* value : {"1", "true", "mm", "x", ":", "2.0", "100", "x.xml", "isaac", "file"}) {
+    for (const char* value :
+         {"1", "true", "mm", "x", ":", "2.0", "100", "x.xml", "isaac", "file"}) {
       xml = fmt::format(
           "<Batch {}='{}'><Recording file='a.c3d' robot='g.xml' "
           "robotOrder='isaac'/></Batch>",
