@@ -63,6 +63,10 @@ class RealRecordings(Case):
         self.assertEqual(set(ground.contacts["foot"]), {"left", "right"})
         self.assertIn("left knee flexion [deg]", ground.cycles.columns)
         self.assertTrue(ground.work.empty)  # no foot is on plates over a whole stride
+        self.assertTrue(ground.emg.empty)
+        muscles = mmmconverter.convert(SHARED / "field/btk_FunctionalWalk.c3d", emg="EMG3", progress=False).ground.emg
+        self.assertEqual(list(muscles.columns), ["left EMG3 EMG [mV]", "right EMG3 EMG [mV]"])
+        self.assertTrue((muscles > 0).all().all())
         self.assertEqual(len(strides.to_dataframe()), len(strides))
 
     def test_forces_are_what_opensim_stored(self):
