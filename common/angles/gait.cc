@@ -15,7 +15,9 @@ namespace {
 constexpr double kUsualStride = 2.5;  // [s]
 constexpr double kMostStance = 0.85;  // of a slow stride: who lifts no foot longer stands
 constexpr double kStanceBegin = 0.3, kStanceEnd = 0.7;  // of a contact: the foot is flat
-constexpr double kUncutStance = 0.4;                    // [s] of a contact whose end is not known
+// Of the speed, between those that both feet show, below which they are on one belt.
+constexpr double kOneBelt = 0.15;
+constexpr double kUncutStance = 0.4;     // [s] of a contact whose end is not known
 constexpr double kTurn = 20 / kDegrees;  // [rad] by which a foot's way differs at random
 constexpr double kRuns = 0.5;            // of a stride on the ground: who stands less has a flight
 constexpr double kStair = 0.08;          // [m] of a step; kerbs and stairs are higher
@@ -57,6 +59,33 @@ StandingPlace PlaceOf(const FootContact& contact, const FootMotion& feet) {
   }
   place.yaw = std::atan2(line.y(), line.x());
   return place;
+}
+
+/// With belts as feet show them in mid-stance: both together, where they tell one speed.
+FootMotion WithBelts(FootMotion feet, const Contacts& contacts) {
+  if (feet.foot(Side::kLeft).belt.isZero(0)) return feet;
+  std::array<Eigen::Vector3d, 2> ways = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  std::array<double, 2> times = {0, 0};
+  for (const FootContact& contact : contacts.contacts) {
+    if (!contact.begin || !contact.end) continue;
+    const FootPath& foot = feet.foot(contact.side);
+    const double span = *contact.end - *contact.begin;
+    const auto middle = [&](double share) -> Eigen::Vector3d {
+      const double at = (*contact.begin + share * span - feet.first_time) * feet.rate;
+      return (ColumnAt(foot.heel, at) + ColumnAt(foot.toe, at)) / 2;
+    };
+    const auto side = static_cast<std::size_t>(contact.side);
+    ways[side] += middle(kStanceEnd) - middle(kStanceBegin);
+    times[side] += (kStanceEnd - kStanceBegin) * span;
+  }
+  if (times[0] == 0 || times[1] == 0) return feet;
+  for (Eigen::Vector3d& way : ways) way.z() = 0;
+  const Eigen::Vector3d left = ways[0] / times[0], right = ways[1] / times[1];
+  const Eigen::Vector3d both = (ways[0] + ways[1]) / (times[0] + times[1]);
+  const bool is_one = (left - right).norm() < kOneBelt * both.norm();
+  feet.feet[0].belt = is_one ? both : left;
+  feet.feet[1].belt = is_one ? both : right;
+  return feet;
 }
 
 /// From one place to a later one, on the belt where there is one.
@@ -258,8 +287,9 @@ std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<
   return cycles;
 }
 
-Gait AnalyzeGait(const FootMotion& feet, const Contacts& contacts, const AnatomicalAngles& angles,
+Gait AnalyzeGait(const FootMotion& moved, const Contacts& contacts, const AnatomicalAngles& angles,
                  const KnownLegs& known) {
+  const FootMotion feet = WithBelts(moved, contacts);
   Gait gait;
   for (const Side side : kSides) AddStrides(side, feet, contacts, known, &gait);
   gait.kind = KindOf(gait.strides);

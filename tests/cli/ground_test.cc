@@ -170,7 +170,8 @@ TEST_F(RealGround, StridesAndSteps) {
   const Walk walks[] = {{"f_base_type2.c3d", 1.1, 1.2, 0.6, "walking", false},
                         {"w_turn180.c3d", 1.1, 1.2, 0.6, "walking", true},
                         {"w_running.c3d", 0.7, 2.3, 1.15, "running", false},
-                        {"w_slow_stride_2800ms.c3d", 2.8, 0.5, 0.25, "walking", false}};
+                        {"w_slow_stride_2800ms.c3d", 2.8, 0.5, 0.25, "walking", false},
+                        {"w_treadmill_2800ms.c3d", 1.1, 1.2, 0.6, "walking", false}};
   for (const Walk& walk : walks) {
     SCOPED_TRACE(walk.file);
     const bool has_plates = &walk == &walks[0];
