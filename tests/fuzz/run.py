@@ -106,7 +106,8 @@ def processor_seconds(process):
 
 def run(command, seconds, log):
     """What it used of the processor [s]. It ends by itself where it has found something."""
-    process = subprocess.Popen(command, stderr=log, env=dict(os.environ, TMPDIR=str(MEMORY)))
+    process = subprocess.Popen(command, stderr=log, env=dict(
+        os.environ, TMPDIR=str(MEMORY), LSAN_OPTIONS=f"suppressions={ROOT / 'tests/lsan_suppressions.txt'}"))
     used = 0
     while process.poll() is None:
         used = processor_seconds(process)

@@ -12,6 +12,7 @@
 #include <assimp/Importer.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -51,9 +52,9 @@ bool Reads(const aiImporterDesc& importer, const std::string& ending) {
 
 void KeepOnly(const std::string& ending, Assimp::Importer* importer) {
   for (std::size_t i = importer->GetImporterCount(); i-- > 0;) {
-    if (!Reads(*importer->GetImporterInfo(i), ending)) {
-      importer->UnregisterLoader(importer->GetImporter(i));
-    }
+    if (Reads(*importer->GetImporterInfo(i), ending)) continue;
+    const std::unique_ptr<Assimp::BaseImporter> unused(importer->GetImporter(i));
+    importer->UnregisterLoader(unused.get());
   }
 }
 
