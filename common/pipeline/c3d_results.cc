@@ -67,10 +67,6 @@ std::string LabelOf(std::string_view joint, Side side, C3dResultKind kind) {
   return fmt::format("{}{}{}", side == Side::kLeft ? 'L' : 'R', name, what);
 }
 
-bool IsOfLeg(std::string_view joint) {
-  return joint == "hip" || joint == "knee" || joint == "ankle";
-}
-
 class ResultPoints {
  public:
   ResultPoints(std::string prefix, int first_frame, const KnownLegs& known)

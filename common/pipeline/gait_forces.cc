@@ -36,10 +36,6 @@ const char* OppositeOf(std::string_view motion) {
   return motion == "internal rotation" ? "external rotation moment" : nullptr;
 }
 
-bool IsOfLeg(std::string_view joint) {
-  return joint == "hip" || joint == "knee" || joint == "ankle";
-}
-
 /// By the model's joints, as far as they are known.
 Eigen::MatrixXd ByJoints(const KinematicModel& model, const JointForces& found) {
   Eigen::MatrixXd forces = Eigen::MatrixXd::Constant(model.num_joints(), found.num_frames(), kNaN);
@@ -164,6 +160,10 @@ std::optional<JointForces> FindJointForces(const ConversionReport& report,
 }
 
 }  // namespace
+
+bool IsOfLeg(std::string_view joint) {
+  return joint == "hip" || joint == "knee" || joint == "ankle";
+}
 
 std::optional<AnatomicalAngles> LegMomentsOf(const ConversionReport& report,
                                              const GroundStudy& ground) {

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "common/angles/anatomical_angles.h"
 #include "common/forces/emg.h"
 #include "common/pipeline/ground_study.h"
 
 namespace mmm_converter {
+
+/// Whether a joint of AnatomicalAngle is a leg's.
+bool IsOfLeg(std::string_view joint);
 
 /// Moments and powers of the legs' muscles by mass, as GaitOf has them, a row for each and a column
 /// for each frame of TrackedMotion. Nothing: there are no plates, or the model has no mass.
