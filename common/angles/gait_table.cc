@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "common/angles/normal_bands.h"
+#include "common/io/tables/column_names.h"
 #include "common/io/xml/xml_text.h"
-#include "common/support/text.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -44,15 +43,6 @@ constexpr StrideFigure kFigures[] = {
     {"step_width_m", [](const Stride& one) { return one.step_width; }}};
 
 /// Without what CSV and JSON would quote.
-std::string NameOf(const GaitTrial& trial) {
-  std::string name = ToUtf8(trial.name);
-  const auto is_special = [](char c) {
-    return (c >= 0 && c < ' ') || c == '"' || c == '\\' || c == ',' || c == ';';
-  };
-  std::replace_if(name.begin(), name.end(), is_special, '_');
-  return name;
-}
-
 std::string StrideJson(const Stride& stride) {
   std::string text = fmt::format(
       R"({{"side": "{}", "begin_s": {}, "end_s": {}, "stride_time_deviation_s": {})",
@@ -161,7 +151,7 @@ std::string TrialJson(const GaitTrial& trial) {
       "\"strides_over_turns\": {},\n  \"summary\": {{{}, {}, {}}},\n  \"work\": [{}],\n  "
       "\"strides\": [\n    {}\n  ],\n  \"cycles\": [\n    {}\n  ],\n  \"forces\": [\n    {}\n  "
       "]\n}}",
-      '"' + NameOf(trial) + '"', Name(gait.kind), gait.left_out, gait.turns,
+      '"' + PlainCell(trial.name) + '"', Name(gait.kind), gait.left_out, gait.turns,
       SummaryJson(Side::kLeft, gait.strides), SummaryJson(Side::kRight, gait.strides),
       SymmetryJson(gait.strides), fmt::join(work, ", "), fmt::join(strides, ",\n    "),
       fmt::join(cycles, ",\n    "), fmt::join(forces, ",\n    "));
@@ -178,7 +168,7 @@ const char* ForceUnitOf(std::string_view motion) {
 std::string FormatGaitCsv(const std::vector<GaitTrial>& trials) {
   std::string text = "trial,joint,side,angle,unit,percent,mean,sd,uncertainty,strides\n";
   for (const GaitTrial& trial : trials) {
-    const std::string name = NameOf(trial);
+    const std::string name = PlainCell(trial.name);
     for (const GaitCycle& one : trial.gait->cycles)
       AppendRows(name, one, "degrees", kDegrees, OwnSign(one), &text);
     for (const GaitCycle& one : trial.gait->forces) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/io/c3d/c3d_analog.h"
+#include "common/io/tables/column_names.h"
 #include "common/motion/low_pass.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -78,16 +79,6 @@ std::optional<EmgChannel> ByPair(const std::string& label, const std::vector<std
   return EmgChannel{Bare(label.substr(1)), lower[0] == 'l' ? "left" : "right"};
 }
 
-/// Without what tables would quote.
-std::string Plain(std::string label) {
-  label = ToUtf8(Trim(label));
-  const auto is_special = [](char c) {
-    return (c >= 0 && c < ' ') || c == '"' || c == '\\' || c == ',' || c == ';';
-  };
-  std::replace_if(label.begin(), label.end(), is_special, '_');
-  return label;
-}
-
 std::vector<int> Choose(const std::string& file, const C3dAnalog& analog,
                         const std::string& labels) {
   std::vector<std::string> there;
@@ -152,7 +143,7 @@ Emg ReadEmg(const std::string& file, const std::string& labels, Warnings* warnin
       Warn(warnings,
            fmt::format("{}: channel {} states no unit: taken as volts", file, channel.label));
     }
-    names.push_back(Plain(channel.label));
+    names.push_back(PlainCell(Trim(channel.label)));
     scales[static_cast<Eigen::Index>(i)] = *scale;
   }
   const Eigen::MatrixXd samples =

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/io/tables/column_names.h"
@@ -64,14 +63,6 @@ std::string JsonOf(const ResidualSize& size, bool is_moment, double mass) {
                      Rounded(size.peak / share));
 }
 
-/// A name between quotes.
-std::string Quotable(const std::string& name) {
-  std::string word = OneWord(name);
-  std::replace_if(
-      word.begin(), word.end(), [](char c) { return c == '"' || c == '\\'; }, '_');
-  return word;
-}
-
 std::string JsonOfResiduals(const JointForces& found) {
   const Residuals all = MeasureResiduals(found);
   if (all.frames == 0) return "null";
@@ -121,7 +112,7 @@ std::string JsonOfLeg(const JointForces& found, std::size_t i) {
   return fmt::format(
       R"({{"name": "{}", "unit": "{}", "known_frames": {}, "largest": {}, "largest_at_s": {}, )"
       R"("largest_deviation": {}, "smallest": {}, "smallest_at_s": {}, "smallest_deviation": {}}})",
-      Quotable(found.names[i]), found.is_moment[i] ? "N m/kg" : "N/kg", frames, value(largest),
+      PlainCell(found.names[i]), found.is_moment[i] ? "N m/kg" : "N/kg", frames, value(largest),
       time(largest), deviation(largest), value(smallest), time(smallest), deviation(smallest));
 }
 

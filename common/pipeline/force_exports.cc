@@ -214,9 +214,11 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
       report->warnings.Add(std::move(told));
     }
   }
-  if (files.count(kResults) > 0) {
-    ground->results = C3dResultsOf(*report, *ground);
-    CheckC3dResults(report->plan.input.recording.file, ground->results);
+  const auto contacts = files.find(kContacts);
+  if (files.count(kResults) > 0) ground->results = C3dResultsOf(*report, *ground);
+  if (files.count(kResults) > 0 || (contacts != files.end() && IsC3d(contacts->second))) {
+    CheckC3dResults(report->plan.input.recording.file, ground->results,
+                    AllEvents(SeenContacts(*report, *ground), *report));
   }
   if (files.count(kGait) > 0 || files.count(kContacts) > 0 || files.count(kResults) > 0) {
     for (const std::string& note : ground->event_notes) report->warnings.Add(note);

@@ -323,8 +323,7 @@ void WriteFrames(C3dFile* file, const Points& points, const Results& results, Pi
 }
 
 /// events: null: as they are.
-void WriteChanged(C3dFile* file, const Points& points, const Results& results, const Events* events,
-                  const std::string& output) {
+Frame LayOut(C3dFile* file, const Points& points, const Results& results, const Events* events) {
   CheckLayout(*file);
   const C3dLayout& layout = file->layout();
   Frame frame;
@@ -333,6 +332,12 @@ void WriteChanged(C3dFile* file, const Points& points, const Results& results, c
   frame.bytes = layout.frame_bytes + static_cast<std::uint64_t>(more * (layout.floats ? 16 : 8));
   LayOutRest(*file, all_points, &frame);
   frame.before = BytesBeforeFrames(file, points, results, events, &frame);
+  return frame;
+}
+
+void WriteChanged(C3dFile* file, const Points& points, const Results& results, const Events* events,
+                  const std::string& output) {
+  const Frame frame = LayOut(file, points, results, events);
   WriteFileAtomically(output, [&](const TextSink& sink) {
     PieceWriter pieces(sink);
     pieces.text()->append(file->leading_zeros(), '\0');
@@ -376,6 +381,16 @@ void CheckResults(const C3dFile& file, const Results& results) {
   }
 }
 
+Results WithFreeLabels(const C3dFile& file, Results results) {
+  const std::vector<std::string> taken = C3dPointNames(file, nullptr);
+  for (C3dResult& result : results) {
+    while (std::find(taken.begin(), taken.end(), result.label) != taken.end()) {
+      result.label += "_MMM";
+    }
+  }
+  return results;
+}
+
 }  // namespace
 
 void WriteRelabelledC3d(const std::string& input, const Points& points, const std::string& output) {
@@ -393,18 +408,13 @@ void WriteC3dWithResults(const std::string& input, const Results& results, const
                          const std::string& output) {
   C3dFile file(input);
   CheckResults(file, results);
-  const std::vector<std::string> taken = C3dPointNames(file, nullptr);
-  Results free = results;
-  for (C3dResult& result : free) {
-    while (std::find(taken.begin(), taken.end(), result.label) != taken.end()) {
-      result.label += "_MMM";
-    }
-  }
-  WriteChanged(&file, AllPoints(file), free, &events, output);
+  WriteChanged(&file, AllPoints(file), WithFreeLabels(file, results), &events, output);
 }
 
-void CheckC3dResults(const std::string& input, const Results& results) {
-  CheckResults(C3dFile(input), results);
+void CheckC3dResults(const std::string& input, const Results& results, const Events& events) {
+  C3dFile file(input);
+  CheckResults(file, results);
+  LayOut(&file, AllPoints(file), WithFreeLabels(file, results), &events);
 }
 
 }  // namespace mmm_converter

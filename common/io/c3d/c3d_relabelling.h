@@ -57,7 +57,9 @@ struct C3dResult {
 /// @throws Error as WriteC3dWithEvents, and where the file's 16 bit integers can't hold a value.
 void WriteC3dWithResults(const std::string& input, const std::vector<C3dResult>& results,
                          const std::vector<C3dEvent>& events, const std::string& output);
-/// @throws Error as WriteC3dWithResults, but of what only writing shows.
-void CheckC3dResults(const std::string& input, const std::vector<C3dResult>& results);
+/// @throws Error where WriteC3dWithResults can't hold these; no results: where WriteC3dWithEvents
+/// can't.
+void CheckC3dResults(const std::string& input, const std::vector<C3dResult>& results,
+                     const std::vector<C3dEvent>& events);
 
 }  // namespace mmm_converter

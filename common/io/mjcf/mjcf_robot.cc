@@ -264,34 +264,24 @@ Robot MjcfRobotBuilder::Build() {
     const int link = links_[static_cast<std::size_t>(body)];
     return link < 0 ? nullptr : &robot_links_[static_cast<std::size_t>(link)];
   };
-  std::vector<Robot::Site> sites;
-  for (Robot::Site site : document_.sites) {
-    const Robot::Link* link = link_of(site.segment);
-    if (link == nullptr) continue;
-    site.segment = link->segment;
-    site.X_SP = link->X_SL * site.X_SP;
+  const auto on_links = [&](auto parts, auto X_SP) {
+    std::erase_if(parts, [&](const auto& part) { return link_of(part.segment) == nullptr; });
+    for (auto& part : parts) {
+      const Robot::Link& link = *link_of(part.segment);
+      part.segment = link.segment;
+      part.*X_SP = link.X_SL * part.*X_SP;
+    }
+    return parts;
+  };
+  std::vector<Robot::Site> sites = on_links(document_.sites, &Robot::Site::X_SP);
+  for (const Robot::Site& site : sites) {
     if (site.name.size() > kMarkerSuffix.size() && site.name.ends_with(kMarkerSuffix)) {
       description_.markers.push_back({site.name.substr(0, site.name.size() - kMarkerSuffix.size()),
                                       site.segment, site.X_SP.translation()});
     }
-    sites.push_back(std::move(site));
   }
-  std::vector<ContactShape> shapes;
-  for (ContactShape shape : document_.shapes) {
-    const Robot::Link* link = link_of(shape.segment);
-    if (link == nullptr) continue;
-    shape.segment = link->segment;
-    shape.X_SG = link->X_SL * shape.X_SG;
-    shapes.push_back(shape);
-  }
-  std::vector<RobotMesh> meshes;
-  for (RobotMesh mesh : document_.meshes) {
-    const Robot::Link* link = link_of(mesh.segment);
-    if (link == nullptr) continue;
-    mesh.segment = link->segment;
-    mesh.A_SM = link->X_SL * mesh.A_SM;
-    meshes.push_back(std::move(mesh));
-  }
+  std::vector<ContactShape> shapes = on_links(document_.shapes, &ContactShape::X_SG);
+  std::vector<RobotMesh> meshes = on_links(document_.meshes, &RobotMesh::A_SM);
   std::vector<std::array<int, 2>> ties;
   for (const MjcfTie& tie : document_.ties) {
     std::array<int, 2> tied = {-1, -1};

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "common/support/text.h"
+
 namespace mmm_converter {
 
 std::string OneWord(std::string_view text) {
@@ -14,6 +16,13 @@ std::string OneWord(std::string_view text) {
   std::replace_if(
       word.begin(), word.end(), [](unsigned char c) { return c <= 0x20 || c == 0x7F; }, '_');
   return word;
+}
+
+std::string PlainCell(std::string_view text) {
+  std::string cell = ToUtf8(text);
+  const auto is_special = [](char c) { return c == '"' || c == '\\' || c == ',' || c == ';'; };
+  std::replace_if(cell.begin(), cell.end(), is_special, '_');
+  return cell;
 }
 
 std::vector<std::string> ColumnNames(const std::vector<std::string>& names) {
@@ -30,10 +39,7 @@ std::vector<std::string> ColumnNames(const std::vector<std::string>& names) {
 }
 
 std::vector<std::string> CsvColumnNames(std::vector<std::string> names) {
-  for (std::string& name : names) {
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ',' || c == ';' || c == '"'; }, '_');
-  }
+  for (std::string& name : names) name = PlainCell(name);
   return ColumnNames(names);
 }
 

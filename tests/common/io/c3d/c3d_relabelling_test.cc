@@ -252,8 +252,10 @@ TEST(C3dRelabellingRealFiles, ResultsThatIntegersCannotHoldAreRefused) {
   const auto moment = [](double value) -> std::vector<C3dResult> {
     return {{"LHipMoment", C3dResultKind::kMoment, 0, Eigen::Matrix3Xd::Constant(3, 1, value)}};
   };
-  CheckC3dResults(file, moment(0.99 * most));
-  EXPECT_THROW(CheckC3dResults(file, moment(1.01 * most)), Error);
+  CheckC3dResults(file, moment(0.99 * most), {});
+  EXPECT_THROW(CheckC3dResults(file, moment(1.01 * most), {}), Error);
+  const std::vector<C3dEvent> events(256);
+  EXPECT_THROW(CheckC3dResults(file, {}, events), Error);
   EXPECT_THROW(WriteC3dWithResults(file, moment(-1.01 * most), {}, Output()), Error);
   EXPECT_FALSE(fs::exists(Output()));
 }
