@@ -30,12 +30,8 @@ constexpr double kSlantOfAxis = 0.02;
 // Cosine between slants of forces and of the ways to the body along an axis: of 24 stances on right
 // plates of 13 files it is -0.11 to 1.
 constexpr double kAway = -0.5;
-// [s] between forces and feet that is told, and is looked for; the distance of the pressure then,
-// as a share of what it is; and how much of the stances is compared.
-constexpr double kLate = 0.07;
-constexpr double kMostLate = 0.5;
-constexpr double kNearerInTime = 0.6;
-constexpr double kLeastCompared = 0.8;
+constexpr double kLate = 0.07;    // [s] between loads and feet that stand
+constexpr double kPasses = 0.15;  // [m] of the body over a foot, that tells a direction
 
 /// From the part of the foot that is on the ground, horizontally [m].
 double DistanceFromSole(const Eigen::Vector3d& heel, const Eigen::Vector3d& toe,
@@ -161,49 +157,66 @@ void StanceFeet::Measure(const Stance& stance, const Eigen::Matrix3Xd& force,
   fit->along = std::min(fit->along, here.Towards());
   fit->distances.push_back(sum / count);
   fit->travel = std::min(fit->travel, box.sizes().norm());
+  if (const auto advance = Advance(stance, cop)) fit->advances.push_back(*advance);
 }
 
-// Where motion is read so many frames later. NaN: much of that is not there.
-double StanceFeet::DistanceWith(int shift, const std::vector<std::vector<Stance>>& stances) const {
-  double sum = 0, count = 0, all = 0;
-  for (std::size_t plate = 0; plate < stances.size(); ++plate) {
-    for (const Stance& stance : stances[plate]) {
-      all += static_cast<double>(stance.frames.size());
-      for (std::size_t i = 0; i < stance.frames.size(); ++i) {
-        const int frame = stance.frames[i] + shift;
-        if (frame < 0 || frame >= motion_.num_frames()) continue;
-        sum += Distance(frame, forces_.plates[plate].cop.col(stance.samples[i]), Bearer::kUnknown);
-        ++count;
-      }
+/// From the first to the last third of a stance, and against the foot on which that is.
+std::optional<double> StanceFeet::Advance(const Stance& stance, const Eigen::Matrix3Xd& cop) const {
+  const auto count = static_cast<Eigen::Index>(stance.frames.size());
+  if (motion_.body.cols() == 0 || count < 3) return {};
+  const auto middle_of = [&](Side side, int frame) -> Eigen::Vector3d {
+    const FootPath& foot = motion_.foot(side);
+    return (foot.heel.col(frame) + foot.toe.col(frame)) / 2;
+  };
+  const Eigen::Index half = count / 2;
+  const int mid = stance.frames[static_cast<std::size_t>(half)];
+  const Eigen::Vector2d p = cop.col(half).head<2>();
+  const auto beside = [&](Side side) { return (middle_of(side, mid).head<2>() - p).norm(); };
+  const Side side = beside(Side::kLeft) < beside(Side::kRight) ? Side::kLeft : Side::kRight;
+  Eigen::Vector2d of_body(0, 0), of_pressure(0, 0);
+  for (Eigen::Index i = 0; i < count / 3; ++i) {
+    for (const Eigen::Index k : {i, count - 1 - i}) {
+      const int frame = stance.frames[static_cast<std::size_t>(k)];
+      const double sign = (k == i ? -1.0 : 1.0) / static_cast<double>(count / 3);
+      const Eigen::Vector2d foot = middle_of(side, frame).head<2>();
+      of_body += sign * (motion_.body.col(frame).head<2>() - foot);
+      of_pressure += sign * (cop.col(k).head<2>() - foot);
     }
   }
-  return count > kLeastCompared * all ? sum / count : kNaN;
+  if (!of_pressure.allFinite() || !(of_body.norm() > kPasses)) return {};
+  return of_pressure.dot(of_body.normalized());
 }
 
-std::string StanceFeet::Lateness(bool is_table) const {
-  std::vector<std::vector<Stance>> stances;
-  for (const PlateForces& one : forces_.plates) {
-    const bool is_read = one.plate.has_moments && one.tells_contact;
-    stances.push_back(is_read ? StancesOn(one, is_table) : std::vector<Stance>());
+std::string StanceFeet::Lateness() const {
+  std::vector<double> begins, ends;
+  for (const PlateForces& plate : forces_.plates) {
+    if (!plate.tells_contact) continue;
+    for (const LoadInterval& load : plate.loads) {
+      const double begin = (forces_.time(load.begin) - motion_.first_time) * motion_.rate;
+      const double end = (forces_.time(load.end) - motion_.first_time) * motion_.rate;
+      if (!IsOfPerson(plate.plate, static_cast<int>(begin), static_cast<int>(end))) continue;
+      const SlowFoot* foot = nullptr;
+      double most = 0;
+      for (const auto& times : slow_) {
+        for (const SlowFoot& one : times) {
+          const double common = std::min(one.end, end) - std::max(one.begin, begin);
+          if (common <= most) continue;
+          most = common;
+          foot = &one;
+        }
+      }
+      if (foot == nullptr) continue;
+      begins.push_back((begin - foot->begin) / motion_.rate);
+      ends.push_back((end - foot->end) / motion_.rate);
+    }
   }
-  const int most = static_cast<int>(std::lround(kMostLate * motion_.rate));
-  const double own = DistanceWith(0, stances);
-  double best = HUGE_VAL;
-  int late = 0;
-  for (int shift = -most; shift <= most; ++shift) {
-    const double distance = DistanceWith(shift, stances);
-    if (!(distance < best)) continue;
-    best = distance;
-    late = -shift;
-  }
-  const double time = late / motion_.rate;
-  if (std::abs(time) < kLate || !(best < std::min(kNearerInTime * own, kUnderFoot))) return "";
-  return fmt::format(
-      "the plates' forces come {:.0f} ms {} than the feet: their pressure lies {:.0f} mm from the "
-      "feet, and "
-      "{:.0f} mm without that",
-      kMillimetres * std::abs(time), late > 0 ? "later" : "earlier", kMillimetres * own,
-      kMillimetres * best);
+  if (begins.empty()) return "";
+  const double begin = Median(begins), end = Median(ends);
+  const bool is_late = std::min(begin, end) > kLate, is_early = std::max(begin, end) < -kLate;
+  if (!is_late && !is_early) return "";
+  return fmt::format("the plates' forces begin {:.0f} ms and end {:.0f} ms {} than the feet stand",
+                     kMillimetres * std::abs(begin), kMillimetres * std::abs(end),
+                     is_late ? "later" : "earlier");
 }
 
 double StanceFeet::HeightOf(std::size_t frame) const {

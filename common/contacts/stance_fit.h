@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace mmm_converter {
 inline constexpr double kUnderFoot = 0.06;
 inline constexpr double kBesideFoot = 0.09;
 inline constexpr double kFarFromFoot = 0.15;
+inline constexpr double kRetreat = -0.02;       ///< [m] of the pressure, in the body's direction
 inline constexpr double kStillPressure = 1e-3;  ///< [m] what moves less in a stance is not measured
 
 /// Times in which a plate bears somebody: frames of the motion, and the sample of each.
@@ -35,17 +37,20 @@ struct Fit {
   /// of W: sums over all frames.
   Eigen::Array2d with = {0, 0}, slants = {0, 0}, ways = {0, 0};
   double frames = 0;
+  std::vector<double> advances;  ///< of stances over which the body moves: of the pressure with it
 
   /// As `along`, of all stances; 1: forces are too upright to tell.
   double Towards() const;
   /// Whether forces lean away from the body, along x or y of W alone, too.
   bool LeansAway() const;
+  /// Whether the pressure moves through the foot against the body.
+  bool Retreats() const { return !advances.empty() && Median(advances) < kRetreat; }
 
   double mean() const { return Mean(distances); }
   bool IsUp() const { return vertical > 0; }
   bool IsGood() const {
-    return !distances.empty() && IsUp() && along > 0 && !LeansAway() && travel >= kStillPressure &&
-           Max(distances) <= kUnderFoot;
+    return !distances.empty() && IsUp() && along > 0 && !LeansAway() && !Retreats() &&
+           travel >= kStillPressure && Max(distances) <= kUnderFoot;
   }
 };
 
@@ -63,13 +68,13 @@ class StanceFeet {
   void Measure(const Stance& stance, const Eigen::Matrix3Xd& force, const Eigen::Matrix3Xd& cop,
                Bearer bearer, Fit* fit) const;
 
-  /// How much later than the feet all forces are, where the pressure then is much nearer to these;
-  /// in a sentence; empty: they come together. is_table: as StancesOn has it.
-  std::string Lateness(bool is_table) const;
+  /// How much later than the feet all loads begin and end, in a sentence; empty: they come
+  /// together.
+  std::string Lateness() const;
 
  private:
   double Distance(int frame, const Eigen::Vector3d& p, Bearer bearer) const;
-  double DistanceWith(int shift, const std::vector<std::vector<Stance>>& stances) const;
+  std::optional<double> Advance(const Stance& stance, const Eigen::Matrix3Xd& cop) const;
   double HeightOf(std::size_t frame) const;
   bool IsOfPerson(const ForcePlate& plate, int begin, int end) const;
 
