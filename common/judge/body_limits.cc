@@ -37,7 +37,7 @@ constexpr std::size_t kFewestFlatFrames = 5;
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
 
-void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
+void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory, bool is_calibrated,
                  VerdictReasons* reasons) {
   const KinematicModel& model = *setup.model;
   const MarkerKinematics kinematics(model, setup.joints, MarkerIndices(setup.assignments()));
@@ -63,10 +63,11 @@ void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
     standing.push_back(fmt::format("{} ({:.0f} %)", joint.name, kPercent * share));
     most = std::max(most, share);
   }
+  const char* advice = is_calibrated ? "" : " Calibrating the person finds where they are worn.";
   reasons->AddBeyond(kBodyAtLimit, most,
                      fmt::format("joints stand at their limits, in more than {:.0f} % of the "
-                                 "frames: {}; are their markers where their names say?",
-                                 kPercent * kBodyAtLimit.check, FirstNames(standing, 6)));
+                                 "frames: {}; are their markers where their names say?{}",
+                                 kPercent * kBodyAtLimit.check, FirstNames(standing, 6), advice));
 }
 
 void JudgeLegs(const KinematicModel& model, const PoseTrajectory& trajectory,
@@ -142,10 +143,11 @@ void JudgeSoles(const TrackingSetup& setup, const MarkerSequence& recording,
 }  // namespace
 
 void JudgeBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording,
-                     const PoseTrajectory& trajectory, VerdictReasons* reasons) {
+                     const PoseTrajectory& trajectory, bool is_calibrated,
+                     VerdictReasons* reasons) {
   // Of the reference model: robots and OpenSim's bodies have limits of their own kinds.
   if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return;
-  JudgeJoints(setup, trajectory, reasons);
+  JudgeJoints(setup, trajectory, is_calibrated, reasons);
   JudgeLegs(*setup.model, trajectory, reasons);
   JudgeSoles(setup, recording, trajectory, reasons);
 }

@@ -13,6 +13,6 @@ namespace mmm_converter {
 /// pelvis is upright; a sole that slopes where the foot's markers lie as they do on flat ground.
 /// recording: what was tracked, the frames of the trajectory.
 void JudgeBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording,
-                     const PoseTrajectory& trajectory, VerdictReasons* reasons);
+                     const PoseTrajectory& trajectory, bool is_calibrated, VerdictReasons* reasons);
 
 }  // namespace mmm_converter

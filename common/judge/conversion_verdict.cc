@@ -81,9 +81,8 @@ class Judge {
     JudgeTrack();
     JudgeNoise(evidence_.setup, markers_, &reasons_);
     JudgeUpright();
-    if (AreAtLandmarks()) {  // else places are known too badly to tell
-      JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
-    }
+    JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory,
+                    evidence_.person.subject != nullptr, &reasons_);
     JudgeHeight(is_far);
     if (is_far || AreAtLandmarks()) {
       JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);

@@ -2,6 +2,7 @@
 #include "common/pipeline/c3d_results.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,7 +142,8 @@ int FirstFrame(const C3dFile& file, const PoseTrajectory& motion) {
 
 }  // namespace
 
-std::vector<C3dResult> C3dResultsOf(const ConversionReport& report, const GroundStudy& ground) {
+std::vector<C3dResult> C3dResultsOf(const ConversionReport& report, const GroundStudy& ground,
+                                    Warnings* warnings) {
   const Recording& recording = report.plan.input.recording;
   const C3dFile file(recording.file);
   const PoseTrajectory motion = TrackedMotion(report.result);
@@ -149,7 +151,15 @@ std::vector<C3dResult> C3dResultsOf(const ConversionReport& report, const Ground
   ResultPoints points(PrefixOf(file, recording.subject), FirstFrame(file, motion), known);
   points.Add(ComputeAnatomicalAngles(*report.plan.setup.model, motion));
   if (const auto moments = LegMomentsOf(report, ground)) points.Add(*moments);
-  return points.Take();
+  std::vector<C3dResult> results = points.Take();
+  const std::vector<std::string> hidden = HideUnstorable(file, &results);
+  if (!hidden.empty()) {
+    Warn(warnings,
+         fmt::format("{} stores 16 bit integers, which can't hold all values of {}: these "
+                     "are not written into its copy",
+                     recording.file, fmt::join(hidden, ", ")));
+  }
+  return results;
 }
 
 }  // namespace mmm_converter

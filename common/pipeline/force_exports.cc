@@ -129,7 +129,7 @@ void WriteContacts(const std::string& file, const ConversionReport& report) {
 void WriteResults(const std::string& file, const ConversionReport& report) {
   const auto ground = StudyGround(report);
   const std::vector<C3dResult> results =
-      ground->results.empty() ? C3dResultsOf(report, *ground) : ground->results;
+      ground->results.empty() ? C3dResultsOf(report, *ground, nullptr) : ground->results;
   WriteC3dWithResults(report.plan.input.recording.file, results,
                       AllEvents(SeenContacts(report, *ground), report), file);
 }
@@ -215,7 +215,9 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
     }
   }
   const auto contacts = files.find(kContacts);
-  if (files.count(kResults) > 0) ground->results = C3dResultsOf(*report, *ground);
+  if (files.count(kResults) > 0) {
+    ground->results = C3dResultsOf(*report, *ground, &report->warnings);
+  }
   if (files.count(kResults) > 0 || (contacts != files.end() && IsC3d(contacts->second))) {
     CheckC3dResults(report->plan.input.recording.file, ground->results,
                     AllEvents(SeenContacts(*report, *ground), *report));

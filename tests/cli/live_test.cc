@@ -147,7 +147,7 @@ TEST(Live, ExportsAndPagesAreThoseOfAConversion) {
   EXPECT_EQ(summary["frames"], 675);
   EXPECT_EQ(summary["tracked"], 675);
   EXPECT_EQ(summary["dropped"], 0);
-  EXPECT_EQ(summary["motions"][0]["verdict"]["level"], "good");
+  EXPECT_EQ(summary["motions"][0]["verdict"]["level"], "check");
   EXPECT_FALSE(std::filesystem::exists(folder + "/a.xml.live"));
 }
 

@@ -51,7 +51,7 @@ TEST(Patient, PageSaysWhoAndHow) {
   ASSERT_EQ(patient["recordings"].size(), 1U);
   EXPECT_EQ(patient["recordings"][0]["condition"], "barefoot");
   EXPECT_EQ(patient["recordings"][0]["file"], "handstand.c3d");
-  EXPECT_EQ(patient["recordings"][0]["verdict"], "good");
+  EXPECT_EQ(patient["recordings"][0]["verdict"], "check");
 }
 
 TEST(Patient, NormalBandsThatCannotBeReadEndItBeforeAnythingIsWritten) {

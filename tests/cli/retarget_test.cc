@@ -94,7 +94,7 @@ TEST_F(RetargetCommand, ConvertsARecordingFirst) {
                     config, "--robot", robot_, "-o", File("r.xml"), "--summary", File("r.json")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto summary = nlohmann::json::parse(ReadText(File("r.json")));
-    EXPECT_EQ(summary["conversion_verdict"]["level"], "good") << config;
+    EXPECT_EQ(summary["conversion_verdict"]["level"], "check") << config;
     EXPECT_TRUE(summary["not_shown"].is_null());
     EXPECT_EQ(summary["frames"], 60);
     EXPECT_EQ(summary["velocity_limits_broken"], 0);

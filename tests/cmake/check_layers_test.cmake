@@ -95,8 +95,6 @@ expect_fault(common/io/a.h "${licence}#include <boost/dll.hpp>\n" "<boost/dll.hp
 expect_fault(common/model/a.cc "${licence}#include <fstream>\n" "files are opened in common/io")
 expect_fault(common/io/a.cc "#include <vector>\n" "the first line is not")
 expect_fault(common/new/a.cc "${licence}" "its folder is no layer")
-string(REPEAT "//\n" 450 comment)
-expect_fault(tests/a.cc "${licence}${comment}" "451 lines; at most 450")
 
 write_good_tree()
 file(WRITE ${WORK_DIR}/MMMConverterS2KF/terminal/json.h "${licence}#include <nlohmann/json_fwd.hpp>\n")

@@ -7,9 +7,9 @@ NaN. Arrays have frames first.
 
 >>> import mmmconverter
 >>> recording = mmmconverter.read("examples/handstand.c3d")
->>> result = mmmconverter.convert(recording, height=1.8, frames=(0, 50))
+>>> result = mmmconverter.convert(recording, height=1.8, self_calibrate=True)
 >>> result.joints.shape
-(50, 44)
+(675, 44)
 >>> result.verdict
 'good'
 """

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -359,6 +360,12 @@ Points AllPoints(const C3dFile& file) {
   return points;
 }
 
+/// What the file's words hold of a result, in its own unit.
+double MostOf(const C3dFile& file, const C3dResult& result) {
+  if (file.layout().floats) return std::numeric_limits<double>::infinity();
+  return kLargestInteger * file.layout().scale / UnitOf(file.parameters(), result.kind);
+}
+
 void CheckResults(const C3dFile& file, const Results& results) {
   const C3dLayout& layout = file.layout();
   CheckLayout(file);
@@ -366,18 +373,11 @@ void CheckResults(const C3dFile& file, const Results& results) {
     throw Error(fmt::format("{}: {} points and {} results; at most {} fit", file.path(),
                             layout.points, results.size(), kFullWord));
   }
-  if (layout.floats) return;
   for (const C3dResult& result : results) {
-    const double unit = UnitOf(file.parameters(), result.kind),
-                 most = kLargestInteger * layout.scale;
-    for (const double value : result.values.reshaped()) {
-      if (!(std::abs(unit * value) > most)) continue;
-      throw Error(
-          fmt::format("{}: {} reaches {:.0f}, and the file's 16 bit integers of scale {:g} hold at "
-                      "most {:.0f}; "
-                      "take a recording that stores floats",
-                      file.path(), result.label, unit * value, layout.scale, most));
-    }
+    const double most = MostOf(file, result);
+    if (!(result.values.cwiseAbs().array() > most).any()) continue;
+    throw Error(fmt::format("{}: {} is beyond the {:.3g} that the file's 16 bit integers hold",
+                            file.path(), result.label, most));
   }
 }
 
@@ -409,6 +409,22 @@ void WriteC3dWithResults(const std::string& input, const Results& results, const
   C3dFile file(input);
   CheckResults(file, results);
   WriteChanged(&file, AllPoints(file), WithFreeLabels(file, results), &events, output);
+}
+
+std::vector<std::string> HideUnstorable(const C3dFile& file, Results* results) {
+  std::vector<std::string> hidden;
+  for (C3dResult& result : *results) {
+    const double most = MostOf(file, result);
+    int frames = 0;
+    for (auto value : result.values.colwise()) {
+      if (!(value.cwiseAbs().array() > most).any()) continue;
+      value.setConstant(std::numeric_limits<double>::quiet_NaN());
+      ++frames;
+    }
+    if (frames == 0) continue;
+    hidden.push_back(fmt::format("{} in {} frame{}", result.label, frames, frames == 1 ? "" : "s"));
+  }
+  return hidden;
 }
 
 void CheckC3dResults(const std::string& input, const Results& results, const Events& events) {

@@ -9,6 +9,8 @@
 
 namespace mmm_converter {
 
+class C3dFile;
+
 /// Frames [begin, end), counted from 0, that are stored for a point of the input.
 struct C3dStretch {
   int begin = 0, end = 0;
@@ -57,6 +59,9 @@ struct C3dResult {
 /// @throws Error as WriteC3dWithEvents, and where the file's 16 bit integers can't hold a value.
 void WriteC3dWithResults(const std::string& input, const std::vector<C3dResult>& results,
                          const std::vector<C3dEvent>& events, const std::string& output);
+/// Frames in which a result is beyond what the file's 16 bit integers hold are then not known;
+/// which these are: "LKneeMoment in 3 frames". Files that store floats hold all.
+std::vector<std::string> HideUnstorable(const C3dFile& file, std::vector<C3dResult>* results);
 /// @throws Error where WriteC3dWithResults can't hold these; no results: where WriteC3dWithEvents
 /// can't.
 void CheckC3dResults(const std::string& input, const std::vector<C3dResult>& results,

@@ -41,7 +41,7 @@ class BodyLimitsTest : public ::testing::Test {
       trajectory.postures.push_back(posture);
     }
     VerdictReasons reasons;
-    JudgeBodyLimits(setup_, recording_, trajectory, &reasons);
+    JudgeBodyLimits(setup_, recording_, trajectory, false, &reasons);
     return reasons.Conclude().reasons;
   }
 

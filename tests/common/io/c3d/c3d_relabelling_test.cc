@@ -245,7 +245,7 @@ TEST(C3dRelabellingRealFiles, ResultsAreWrittenAndTheRestKept) {
   }
 }
 
-TEST(C3dRelabellingRealFiles, ResultsThatIntegersCannotHoldAreRefused) {
+TEST(C3dRelabellingRealFiles, ResultsThatIntegersCannotHoldAreHiddenOrRefused) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();
   const std::string file = testing::SharedData("recordings/synthetic/kit53_intel_int.c3d");
   const double most = 32767 * C3dFile(file).layout().scale / 1000;
@@ -254,6 +254,13 @@ TEST(C3dRelabellingRealFiles, ResultsThatIntegersCannotHoldAreRefused) {
   };
   CheckC3dResults(file, moment(0.99 * most), {});
   EXPECT_THROW(CheckC3dResults(file, moment(1.01 * most), {}), Error);
+  std::vector<C3dResult> results = moment(0.99 * most);
+  EXPECT_THAT(HideUnstorable(C3dFile(file), &results), IsEmpty());
+  results[0].values.conservativeResize(3, 2);
+  results[0].values.col(1) << 0, 1.01 * most, 0;
+  EXPECT_THAT(HideUnstorable(C3dFile(file), &results), ElementsAre("LHipMoment in 1 frame"));
+  EXPECT_TRUE(results[0].values.col(0).allFinite() && results[0].values.col(1).hasNaN());
+  CheckC3dResults(file, results, {});
   const std::vector<C3dEvent> events(256);
   EXPECT_THROW(CheckC3dResults(file, {}, events), Error);
   EXPECT_THROW(WriteC3dWithResults(file, moment(-1.01 * most), {}, Output()), Error);
