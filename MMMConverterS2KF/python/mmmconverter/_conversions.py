@@ -188,7 +188,7 @@ def convert(recording, *, progress: Union[Callable[[int, int], None], bool, None
     --------
     >>> result = convert("examples/handstand.c3d", height=1.8, config="s2kf_offline", frames=(0, 60))
     >>> result
-    <Conversion handstand.c3d: frames 60, joints 44, markers 53, mean distance 38.5 mm, verdict good>
+    <Conversion handstand.c3d: frames 60, joints 44, markers 53, mean distance 38.5 mm, verdict check>
     >>> result.root_positions.shape, result.velocities.shape
     ((60, 3), (60, 50))
     """
