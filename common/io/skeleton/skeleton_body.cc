@@ -290,6 +290,20 @@ class BodyFinder {
     return true;
   }
 
+  /// Of a limb whose other joints are known: the joint that is named, or one above it on its side
+  /// where the bone that begins there is too short, as of half an upper arm.
+  int FirstOf(const std::vector<int>& path, std::size_t named, const LimbJoints& limb) const {
+    if (limb.middle < 0) return path[named];
+    const double lower = Distance(limb.middle, limb.last);
+    std::size_t first = named;
+    while (first > 0 && Side(path[first - 1]) == Side(path[named]) &&
+           Distance(path[first], limb.middle) < kLeastAlike * lower) {
+      --first;
+    }
+    const double upper = Distance(path[first], limb.middle);
+    return upper * kLeastAlike < lower && upper >= kLeastAlike * lower ? path[first] : path[named];
+  }
+
   LimbJoints FindLeg(char side) const {
     using enum BoneKind;
     LimbJoints leg;
@@ -306,8 +320,8 @@ class BodyFinder {
       knee = other;
     }
     if (!hip) return LimbAbove(path);
-    leg.first = path[*hip];
     leg.middle = knee ? path[*knee] : MiddleOf(path, *hip, end);
+    leg.first = FirstOf(path, *hip, leg);
     return leg;
   }
 
@@ -352,8 +366,8 @@ class BodyFinder {
       }
     }
     if (!shoulder) return LimbAbove(path);
-    arm.first = path[*shoulder];
     arm.middle = elbow ? path[*elbow] : MiddleOf(path, *shoulder, end);
+    arm.first = FirstOf(path, *shoulder, arm);
     return arm;
   }
 

@@ -179,9 +179,10 @@ RecordingContent ContentOfSkeleton(SkeletonMotion motion, const std::string& for
     Warn(warnings, content.doubt_of_names);
   }
   if (body.has_exchanged_sides) {
-    Warn(warnings,
-         "knees and toes tell that the joints which are named left are right; so they "
-         "are taken");
+    content.doubt_of_names =
+        "knees and toes tell that the joints which are named left are right, or the file is "
+        "mirrored; so they are taken";
+    Warn(warnings, content.doubt_of_names);
   }
   MakeUnique(&content.labels);
   content.body = std::move(body.joints);

@@ -160,6 +160,8 @@ TEST(SkeletonContent, SidesThatAreNamedTheOtherWayRoundAreExchanged) {
   const Recording recording = ReadRecording(FileOf(bvh), {}, &warnings);
   EXPECT_THAT(warnings.texts(), ::testing::ElementsAre(::testing::HasSubstr("so they are taken")));
   EXPECT_EQ(BodyOf(recording, BodyJoint::kKnee, "L"), "RightLeg");
+  ASSERT_FALSE(recording.doubts.empty());
+  EXPECT_THAT(recording.doubts.front().text, ::testing::HasSubstr("named left are right"));
 }
 
 TEST(SkeletonContent, WhatIsNoBodyIsMarkers) {
@@ -272,6 +274,21 @@ TEST(SkeletonContent, BonesThatAreNumberedAreThoseOfTheirLengths) {
   // The longest bones that are alike are an upper arm and a forearm, whatever is before them.
   EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "L"), "larm0");
   EXPECT_EQ(recording.unit, "m");
+}
+
+TEST(SkeletonContent, HalfAnUpperArmIsNone) {
+  Warnings warnings;
+  const Recording recording =
+      ReadRig("root", {{"$hip", {10, -10, 0}}, {"$knee", {0, -40, 1}}, {"$ankle", {0, -40, -1}}},
+              {0, 0, 15},
+              {{"$clavicle", {3, 10, 0}},
+               {"$shoulder", {14, 0, 0}},
+               {"$arm", {13, 0, 0}},
+               {"$elbow", {14, 0, 0}},
+               {"$wrist", {25, 0, 0}}},
+              {10, 0, 0}, &warnings);
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "L"), "lshoulder");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "lhip");
 }
 
 TEST(SkeletonContent, WhereNamesTellNothingLengthsDo) {
