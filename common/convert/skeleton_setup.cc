@@ -342,10 +342,12 @@ Subject SubjectOfSkeleton(const Recording& recording, const KinematicModel& refe
   const double shoulder = lengths.Between(kShoulder, "L", kShoulder, "R") / 2 / subject.height;
   for (const std::string side : {"L", "R"}) {
     if (std::isnan(shoulder)) continue;
-    const double outer = kOuterCollarScale * LengthIn(reference, side + "Ssegment_joint");
-    scale(side + "Ssegment_joint", kOuterCollarScale);
-    scale(side + "SCsegment_joint",
-          (shoulder - outer) / LengthIn(reference, side + "SCsegment_joint"));
+    const double collar = LengthIn(reference, side + "SCsegment_joint");
+    const double arm = LengthIn(reference, side + "Ssegment_joint");
+    const double outer = std::clamp(shoulder - kLeastSegmentScale * collar,
+                                    kLeastSegmentScale * arm, kOuterCollarScale * arm);
+    scale(side + "Ssegment_joint", outer / arm);
+    scale(side + "SCsegment_joint", (shoulder - outer) / collar);
   }
   return subject;
 }

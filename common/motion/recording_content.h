@@ -60,6 +60,7 @@ struct RecordingContent {
   std::vector<SkeletonJoint> body;
   double metres = 0;                  ///< of a body: length of the unit
   std::string doubt;                  ///< of it; empty: none
+  std::string doubt_of_names;         ///< of a skeleton's joints; empty: none
   std::optional<double> stated_mass;  ///< of the person [kg]
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
   /// To be called once.

@@ -278,28 +278,35 @@ Matrix3d Turn(int axis, double degrees) {
 }
 
 /// A root's OFFSET stands in many files as the place at rest, which its channels replace; in a few
-/// they are counted from it. The ground, to which it is how high, tells which.
+/// they are counted from it. The ground, to which it is how high, tells which. Up is where the
+/// joints are farthest from each other.
 bool AddsRootOffset(Bvh bvh) {
   constexpr int kSamples = 100;
   const Vector3d offset = bvh.joints.front().offset;
-  const double height = offset.norm();
   double size = 0;
   for (std::size_t j = 1; j < bvh.joints.size(); ++j) {
     size = std::max(size, bvh.joints[j].offset.norm());
   }
   // Where it is less than a limb it can't be the height of a pelvis.
-  if (!(height > size) || bvh.joints.front().channels.empty()) return false;
-  std::vector<double> lows;
+  if (!(offset.norm() > size) || bvh.joints.front().channels.empty()) return false;
+  std::vector<double> spans[3], lows[3];
   Eigen::Matrix3Xd p;
   std::vector<Matrix3d> R;
   const int step = std::max(1, bvh.num_frames() / kSamples);
   for (int k = 0; k < bvh.num_frames(); k += step) {
     PoseBvh(bvh, k, &p, &R);
-    if (p.allFinite()) lows.push_back((offset.transpose() / height * p).minCoeff());
+    if (!p.allFinite()) continue;
+    for (int a = 0; a < 3; ++a) {
+      spans[a].push_back(p.row(a).maxCoeff() - p.row(a).minCoeff());
+      lows[a].push_back((std::copysign(1, offset[a]) * p.row(a)).minCoeff());
+    }
   }
-  if (lows.empty()) return false;
-  const double low = Median(lows);
-  return std::abs(low + height) < 0.5 * std::abs(low);
+  if (lows[0].empty()) return false;
+  const Vector3d span(Median(spans[0]), Median(spans[1]), Median(spans[2]));
+  int up = 0;
+  span.maxCoeff(&up);
+  const double height = std::abs(offset[up]), low = Median(lows[up]);
+  return height > size && std::abs(low + height) < 0.5 * std::abs(low);
 }
 
 }  // namespace

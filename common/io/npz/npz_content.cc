@@ -26,8 +26,8 @@ using Eigen::Vector3d;
 
 // The names that AMASS, smplx, GVHMR, WHAM, AIST++ and others give to the same arrays.
 const std::vector<std::string> kPoses = {"poses", "smpl_poses", "fullpose", "full_pose", "pose"};
-const std::vector<std::string> kRoots = {"root_orient", "global_orient", "root_pose"};
-const std::vector<std::string> kBodies = {"pose_body", "body_pose"};
+const std::vector<std::string> kRoots = {"root_orient", "global_orient", "root_pose", "poses_root"};
+const std::vector<std::string> kBodies = {"pose_body", "body_pose", "poses_body"};
 const std::vector<std::string> kTranslations = {"trans",       "transl",     "smpl_trans",
                                                 "translation", "root_trans", "Th"};
 const std::vector<std::string> kRates = {"mocap_framerate", "mocap_frame_rate", "framerate",
@@ -37,6 +37,29 @@ const std::vector<std::string> kPlaces = {"global_joint_positions", "joint_posit
 
 constexpr std::size_t kMostColumns = 9 * kSmplJoints;
 constexpr std::size_t kSmplXColumns = 3 * 55;
+
+/// Joints that an array has rotations of, with the root: those of SMPL's body, of SMPL, SMPL-H and
+/// SMPL-X, and of SMPL-X without its eyes or its jaw.
+constexpr std::size_t kJointCounts[] = {22, 24, 52, 53, 54, 55};
+
+/// How many numbers a joint's rotation has in an array of `joints` with SMPL's body's, 22, or less
+/// where some of them are elsewhere: 3 of a vector, 9 of a matrix; 0: it has none of these shapes.
+std::size_t RotationWidth(const NumpyHead& head, std::size_t joints) {
+  const std::vector<std::size_t>& shape = head.shape;
+  const std::size_t count = head.row_size();
+  const auto has = [&](std::size_t width) {
+    if (joints == 1) return count == width;
+    return std::any_of(std::begin(kJointCounts), std::end(kJointCounts), [&](std::size_t all) {
+      return count == width * (all + joints - kSmplJoints);
+    });
+  };
+  const bool is_flat = shape.size() < 3 || count == shape.back();
+  if (is_flat) return has(3) ? 3 : has(9) ? 9 : 0;
+  const bool has_matrices =
+      shape.back() == 9 || (shape.back() == 3 && shape[shape.size() - 2] == 3);
+  if (has_matrices) return count >= 9 * joints ? 9 : 0;
+  return shape.back() == 3 && count >= 3 * joints ? 3 : 0;
+}
 
 /// Rotations of joints in an array: rotation vectors, or matrices where there are nine numbers.
 struct Rotations {
@@ -110,22 +133,32 @@ class SmplFile {
   }
 
  private:
-  NumpyArray ReadNumbers(const std::string& name, std::size_t least) const {
+  /// An array of one axis is a single frame.
+  NumpyArray ReadNumbers(const std::string& name) const {
     NumpyArray array = archive_.Read(name, kMostColumns);
-    if (!array.head().is_text() && array.rows() > 0 && array.row_size() >= least) return array;
-    throw Error(fmt::format("{}: {} has the shape {}{}; expected frames x at least {} numbers",
-                            file_, name, ShapeText(array.head()),
-                            array.head().is_text() ? " of texts" : "", least));
+    if (array.head().shape.size() == 1) array.MakeRow();
+    return array;
+  }
+
+  [[noreturn]] void RefuseShape(const std::string& name, const NumpyArray& array,
+                                const std::string& expected) const {
+    throw Error(fmt::format("{}: {} has the shape {}{}; expected {}", file_, name,
+                            ShapeText(array.head()), array.head().is_text() ? " of texts" : "",
+                            expected));
   }
 
   void AddRotations(const std::string& name, int first_joint, int num_joints) {
-    const auto array = std::make_shared<const NumpyArray>(
-        ReadNumbers(name, 3 * static_cast<std::size_t>(num_joints)));
-    const std::vector<std::size_t>& shape = array->head().shape;
-    const bool has_matrices = shape.size() >= 3 && shape.back() == 3 &&
-                              shape[shape.size() - 2] == 3 &&
-                              array->row_size() >= 9 * static_cast<std::size_t>(num_joints);
-    rotations_.push_back({array, first_joint, has_matrices ? std::size_t{9} : std::size_t{3}});
+    const auto array = std::make_shared<const NumpyArray>(ReadNumbers(name));
+    const auto joints = static_cast<std::size_t>(num_joints);
+    const std::size_t width = RotationWidth(array->head(), joints);
+    if (array->head().is_text() || array->rows() == 0 || width == 0) {
+      RefuseShape(name, *array,
+                  joints == 1 ? "a rotation vector or a matrix for each frame: frames x 3 or 9"
+                              : fmt::format("rotation vectors or matrices of {} joints or more for "
+                                            "each frame: frames x {} or {} x 3",
+                                            joints, 3 * joints, joints));
+    }
+    rotations_.push_back({array, first_joint, width});
   }
 
   void ReadRotations() {
@@ -144,7 +177,11 @@ class SmplFile {
       Warn(warnings_, "there is no trans: the pelvis is held in place");
       return;
     }
-    translation_ = std::make_shared<const NumpyArray>(ReadNumbers(name, 3));
+    translation_ = std::make_shared<const NumpyArray>(ReadNumbers(name));
+    if (translation_->head().is_text() || translation_->rows() == 0 ||
+        translation_->row_size() != 3) {
+      RefuseShape(name, *translation_, "frames x 3");
+    }
     for (const char* scale : {"smpl_scaling", "scaling"}) {  // AIST++
       if (archive_.Has(scale)) unit_ = 1 / Scalar(scale);
     }

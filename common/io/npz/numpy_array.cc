@@ -124,6 +124,11 @@ std::size_t NumpyArray::PlaceOf(std::size_t row, std::size_t column) const {
   return place;
 }
 
+void NumpyArray::MakeRow() {
+  head_.shape.insert(head_.shape.begin(), 1);
+  kept_ = row_size();
+}
+
 double NumpyArray::Number(std::size_t row, std::size_t column) const {
   const std::size_t width = head_.width;
   std::uint64_t bits = 0;

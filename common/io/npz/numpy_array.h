@@ -42,6 +42,8 @@ class NumpyArray {
   double Number(std::size_t row, std::size_t column) const;
   /// The first text, as far as it is ASCII; of numbers that are bytes, too.
   std::string Text() const;
+  /// The elements of its one axis are columns of a row.
+  void MakeRow();
 
  private:
   friend class NumpyReader;

@@ -217,6 +217,7 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
     } else {
       TakeBody(content, options, &recording);
     }
+    if (!content.doubt_of_names.empty()) recording.doubts.push_back({content.doubt_of_names});
     recording.stated_up_axis = StatedUpAxis(content.stated_up);
     BringToMetresAndZUp(content, options, &recording, warnings);
   }

@@ -114,20 +114,48 @@ BoneNames::BoneNames(const std::string& path) {
   diagnostics.ThrowIfErrors();
 }
 
-BoneKind BoneNames::KindOf(const std::vector<std::string>& words) const {
+BoneKind BoneNames::KindOf(const std::vector<std::string>& words, bool is_whole) const {
   std::vector<std::string> said;
   for (const std::string& word : words) {
     if (Contains(no_bone_, word)) return BoneKind::kNone;
     if (!Contains(leave_, word)) said.push_back(word);
   }
   // Before the bone there may be a name of the whole skeleton: "f_avg_L_Shoulder".
-  for (std::size_t first = 0; first < said.size(); ++first) {
+  for (std::size_t first = 0; first < (is_whole ? 1 : said.size()); ++first) {
     std::string spelling;
     for (std::size_t i = first; i < said.size(); ++i) spelling += said[i];
     const auto found = kinds_.find(spelling);
     if (found != kinds_.end()) return found->second;
   }
   return BoneKind::kNone;
+}
+
+BoneName BoneNames::FindInWords(const std::vector<std::string>& words) const {
+  if (std::any_of(words.begin(), words.end(),
+                  [&](const std::string& word) { return Contains(no_bone_, word); })) {
+    return {};
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    for (const int side : {0, 1}) {
+      for (const std::string& of_side : sides_[side]) {
+        if (words[i].size() <= of_side.size()) continue;
+        if (words[i].starts_with(of_side)) {
+          std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(i),
+                                        words.end());
+          rest.front().erase(0, of_side.size());
+          const BoneKind kind = KindOf(rest, true);
+          if (kind != BoneKind::kNone) return {kind, "LR"[side]};
+        }
+        if (i + 1 == words.size() && words[i].ends_with(of_side)) {
+          std::vector<std::string> rest = words;
+          rest.back().resize(rest.back().size() - of_side.size());
+          const BoneKind kind = KindOf(rest, false);
+          if (kind != BoneKind::kNone) return {kind, "LR"[side]};
+        }
+      }
+    }
+  }
+  return {};
 }
 
 BoneName BoneNames::Find(std::string_view joint) const {
@@ -139,28 +167,12 @@ BoneName BoneNames::Find(std::string_view joint) const {
       if (!Contains(sides_[side], words[i])) continue;
       std::vector<std::string> rest = words;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
-      return {KindOf(rest), "LR"[side]};
+      return {KindOf(rest, false), "LR"[side]};
     }
   }
-  if (const BoneKind kind = KindOf(words); kind != BoneKind::kNone) return {kind, ' '};
-  // The side is a part of a word: "lfemur", "rhipjoint", "footl".
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    for (const int side : {0, 1}) {
-      for (const std::string& of_side : sides_[side]) {
-        for (const bool at_end : {false, true}) {
-          const std::string& word = words[i];
-          if (word.size() <= of_side.size()) continue;
-          if (at_end ? !word.ends_with(of_side) : !word.starts_with(of_side)) continue;
-          std::vector<std::string> rest = words;
-          rest[i] =
-              at_end ? word.substr(0, word.size() - of_side.size()) : word.substr(of_side.size());
-          const BoneKind kind = KindOf(rest);
-          if (kind != BoneKind::kNone) return {kind, "LR"[side]};
-        }
-      }
-    }
-  }
-  return {};
+  // The side is a part of a word: "lfemur", "LUArm", "footl".
+  const BoneName sided = FindInWords(words);
+  return sided.kind != BoneKind::kNone ? sided : BoneName{KindOf(words, false), ' '};
 }
 
 const BoneNames& ShippedBoneNames() {

@@ -45,7 +45,9 @@ class BoneNames {
   BoneName Find(std::string_view joint) const;
 
  private:
-  BoneKind KindOf(const std::vector<std::string>& words) const;
+  /// is_whole: all words are the bone's, else those at their end may be.
+  BoneKind KindOf(const std::vector<std::string>& words, bool is_whole) const;
+  BoneName FindInWords(const std::vector<std::string>& words) const;
 
   std::map<std::string, BoneKind> kinds_;  ///< by spelling
   std::vector<std::string> sides_[2];      ///< left, right

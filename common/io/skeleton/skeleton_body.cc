@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "common/math/statistics.h"
 
@@ -20,6 +22,10 @@ constexpr double kLeastBone = 0.25;   // of thigh, shank, upper arm and forearm 
 constexpr double kHipsApart = 0.08;   // 0.14 to 0.35 in skeletons at hand; dummies stand together
 constexpr double kLeastToe = 0.05;    // from the ankle
 constexpr double kLeastFront = 0.02;  // what knees and toes tell of the front
+constexpr double kLeastAlike = 0.6;   // of the longer bone; a foot is 0.35 of the shank
+constexpr double kTwins = 0.1;        // by how much the bones of left and right differ
+constexpr double kShortestArm = 0.4, kLongestArm = 0.9;  // 0.55 to 0.75 in skeletons at hand
+constexpr std::size_t kMostLimbs = 100;
 
 /// Joints of a limb from the trunk outwards; -1: not there.
 struct LimbJoints {
@@ -39,17 +45,20 @@ class BodyFinder {
       motion.pose(k, &p, &R);
       if (p.allFinite()) frames_.push_back(std::move(p));
     }
+    if (frames_.empty()) return;
+    for (int j = 0; j < motion.num_joints(); ++j) {
+      bone_lengths_.push_back(Parent(j) < 0 ? 0 : Distance(j, Parent(j)));
+    }
   }
 
   FoundBody Find() {
     FoundBody body;
     if (frames_.empty()) return body;
-    const LimbJoints left_leg = FindLeg('L'), right_leg = FindLeg('R');
-    if (!left_leg.is_whole() || !right_leg.is_whole()) return body;
-    LimbJoints arms[] = {FindArm('L'), FindArm('R')};
-    const double left = LengthOf(left_leg), right = LengthOf(right_leg);
-    body.leg_length = (left + right) / 2;
-    if (!IsLimb(left_leg) || !IsLimb(right_leg)) return FoundBody();
+    LimbJoints legs[] = {FindLeg('L'), FindLeg('R')}, arms[] = {FindArm('L'), FindArm('R')};
+    body.is_by_lengths = !IsLimb(legs[0]) || !IsLimb(legs[1]);
+    if (body.is_by_lengths && !FindByLengths(legs, arms)) return FoundBody();
+    const auto& [left_leg, right_leg] = legs;
+    body.leg_length = (LengthOf(left_leg) + LengthOf(right_leg)) / 2;
     const int pelvis = CommonAncestor(left_leg.first, right_leg.first);
     if (pelvis < 0) return FoundBody();
     const auto add = [&](BodyJoint what, const char* side, int joint) {
@@ -63,7 +72,7 @@ class BodyFinder {
     const int neck = FindTopmost({BoneKind::kNeck}, ' ', -1);
     if (neck != thorax) add(BodyJoint::kNeck, "", neck);
     add(BodyJoint::kHead, "", head);
-    body.has_exchanged_sides = HasExchangedSides(left_leg, right_leg, body.leg_length);
+    body.has_exchanged_sides = Sides(left_leg, right_leg, body.leg_length) < -0.5;
     const char* const sides[] = {body.has_exchanged_sides ? "R" : "L",
                                  body.has_exchanged_sides ? "L" : "R"};
     for (const int s : {0, 1}) {
@@ -83,6 +92,7 @@ class BodyFinder {
  private:
   int Parent(int joint) const { return motion_.parents[static_cast<std::size_t>(joint)]; }
   BoneKind Kind(int joint) const { return names_[static_cast<std::size_t>(joint)].kind; }
+  char Side(int joint) const { return names_[static_cast<std::size_t>(joint)].side; }
 
   bool IsBelow(int joint, int above) const {
     for (; joint >= 0; joint = Parent(joint)) {
@@ -103,6 +113,9 @@ class BodyFinder {
     for (const Matrix3Xd& p : frames_) distances.push_back((p.col(a) - p.col(b)).norm());
     return Median(distances);
   }
+
+  /// From its parent to a joint.
+  double BoneLength(int joint) const { return bone_lengths_[static_cast<std::size_t>(joint)]; }
 
   double LengthOf(const LimbJoints& limb) const {
     return Distance(limb.first, limb.middle) + Distance(limb.middle, limb.last);
@@ -138,10 +151,11 @@ class BodyFinder {
     return path;
   }
 
+  /// Of the side that the path's end has: "hip" may also be the root.
   std::optional<std::size_t> FindIn(const std::vector<int>& path, BoneKind kind, std::size_t from,
                                     std::size_t end) const {
     for (std::size_t i = from; i < end; ++i) {
-      if (Kind(path[i]) == kind) return i;
+      if (Kind(path[i]) == kind && Side(path[i]) == Side(path.back())) return i;
     }
     return std::nullopt;
   }
@@ -178,23 +192,136 @@ class BodyFinder {
     return limb;
   }
 
+  /// Joints and bones' ends below one, along the longest way.
+  std::vector<int> LongestPathBelow(int joint) const {
+    std::vector<double> lengths(names_.size(), -1);
+    lengths[static_cast<std::size_t>(joint)] = 0;
+    int end = joint;
+    for (int j = joint + 1; j < motion_.num_joints(); ++j) {
+      if (Parent(j) < 0 || lengths[static_cast<std::size_t>(Parent(j))] < 0) continue;
+      double& length = lengths[static_cast<std::size_t>(j)];
+      length = lengths[static_cast<std::size_t>(Parent(j))] + BoneLength(j);
+      if (length > lengths[static_cast<std::size_t>(end)]) end = j;
+    }
+    std::vector<int> path = PathTo(end);
+    path.erase(path.begin(), std::find(path.begin(), path.end(), joint));
+    return path;
+  }
+
+  /// The two bones of a path that are alike and of which the shorter one is longest.
+  LimbJoints LongestBones(const std::vector<int>& path) const {
+    LimbJoints limb;
+    double most = 0;
+    for (std::size_t i = 2; i < path.size(); ++i) {
+      const double upper = BoneLength(path[i - 1]), lower = BoneLength(path[i]);
+      const double shorter = std::min(upper, lower);
+      if (shorter <= most || shorter < kLeastAlike * std::max(upper, lower)) continue;
+      most = shorter;
+      limb = {path[i - 2], path[i - 1], path[i]};
+    }
+    return limb;
+  }
+
+  /// Of a limb whose end has no name that is known, below its first joint that has one.
+  LimbJoints LimbBelow(const std::vector<BoneKind>& kinds, char side) const {
+    LimbJoints limb;
+    int top = 0;
+    while (top < motion_.num_joints() &&
+           (Side(top) != side || std::find(kinds.begin(), kinds.end(), Kind(top)) == kinds.end())) {
+      ++top;
+    }
+    if (top == motion_.num_joints()) return limb;
+    return LongestBones(LongestPathBelow(top));
+  }
+
+  bool AreTwins(const LimbJoints& a, const LimbJoints& b) const {
+    const auto are_alike = [](double one, double other) {
+      return std::abs(one - other) < kTwins * std::max(one, other);
+    };
+    return are_alike(BoneLength(a.middle), BoneLength(b.middle)) &&
+           are_alike(BoneLength(a.last), BoneLength(b.last)) && !IsBelow(a.first, b.first) &&
+           !IsBelow(b.first, a.first);
+  }
+
+  /// The limbs on the ways to where bones end, the longest first.
+  std::vector<LimbJoints> AllLimbs() const {
+    std::vector<bool> is_end(names_.size(), true);
+    for (const int parent : motion_.parents) {
+      if (parent >= 0) is_end[static_cast<std::size_t>(parent)] = false;
+    }
+    std::vector<LimbJoints> limbs;
+    for (int j = 0; j < motion_.num_joints() && limbs.size() < kMostLimbs; ++j) {
+      if (!is_end[static_cast<std::size_t>(j)]) continue;
+      const LimbJoints limb = LongestBones(PathTo(j));
+      const bool is_new = std::none_of(limbs.begin(), limbs.end(), [&](const LimbJoints& one) {
+        return one.middle == limb.middle;
+      });
+      if (limb.is_whole() && is_new) limbs.push_back(limb);
+    }
+    std::sort(limbs.begin(), limbs.end(),
+              [&](const LimbJoints& a, const LimbJoints& b) { return LengthOf(a) > LengthOf(b); });
+    return limbs;
+  }
+
+  bool FindByLengths(LimbJoints legs[2], LimbJoints arms[2]) const {
+    const std::vector<LimbJoints> limbs = AllLimbs();
+    std::vector<std::pair<LimbJoints, LimbJoints>> twins;
+    for (std::size_t i = 0; i + 1 < limbs.size() && twins.size() < 2; ++i) {
+      if (!AreTwins(limbs[i], limbs[i + 1])) continue;
+      if (i + 2 < limbs.size() && AreTwins(limbs[i], limbs[i + 2])) return false;
+      twins.emplace_back(limbs[i], limbs[i + 1]);
+      ++i;
+    }
+    if (twins.size() < 2) return false;
+    std::tie(legs[0], legs[1]) = twins[0];
+    std::tie(arms[0], arms[1]) = twins[1];
+    const double length = LengthOf(legs[0]);
+    const double share = LengthOf(arms[0]) / length;
+    if (share < kShortestArm || share > kLongestArm) return false;
+    const double sides = Sides(legs[0], legs[1], length);
+    if (std::abs(sides) < 0.5) return false;
+    if (sides < 0) std::swap(legs[0], legs[1]);
+    double along = 0;
+    for (const Matrix3Xd& p : frames_) {
+      along += (p.col(arms[0].first) - p.col(arms[1].first))
+                   .dot(p.col(legs[0].first) - p.col(legs[1].first));
+    }
+    if (along < 0) std::swap(arms[0], arms[1]);
+    return true;
+  }
+
+  /// Of a limb whose other joints are known: the joint that is named, or one above it on its side
+  /// where the bone that begins there is too short, as of half an upper arm.
+  int FirstOf(const std::vector<int>& path, std::size_t named, const LimbJoints& limb) const {
+    if (limb.middle < 0) return path[named];
+    const double lower = Distance(limb.middle, limb.last);
+    std::size_t first = named;
+    while (first > 0 && Side(path[first - 1]) == Side(path[named]) &&
+           Distance(path[first], limb.middle) < kLeastAlike * lower) {
+      --first;
+    }
+    const double upper = Distance(path[first], limb.middle);
+    return upper * kLeastAlike < lower && upper >= kLeastAlike * lower ? path[first] : path[named];
+  }
+
   LimbJoints FindLeg(char side) const {
+    using enum BoneKind;
     LimbJoints leg;
-    leg.last = FindTopmost({BoneKind::kAnkle, BoneKind::kFoot}, side, -1);
-    if (leg.last < 0) return leg;
+    leg.last = FindTopmost({kAnkle, kFoot}, side, -1);
+    if (leg.last < 0) return LimbBelow({kHip, kLeg, kKnee}, side);
     const std::vector<int> path = PathTo(leg.last);
     const std::size_t end = path.size() - 1;
-    auto knee = FindIn(path, BoneKind::kKnee, 0, end);
+    auto knee = FindIn(path, kKnee, 0, end);
     auto hip = FindHip(path, knee.value_or(end), side);
-    const auto other = FindIn(path, BoneKind::kLeg, hip ? *hip + 1 : 0, knee.value_or(end));
+    const auto other = FindIn(path, kLeg, hip ? *hip + 1 : 0, knee.value_or(end));
     if (other && !hip) {
       hip = other;
     } else if (other && !knee) {
       knee = other;
     }
     if (!hip) return LimbAbove(path);
-    leg.first = path[*hip];
     leg.middle = knee ? path[*knee] : MiddleOf(path, *hip, end);
+    leg.first = FirstOf(path, *hip, leg);
     return leg;
   }
 
@@ -219,15 +346,15 @@ class BodyFinder {
   }
 
   LimbJoints FindArm(char side) const {
+    using enum BoneKind;
     LimbJoints arm;
-    arm.last = FindTopmost({BoneKind::kWrist, BoneKind::kHand}, side, -1);
-    if (arm.last < 0) return arm;
+    arm.last = FindTopmost({kWrist, kHand}, side, -1);
+    if (arm.last < 0) return LimbBelow({kCollar, kShoulder, kUpperArm, kArm, kElbow}, side);
     const std::vector<int> path = PathTo(arm.last);
     const std::size_t end = path.size() - 1;
-    auto elbow = FindIn(path, BoneKind::kElbow, 0, end);
-    auto shoulder = FindIn(path, BoneKind::kUpperArm, 0, end);
-    const auto plain =
-        FindIn(path, BoneKind::kArm, shoulder ? *shoulder + 1 : 0, elbow.value_or(end));
+    auto elbow = FindIn(path, kElbow, 0, end);
+    auto shoulder = FindIn(path, kUpperArm, 0, end);
+    const auto plain = FindIn(path, kArm, shoulder ? *shoulder + 1 : 0, elbow.value_or(end));
     if (plain && !shoulder) {
       shoulder = plain;
     } else if (plain && !elbow) {
@@ -235,28 +362,31 @@ class BodyFinder {
     }
     if (!shoulder) {
       for (std::size_t i = 0; i < elbow.value_or(end); ++i) {
-        if (Kind(path[i]) == BoneKind::kShoulder) shoulder = i;
+        if (Kind(path[i]) == kShoulder && Side(path[i]) == side) shoulder = i;
       }
     }
     if (!shoulder) return LimbAbove(path);
-    arm.first = path[*shoulder];
     arm.middle = elbow ? path[*elbow] : MiddleOf(path, *shoulder, end);
+    arm.first = FirstOf(path, *shoulder, arm);
     return arm;
   }
 
   int FindToe(int ankle, double leg_length) const {
-    const char side = names_[static_cast<std::size_t>(ankle)].side;
+    const char side = Side(ankle);
     std::vector<BoneKind> kinds = {BoneKind::kToe};
     if (Kind(ankle) == BoneKind::kAnkle) kinds.push_back(BoneKind::kFoot);
     int toe = FindTopmost(kinds, side, ankle);
+    const bool is_known = Kind(ankle) == BoneKind::kAnkle || Kind(ankle) == BoneKind::kFoot;
     for (int j = ankle + 1; j < motion_.num_joints() && toe < 0; ++j) {
-      if (Parent(j) == ankle && motion_.names[static_cast<std::size_t>(j)].empty()) toe = j;
+      const bool has_name = !motion_.names[static_cast<std::size_t>(j)].empty();
+      if (Parent(j) == ankle && (!has_name || !is_known)) toe = j;
     }
     return toe >= 0 && Distance(ankle, toe) > kLeastToe * leg_length ? toe : -1;
   }
 
-  /// Knees bend to the front, and toes are there.
-  bool HasExchangedSides(const LimbJoints& left, const LimbJoints& right, double leg_length) const {
+  /// Knees bend to the front, and toes are there: 1 where these tell that left is left, -1 where it
+  /// is right, 0 where they tell nothing.
+  double Sides(const LimbJoints& left, const LimbJoints& right, double leg_length) const {
     double sum = 0, front_sum = 0;
     for (const Matrix3Xd& p : frames_) {
       Vector3d front = Vector3d::Zero(), up = Vector3d::Zero();
@@ -276,12 +406,13 @@ class BodyFinder {
       front_sum += front.norm();
     }
     const auto count = static_cast<double>(frames_.size());
-    return front_sum / count > kLeastFront * leg_length && sum < -0.5 * front_sum;
+    return front_sum / count > kLeastFront * leg_length ? sum / front_sum : 0;
   }
 
   const SkeletonMotion& motion_;
   std::vector<BoneName> names_;
   std::vector<Matrix3Xd> frames_;
+  std::vector<double> bone_lengths_;
 };
 
 }  // namespace

@@ -22,12 +22,13 @@ using Eigen::Vector3d;
 
 // Hip to ankle along the bones: 0.71 to 0.98 m in the skeletons at hand [m].
 constexpr double kLeg = 0.84;
-constexpr double kShortestLeg = 0.5, kLongestLeg = 1.2;
+constexpr double kShortestLeg = 0.5, kLongestLeg = 1;
 constexpr double kArm = 0.1;  // of a point that shows an orientation, from its joint [m]
 
-/// Those of skeletons; the last is CMU's, 0.45 in an inch.
-constexpr std::pair<const char*, double> kUnits[] = {
-    {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"in / 0.45", 0.0254 / 0.45}};
+/// Those of skeletons: dm is MakeHuman's, the last CMU's, 0.45 in an inch.
+constexpr std::pair<const char*, double> kUnits[] = {{"m", 1},       {"dm", 0.1},
+                                                     {"cm", 0.01},   {"mm", 0.001},
+                                                     {"in", 0.0254}, {"in / 0.45", 0.0254 / 0.45}};
 
 bool HasOrientation(BodyJoint joint) {
   return joint == BodyJoint::kPelvis || joint == BodyJoint::kThorax || joint == BodyJoint::kHead ||
@@ -162,18 +163,26 @@ RecordingContent ContentOfSkeleton(SkeletonMotion motion, const std::string& for
   std::vector<TurningPoint> points;
   double arm = 0;
   if (body.joints.empty()) {
-    Warn(warnings,
-         "no two legs are found by the names of the joints (bones.xml); they are taken "
-         "for markers");
+    content.doubt_of_names =
+        "no two legs are found by the names of the joints, which are taken for markers; write "
+        "their names into bones.xml";
+    Warn(warnings, content.doubt_of_names);
   } else {
     DecideUnit(body.leg_length, &content, warnings);
     points = AddPoints(motion, &content.labels, &body);
     arm = kArm / content.metres;
   }
+  if (body.is_by_lengths) {
+    content.doubt_of_names =
+        "the names of the joints tell no two legs (bones.xml); legs and arms are those that the "
+        "lengths of the bones tell";
+    Warn(warnings, content.doubt_of_names);
+  }
   if (body.has_exchanged_sides) {
-    Warn(warnings,
-         "knees and toes tell that the joints which are named left are right; so they "
-         "are taken");
+    content.doubt_of_names =
+        "knees and toes tell that the joints which are named left are right, or the file is "
+        "mirrored; so they are taken";
+    Warn(warnings, content.doubt_of_names);
   }
   MakeUnique(&content.labels);
   content.body = std::move(body.joints);

@@ -22,14 +22,14 @@ namespace {
 using testing::SkeletonStyle;
 
 /// Someone other than the model: longer legs, shorter arms, broader.
-KinematicModel Person() {
+KinematicModel Person(double collar = 1.08) {
   Subject subject;
   for (const std::string side : {"L", "R"}) {
     subject.scales.push_back({side + "Ksegment_joint", 1.06, 0, 0});
     subject.scales.push_back({side + "Asegment_joint", 1.03, 0, 0});
     subject.scales.push_back({side + "Esegment_joint", 0.94, 0, 0});
     subject.scales.push_back({side + "Wsegment_joint", 0.97, 0, 0});
-    subject.scales.push_back({side + "SCsegment_joint", 1.08, 0, 0});
+    subject.scales.push_back({side + "SCsegment_joint", collar, 0, 0});
   }
   return FitToSubject(testing::ScaledReferenceModel(1.7), subject);
 }
@@ -86,6 +86,12 @@ TEST(SkeletonConversion, HasTheLimbsOfTheSkeleton) {
         << style.order << ": " << ::testing::PrintToString(report.verdict.reasons);
     EXPECT_NEAR(report.plan.person.height.value, 1.73, 0.05);
   }
+}
+
+TEST(SkeletonConversion, NarrowShouldersAreNoFaultOfTheArms) {
+  const KinematicModel person = Person(0.5);
+  const PoseTrajectory motion = testing::RangeOfMotion(person, 1, 0.5, 4);
+  EXPECT_LT(LimbError(person, motion, Convert(testing::MakeSkeleton(person, motion, {}).bvh)), 2);
 }
 
 TEST(SkeletonConversion, WhatIsExportedIsConvertedToTheSameMotion) {

@@ -88,6 +88,14 @@ TEST(Bvh, TheGroundTellsWhetherTheRootsOffsetIsAdded) {
   EXPECT_NEAR(low("0 0 0\n"), 0, 1e-12);
 }
 
+TEST(Bvh, AWayAlongTheGroundTellsNothingOfTheRootsOffset) {
+  const Bvh bvh = Parse(
+      "HIERARCHY\nROOT a { OFFSET 1 9 -15 CHANNELS 3 Xposition Yposition Zposition "
+      "JOINT b { OFFSET 0 -5 0 End Site { OFFSET 0 -4 0 } } }\nMOTION\n"
+      "Frames: 2\nFrame Time: 0.01\n0 9 15\n0 9 16\n");
+  EXPECT_FALSE(bvh.adds_root_offset);
+}
+
 TEST(Bvh, FramesMayBeBrokenIntoLines) {
   const Bvh bvh =
       ParseMotion("Frames: 2\nFrame Time: 0.04\n1 2 3\n0 0 0 0\n4 5 6\n0 0\n0 0\n7 8\n");

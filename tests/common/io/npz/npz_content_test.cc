@@ -24,6 +24,7 @@ using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int kFrames = 12;
 
@@ -168,6 +169,50 @@ TEST(NpzContent, WithoutAModelTheBodyIsOneOfUsualSize) {
   arrays.front() = Numbers("poses", {kFrames, 165}, Poses(165));
   ExpectPlaces(ReadRecording(FileOf(Bytes(arrays)), {}),
                PlacesOf(Poses(165), StandInSmplModel(SmplKind::kSmplX).joints));
+}
+
+TEST(NpzContent, RotationsHaveTheShapesOfThese) {
+  const auto refusal = [](const std::vector<std::int64_t>& shape) -> std::string {
+    std::int64_t size = 1;
+    for (const std::int64_t length : shape) size *= length;
+    std::vector<NpyArray> arrays = Amass();
+    arrays.front() = Numbers("poses", shape, std::vector<double>(static_cast<std::size_t>(size)));
+    try {
+      ReadRecording(FileOf(Bytes(arrays)), {});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const std::int64_t columns : {66, 72, 156, 165, 198, 216}) {
+    EXPECT_THAT(refusal({kFrames, columns}), Not(HasSubstr("expected"))) << columns;
+    EXPECT_THAT(refusal({kFrames, 1, columns}), Not(HasSubstr("expected"))) << columns;
+    EXPECT_THAT(refusal({kFrames, columns / 3, 3}), Not(HasSubstr("expected"))) << columns;
+  }
+  EXPECT_THAT(refusal({kFrames, 24, 3, 3}), Not(HasSubstr("expected")));
+  EXPECT_THAT(refusal({kFrames, 22, 9}), Not(HasSubstr("expected")));
+  // Quaternions, the six numbers of which networks learn, batches, features.
+  for (const std::vector<std::int64_t>& shape : {std::vector<std::int64_t>{kFrames, 24, 4},
+                                                 {kFrames, 24, 6},
+                                                 {kFrames, 132},
+                                                 {kFrames, 144},
+                                                 {1, kFrames, 165},
+                                                 {kFrames, 263},
+                                                 {kFrames, 63}}) {
+    EXPECT_THAT(refusal(shape), HasSubstr("expected rotation vectors or matrices of 22 joints"));
+  }
+}
+
+TEST(NpzContent, ArraysOfOneAxisAreAFrame) {
+  std::vector<double> poses = Poses(72);
+  poses.resize(72);
+  const Recording recording =
+      ReadRecording(FileOf(Bytes({Numbers("poses", {72}, poses), Numbers("trans", {3}, {0, 0.2, 1}),
+                                  Numbers("mocap_framerate", {1}, {120})})),
+                    {});
+  ASSERT_EQ(recording.markers.num_frames(), 1);
+  const auto truth = PlacesOf(Poses(72), StandInSmplModel(SmplKind::kSmplH).joints);
+  ExpectPlaces(recording, {truth.front()});
 }
 
 TEST(NpzContent, FramesWithWhatIsNoNumberAreNotKnown) {

@@ -41,7 +41,12 @@ TEST(BoneNames, KnowTheNamesOfProgramsAndLaboratories) {
       {"UpperLeg_L", BoneKind::kHip, 'L'},
       {"lowerleg01.R", BoneKind::kKnee, 'R'},  // MakeHuman
       {"L_upLeg_jnt", BoneKind::kHip, 'L'},
-      {"HIP_LEFT", BoneKind::kHip, 'L'},  // Kinect
+      {"HIP_LEFT", BoneKind::kHip, 'L'},                 // Kinect
+      {"Skeleton 001_LUArm", BoneKind::kUpperArm, 'L'},  // Motive
+      {"lThighBend", BoneKind::kHip, 'L'},               // DAZ
+      {"左足首", BoneKind::kAnkle, 'L'},                 // MikuMikuDance
+      {"ik_lfoot", BoneKind::kNone, ' '},
+      {"hip", BoneKind::kHip, ' '},
       {"Neck1", BoneKind::kNeck, ' '},
       {"Head", BoneKind::kHead, ' '},
       {"LeftArm", BoneKind::kArm, 'L'},

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Skeletons that are read as recordings.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "common/io/mmm/mmm_model.h"
@@ -158,6 +160,8 @@ TEST(SkeletonContent, SidesThatAreNamedTheOtherWayRoundAreExchanged) {
   const Recording recording = ReadRecording(FileOf(bvh), {}, &warnings);
   EXPECT_THAT(warnings.texts(), ::testing::ElementsAre(::testing::HasSubstr("so they are taken")));
   EXPECT_EQ(BodyOf(recording, BodyJoint::kKnee, "L"), "RightLeg");
+  ASSERT_FALSE(recording.doubts.empty());
+  EXPECT_THAT(recording.doubts.front().text, ::testing::HasSubstr("named left are right"));
 }
 
 TEST(SkeletonContent, WhatIsNoBodyIsMarkers) {
@@ -170,6 +174,154 @@ TEST(SkeletonContent, WhatIsNoBodyIsMarkers) {
   EXPECT_THAT(recording.markers.labels(), ::testing::ElementsAre("a", "tail", "tail.end"));
   EXPECT_TRUE(recording.body.empty());
   EXPECT_THAT(warnings.texts(), ::testing::Contains(::testing::HasSubstr("no two legs")));
+  ASSERT_FALSE(recording.doubts.empty());
+  EXPECT_THAT(recording.doubts.front().text, ::testing::HasSubstr("bones.xml"));
+}
+
+struct Bone {
+  std::string name;  ///< $: the side
+  Eigen::Vector3d offset;
+};
+
+std::string Chain(const std::vector<Bone>& bones, char side, const Eigen::Vector3d& end) {
+  const double sign = side == 'l' ? 1 : -1;
+  std::string text;
+  const auto offset = [&](const Eigen::Vector3d& p) {
+    text += fmt::format("{{ OFFSET {} {} {}\n", sign * p.x(), p.y(), p.z());
+  };
+  for (const Bone& bone : bones) {
+    std::string name = bone.name;
+    std::replace(name.begin(), name.end(), '$', side);
+    text += "JOINT " + name + "\n";
+    offset(bone.offset);
+    text += "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+  }
+  text += "End Site\n";
+  offset(end);
+  return text + "}" + std::string(bones.size(), '}') + "\n";
+}
+
+/// Of someone who stands, in a pose at rest.
+Recording ReadRig(const std::string& root, const std::vector<Bone>& leg,
+                  const Eigen::Vector3d& foot, const std::vector<Bone>& arm,
+                  const Eigen::Vector3d& hand, Warnings* warnings) {
+  std::string text =
+      "HIERARCHY\nROOT " + root + "\n{ OFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n";
+  for (const char side : {'l', 'r'}) text += Chain(leg, side, foot);
+  text += "JOINT chest\n{ OFFSET 0 40 0\n";
+  for (const char side : {'l', 'r'}) text += Chain(arm, side, hand);
+  text +=
+      "JOINT head\n{ OFFSET 0 25 0\nEnd Site { OFFSET 0 20 0 } } } }\nMOTION\nFrames: 2\nFrame "
+      "Time: 0.01\n";
+  const std::size_t turned = 2 * (leg.size() + arm.size());
+  for (int k = 0; k < 2; ++k) {
+    text += "0 90 0";
+    for (std::size_t i = 0; i < 3 * turned; ++i) text += " 0";
+    text += "\n";
+  }
+  return ReadRecording(FileOf(text), {}, warnings);
+}
+
+TEST(SkeletonContent, RootsMayBeNamedAsHips) {  // DAZ
+  Warnings warnings;
+  const Recording recording = ReadRig("hip",
+                                      {{"$Buttock", {9, 4, 1}},
+                                       {"$Thigh", {0, -2, -2}},
+                                       {"$Shin", {0, -37, 1}},
+                                       {"$Foot", {0, -45, -5}}},
+                                      {0, -4, 12},
+                                      {{"$Collar", {3, 1, 0}},
+                                       {"$Shldr", {9, 0, 0}},
+                                       {"$ForeArm", {28, 0, 0}},
+                                       {"$Hand", {22, 0, 0}}},
+                                      {10, 0, 0}, &warnings);
+  EXPECT_THAT(warnings.texts(), ::testing::IsEmpty());
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kPelvis, ""), "hip");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "lThigh");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kKnee, "R"), "rShin");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "R"), "rShldr");
+  EXPECT_EQ(recording.unit, "cm");
+}
+
+TEST(SkeletonContent, LimbsMayEndWithoutAName) {  // MoDi
+  Warnings warnings;
+  const Recording recording = ReadRig(
+      "Hips", {{"Hips_$UpLeg", {0, 0, 0}}, {"$UpLeg", {.7, -.7, 0}}, {"$Leg", {0, -3.5, -.4}}},
+      {0, -3.5, -.6},
+      {{"$Shoulder", {.6, .7, 0}}, {"$Arm", {1.1, 0, 0}}, {"$ForeArm", {2.7, 0, 0}}}, {2.1, 0, 0},
+      &warnings);
+  EXPECT_THAT(warnings.texts(), ::testing::IsEmpty());
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "lUpLeg");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kAnkle, "L"), "lLeg.end");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "R"), "rArm");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kWrist, "R"), "rForeArm.end");
+  EXPECT_EQ(recording.unit, "dm");
+}
+
+TEST(SkeletonContent, BonesThatAreNumberedAreThoseOfTheirLengths) {
+  Warnings warnings;
+  const Recording recording = ReadRig(
+      "root",
+      {{"$leg0", {.1, -.1, 0}},
+       {"$leg1", {0, -.4, 0}},
+       {"$leg2", {0, -.4, 0}},
+       {"$leg3", {0, -.1, .1}}},
+      {0, 0, .05}, {{"$arm0", {.05, .1, 0}}, {"$arm1", {.14, 0, 0}}, {"$arm2", {.12, 0, 0}}},
+      {.1, 0, 0}, &warnings);
+  EXPECT_THAT(warnings.texts(), ::testing::IsEmpty());
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "lleg0");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kAnkle, "L"), "lleg2");
+  // The longest bones that are alike are an upper arm and a forearm, whatever is before them.
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "L"), "larm0");
+  EXPECT_EQ(recording.unit, "m");
+}
+
+TEST(SkeletonContent, HalfAnUpperArmIsNone) {
+  Warnings warnings;
+  const Recording recording =
+      ReadRig("root", {{"$hip", {10, -10, 0}}, {"$knee", {0, -40, 1}}, {"$ankle", {0, -40, -1}}},
+              {0, 0, 15},
+              {{"$clavicle", {3, 10, 0}},
+               {"$shoulder", {14, 0, 0}},
+               {"$arm", {13, 0, 0}},
+               {"$elbow", {14, 0, 0}},
+               {"$wrist", {25, 0, 0}}},
+              {10, 0, 0}, &warnings);
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "L"), "lshoulder");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "lhip");
+}
+
+TEST(SkeletonContent, WhereNamesTellNothingLengthsDo) {
+  const std::vector<Bone> leg = {
+      {"a$", {10, -10, 0}}, {"b$", {0, -40, 1}}, {"c$", {0, -40, -1}}, {"d$", {0, -8, 14}}};
+  const auto read = [&](double arm, Warnings* warnings) {
+    return ReadRig("joint0", leg, {0, 0, 5},
+                   {{"e$", {5, 10, 0}}, {"f$", {14, 0, 0}}, {"g$", {arm, 0, 0}}}, {arm - 2, 0, 0},
+                   warnings);
+  };
+  Warnings warnings;
+  const Recording recording = read(27, &warnings);
+  EXPECT_THAT(warnings.texts(), ::testing::ElementsAre(::testing::HasSubstr("lengths")));
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "al");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kAnkle, "R"), "cr");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kToe, "R"), "dr");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "L"), "fl");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kWrist, "R"), "gr.end");
+  ASSERT_FALSE(recording.doubts.empty());
+  EXPECT_THAT(recording.doubts.front().text, ::testing::HasSubstr("lengths of the bones"));
+  // Four legs are no person's.
+  EXPECT_TRUE(read(40, &warnings).body.empty());
+}
+
+TEST(SkeletonContent, LegsOfNoUsualLengthAreDoubted) {
+  Warnings warnings;
+  const Recording recording =
+      ReadRig("root", {{"$hip", {1, -1, 0}}, {"$knee", {0, -5, 0}}, {"$ankle", {0, -5.1, 0}}},
+              {0, 0, 1}, {{"$shoulder", {2, 0, 0}}, {"$elbow", {3, 0, 0}}, {"$wrist", {3, 0, 0}}},
+              {1, 0, 0}, &warnings);
+  EXPECT_THAT(warnings.texts(), ::testing::ElementsAre(::testing::HasSubstr("they have 1.01 m")));
+  ASSERT_FALSE(recording.doubts.empty());
+  EXPECT_THAT(recording.doubts.front().text, ::testing::HasSubstr("check the unit"));
 }
 
 TEST(RealSkeletons, HaveTheirUnitAxisAndJoints) {
