@@ -89,6 +89,7 @@ TEST_F(TrackWatchTest, WhoWasHiddenAndIsSeenIsBack) {
   EXPECT_FALSE(watch_.IsBack(z_, 0.3, state_));  // as usual
   const auto hide = [&](int count, int frames) {
     watch_.Start(kWatchedMarkers, kUsual, &state_);
+    z_.setZero();
     z_.leftCols(count).setConstant(kNaN);
     for (int k = 0; k < frames; ++k) EXPECT_EQ(watch_.TakeHidden(z_, kDt, &state_), 0);
     z_.setZero();
