@@ -167,7 +167,9 @@ void RobotFollower::Leave(std::size_t i, const Eigen::Isometry3d& scaled, double
 void RobotFollower::AimFeet(double dt) {
   for (std::size_t i = 0; i < 2; ++i) {
     Foot& foot = feet_[i];
-    const bool heel = points_[i][0].is_on(), toe = points_[i][1].is_on(), stands = heel || toe;
+    // Nobody knows yet how fast feet are in a first frame: a swing is not to begin as a stance.
+    const bool heel = is_following_ && points_[i][0].is_on();
+    const bool toe = is_following_ && points_[i][1].is_on(), stands = heel || toe;
     ScaledFoot of = {&person_posture_, R_feet_[i], human_.ankle_height, Floor(), scale_, {}};
     const double pitch = GatedPitch(heel, toe, PitchOf(of.R_foot.col(0)));
     const Eigen::Isometry3d swinging = PlaceFoot(of, body_, i);

@@ -38,6 +38,7 @@ OnlineTracker::OnlineTracker(const TrackedMarkers& markers, const S2kfSettings& 
       watch_(markers.UsualDeviation(settings.marker_deviation), settings.smoothing),
       recovery_(markers, settings) {
   candidate_.joint_angles.setZero(markers.kinematics().num_joints());
+  held_ = candidate_;
 }
 
 double OnlineTracker::Distance(const TrackedFrame& frame) const {
@@ -87,11 +88,31 @@ void OnlineTracker::TakeUp(const Posture& posture, TrackState* state, TrackedFra
 
 void OnlineTracker::Track(const Ref<const Matrix3Xd>& points, double dt, TrackState* state,
                           TrackedFrame* frame) {
+  frame->seen = markers_.Gather(points, &frame->measured);
+  state->gate.Select(frame->measured, &frame->relabelled, &frame->z);
+  const bool finds_again = settings_.recovery && !settings_.smoothing;
+  if (finds_again && watch_.IsBack(frame->z, dt, state->watch)) {
+    Return(dt, state, frame);
+    watch_.IsInDoubt(frame->z, Distance(*frame), dt, &state->watch);
+    return;
+  }
   Step(points, dt, state, frame);
   frame->reassembled = settings_.recovery && Reopen(state, frame);
-  if (!settings_.recovery || frame->seen < kFewestMarkers) return;
+  if (!settings_.recovery) return;
+  if (frame->seen < kFewestMarkers) {
+    watch_.TakeHidden(frame->z, dt, &state->watch);
+    return;
+  }
   const bool is_in_doubt = watch_.IsInDoubt(frame->z, Distance(*frame), dt, &state->watch);
   if (is_in_doubt && !frame->reassembled) frame->reassembled = Recover(state, frame);
+}
+
+void OnlineTracker::Return(double dt, TrackState* state, TrackedFrame* frame) {
+  filter_.ToPosture(state->belief, &held_);
+  recovery_.FindAgain(*frame, held_, watch_, &state->random, &candidate_);
+  state->gate.Advance(dt);
+  TakeUp(candidate_, state, frame);
+  frame->reassembled = true;
 }
 
 bool OnlineTracker::Reopen(TrackState* state, TrackedFrame* frame) {

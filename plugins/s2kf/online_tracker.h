@@ -55,6 +55,8 @@ class OnlineTracker {
   void Update(TrackState* state, TrackedFrame* frame) {
     update_.Update(&filter_, &state->belief, &state->gate, frame);
   }
+  /// After a gap: takes the track up where the markers are, from the posture before it.
+  void Return(double dt, TrackState* state, TrackedFrame* frame);
   /// Where many markers are left out: takes the track up at a posture that explains them, too.
   bool Reopen(TrackState* state, TrackedFrame* frame);
   /// Takes the track up at a clearly better posture, where there is one.
@@ -69,7 +71,7 @@ class OnlineTracker {
   GatedUpdate update_;
   TrackWatch watch_;
   PostureRecovery recovery_;
-  Posture candidate_;
+  Posture candidate_, held_;
   Belief prepared_;
 };
 

@@ -10,6 +10,8 @@ namespace {
 
 // Of one fit in a doubtful frame, which has to be ready before the next; the next one goes on.
 constexpr int kFitIterations = 12;
+// Of one that is done once in a gap.
+constexpr int kSearchIterations = 30;
 
 }  // namespace
 
@@ -24,6 +26,7 @@ PostureRecovery::PostureRecovery(const TrackedMarkers& markers, const S2kfSettin
       start_attempts_(settings.start_attempts),
       scale_(markers.noise_scale() * std::max(1.0, markers.MeanTrust())),
       search_(markers.kinematics()) {
+  fresh_.joint_angles.setZero(markers.kinematics().num_joints());
   options_.max_iterations = kFitIterations;
   options_.pulls = markers.pulls();
 }
@@ -45,6 +48,22 @@ bool PostureRecovery::FindBetter(const TrackedFrame& frame, const TrackWatch& wa
   std::swap(search_.random(), *random);
   const PostureFit::Result after = fit.Evaluate(frame.z, scale, options_, *posture);
   return watch.IsClearlyBetter(before, after, CountSeen(frame.z), static_cast<int>(frame.z.cols()));
+}
+
+void PostureRecovery::FindAgain(const TrackedFrame& frame, const Posture& held,
+                                const TrackWatch& watch, std::mt19937* random, Posture* posture) {
+  PostureFit& fit = search_.fit();
+  PostureFitOptions options = options_;
+  options.max_iterations = kSearchIterations;
+  *posture = held;
+  fit.Solve(frame.z, scale_, options, posture);
+  search_.ImproveFrom(held.joint_angles, frame.z, scale_, options, posture);
+  search_.Assemble(frame.z, scale_, options_, start_attempts_, &fresh_);
+  *random = search_.random();
+  const PostureFit::Result before = fit.Evaluate(frame.z, scale_, options_, *posture);
+  const PostureFit::Result after = fit.Evaluate(frame.z, scale_, options_, fresh_);
+  const int seen = CountSeen(frame.z), all = static_cast<int>(frame.z.cols());
+  if (watch.IsClearlyBetter(before, after, seen, all)) *posture = fresh_;
 }
 
 bool PostureRecovery::FindForAll(const TrackedFrame& frame, int left_out, const TrackWatch& watch,

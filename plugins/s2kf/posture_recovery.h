@@ -30,6 +30,11 @@ class PostureRecovery {
   bool FindBetter(const TrackedFrame& frame, const TrackWatch& watch, std::mt19937* random,
                   Posture* posture);
 
+  /// As far from `held` as the markers of frame.z that came back ask for, or from nothing where
+  /// that is clearly better.
+  void FindAgain(const TrackedFrame& frame, const Posture& held, const TrackWatch& watch,
+                 std::mt19937* random, Posture* posture);
+
   /// True where so many markers are left out of frame.z that they may be right, and a posture
   /// explains them as well as the others.
   bool FindForAll(const TrackedFrame& frame, int left_out, const TrackWatch& watch,
@@ -41,6 +46,7 @@ class PostureRecovery {
   /// Of the markers, so that costs are those of markers of scale 1, which TrackWatch knows.
   Eigen::VectorXd scale_;
   PostureSearch search_;
+  Posture fresh_;
 };
 
 }  // namespace mmm_converter::s2kf

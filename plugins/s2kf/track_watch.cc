@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/posture.h"
+
 namespace mmm_converter::s2kf {
 
 namespace {
@@ -14,6 +16,10 @@ constexpr int kDoubtFrames = 20;
 // stand where the filter does not expect them.
 constexpr int kManyReturned = 3;
 constexpr double kLongGap = 0.1;
+// Where more than two thirds of those seen were hidden for longer than this [s], the person was,
+// not some markers; and where no frame came for so long [s] and so many of the last step.
+constexpr double kPersonHidden = 0.05;
+constexpr double kHalted = 0.25, kHaltedSteps = 3;
 // Distances this much above their usual level are a cause of doubt.
 constexpr double kDoubtFactor = 1.15;
 constexpr double kDoubtDistance = 0.001;
@@ -40,14 +46,15 @@ TrackWatch::TrackWatch(double marker_deviation, bool is_smoothed)
 
 void TrackWatch::Start(int num_markers, double distance, State* state) const {
   state->hidden_for.assign(num_markers, 0.0);
+  state->step = 0;
   state->usual_distance = distance;
   state->is_far = false;
   state->doubt = kDoubtFrames;
 }
 
-bool TrackWatch::IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt,
-                           State* state) const {
+int TrackWatch::TakeHidden(const Eigen::Matrix3Xd& z, double dt, State* state) const {
   int returned = 0;
+  state->step = dt;
   for (std::size_t i = 0; i < state->hidden_for.size(); ++i) {
     double& hidden_for = state->hidden_for[i];
     if (z.col(static_cast<Eigen::Index>(i)).allFinite()) {
@@ -57,6 +64,12 @@ bool TrackWatch::IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt
       hidden_for += dt;
     }
   }
+  return returned;
+}
+
+bool TrackWatch::IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt,
+                           State* state) const {
+  const int returned = TakeHidden(z, dt, state);
   const double level = kDoubtFactor * state->usual_distance;
   const bool rises = distance > level + kDoubtDistance;
   state->is_far = distance > level + std::max(kDoubtDistance, marker_deviation_);
@@ -64,6 +77,18 @@ bool TrackWatch::IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt
   const double step = 1 - std::exp(-dt / kLevelTime);
   state->usual_distance += step * (distance - state->usual_distance);
   return state->doubt > 0;
+}
+
+bool TrackWatch::IsBack(const Eigen::Matrix3Xd& z, double dt, const State& state) const {
+  const bool halted = dt > kHalted && dt > kHaltedSteps * state.step && state.step > 0;
+  int seen = 0, returned = 0;
+  for (std::size_t i = 0; i < state.hidden_for.size(); ++i) {
+    if (!z.col(static_cast<Eigen::Index>(i)).allFinite()) continue;
+    ++seen;
+    returned += state.hidden_for[i] > kPersonHidden || halted;
+  }
+  const int enough = std::max(kFewestMarkers, static_cast<int>(z.cols()) / 3);
+  return seen >= enough && 3 * returned > 2 * seen;
 }
 
 void TrackWatch::Recovered(double distance, State* state) const {

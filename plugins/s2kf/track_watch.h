@@ -16,6 +16,7 @@ class TrackWatch {
  public:
   struct State {
     std::vector<double> hidden_for;  ///< by marker [s]
+    double step = 0;                 ///< to the last frame [s]
     double usual_distance = 0;       ///< running level of the distance [m]
     bool is_far = false;             ///< the distance is well above its usual level
     int doubt = 0;                   ///< frames for which the track stays in doubt
@@ -27,9 +28,17 @@ class TrackWatch {
   /// distance: mean of the first frame's markers from the estimate's [m]. A new track is in doubt.
   void Start(int num_markers, double distance, State* state) const;
 
+  /// A frame dt [s] after the last, with fewer than three markers; otherwise IsInDoubt does it.
+  /// Returns how many came back after a long time.
+  int TakeHidden(const Eigen::Matrix3Xd& z, double dt, State* state) const;
+
   /// A frame dt [s] after the last, with three markers or more. z: as tracked, 3 x markers, NaN =
   /// not seen. distance: their mean from the estimate's [m].
   bool IsInDoubt(const Eigen::Matrix3Xd& z, double distance, double dt, State* state) const;
+
+  /// Whether the person is back, as after a gap: a third of the markers are seen, and most of these
+  /// were hidden for long. Arguments as IsInDoubt's, before that is asked.
+  bool IsBack(const Eigen::Matrix3Xd& z, double dt, const State& state) const;
 
   /// The posture was replaced; distance: of the new one [m].
   void Recovered(double distance, State* state) const;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <map>
@@ -130,6 +131,24 @@ TEST(Live, ARobotHoldsWhileItsPersonIsLostAndThatIsTold) {
   const auto refused = RunProgram(words);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--joint-speed is rad/s, from 0.01 to 1000"));
+}
+
+TEST(Live, ASecondAfterAGapTheRobotIsWhereItWouldBe) {
+  const std::string& folder = TestFolder();
+  const std::string robot = testing::SourcePath("examples/robot/biped.urdf");
+  MarkerSequence markers = ReadRecording(Handstand(), {}).markers.Slice(0, 260);
+  std::vector<Posture> last;
+  for (const int end : {0, 60, 130}) {  // from frame 30 on; none
+    for (int k = 30; k < end; ++k) markers.frame(k).setConstant(kNaN);
+    WriteC3d(folder + "/gone.c3d", markers, {});
+    const auto run = RunProgram({"live", "replay:" + folder + "/gone.c3d@max", "--height", "1.8",
+                                 "--robot", robot, "-o", folder + "/gone.xml"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const MmmMotionFile file = ReadMmmMotionFile(folder + "/gone.xml");
+    last.push_back(file.motions.front().trajectory.postures[230]);
+    const Eigen::VectorXd off = last.back().joint_angles - last.front().joint_angles;
+    EXPECT_LT(std::sqrt(off.squaredNorm() / static_cast<double>(off.size())), 0.052) << end;
+  }
 }
 
 TEST(Live, ExportsAndPagesAreThoseOfAConversion) {

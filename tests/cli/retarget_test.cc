@@ -165,6 +165,9 @@ TEST_F(RetargetCommand, FeetAreTheirMeshes) {
   const auto given = nlohmann::json::parse(ReadText(File("m.json")));
   EXPECT_EQ(given["verdict"]["level"], "check");
   EXPECT_THAT(given["verdict"]["reasons"].dump(), HasSubstr("the sole is as given"));
+  const auto live = RunProgram({"live", "replay:" + testing::Handstand() + "@max", "--height",
+                                "1.8", "--robot", robot, "--sole", "0.2,0.08,0.08"});
+  EXPECT_THAT(live.out, HasSubstr("the sole is as given"));
 }
 
 TEST_F(RetargetCommand, ObjectsComeAlong) {

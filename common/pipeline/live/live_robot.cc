@@ -11,20 +11,32 @@ namespace mmm_converter {
 namespace {
 
 constexpr double kPredicted = 0.05;  // [s] without enough markers, in which a prediction is near
-constexpr int kEnough = 3;           // of the most that were seen, the part that shows the person
-constexpr double kNextJump = 1;      // [s] until another one is worth a line
+// [s] that who is found again is to be the same from frame to frame; then a robot returns, or
+// later.
+constexpr double kSettles = 0.02, kSettlesAtMost = 0.15;
+constexpr int kEnough = 3;       // of the most that were seen, the part that shows the person
+constexpr double kNextJump = 1;  // [s] until another one is worth a line
 
 }  // namespace
 
 LiveRobot::LiveRobot(const RobotRequest& request, const FollowOptions& options, Warnings* warnings)
-    : robot_(ReadRobot(request, warnings)), options_(options), watch_(robot_.robot, robot_.body) {}
+    : robot_(ReadRobot(request, warnings)),
+      sole_doubt_(robot_.body.feet ? (*robot_.body.feet)[0].doubt : ""),
+      options_(options),
+      watch_(robot_.robot, robot_.body) {}
 
 bool LiveRobot::IsSeen(const PoseFrame& pose) {
-  if (!pose.is_tracking) return false;
+  if (!pose.is_tracking) return is_seen_ = is_settled_ = false;
   const int seen = pose.estimate.markers_seen - pose.estimate.markers_wrong;
   most_seen_ = std::max(most_seen_, seen);
   if (seen >= std::max(kFewestMarkers, most_seen_ / kEnough)) seen_time_ = pose.time;
-  return std::abs(pose.time - seen_time_) <= kPredicted;
+  if (std::abs(pose.time - seen_time_) > kPredicted) return is_seen_ = is_settled_ = false;
+  if (!is_seen_) back_time_ = pose.time;
+  if (!is_seen_ || pose.estimate.reassembled) assembled_time_ = pose.time;
+  is_seen_ = true;
+  is_settled_ |= !follower_->has_begun() || pose.time - assembled_time_ > kSettles ||
+                 pose.time - back_time_ > kSettlesAtMost;
+  return is_settled_;
 }
 
 void LiveRobot::Name(std::int64_t number, double time) {

@@ -32,6 +32,9 @@ class LiveRobot {
   /// Of all frames until then.
   RetargetFigures figures() const { return watch_.Figures(); }
 
+  /// Why the soles may be others; empty: nothing.
+  const std::string& sole_doubt() const { return sole_doubt_; }
+
   /// What there is to say since the last call, line by line.
   std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
 
@@ -40,6 +43,7 @@ class LiveRobot {
   void Name(std::int64_t number, double time);
 
   LoadedRobot robot_;
+  std::string sole_doubt_;
   FollowOptions options_;
   std::shared_ptr<const LiveBody> person_, body_;
   std::unique_ptr<GuardedFollower> follower_;
@@ -47,6 +51,8 @@ class LiveRobot {
   PoseFrame frame_;
   int most_seen_ = 0;             // markers of the person
   double seen_time_ = -INFINITY;  // of the last frame that showed enough of them [s]
+  bool is_seen_ = false, is_settled_ = false;
+  double back_time_ = 0, assembled_time_ = 0;  // of who was found again, last [s]
   FollowState named_ = FollowState::kTracks;
   bool named_rest_ = false;
   double lost_time_ = 0, name_jump_at_ = -INFINITY;  // [s]

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/robot_file.h"
@@ -211,6 +212,21 @@ TEST(GuardedFollowerTest, ASecondAfterAnyGapTheRobotIsWhereItWouldBe) {
   }
 }
 
+TEST(GuardedFollowerTest, ASwingInTheFirstFrameIsNoStance) {
+  const Robot robot = MakeBiped({});
+  Following stands(robot), glides(robot);
+  const Posture person = stands.PersonAt(0);
+  for (int k = 0; k < 20; ++k) {
+    Posture gliding = person;
+    gliding.position.x() += 1.5 * k * kFrame;
+    const Posture& there = stands.Follow(k, person);
+    const Posture& gone = glides.Follow(k, gliding);
+    EXPECT_FALSE(glides.follower().stands(0) || glides.follower().stands(1)) << k;
+    if (k < 10) continue;
+    EXPECT_LT(Degrees(there, gone), 3) << k;
+  }
+}
+
 TEST(GuardedFollowerTest, ALostPersonsRobotStopsAndThenRests) {
   const Robot robot = MakeBiped({});
   FollowOptions options;
@@ -353,22 +369,25 @@ TEST_P(RealGapTest, ASecondAfterAGapTheRobotIsWhereItWouldBe) {
   const Robot robot = ReadRobotFile(SharedData(GetParam().robot));
   const RobotBody body = FindRobotBody(robot, {}, {});
   const auto person = std::make_shared<KinematicModel>(Person(1.8));
-  constexpr int kBegin = 60, kLength = 30;
-  GuardedFollower seen(person, robot, body, 100, {}), lost(person, robot, body, 100, {});
-  MotionMeter meter;
-  for (int k = 0; k <= kBegin + kLength + 100; ++k) {
-    const Posture posture = ModelPosture(*person, motion, k);
-    const Posture& a = seen.Follow(posture, k * kFrame);
-    const bool is_seen = k < kBegin || k >= kBegin + kLength;
-    const Posture& b = is_seen ? lost.Follow(posture, k * kFrame) : lost.Hold(k * kFrame);
-    meter.Take(b, kFrame);
-    if (k < kBegin + kLength + 100) continue;
-    EXPECT_LT((a.joint_angles - b.joint_angles).norm() /
-                  std::sqrt(static_cast<double>(a.joint_angles.size())),
-              3 * kOneDegree);
+  for (const auto& [begin, length] : {std::pair(60, 30), {40, 10}, {110, 100}}) {
+    GuardedFollower seen(person, robot, body, 100, {}), lost(person, robot, body, 100, {});
+    MotionMeter meter;
+    const int last = begin + length + 100;
+    for (int k = 0; k <= last; ++k) {
+      const Posture posture = ModelPosture(*person, motion, k);
+      const Posture& a = seen.Follow(posture, k * kFrame);
+      const bool is_seen = k < begin || k >= begin + length;
+      const Posture& b = is_seen ? lost.Follow(posture, k * kFrame) : lost.Hold(k * kFrame);
+      meter.Take(b, kFrame);
+      if (k < last) continue;
+      EXPECT_LT((a.joint_angles - b.joint_angles).norm() /
+                    std::sqrt(static_cast<double>(a.joint_angles.size())),
+                3 * kOneDegree)
+          << begin << " " << length;
+    }
+    EXPECT_LT(meter.rms(), 60);
+    EXPECT_LT(meter.root_speed, 6);
   }
-  EXPECT_LT(meter.rms(), 60);
-  EXPECT_LT(meter.root_speed, 6);
 }
 
 INSTANTIATE_TEST_SUITE_P(

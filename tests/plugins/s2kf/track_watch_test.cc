@@ -81,6 +81,36 @@ TEST_F(TrackWatchTest, FewMarkersOrAShortGapAreNone) {
   EXPECT_FALSE(IsInDoubt(kUsual));
 }
 
+TEST_F(TrackWatchTest, WhoWasHiddenAndIsSeenIsBack) {
+  EXPECT_FALSE(watch_.IsBack(z_, kDt, state_));
+  IsInDoubt(kUsual);
+  EXPECT_TRUE(watch_.IsBack(z_, 0.3, state_));  // nothing came in between
+  watch_.IsInDoubt(z_, kUsual, 0.3, &state_);
+  EXPECT_FALSE(watch_.IsBack(z_, 0.3, state_));  // as usual
+  const auto hide = [&](int count, int frames) {
+    watch_.Start(kWatchedMarkers, kUsual, &state_);
+    z_.setZero();
+    z_.leftCols(count).setConstant(kNaN);
+    for (int k = 0; k < frames; ++k) EXPECT_EQ(watch_.TakeHidden(z_, kDt, &state_), 0);
+    z_.setZero();
+  };
+  hide(kWatchedMarkers, 4);
+  EXPECT_FALSE(watch_.IsBack(z_, kDt, state_));
+  hide(kWatchedMarkers, 7);
+  EXPECT_TRUE(watch_.IsBack(z_, kDt, state_));
+  z_.rightCols(4).setConstant(kNaN);  // two are too few for a person
+  EXPECT_FALSE(watch_.IsBack(z_, kDt, state_));
+  hide(4, 50);  // two thirds were hidden: some markers, not the person
+  EXPECT_FALSE(watch_.IsBack(z_, kDt, state_));
+  hide(5, 50);
+  EXPECT_TRUE(watch_.IsBack(z_, kDt, state_));
+  // With a gap that no frame of three markers ended there is doubt, too.
+  hide(kWatchedMarkers, 50);
+  FramesInDoubt(kUsual);
+  hide(kWatchedMarkers, 50);
+  EXPECT_TRUE(IsInDoubt(kUsual));
+}
+
 TEST_F(TrackWatchTest, ARecoveryLowersTheLevelAndEndsBeingFar) {
   FramesInDoubt(kUsual);
   IsInDoubt(3 * kUsual);
