@@ -2,8 +2,8 @@
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
 #   - a folder of `layers` includes only folders before it; those joined by | do not include each other
-#   - common/dynamics uses model and motion (and what lies below model); only judge, the part of pipeline
-#     for it, the application and the tests use dynamics
+#   - common/dynamics uses model, motion and contacts (and what lies below model); only judge, the part of
+#     pipeline for it, the application and the tests use dynamics
 #   - plugins never include each other, the application includes no plugin; of its rooms python includes report alone
 #   - include paths start at the project root; a file is opened only in io, support and above plugins
 #   - headers of other projects, except Eigen, appear only in .cc files (and in tests); one header of the
@@ -68,7 +68,7 @@ function(may_include from to out)
   if(from STREQUAL to)
     set(${out} TRUE PARENT_SCOPE)
   elseif(from STREQUAL common/dynamics)
-    if(to MATCHES "^common/(support|math|model|motion)$")
+    if(to MATCHES "^common/(support|math|model|motion|contacts)$")
       set(${out} TRUE PARENT_SCOPE)
     endif()
   elseif(to STREQUAL common/dynamics)

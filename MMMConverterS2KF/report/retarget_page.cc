@@ -73,11 +73,11 @@ Json BitsOf(const std::vector<bool>& on, const DrawnFrames& drawn) {
 Json FeetJson(const RetargetReport& report, const DrawnFrames& drawn) {
   Json feet = Json::array();
   for (std::size_t i = 0; report.body.feet && i < 2; ++i) {
-    const FootContacts& contacts = report.retargeted.contacts[i];
+    const FootRests& rests = report.retargeted.rests[i];
     const FootFigures& foot = report.figures.feet[i];
     feet.push_back({{"side", Name(kSides[i])},
-                    {"heel", BitsOf(contacts.heel, drawn)},
-                    {"toe", BitsOf(contacts.toe, drawn)},
+                    {"heel", BitsOf(rests.heel, drawn)},
+                    {"toe", BitsOf(rests.toe, drawn)},
                     {"height", ToJson(PackFloats(drawn.LeastOf(foot.height)))},
                     {"speed", ToJson(PackFloats(drawn.MostOf(foot.speed)))}});
   }

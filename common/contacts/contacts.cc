@@ -175,8 +175,14 @@ std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plat
 
 }  // namespace
 
+bool Contacts::StandsAt(Side side, double time) const {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const FootContact& one) {
+    return one.side == side && one.begin.value_or(time) <= time && time <= one.end.value_or(time);
+  });
+}
+
 Contacts FindContacts(const FootMotion& motion, const RecordedForces& forces) {
-  const SlowFeet slow = FindSlowFeet(motion, forces);
+  const SlowFeet slow = FindSlowFeet(motion);
   Contacts found;
   found.loads = FindBearers(motion, slow, forces);
   Standings on_plates;

@@ -42,12 +42,15 @@ struct FootContact {
 struct Contacts {
   std::vector<PlateLoad> loads;       ///< in the order of the plates
   std::vector<FootContact> contacts;  ///< the left foot's, then the right foot's, over time
+
+  bool StandsAt(Side side, double time) const;
 };
 
-/// Which foot stands where and when. On plates: of whose heel-toe line the loaded centre of
-/// pressure is nearest, and when the load says. Elsewhere, or where both feet are on a plate: a
-/// foot stands while its heel or its toe is low and slow. What the plates say of the same feet in
-/// the same recording corrects when that is.
+/// Which foot stands where and when, for all that asks. On plates: of whose heel-toe line the
+/// loaded centre of pressure is nearest, and when the load says. Elsewhere, or where both feet are
+/// on a plate: a foot stands while its heel or its toe is low above floor or step and slow
+/// (ground_rules.h). What the plates say of the same feet in the same recording corrects when that
+/// is.
 Contacts FindContacts(const FootMotion& motion, const RecordedForces& forces);
 
 }  // namespace mmm_converter

@@ -69,6 +69,11 @@ std::array<Eigen::Vector3d, 2> EndsOf(const FootSegments& foot,
           X_WT * Eigen::Vector3d(0, kTipBefore * length, sole - toes)};
 }
 
+/// Of the up axis, along W's.
+double UprightOf(const FootSegments& foot, const std::vector<Eigen::Isometry3d>& X_WS) {
+  return foot.is_mmm() ? X_WS[foot.ankle].linear()(2, 2) : X_WS[foot.osim_heel].linear()(2, 1);
+}
+
 /// The centre of mass, or the root of a model without masses [m].
 Eigen::Vector3d BodyCentre(const KinematicModel& model,
                            const std::vector<Eigen::Isometry3d>& X_WS) {
@@ -177,16 +182,19 @@ FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion) {
   for (FootPath& foot : moved.feet) {
     foot.heel.resize(3, motion.num_frames());
     foot.toe.resize(3, motion.num_frames());
+    foot.upright.resize(motion.num_frames());
   }
   moved.body.resize(3, motion.num_frames());
   for (int k = 0; k < motion.num_frames(); ++k) {
     const auto X_WS = SegmentPoses(model, ModelPosture(model, motion, k));
     moved.body.col(k) = BodyCentre(model, X_WS);
     for (const Side side : kSides) {
-      const auto [heel, toe] = EndsOf(SegmentsOf(model, side), X_WS);
+      const FootSegments segments = SegmentsOf(model, side);
+      const auto [heel, toe] = EndsOf(segments, X_WS);
       FootPath& path = moved.feet[static_cast<std::size_t>(side)];
       path.heel.col(k) = heel;
       path.toe.col(k) = toe;
+      path.upright[k] = UprightOf(segments, X_WS);
     }
   }
   FindSpeeds(&moved);

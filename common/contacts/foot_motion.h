@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/contacts/ground_rules.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
 
@@ -21,7 +22,11 @@ const char* Name(Side side);  ///< "left", "right"
 struct FootPath {
   Eigen::Matrix3Xd heel, toe;
   Eigen::VectorXd heel_speed, toe_speed;
+  Eigen::VectorXd upright;  ///< of the foot's up axis along W's; empty: always so
   Eigen::Vector3d belt = Eigen::Vector3d::Zero();  ///< of a treadmill, below this foot [m/s]
+
+  bool IsUpright(Eigen::Index k) const { return upright.size() == 0 || upright[k] > kUprightFoot; }
+  bool IsUpsideDown(Eigen::Index k) const { return upright.size() > 0 && upright[k] < 0; }
 };
 
 /// By side: the frames in which enough of the leg is seen.

@@ -17,7 +17,6 @@ constexpr double kAhead = 0.05;        // [m] so much nearer, at least ...
 constexpr double kTimesNearer = 2;     // ... and so many times
 constexpr double kNearerShare = 0.15;  // of a load's time: the other foot bears it then
 constexpr double kBeside = 0.03;       // [m] beyond a plate's edge: where a foot ends is as unsure
-constexpr double kLow = 0.06;          // [m] above the plate: on the ground
 constexpr double kLowBeside = 0.03;    // [m] the same beside it, where a heel that rises is none
 constexpr double kStandsThere = 0.25;  // of a load's time: the other foot is on the plate too
 
@@ -105,9 +104,9 @@ bool StandsThere(Side side, const LoadedFrames& frames, const SlowFeet& slow,
 bool IsPartly(Side side, const LoadedFrames& frames, const RecordedForces& forces,
               const ForcePlate& plate) {
   if (!(plate.half_size.minCoeff() > 0)) return false;
-  const bool is_step =
-      std::any_of(forces.plates.begin(), forces.plates.end(),
-                  [&](const auto& one) { return one.plate.p_WP.z() < plate.p_WP.z() - kLow; });
+  const bool is_step = std::any_of(
+      forces.plates.begin(), forces.plates.end(),
+      [&](const auto& one) { return one.plate.p_WP.z() < plate.p_WP.z() - kLowHeight; });
   if (is_step) return false;  // beside it is nothing to stand on
   const FootPath& foot = frames.motion.foot(side);
   const auto is_beside = [&](const Eigen::Vector3d& p) {

@@ -15,8 +15,7 @@ struct SlowFoot {
 };
 using SlowFeet = std::array<std::vector<SlowFoot>, 2>;
 
-/// surfaces: a foot over a plate is low above that, others above the floor.
-SlowFeet FindSlowFeet(const FootMotion& motion, const RecordedForces& forces);
+SlowFeet FindSlowFeet(const FootMotion& motion);
 
 /// All loads of the plates that tell contacts, and who bears them.
 std::vector<PlateLoad> FindBearers(const FootMotion& motion, const SlowFeet& slow,

@@ -436,7 +436,7 @@ void WarnOfDeadPlates(const FootMotion& motion, const RecordedForces& forces, Wa
     if (!plate.loads.empty() || !plate.tells_contact || !(plate.plate.half_size.minCoeff() > 0)) {
       continue;
     }
-    if (!slow) slow = FindSlowFeet(motion, forces);
+    if (!slow) slow = FindSlowFeet(motion);
     const auto stands = StandsOn(plate.plate, motion, *slow);
     if (!stands) continue;
     const auto& [side, times] = *stands;

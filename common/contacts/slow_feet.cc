@@ -1,75 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "common/contacts/foot_states.h"
+#include "common/contacts/ground_rules.h"
 #include "common/contacts/plate_bearers.h"
-#include "common/math/statistics.h"
 
 namespace mmm_converter {
 namespace {
 
-// A foot has come to rest below the one, and has left above the other [m/s]: where heel and toe of
-// recorded walks are when plates say so.
-constexpr double kStandsBelow = 0.8;
-constexpr double kLeavesAbove = 1.0;
 // Feet of slow persons never swing so fast: a share of their own fastest swing then, and what a
 // foot of one who stands still does not reach [m/s].
 constexpr double kSlowShare = 0.4;
 constexpr double kSlowestStep = 0.15;
-constexpr double kLeastLow = 0.06;        // [m] above the ground, at least
-constexpr double kDeviations = 3;         // of the heights of standing feet
-constexpr double kShortest = 0.05;        // [s] of a contact, and of a gap
-constexpr double kRobustSpread = 1.4826;  // a normal deviation is so many median ones
 
-struct Floor {
-  double height = 0;
-  double low = kLeastLow;  ///< at most so far above it
-};
-
-/// The floor off the plates, from the lower end of each foot while that is slow.
-Floor FindFloor(const FootMotion& motion) {
-  std::vector<double> heights;
-  for (const FootPath& foot : motion.feet) {
-    for (Eigen::Index k = 0; k < foot.heel.cols(); ++k) {
-      const bool is_heel = foot.heel(2, k) < foot.toe(2, k);
-      const double speed = is_heel ? foot.heel_speed[k] : foot.toe_speed[k];
-      if (speed < kStandsBelow) heights.push_back(is_heel ? foot.heel(2, k) : foot.toe(2, k));
-    }
-  }
-  Floor floor;
-  if (heights.empty()) return floor;
-  floor.height = Median(heights);
-  for (double& height : heights) height = std::abs(height - floor.height);
-  floor.low = std::max(kLeastLow, kDeviations * kRobustSpread * Median(heights));
-  return floor;
-}
-
-bool IsLow(const Eigen::Vector3d& p, const Floor& floor, const RecordedForces& forces) {
-  for (const PlateForces& one : forces.plates) {
-    if (IsOver(one.plate, p)) return p.z() <= one.plate.p_WP.z() + floor.low;
-  }
-  return p.z() <= floor.height + floor.low;
-}
-
-/// What a foot that stands is slower than, of kStandsBelow.
+/// What a foot that stands is slower than, of kComesBelow.
 double SlownessOf(const FootMotion& motion) {
   double fastest = 0;
   for (const FootPath& foot : motion.feet) {
     const Eigen::VectorXd slower = foot.heel_speed.cwiseMin(foot.toe_speed);
     if (slower.size() > 0) fastest = std::max(fastest, slower.maxCoeff());
   }
-  return std::clamp(kSlowShare * fastest, kSlowestStep, kStandsBelow) / kStandsBelow;
+  return std::clamp(kSlowShare * fastest, kSlowestStep, kComesBelow) / kComesBelow;
 }
 
 /// The slower end of a foot that is low; else faster than what leaves.
-Eigen::VectorXd LowSpeed(const FootPath& foot, const Floor& floor, const RecordedForces& forces) {
-  Eigen::VectorXd speed(foot.heel.cols());
+Eigen::VectorXd LowSpeed(const FootPath& foot, const PointState& heel, const PointState& toe) {
+  Eigen::VectorXd speed = Eigen::VectorXd::Constant(heel.speed.size(), 2 * kLeavesAbove);
+  for (const PointState* point : {&heel, &toe}) {
+    speed = (point->height.array() <= kLowHeight).select(speed.cwiseMin(point->speed), speed);
+  }
   for (Eigen::Index k = 0; k < speed.size(); ++k) {
-    double slowest = 2 * kLeavesAbove;
-    if (IsLow(foot.heel.col(k), floor, forces)) slowest = std::min(slowest, foot.heel_speed[k]);
-    if (IsLow(foot.toe.col(k), floor, forces)) slowest = std::min(slowest, foot.toe_speed[k]);
-    speed[k] = slowest;
+    if (foot.IsUpsideDown(k)) speed[k] = 2 * kLeavesAbove;
   }
   return speed;
 }
@@ -81,7 +43,7 @@ double CrossingBefore(const Eigen::VectorXd& values, Eigen::Index k, double leve
 }
 
 std::vector<SlowFoot> SlowTimes(const Eigen::VectorXd& speed, double rate, double slowness) {
-  const double below = slowness * kStandsBelow, above = slowness * kLeavesAbove;
+  const double below = slowness * kComesBelow, above = slowness * kLeavesAbove;
   std::vector<SlowFoot> times;
   bool stands = false;
   const Eigen::Index last = speed.size() - 1;
@@ -89,7 +51,7 @@ std::vector<SlowFoot> SlowTimes(const Eigen::VectorXd& speed, double rate, doubl
     if (!stands && speed[k] < below) {
       const double begin = k == 0 ? 0 : CrossingBefore(speed, k, below);
       stands = true;
-      if (!times.empty() && begin - times.back().end < kShortest * rate) continue;
+      if (!times.empty() && begin - times.back().end < kShortestContact * rate) continue;
       times.push_back({begin, static_cast<double>(last)});
     } else if (stands && !(speed[k] <= above)) {
       stands = false;
@@ -97,19 +59,21 @@ std::vector<SlowFoot> SlowTimes(const Eigen::VectorXd& speed, double rate, doubl
     }
   }
   if (stands) times.back().end = static_cast<double>(last);
-  std::erase_if(times, [&](const SlowFoot& one) { return one.end - one.begin < kShortest * rate; });
+  std::erase_if(times,
+                [&](const SlowFoot& one) { return one.end - one.begin < kShortestContact * rate; });
   return times;
 }
 
 }  // namespace
 
-SlowFeet FindSlowFeet(const FootMotion& motion, const RecordedForces& forces) {
+SlowFeet FindSlowFeet(const FootMotion& motion) {
   SlowFeet slow;
   if (motion.num_frames() < 3) return slow;
-  const Floor floor = FindFloor(motion);
+  const FootStates states = FindFootStates(motion);
   const double slowness = SlownessOf(motion);
   for (std::size_t i = 0; i < slow.size(); ++i) {
-    slow[i] = SlowTimes(LowSpeed(motion.feet[i], floor, forces), motion.rate, slowness);
+    slow[i] =
+        SlowTimes(LowSpeed(motion.feet[i], states.heels[i], states.toes[i]), motion.rate, slowness);
   }
   return slow;
 }

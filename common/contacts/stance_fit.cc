@@ -69,7 +69,7 @@ bool Fit::LeansAway() const {
 
 StanceFeet::StanceFeet(const FootMotion& motion, const KnownLegs& known,
                        const RecordedForces& forces)
-    : motion_(motion), forces_(forces), slow_(FindSlowFeet(motion, forces)) {
+    : motion_(motion), forces_(forces), slow_(FindSlowFeet(motion)) {
   const auto frames = static_cast<std::size_t>(motion.num_frames());
   shows_.assign(frames, true);
   double highest = 0;

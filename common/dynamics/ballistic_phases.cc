@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "common/contacts/ground_rules.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -46,14 +48,14 @@ BallisticPhase Describe(const MotionDynamics& dynamics, const Eigen::Matrix3Xd& 
 
 std::vector<BallisticPhase> FindBallisticPhases(const MotionDynamics& dynamics,
                                                 const Eigen::Matrix3Xd& measured_com,
-                                                double contact_height, double shortest) {
+                                                double shortest) {
   std::vector<BallisticPhase> phases;
   const int frames = dynamics.num_frames();
   // A parabola needs three frames, and one more to be a test.
   const int least = std::max(4, static_cast<int>(std::ceil(shortest * dynamics.rate)));
   int begin = 0;
   for (int k = 0; k <= frames; ++k) {
-    if (k < frames && dynamics.contact_heights.col(k).minCoeff() > contact_height) continue;
+    if (k < frames && dynamics.contact_heights.col(k).minCoeff() > kRestHeight) continue;
     if (k - begin >= least) phases.push_back(Describe(dynamics, measured_com, begin, k));
     begin = k + 1;
   }

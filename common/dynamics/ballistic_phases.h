@@ -7,11 +7,12 @@
 
 namespace mmm_converter {
 
-/// The intervals of at least `shortest` seconds in which no contact body is lower than
-/// `contact_height`, from a MotionDynamics that is else complete. measured_com: 3 x frames, of the
-/// motion as it is, without a low-pass [m]: the parabola is a filter that suits a flight better.
+/// The intervals of at least `shortest` seconds in which no contact body is lower than kRestHeight,
+/// from a MotionDynamics that is else complete. measured_com: 3 x frames,
+/// of the motion as it is, without a low-pass [m]: the parabola is a filter that suits a flight
+/// better.
 std::vector<BallisticPhase> FindBallisticPhases(const MotionDynamics& dynamics,
                                                 const Eigen::Matrix3Xd& measured_com,
-                                                double contact_height, double shortest);
+                                                double shortest);
 
 }  // namespace mmm_converter

@@ -219,13 +219,17 @@ void SetFrame(int k, const WholeBodyMotion& body, const PoseTrajectory& motion,
 }
 
 /// Of the whole motion; leaves frames [begin, begin + frames).
-GroundContact FindContacts(const KinematicModel& model, const PoseTrajectory& measured,
-                           const PoseTrajectory& smooth, int begin, int frames,
-                           MotionDynamics* result) {
+GroundContact FindGround(const KinematicModel& model, const PoseTrajectory& measured,
+                         const PoseTrajectory& smooth, int begin, int frames,
+                         const RecordedForces* forces, MotionDynamics* result) {
   result->contact_bodies = ContactBodies(model);
-  GroundContact contact =
-      FindGroundContact(model, result->contact_bodies, measured, smooth,
-                        result->options.contact_height, result->options.contact_speed);
+  const bool has_feet = HasFeet(model);
+  if (has_feet) {
+    result->feet =
+        FindContacts(MoveFeet(model, measured), forces != nullptr ? *forces : RecordedForces());
+  }
+  GroundContact contact = FindGroundContact(model, result->contact_bodies, measured, smooth,
+                                            has_feet ? &result->feet : nullptr);
   contact.heights = MatrixXd(contact.heights.middleCols(begin, frames));
   contact.touches = Eigen::MatrixXi(contact.touches.middleCols(begin, frames));
   contact.raised = Eigen::VectorXd(contact.raised.segment(begin, frames));
@@ -258,7 +262,8 @@ Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
 
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
                                      const DynamicsOptions& options,
-                                     const std::function<void(int, int)>& progress) {
+                                     const std::function<void(int, int)>& progress,
+                                     const RecordedForces* forces) {
   const int all_frames = motion.num_frames();
   const int begin = std::clamp(options.first_frame, 0, all_frames);
   const int frames = std::clamp(options.end_frame, begin, all_frames) - begin;
@@ -281,7 +286,7 @@ MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTraj
   const int unsettled = UnsettledFrames(result.differentiation, result.rate);
   result.settled_begin = std::clamp(unsettled - begin, 0, frames);
   result.settled_end = std::clamp(all_frames - unsettled - begin, result.settled_begin, frames);
-  const GroundContact contact = FindContacts(model, measured, smooth, begin, frames, &result);
+  const GroundContact contact = FindGround(model, measured, smooth, begin, frames, forces, &result);
   Cut(begin, begin + frames, &measured);
   Cut(begin, begin + frames, &smooth);
   result.first_time = measured.first_time;
@@ -303,8 +308,7 @@ MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTraj
   result.center_of_pressure = CentersOfPressure(result);
   result.outside_support = DistanceOutsideSupport(model, result.contact_bodies, smooth, contact,
                                                   result.center_of_pressure);
-  result.ballistic_phases =
-      FindBallisticPhases(result, measured_com, options.contact_height, options.shortest_flight);
+  result.ballistic_phases = FindBallisticPhases(result, measured_com, options.shortest_flight);
   return result;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/dynamics/ground_contact.h"
+#include "common/contacts/body_contacts.h"
 #include "common/dynamics/simbody_model.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
@@ -19,8 +19,6 @@ struct DynamicsOptions {
   /// none. Lowered to 0.4 times the rate where that is less. Derivatives in the motion are used as
   /// they are.
   double cutoff = 6;
-  double contact_height = 0.04;  ///< touches the ground: a point at most so high above it [m] ...
-  double contact_speed = 0.8;    ///< ... and at most so fast [m/s]
   double shortest_flight = 0.1;  ///< ballistic phases that last less are left out [s]
   /// Frames [first_frame, end_frame) are examined; low-pass and ground are of the whole motion.
   int first_frame = 0;
@@ -113,6 +111,7 @@ struct MotionDynamics {
   /// [m]; 0: within; NaN: none, or nothing touches.
   Eigen::VectorXd outside_support;
 
+  Contacts feet;             ///< of the whole motion; none: the model has no feet that are known
   double ground_height = 0;  ///< estimated [m]
   std::vector<ContactBody> contact_bodies;
   Eigen::MatrixXd contact_heights;  ///< as GroundContact::heights
@@ -126,12 +125,14 @@ struct MotionDynamics {
   double body_weight() const { return mass * kGravity; }  ///< [N]
 };
 
-/// The model is scaled, with masses. z is up. Joints that the motion does not name are 0.
+/// The model is scaled, with masses. z is up. Joints that the motion does not name are 0. forces:
+/// of plates, which tell contacts; null: there are none.
 /// progress(done, all): examined frames; may be empty. What it throws ends the work.
 /// @throws Error where the model has no mass, an impossible inertia or lacks a joint of the motion,
 ///         or fewer than five frames are examined.
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
                                      const DynamicsOptions& options = {},
-                                     const std::function<void(int, int)>& progress = {});
+                                     const std::function<void(int, int)>& progress = {},
+                                     const RecordedForces* forces = nullptr);
 
 }  // namespace mmm_converter

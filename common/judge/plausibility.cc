@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/contacts/ground_rules.h"
 #include "common/support/advice.h"
 #include "common/support/units.h"
 
@@ -251,7 +252,7 @@ DynamicsCheck CheckMomentum(const MotionDynamics& dynamics) {
 std::string WhyNoFlight(const DynamicsOptions& options) {
   return fmt::format(
       "there is no flight: all points of the body higher than {:.0f} mm for {:g} s or more",
-      1000 * options.contact_height, options.shortest_flight);
+      1000 * kRestHeight, options.shortest_flight);
 }
 
 void AddFlightChecks(const MotionDynamics& dynamics, const std::string& why_no_forces,

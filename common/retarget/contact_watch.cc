@@ -3,14 +3,13 @@
 
 #include <algorithm>
 
+#include "common/contacts/ground_rules.h"
+
 namespace mmm_converter {
 namespace {
 
-constexpr double kWatchOnHeight = 0.04, kWatchOffHeight = 0.06;  // [m]
-constexpr double kWatchOnSpeed = 0.3, kWatchOffSpeed = 0.5;      // [m/s]
-constexpr double kSpan = 0.01;                                   // [s] until a frame, of its speed
-constexpr double kStandsBelow = 0.1;                             // [m/s] of what tells the level
-constexpr double kLevelTime = 1;                                 // [s] in which the level follows
+constexpr double kSpan = 0.01;    // [s] until a frame, of its speed
+constexpr double kLevelTime = 1;  // [s] in which the level follows
 
 }  // namespace
 
@@ -30,16 +29,16 @@ void PointWatch::Take(const Eigen::Vector3d& p_W, double time) {
   const double speed = velocity_.norm();
   const double dt = count_ > 0 ? time - samples_[(next_ - 1 + kSamples) % kSamples].time : 0;
   p_ = p_W;
-  is_slow_ = speed < kStandsBelow;
-  height_ = p_W.z() - level_ - kWatchOffHeight;
+  is_slow_ = speed < kStillSpeed;
+  height_ = p_W.z() - level_ - kLowHeight;
   if (is_slow_ && height_ <= 0) {
-    const bool is_below = p_W.z() < level_ - kWatchOffHeight;
+    const bool is_below = p_W.z() < level_ - kLowHeight;
     const double part = is_below ? 1 : std::min(1.0, dt / kLevelTime);
     level_ += part * (p_W.z() - level_);
   }
   const double height = p_W.z() - level_;
-  is_on_ = height < (is_on_ ? kWatchOffHeight : kWatchOnHeight) &&
-           speed < (is_on_ ? kWatchOffSpeed : kWatchOnSpeed);
+  is_on_ = height < (is_on_ ? kLowHeight : kRestHeight) &&
+           speed < (is_on_ ? kEndOfRestSpeed : kRestSpeed);
   samples_[next_] = {p_W, time};
   next_ = (next_ + 1) % kSamples;
   count_ = std::min(count_ + 1, kSamples);

@@ -6,9 +6,8 @@
 
 namespace mmm_converter {
 
-/// A point of a foot as it moves, from the frames until now alone: how high above its own level,
-/// how fast, and whether it is on the ground (on below 40 mm and 0.3 m/s, off above 60 mm or
-/// 0.5 m/s, as FindFootContacts has it).
+/// An end of a foot as it moves, from the frames until now alone: how high above its own level, how
+/// fast, and whether it rests on the ground, as FindRests has it.
 class PointWatch {
  public:
   /// level: of the point where it stands on z = 0 [m].

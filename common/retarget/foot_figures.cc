@@ -15,8 +15,9 @@ constexpr double kOthersSlide = 0.01;  // [m] a frame
 std::vector<bool> ContactsOf(const Retargeted& retargeted, std::size_t foot) {
   std::vector<bool> contact(retargeted.human.num_frames());
   for (int k = 0; k < retargeted.human.num_frames(); ++k) {
-    contact[k] = IsInContact(retargeted.states.heels[foot], k) ||
-                 IsInContact(retargeted.states.toes[foot], k);
+    contact[k] =
+        retargeted.contacts.StandsAt(kSides[foot], retargeted.motion.time(k)) &&
+        (IsAtRest(retargeted.states.heels[foot], k) || IsAtRest(retargeted.states.toes[foot], k));
   }
   return contact;
 }

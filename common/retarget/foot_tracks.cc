@@ -27,7 +27,7 @@ double SoleLevel(const Retargeted& retargeted, double ankle_height, std::size_t 
   for (int k = 0; k < retargeted.human.num_frames(); ++k) {
     all.push_back(HumanSole(retargeted.human, ankle_height, foot, k).z() -
                   retargeted.states.support(foot, k));
-    if (retargeted.contacts[foot].heel[k]) standing.push_back(all.back());
+    if (retargeted.rests[foot].heel[k]) standing.push_back(all.back());
   }
   return standing.empty() ? Percentile(all, 5) : Median(standing);
 }
@@ -75,7 +75,7 @@ void DrawSwing(const FootTrack& pass, const FootTrack& anchored, int edge, int s
 /// Places of a stance's frames, on what is `support` above the floor [m]; the flat foot's place and
 /// direction are averages.
 void Anchor(const RobotFoot& foot, const FootTrack& pass, const std::vector<double>& pitch,
-            const std::vector<double>& roll, const Stance& stance, double support,
+            const std::vector<double>& roll, const FrameInterval& stance, double support,
             FootTrack* track) {
   const Eigen::Matrix3d R_AF = foot.R_FA.transpose();
   std::complex<double> direction = 0;
@@ -130,7 +130,7 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
   for (std::size_t i = 0; i < 2; ++i) {
     const double level = SoleLevel(retargeted, retargeted.ankle_height, i);
     tracks[i].stands.assign(human.num_frames(), false);
-    for (const Stance& stance : retargeted.contacts[i].stances) {
+    for (const FrameInterval& stance : retargeted.rests[i].stances) {
       std::fill(tracks[i].stands.begin() + stance.begin, tracks[i].stands.begin() + stance.end,
                 true);
     }
@@ -143,8 +143,8 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
                        {},
                        retargeted.states.support(i, k)};
       if (tracks[i].stands[k]) {
-        const FootContacts& contacts = retargeted.contacts[i];
-        of.pitch = GatedPitch(contacts.heel[k], contacts.toe[k], PitchOf(of.R_foot.col(0)));
+        const FootRests& rests = retargeted.rests[i];
+        of.pitch = GatedPitch(rests.heel[k], rests.toe[k], PitchOf(of.R_foot.col(0)));
       }
       tracks[i].X_WF.push_back(PlaceFoot(of, body, i));
     }
@@ -164,8 +164,8 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
     std::vector<double> pitch, roll;
     for (int k = 0; k < frames; ++k) {
       const Vector3d forward = pass.X_WF[k].linear() * foot.R_FA.col(0);
-      const double gated = GatedPitch(retargeted.contacts[i].heel[k], retargeted.contacts[i].toe[k],
-                                      PitchOf(forward));
+      const double gated =
+          GatedPitch(retargeted.rests[i].heel[k], retargeted.rests[i].toe[k], PitchOf(forward));
       pitch.push_back(gated + Unavoidable(PitchOf(forward) - gated));
       // A robot without such a joint rolls its feet as its legs lean.
       const Vector3d left = pass.X_WF[k].linear() * foot.R_FA.col(1);
@@ -174,8 +174,8 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
     }
     roll = Smoothed(roll, kPitchSmoothing * rate);
     pitch = Smoothed(pitch, kPitchSmoothing * rate);
-    const std::vector<Stance>& stances = retargeted.contacts[i].stances;
-    for (const Stance& stance : stances) {
+    const std::vector<FrameInterval>& stances = retargeted.rests[i].stances;
+    for (const FrameInterval& stance : stances) {
       const double support = retargeted.scale * retargeted.states.support(i, stance.begin);
       Anchor(foot, pass, pitch, roll, stance, support, &track);
     }

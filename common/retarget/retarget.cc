@@ -50,30 +50,29 @@ Eigen::Vector3d WayOfBelt(const Retargeted& retargeted, int k) {
 double FloorOf(const Retargeted& retargeted) {
   double floor = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    floor += 0.5 * (retargeted.states.heels[i].level - retargeted.heel_heights[i]);
+    floor += 0.5 * retargeted.states.heels[i].level;
   }
   return floor;
 }
 
 Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
-                          const Robot& robot, const RobotBody& body,
-                          const PoseTrajectory* recorded) {
+                          const Robot& robot, const RobotBody& body, const PersonsGround& ground) {
   const HumanBody person = FindHumanBody(human_model);
+  const PoseTrajectory& recorded = ground.recorded != nullptr ? *ground.recorded : motion;
   Retargeted result;
-  result.human = MoveHuman(human_model, person, recorded != nullptr ? *recorded : motion);
+  result.human = MoveHuman(human_model, person, recorded);
   result.belt = FindBelt(result.human);
+  if (ground.recorded != nullptr) result.human = MoveHuman(human_model, person, motion);
   MoveAgainst(result.belt, &result.human);
-  result.states = StatesOf(result.human);
-  const double rate = result.human.rate;
-  result.contacts = FindFootContacts(result.states, rate);
-  if (recorded != nullptr) {
-    result.human = MoveHuman(human_model, person, motion);
-    MoveAgainst(result.belt, &result.human);
-    result.states = AtRate(result.states, rate, motion.rate, motion.num_frames());
-    result.contacts = AtRate(result.contacts, result.states, rate, motion.rate);
+  const FootMotion feet = MoveFeet(human_model, recorded);
+  result.contacts = ground.contacts != nullptr ? *ground.contacts : FindContacts(feet, {});
+  result.states = FindFootStates(feet);
+  result.rests = FindRests(feet, result.states, result.contacts);
+  if (ground.recorded != nullptr) {
+    result.states = AtRate(result.states, feet.rate, motion.rate, motion.num_frames());
+    result.rests = AtRate(result.rests, result.states, feet.rate, motion.rate);
   }
   result.ankle_height = person.ankle_height;
-  result.heel_heights = person.heel_heights;
   result.scale = body.size / (body.feet ? person.leg_length() : person.arm_length());
   result.motion.rate = motion.rate;
   result.motion.first_time = motion.first_time;
@@ -85,13 +84,12 @@ Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajector
 
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body,
-                          const std::vector<TrackedObject>& objects,
-                          const PoseTrajectory* recorded) {
+                          const std::vector<TrackedObject>& objects, const PersonsGround& ground) {
   if (motion.num_frames() < kFewestFrames) {
     throw Error(fmt::format("a motion of {} frames; at least {} are brought to a robot",
                             motion.num_frames(), kFewestFrames));
   }
-  Retargeted result = DescribePerson(human_model, motion, robot, body, recorded);
+  Retargeted result = DescribePerson(human_model, motion, robot, body, ground);
   TakeObjects(objects, body, &result);
   FootTracks feet = ScaledFeet(result, body);
   TrajectoryProblem problem = MakeProblem(result, robot, body, feet, kSoft);

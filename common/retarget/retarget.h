@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "common/contacts/foot_states.h"
 #include "common/motion/pose_trajectory.h"
 #include "common/retarget/held_objects.h"
 #include "common/retarget/human_body.h"
-#include "common/retarget/human_contacts.h"
 #include "common/retarget/robot_body.h"
 
 namespace mmm_converter {
@@ -19,21 +19,26 @@ struct Retargeted {
   /// Velocity of the belt of a treadmill; `human` is as on a belt that stands [m/s].
   Eigen::Vector3d belt = Eigen::Vector3d::Zero();
   HumanMotion human;
+  Contacts contacts;  ///< of the person
   FootStates states;
-  std::array<FootContacts, 2> contacts;
-  double ankle_height = 0;                  ///< of the person [m]
-  std::array<double, 2> heel_heights = {};  ///< of HumanMotion::heels above the sole [m]
-  std::vector<TrackedObject> objects;       ///< in the robot's world
+  std::array<FootRests, 2> rests;
+  double ankle_height = 0;             ///< of the person [m]
+  std::vector<TrackedObject> objects;  ///< in the robot's world
   std::vector<Hold> holds;
   int iterations = 0;         ///< of the fit, the most
   bool keeps_limits = false;  ///< FitResult::has_converged
 };
 
-/// What is known of the person: all but the robot's postures. recorded: the motion at its own rate,
-/// which tells contacts; null: it is that.
+/// What tells a person's contacts, where the motion does not.
+struct PersonsGround {
+  const PoseTrajectory* recorded = nullptr;  ///< the motion at its own rate; null: it is that
+  const Contacts* contacts = nullptr;        ///< of FindContacts; null: by the motion alone
+};
+
+/// What is known of the person: all but the robot's postures.
 Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body,
-                          const PoseTrajectory* recorded = nullptr);
+                          const PersonsGround& ground = {});
 
 /// Of the robot's, until frame k [m].
 Eigen::Vector3d WayOfBelt(const Retargeted& retargeted, int k);
@@ -42,12 +47,12 @@ Eigen::Vector3d WayOfBelt(const Retargeted& retargeted, int k);
 double FloorOf(const Retargeted& retargeted);
 
 /// README.md has the algorithm. human_model: a person's, of MMM or OpenSim. objects: as many frames
-/// as the motion's. recorded: as of DescribePerson.
+/// as the motion's.
 /// @throws Error where the person's model is not known, the motion has fewer than three frames, or
 /// there are objects for a robot without legs, which has no place in the person's world.
 Retargeted RetargetMotion(const KinematicModel& human_model, const PoseTrajectory& motion,
                           const Robot& robot, const RobotBody& body,
                           const std::vector<TrackedObject>& objects = {},
-                          const PoseTrajectory* recorded = nullptr);
+                          const PersonsGround& ground = {});
 
 }  // namespace mmm_converter

@@ -92,7 +92,7 @@ Posture StandingRobot(const Robot& robot, const RobotBody& body) {
   standing.human.bodies = {StandingPerson(body)};
   for (std::size_t i = 0; i < 2; ++i) {
     standing.human.R_feet[i] = {Eigen::Matrix3d::Identity()};
-    standing.contacts[i] = {{true}, {true}, {{0, 1}}};
+    standing.rests[i] = {{true}, {true}, {{0, 1}}};
   }
   const FootTracks feet = ScaledFeet(standing, body);
   const TrajectoryProblem problem = MakeProblem(standing, robot, body, feet, kStanding);

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "common/contacts/foot_motion.h"
 #include "common/forces/recording_forces.h"
 #include "common/math/up_axis.h"
 #include "common/support/error.h"
@@ -14,15 +13,12 @@ namespace {
 
 /// With what was measured of the ground, in the axes in which it is exported beside a motion; of
 /// the frames that are checked.
-std::optional<JointForces> MeasuredForces(CheckedMotion* motion, const DynamicsOptions& options) {
-  if (motion->forces_file.empty()) return std::nullopt;
-  const RecordedForces forces = ForcesOf(motion->forces_file, UpAxis::kY, &motion->warnings);
-  const Contacts contacts = FindContacts(MoveFeet(motion->model, motion->trajectory), forces);
-  JointForces found =
-      ComputeJointForces(motion->model, motion->trajectory, contacts, forces, {options.cutoff});
+JointForces WithForces(const CheckedMotion& motion, const Contacts& feet,
+                       const RecordedForces& forces, double cutoff) {
+  JointForces found = ComputeJointForces(motion.model, motion.trajectory, feet, forces, {cutoff});
   for (Eigen::MatrixXd* one : {&found.forces, &found.residuals}) {
-    one->leftCols(motion->begin).setConstant(kNaN);
-    one->rightCols(found.num_frames() - motion->end).setConstant(kNaN);
+    one->leftCols(motion.begin).setConstant(kNaN);
+    one->rightCols(found.num_frames() - motion.end).setConstant(kNaN);
   }
   return found;
 }
@@ -39,9 +35,14 @@ DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& option
   DynamicsOptions of_frames = options;
   of_frames.first_frame = motion.begin;
   of_frames.end_frame = motion.end;
-  std::optional<JointForces> with_forces = MeasuredForces(&motion, options);
-  MotionDynamics dynamics =
-      ComputeMotionDynamics(motion.model, motion.trajectory, of_frames, progress);
+  std::optional<RecordedForces> forces;
+  if (!motion.forces_file.empty()) {
+    forces = ForcesOf(motion.forces_file, UpAxis::kY, &motion.warnings);
+  }
+  MotionDynamics dynamics = ComputeMotionDynamics(motion.model, motion.trajectory, of_frames,
+                                                  progress, forces ? &*forces : nullptr);
+  std::optional<JointForces> with_forces;
+  if (forces) with_forces = WithForces(motion, dynamics.feet, *forces, options.cutoff);
   Plausibility judged = JudgeDynamics(motion.model, dynamics);
   return {std::move(motion), std::move(dynamics), std::move(judged), std::move(with_forces)};
 }

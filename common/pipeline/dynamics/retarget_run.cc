@@ -17,6 +17,7 @@
 #include "common/motion/resampled.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/pipeline/dynamics/checked_motion.h"
+#include "common/pipeline/ground_study.h"
 #include "common/support/atomic_file.h"
 #include "common/support/opened_files.h"
 #include "common/support/units.h"
@@ -85,10 +86,12 @@ void RestUntoldJoints(const KinematicModel& model, const Eigen::MatrixXd& deviat
                   fmt::join(untold, ", "), kTold * kDegrees));
 }
 
+/// contacts: null: by the motion alone.
 void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
-                    RetargetReport* report, Warnings* warnings) {
-  report->retargeted = RetargetMotion(*model, motion, report->robot, report->body,
-                                      AlignObjects(motion, report->objects, warnings));
+                    const Contacts* contacts, RetargetReport* report, Warnings* warnings) {
+  report->retargeted =
+      RetargetMotion(*model, motion, report->robot, report->body,
+                     AlignObjects(motion, report->objects, warnings), {nullptr, contacts});
   report->person_model = std::move(model);
   report->person = std::move(motion);
 }
@@ -103,14 +106,17 @@ void RetargetConversion(const ConversionReport& converted, RetargetReport* repor
   const Eigen::MatrixXd& all = converted.result.trajectory.standard_deviations;
   const Eigen::Index seen = std::min<Eigen::Index>(all.cols(), motion.num_frames());
   RestUntoldJoints(*converted.plan.setup.model, all.rightCols(seen), &motion, warnings);
-  RetargetPerson(converted.plan.setup.model, std::move(motion), report, warnings);
+  const auto& model = converted.plan.setup.model;
+  const auto ground = HasFeet(*model) ? StudyGround(converted) : nullptr;
+  RetargetPerson(model, std::move(motion), ground ? &ground->steps : nullptr, report, warnings);
 }
 
 void RetargetFinished(CheckedMotion checked, RetargetReport* report, Warnings* warnings) {
   warnings->Append(checked.warnings);
   report->motion_name = checked.name;
   RetargetPerson(std::make_shared<const KinematicModel>(std::move(checked.model)),
-                 FramesOf(checked.trajectory, checked.begin, checked.end), report, warnings);
+                 FramesOf(checked.trajectory, checked.begin, checked.end), nullptr, report,
+                 warnings);
 }
 
 void RetargetRaisedKnee(RetargetReport* report, Warnings* warnings) {
@@ -119,7 +125,7 @@ void RetargetRaisedKnee(RetargetReport* report, Warnings* warnings) {
   auto model = std::make_shared<const KinematicModel>(ScaleWinter(reference.model, kPerson));
   PoseTrajectory motion = MakeRaisedKnee(*model);
   report->motion_name = "a raised knee";
-  RetargetPerson(std::move(model), std::move(motion), report, warnings);
+  RetargetPerson(std::move(model), std::move(motion), nullptr, report, warnings);
 }
 
 bool HasMotion(const RetargetRequest& request) {
@@ -160,9 +166,9 @@ RateFit* FitAt(double rate, RetargetReport* report) {
   Warnings told_before;
   RateFit fit;
   fit.rate = rate;
-  fit.retargeted =
-      RetargetMotion(*report->person_model, motion, report->robot, report->body,
-                     AlignObjects(motion, report->objects, &told_before), &report->person);
+  fit.retargeted = RetargetMotion(*report->person_model, motion, report->robot, report->body,
+                                  AlignObjects(motion, report->objects, &told_before),
+                                  {&report->person, &report->retargeted.contacts});
   fit.figures = MeasureRetargeting(fit.retargeted, report->robot, report->body);
   fit.verdict = JudgeRetargeting(
       fit.figures, report->conversion_verdict ? &*report->conversion_verdict : nullptr);

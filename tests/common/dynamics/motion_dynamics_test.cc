@@ -227,7 +227,10 @@ TEST(MotionDynamics, AHandstandStandsOnItsHands) {
     EXPECT_EQ(dynamics.contacts(BodyIndex(dynamics, "right foot"), frame), 1 - on_hands);
   }
   EXPECT_TRUE(dynamics.ballistic_phases.empty());
+  constexpr int kEarly = 3;  // [frames] by which a low-pass of 6 Hz has the force of a landing foot
   for (int k = dynamics.settled_begin; k < dynamics.settled_end; ++k) {
+    const auto touches = dynamics.contacts.middleCols(k, kEarly + 1).topRows(2);
+    if ((touches.rightCols(1).array() > touches.leftCols(1).array()).any()) continue;
     // What check-dynamics takes as standing is 0.1.
     EXPECT_LT(dynamics.outside_support[k], 0.06) << "tips over in frame " << k;
   }

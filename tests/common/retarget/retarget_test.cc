@@ -101,7 +101,7 @@ TEST(RetargetTest, FeetStandStillAtTheRateOfAFile) {
   const Retargeted own = RetargetMotion(person, recorded, robot, body);
   for (const double rate : {10.0, 30.0, 240.0}) {
     const PoseTrajectory motion = Resample(recorded, rate, none);
-    const Retargeted result = RetargetMotion(person, motion, robot, body, {}, &recorded);
+    const Retargeted result = RetargetMotion(person, motion, robot, body, {}, {&recorded});
     ASSERT_EQ(result.motion.num_frames(), motion.num_frames());
     const RetargetFigures figures = MeasureRetargeting(result, robot, body);
     EXPECT_EQ(figures.rate, rate);
@@ -112,7 +112,7 @@ TEST(RetargetTest, FeetStandStillAtTheRateOfAFile) {
     for (int k = 0; k < motion.num_frames(); ++k) {
       const auto at =
           static_cast<std::size_t>(std::min<std::ptrdiff_t>(std::lround(k * 100 / rate), 199));
-      EXPECT_EQ(result.contacts[0].heel[k], own.contacts[0].heel[at]) << rate << " " << k;
+      EXPECT_EQ(result.rests[0].heel[k], own.rests[0].heel[at]) << rate << " " << k;
     }
   }
 }
@@ -284,89 +284,11 @@ TEST(RealRobotMeshTest, NoCornerOfAMeshIsInTheFloor) {
     EXPECT_GT(lowest, -0.001) << name;
     const RetargetFigures figures = MeasureRetargeting(result, robot, body);
     EXPECT_NEAR(figures.penetration, -lowest, 2e-4) << name;
-    // An ankle that does not roll turns the round edges of a narrow foot otherwise than planned.
-    EXPECT_LE(figures.slide, std::string(name) == kTurn ? 0.06 : 0.02) << name;
+    // An ankle that does not roll turns the round edges of a narrow foot otherwise than planned: by
+    // 10 to 13 mm/s, where 10 are sliding.
+    EXPECT_LE(figures.slide, std::string(name) == kTurn ? 0.07 : 0.02) << name;
     EXPECT_LE(figures.floating, 0.003) << name;
   }
-}
-
-/// Toes move as heels do.
-FootStates WholeFeet(const PointState& left, const PointState& right) {
-  FootStates states;
-  states.heels = states.toes = {left, right};
-  return states;
-}
-
-TEST(HumanContactsTest, AStanceThatTheRecordingCutsOffMayBeShort) {
-  PointState point;
-  point.height = Eigen::VectorXd::Constant(60, 0.2);
-  point.speed = Eigen::VectorXd::Constant(60, 0.1);
-  for (const int begin : {0, 30, 56}) point.height.segment(begin, 4).setConstant(0.01);
-  const auto feet = FindFootContacts(WholeFeet(point, point), 100);
-  ASSERT_EQ(feet[0].stances.size(), 2U);
-  EXPECT_EQ(feet[0].stances[0].end, 4);
-  EXPECT_EQ(feet[0].stances[1].begin, 56);
-}
-
-TEST(HumanContactsTest, AFootStandsOnStepsAndTheLowestIsTheFloor) {
-  constexpr double kRate = 100, kStep = 0.19;
-  constexpr int kSteps = 4, kStands = 50, kSwings = 50;  // frames of each
-  HumanMotion motion;
-  motion.rate = kRate;
-  // One foot stands while the other swings over two steps; its heel is worn higher than the
-  // other's.
-  const int frames = kSteps * (kStands + kSwings);
-  for (std::size_t i = 0; i < 2; ++i) {
-    Eigen::Matrix3Xd path(3, frames);
-    for (int k = 0; k < frames; ++k) {
-      const int shifted = i == 0 ? k : std::max(k, kSwings) + kStands;
-      const int done = shifted / (kStands + kSwings), within = shifted % (kStands + kSwings);
-      const double part = std::max(0, within - kStands) / static_cast<double>(kSwings);
-      const double lifted = 0.1 * std::sin(std::numbers::pi * part);
-      path.col(k) << 0.6 * (done + part), 0, 2 * kStep * (done + part) + lifted;
-    }
-    if (i == 1) path.row(2).array() -= kStep;
-    motion.heels[i] = motion.toes[i] = path;
-    motion.heels[i].row(2).array() += i == 0 ? 0.05 : 0.08;
-    motion.toes[i].row(0).array() += 0.2;
-  }
-  const FootStates states = StatesOf(motion);
-  const auto feet = FindFootContacts(states, kRate);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::vector<Stance>& stances = feet[i].stances;
-    ASSERT_GE(stances.size(), 4U) << i;
-    for (std::size_t n = 0; n < 4; ++n) {
-      const double step = i == 0 ? 2.0 * static_cast<double>(n) : 2.0 * static_cast<double>(n) + 1;
-      EXPECT_NEAR(states.support(i, stances[n].begin), kStep * step, 0.02) << i << " " << n;
-    }
-  }
-}
-
-TEST(HumanContactsTest, WhoeverStandsOnOneLegHoldsTheOtherFootUp) {
-  const KinematicModel person = testing::Person(1.75);
-  const HumanMotion motion = MoveHuman(person, FindHumanBody(person), MakeRaisedKnee(person));
-  const FootStates states = StatesOf(motion);
-  double highest = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(states.supports[i].cwiseAbs().maxCoeff(), 0) << i;
-    highest = std::max(highest, states.toes[i].height.maxCoeff());
-  }
-  EXPECT_GT(highest, 0.1);  // it is up
-}
-
-TEST(HumanContactsTest, AFootThatStaysLowIsNotOffForAMoment) {
-  PointState low, high;
-  for (PointState* point : {&low, &high}) {
-    point->height = Eigen::VectorXd::Constant(60, 0.01);
-    point->speed = Eigen::VectorXd::Constant(60, 0.1);
-    point->speed.segment(20, 5).setConstant(0.9);
-  }
-  high.height.segment(20, 5).setConstant(0.07);
-  const auto feet = FindFootContacts(WholeFeet(low, high), 100);
-  ASSERT_EQ(feet[0].stances.size(), 1U);
-  EXPECT_EQ(feet[0].stances[0].end, 60);
-  ASSERT_EQ(feet[1].stances.size(), 2U);
-  EXPECT_EQ(feet[1].stances[0].end, 20);
 }
 
 }  // namespace

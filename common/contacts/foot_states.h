@@ -5,17 +5,17 @@
 #include <array>
 #include <vector>
 
-#include "common/retarget/human_body.h"
+#include "common/contacts/contacts.h"
+#include "common/contacts/ground_rules.h"
 
 namespace mmm_converter {
 
-/// How high and how fast a point of a person's foot is, for each frame.
+/// How high and how fast an end of a foot is, for each frame.
 struct PointState {
   Eigen::VectorXd height;  ///< above the point's own level, and FootStates::supports [m]
-  Eigen::VectorXd speed;   ///< from 20 ms before to 20 ms behind [m/s]
+  Eigen::VectorXd speed;   ///< against the ground, as FootPath has it [m/s]
   double level = 0;        ///< of the point where it stands, W [m]
 };
-PointState StateOf(const Eigen::Matrix3Xd& path, double rate);
 
 /// Heel and toe of both feet.
 struct FootStates {
@@ -30,29 +30,31 @@ struct FootStates {
 /// The lowest place where a foot stands, if only for 30 ms, is the floor. A foot that is level and
 /// slower than 0.2 m/s for 0.1 s more than 60 mm above it stands on something, if the other one
 /// swings meanwhile or rests as high.
-FootStates StatesOf(const HumanMotion& motion);
+FootStates FindFootStates(const FootMotion& motion);
 
-/// Frames [begin, end) in which a foot stands.
-struct Stance {
+/// Frames [begin, end).
+struct FrameInterval {
   int begin = 0, end = 0;
 };
 
-/// Which of a foot's ends are on the ground: on below 40 mm and 0.3 m/s, off above 60 mm or
-/// 0.5 m/s, for 80 ms at least; a point that stays below 60 mm is not off for less.
-struct FootContacts {
+/// Which of a foot's ends rest on the ground (kRestHeight, kRestSpeed): what a robot's foot is held
+/// at. Both may move while the foot comes to the ground or leaves it.
+struct FootRests {
   std::vector<bool> heel, toe;
-  std::vector<Stance> stances;  ///< of either
+  std::vector<FrameInterval> stances;  ///< of either, on one thing
 };
-std::array<FootContacts, 2> FindFootContacts(const FootStates& states, double rate);
+/// Within the person's contacts.
+std::array<FootRests, 2> FindRests(const FootMotion& motion, const FootStates& states,
+                                   const Contacts& contacts);
 
 /// Of as many frames at another rate, the nearest ones.
 FootStates AtRate(const FootStates& states, double from, double to, int frames);
-std::array<FootContacts, 2> AtRate(const std::array<FootContacts, 2>& contacts,
-                                   const FootStates& states, double from, double to);
+std::array<FootRests, 2> AtRate(const std::array<FootRests, 2>& rests, const FootStates& states,
+                                double from, double to);
 
-/// Below 40 mm and 0.3 m/s in this frame: what figures count as contact.
-inline bool IsInContact(const PointState& point, int k) {
-  return point.height[k] < 0.04 && point.speed[k] < 0.3;
+/// What figures of robots count as contact in a frame.
+inline bool IsAtRest(const PointState& point, int k) {
+  return point.height[k] < kRestHeight && point.speed[k] < kRestSpeed;
 }
 
 }  // namespace mmm_converter

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/contacts/contacts.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
 
@@ -27,20 +28,21 @@ struct GroundContact {
   double ground_height = 0;
   /// Bodies x frames: lowest point above the ground, or above what the body rests on [m].
   Eigen::MatrixXd heights;
-  Eigen::MatrixXi touches;  ///< bodies x frames: 1 where that is low and slow, else 0
+  Eigen::MatrixXi touches;  ///< bodies x frames: 1 on the ground, else 0
   /// By frame: how far above the ground the body rests where no part of it is near that [m]; else
   /// 0.
   Eigen::VectorXd raised;
 };
 
-/// Low is at most `height` [m] above the ground, slow at most `speed` [m/s]. Both motions name all
-/// joints of the model; z is up. Heights are those of `measured`, as a low-pass lifts a foot before
-/// it leaves the ground; speeds those of `smooth`, as differences are mostly noise. Where no part
-/// of the body is near the ground, one that rests, slower and longer than a fall allows, stands on
-/// something there: on stairs, a box or a bar.
+/// Of the feet of a person, `feet` where they are told; of other bodies what is lower than
+/// kRestHeight and slower than kComesBelow. Both motions name all joints of the model; z is up.
+/// Heights are those of `measured`, as a low-pass lifts a foot before it leaves the ground; speeds
+/// those of `smooth`, as differences are mostly noise. Where no part of the body is near the
+/// ground, one that rests, slower and longer than a fall allows, stands on something there: on
+/// stairs, a box or a bar.
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
                                 const PoseTrajectory& measured, const PoseTrajectory& smooth,
-                                double height, double speed);
+                                const Contacts* feet = nullptr);
 
 /// How far the centre of pressure lies outside of the convex hull of the bodies that touch, seen
 /// from above; one entry a frame [m], 0 within, NaN where nothing touches or a centre is NaN.

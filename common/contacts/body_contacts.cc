@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/dynamics/ground_contact.h"
+#include "common/contacts/body_contacts.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/contacts/ground_rules.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/units.h"
@@ -122,15 +123,12 @@ LowestPoints FindLowestPoints(const KinematicModel& model, const std::vector<Con
   return lowest;
 }
 
-// A part that falls, from its highest point on, is slower than half of 0.8 m/s for 0.08 s.
-constexpr double kRestSpeed = 0.5;     // of the speed of what touches
-constexpr double kShortestRest = 0.2;  // [s]
-constexpr double kOtherLevel = 0.1;    // [m] lower than the ground is no noise
+constexpr double kOtherLevel = 0.1;  // [m] lower than the ground is no noise
 
 /// Runs of frames [begin, end) in which is_resting(k) holds long enough.
 template <typename Predicate>
 std::vector<std::pair<Index, Index>> LongRuns(Index frames, double rate, Predicate is_resting) {
-  const auto least = std::max<Index>(2, static_cast<Index>(std::ceil(kShortestRest * rate)));
+  const auto least = std::max<Index>(2, static_cast<Index>(std::ceil(kBodyRestTime * rate)));
   std::vector<std::pair<Index, Index>> runs;
   Index begin = 0;
   for (Index k = 0; k <= frames; ++k) {
@@ -143,7 +141,7 @@ std::vector<std::pair<Index, Index>> LongRuns(Index frames, double rate, Predica
 
 /// The median of the whole body's lowest point over the frames in which that is slow; of all frames
 /// where there is none. Where the body rests clearly lower, as below stairs, that is the ground.
-double GroundHeight(const LowestPoints& lowest, double speed, double rate) {
+double GroundHeight(const LowestPoints& lowest, double rate) {
   std::vector<double> slow;
   std::vector<double> all;
   std::vector<double> speeds;
@@ -151,12 +149,12 @@ double GroundHeight(const LowestPoints& lowest, double speed, double rate) {
     Index body = 0;
     all.push_back(lowest.heights.col(k).minCoeff(&body));
     speeds.push_back(lowest.speeds(body, k));
-    if (speeds.back() <= speed) slow.push_back(all.back());
+    if (speeds.back() <= kComesBelow) slow.push_back(all.back());
   }
   const double usual = Median(slow.empty() ? all : slow);
   double ground = usual;
   const auto is_lower = [&](Index k) {
-    return all[k] < usual - kOtherLevel && speeds[k] <= kRestSpeed * speed;
+    return all[k] < usual - kOtherLevel && speeds[k] <= kBodyRestSpeed;
   };
   for (const auto& [begin, end] : LongRuns(lowest.heights.cols(), rate, is_lower)) {
     const Eigen::Map<const Eigen::VectorXd> heights(all.data() + begin, end - begin);
@@ -172,12 +170,12 @@ struct Rest {
 };
 
 /// Not of hands that hang still: what bears the body is sometimes its lowest part.
-std::vector<Rest> FindRests(const GroundContact& contact, const Eigen::MatrixXd& speeds,
-                            double height, double speed, double rate) {
+std::vector<Rest> FindBodyRests(const GroundContact& contact, const Eigen::MatrixXd& speeds,
+                                double rate) {
   std::vector<Rest> rests;
   for (Index body = 0; body < speeds.rows(); ++body) {
     const auto is_resting = [&](Index k) {
-      return contact.heights.col(k).minCoeff() > height && speeds(body, k) <= kRestSpeed * speed;
+      return contact.heights.col(k).minCoeff() > kRestHeight && speeds(body, k) <= kBodyRestSpeed;
     };
     for (const auto& [begin, end] : LongRuns(speeds.cols(), rate, is_resting)) {
       const auto all = contact.heights.middleCols(begin, end - begin);
@@ -190,11 +188,12 @@ std::vector<Rest> FindRests(const GroundContact& contact, const Eigen::MatrixXd&
 }
 
 /// What rests touches, as long as it is low above that, and slow.
-void AddRests(const std::vector<Rest>& rests, const Eigen::MatrixXd& speeds, double height,
-              double speed, GroundContact* contact) {
+void AddRests(const std::vector<Rest>& rests, const Eigen::MatrixXd& speeds,
+              GroundContact* contact) {
   const Eigen::MatrixXd heights = contact->heights;  // above the ground
   const auto stays = [&](const Rest& rest, Index k) {
-    return std::abs(heights(rest.body, k) - rest.height) <= height && speeds(rest.body, k) <= speed;
+    return std::abs(heights(rest.body, k) - rest.height) <= kRestHeight &&
+           speeds(rest.body, k) <= kComesBelow;
   };
   for (Rest rest : rests) {
     while (rest.begin > 0 && stays(rest, rest.begin - 1)) --rest.begin;
@@ -202,7 +201,7 @@ void AddRests(const std::vector<Rest>& rests, const Eigen::MatrixXd& speeds, dou
     for (Index k = rest.begin; k < rest.end; ++k) {
       contact->heights(rest.body, k) = heights(rest.body, k) - rest.height;
       contact->touches(rest.body, k) = 1;
-      if (heights.col(k).minCoeff() > height) {
+      if (heights.col(k).minCoeff() > kRestHeight) {
         contact->raised[k] = std::max(contact->raised[k], rest.height);
       }
     }
@@ -251,16 +250,24 @@ std::vector<ContactBody> ContactBodies(const KinematicModel& model) {
 
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
                                 const PoseTrajectory& measured, const PoseTrajectory& smooth,
-                                double height, double speed) {
+                                const Contacts* feet) {
   const LowestPoints lowest = FindLowestPoints(model, bodies, measured, smooth);
   GroundContact contact;
-  contact.ground_height = GroundHeight(lowest, speed, measured.rate);
+  contact.ground_height = GroundHeight(lowest, measured.rate);
   contact.heights = lowest.heights.array() - contact.ground_height;
   contact.touches =
-      (contact.heights.array() <= height && lowest.speeds.array() <= speed).cast<int>();
+      (contact.heights.array() <= kRestHeight && lowest.speeds.array() <= kComesBelow).cast<int>();
   contact.raised = Eigen::VectorXd::Zero(contact.heights.cols());
-  AddRests(FindRests(contact, lowest.speeds, height, speed, measured.rate), lowest.speeds, height,
-           speed, &contact);
+  AddRests(FindBodyRests(contact, lowest.speeds, measured.rate), lowest.speeds, &contact);
+  for (const Side side : kSides) {
+    const auto foot = std::find_if(bodies.begin(), bodies.end(), [&](const ContactBody& body) {
+      return body.name == std::string(Name(side)) + " foot";
+    });
+    if (feet == nullptr || foot == bodies.end()) continue;
+    for (int k = 0; k < measured.num_frames(); ++k) {
+      contact.touches(foot - bodies.begin(), k) = feet->StandsAt(side, measured.time(k)) ? 1 : 0;
+    }
+  }
   return contact;
 }
 

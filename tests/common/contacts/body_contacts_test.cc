@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/dynamics/ground_contact.h"
+#include "common/contacts/body_contacts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,8 +65,7 @@ TEST(GroundContact, TouchingIsLowAndSlow) {
     q.position = {k < 60 ? 0.0 : 2 * (std::min(k, 75) - 60) / 50.0, 0, k < 80 ? 0.9 : 1.1};
     motion.postures.push_back(q);
   }
-  const GroundContact contact =
-      FindGroundContact(model, ContactBodies(model), motion, motion, 0.04, 0.8);
+  const GroundContact contact = FindGroundContact(model, ContactBodies(model), motion, motion);
   EXPECT_NEAR(contact.ground_height, 0.7, 1e-12);
   EXPECT_EQ(contact.touches(0, 30), 1);
   EXPECT_EQ(contact.touches(0, 70), 0);
@@ -87,8 +86,7 @@ TEST(GroundContact, WhatRestsStandsOnSomethingAndWhatFallsDoesNot) {
     q.position.z() = 0.2 + (k < 150 ? 0 : kStep) + kSpeed * flown - 0.5 * 9.81 * flown * flown;
     motion.postures.push_back(q);
   }
-  const GroundContact contact =
-      FindGroundContact(model, ContactBodies(model), motion, motion, 0.04, 0.8);
+  const GroundContact contact = FindGroundContact(model, ContactBodies(model), motion, motion);
   EXPECT_NEAR(contact.ground_height, 0, 1e-12);
   EXPECT_EQ(contact.touches(0, 100), 1);
   EXPECT_EQ(contact.raised[100], 0);
