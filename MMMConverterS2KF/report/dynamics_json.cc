@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/dynamics_summary.h"
+#include "MMMConverterS2KF/report/ground_json.h"
 #include "common/kinetics/joint_forces_table.h"
 
 namespace mmm_converter {
@@ -165,6 +166,7 @@ Json ToJson(const DynamicsReport& report) {
       {"ground_m", Digits(dynamics.ground_height)},
       {"raised_m", Digits(dynamics.raised.size() > 0 ? dynamics.raised.maxCoeff() : 0)},
       {"contacts", ContactsJson(dynamics)},
+      {"stances", StancesJson(dynamics.feet)},
       {"flights", DescribeFlights(dynamics)},
       {"with_forces", report.with_forces ? Json::parse(FormatJointForcesJson(*report.with_forces))
                                          : Json(nullptr)},

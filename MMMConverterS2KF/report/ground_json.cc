@@ -95,6 +95,16 @@ Json StudyJson(const ConversionReport& report) {
 
 }  // namespace
 
+Json StancesJson(const Contacts& contacts) {
+  Json stances = Json::array();
+  for (const FootContact& one : contacts.contacts) {
+    stances.push_back({{"foot", Name(one.side)},
+                       {"begin_s", Number(one.begin.value_or(kNaN))},
+                       {"end_s", Number(one.end.value_or(kNaN))}});
+  }
+  return stances;
+}
+
 Json GroundJson(const ConversionReport& report) {
   if (!HasFeet(*report.plan.setup.model)) return nullptr;
   try {

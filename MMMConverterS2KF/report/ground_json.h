@@ -2,6 +2,7 @@
 #pragma once
 
 #include "MMMConverterS2KF/report/json.h"
+#include "common/contacts/contacts.h"
 #include "common/pipeline/conversion.h"
 
 namespace mmm_converter {
@@ -10,5 +11,8 @@ namespace mmm_converter {
 /// their forces on the person [N] and centres of pressure [m]; `gait`. Null: nothing is known of
 /// it.
 Json GroundJson(const ConversionReport& report);
+
+/// When which foot stands, as --export-contacts has it; null: not within what was recorded.
+Json StancesJson(const Contacts& contacts);
 
 }  // namespace mmm_converter

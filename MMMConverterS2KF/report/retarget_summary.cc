@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/report/ground_json.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -239,6 +240,7 @@ Json ToJson(const RetargetReport& report) {
                {"scale", Number(report.retargeted.scale)},
                {"frames", figures.num_frames},
                {"rate_hz", Number(figures.rate)},
+               {"stances", StancesJson(report.retargeted.contacts)},
                {"contact", Number(figures.contact_share)},
                {"slide", Number(figures.slide)},
                {"toe_slide_30_hz", Number(figures.toe_slide)},

@@ -254,5 +254,97 @@ TEST_F(RealGround, ResultsGoBackIntoTheRecording) {
   EXPECT_GE(ReadC3dEvents(C3dFile(Out("walk.c3d")), nullptr).size(), 4);
 }
 
+// One person's contacts are the same for all commands.
+class OneGround : public ::testing::Test {
+ protected:
+  static std::string Out(const char* name) { return TestFolder() + "/one_ground_" + name; }
+
+  static nlohmann::json Run(std::vector<std::string> words, const char* summary) {
+    std::filesystem::remove(Out(summary));
+    words.insert(words.end(), {"--summary", Out(summary)});
+    const auto run = RunProgram(words);
+    EXPECT_LE(run.exit_code, 1) << run.err;  // 1: a motion is implausible
+    return nlohmann::json::parse(ReadText(Out(summary)), nullptr, false);
+  }
+
+  /// Each of `told`, where its leg was seen, is among `others` within a frame.
+  static void ExpectAmong(const nlohmann::json& told, const nlohmann::json& others, double frame,
+                          const char* where) {
+    for (const nlohmann::json& one : told) {
+      int found = 0;
+      for (const nlohmann::json& other : others) {
+        bool is_same = one["foot"] == other["foot"];
+        for (const char* key : {"begin_s", "end_s"}) {
+          if (one[key].is_null()) continue;
+          is_same = is_same && other[key].is_number() &&
+                    std::abs(other[key].get<double>() - one[key].get<double>()) <= frame;
+        }
+        found += is_same;
+      }
+      EXPECT_GE(found, 1) << where << ": " << one << " among " << others;
+    }
+  }
+
+  static nlohmann::json StancesOfGait(const nlohmann::json& gait) {
+    nlohmann::json stances = nlohmann::json::array();
+    for (const nlohmann::json& stride : gait["strides"]) {
+      const double begin = stride["begin_s"], end = stride["end_s"];
+      nlohmann::json stance = {{"foot", stride["side"]}, {"begin_s", begin}, {"end_s", nullptr}};
+      if (stride["foot_off_percent"].is_number()) {
+        stance["end_s"] = begin + 0.01 * stride["foot_off_percent"].get<double>() * (end - begin);
+      }
+      stances.push_back(stance);
+    }
+    return stances;
+  }
+
+  /// frame: of check-dynamics, beside the forces that were exported [s]; 0: not asked.
+  static void ExpectSameEverywhere(const std::string& recording, bool has_plates, double frame,
+                                   std::size_t least) {
+    std::vector<std::string> convert = {"convert",       recording,           "-o",
+                                        Out("o.xml"),    "--export-contacts", Out("c.json"),
+                                        "--export-gait", Out("g.json")};
+    std::vector<std::string> check = {"check-dynamics", Out("o.xml")};
+    if (has_plates) {
+      convert.insert(convert.end(), {"--export-grf", Out("grf.mot")});
+      check.insert(check.end(), {"--forces", Out("grf.xml")});
+    }
+    Run(convert, "o.json");
+    const nlohmann::json contacts = nlohmann::json::parse(ReadText(Out("c.json")))["contacts"];
+    ASSERT_GE(contacts.size(), least);
+    const nlohmann::json strides = StancesOfGait(nlohmann::json::parse(ReadText(Out("g.json"))));
+    ExpectAmong(strides, contacts, 1e-3, "gait");
+    const nlohmann::json brought =
+        Run({"retarget", recording, "--robot", testing::SourcePath("examples/robot/biped.urdf"),
+             "-o", Out("r.xml")},
+            "r.json");
+    ExpectAmong(contacts, brought["stances"], 1e-3, "retarget");
+    if (!(frame > 0)) return;
+    const nlohmann::json checked = Run(check, "d.json");
+    ExpectAmong(contacts, checked["stances"], frame, "check-dynamics");
+  }
+};
+
+TEST_F(OneGround, OfTheSample) {
+  ExpectSameEverywhere(testing::SourcePath("examples/handstand.c3d"), false, 0.01, 4);
+}
+
+using RealOneGround = OneGround;
+TEST_F(RealOneGround, OfRecordings) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  struct Case {
+    const char* file;
+    std::size_t least;
+    double frame;  ///< 0: the finished motion and a table of forces tell a little less
+  };
+  for (const Case& one :
+       {Case{"field/btk_FunctionalWalk.c3d", 8, 1.0 / 120},
+        Case{"reports/f_base_type2.c3d", 9, 0.01}, Case{"forces/walking2.c3d", 6, 0},
+        Case{"recordings/whole_body/pycgm_movement_trial.c3d", 6, 0}}) {
+    SCOPED_TRACE(one.file);
+    ExpectSameEverywhere(testing::SharedData(one.file), true, one.frame, one.least);
+  }
+}
+
 }  // namespace
 }  // namespace mmm_converter
