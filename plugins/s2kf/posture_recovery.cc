@@ -58,8 +58,14 @@ void PostureRecovery::FindAgain(const TrackedFrame& frame, const Posture& held,
   *posture = held;
   fit.Solve(frame.z, scale_, options, posture);
   search_.ImproveFrom(held.joint_angles, frame.z, scale_, options, posture);
-  search_.Assemble(frame.z, scale_, options_, start_attempts_, &fresh_);
-  *random = search_.random();
+  fresh_ = held;
+  fresh_.joint_angles = fit.natural_angles();
+  search_.ImproveFrom(fit.natural_angles(), frame.z, scale_, options, &fresh_);
+  std::swap(search_.random(), *random);
+  for (int i = 0; i < start_attempts_; ++i) {
+    search_.Improve(frame.z, scale_, options_, &fresh_);
+  }
+  std::swap(search_.random(), *random);
   const PostureFit::Result before = fit.Evaluate(frame.z, scale_, options_, *posture);
   const PostureFit::Result after = fit.Evaluate(frame.z, scale_, options_, fresh_);
   const int seen = CountSeen(frame.z), all = static_cast<int>(frame.z.cols());
