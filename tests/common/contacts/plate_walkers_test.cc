@@ -22,7 +22,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr double kFrameRate = 100, kPlateRate = 1000;
+constexpr double kWalkFrameRate = 100, kWalkPlateRate = 1000;
 constexpr int kWalkFrames = 300, kWalkSamples = 3000;
 constexpr int kWalkers = 20;
 constexpr int kFirstSeed = 21;  // the first 20 were looked at
@@ -108,18 +108,18 @@ Eigen::MatrixXd ChannelsOf(const Walker& walker, int i) {
       LastingError(walker.noise + 3 + 10 * n), LastingError(walker.noise + 4 + 10 * n)};
   Eigen::MatrixXd channels = Eigen::MatrixXd::Zero(6, kWalkSamples);
   for (int k = 0; k < kWalkSamples; ++k) {
-    const double t = k / kPlateRate, share = (t - walker.begin[n]) / walker.stance;
+    const double t = k / kWalkPlateRate, share = (t - walker.begin[n]) / walker.stance;
     if (share <= 0 || share >= 1) continue;
     const double rise = std::min({1.0, share / 0.15, (1 - share) / 0.15});
     const double up = walker.weight * rise * (1 - 0.15 * std::cos(4 * M_PI * share));
     const Eigen::Vector3d p =
         walker.heel[n] + std::sqrt(share) * walker.foot * walker.ahead +
-        0.004 * Eigen::Vector3d(errors[0].Next(kPlateRate), errors[1].Next(kPlateRate), 0);
+        0.004 * Eigen::Vector3d(errors[0].Next(kWalkPlateRate), errors[1].Next(kWalkPlateRate), 0);
     const Eigen::Vector3d way = walker.BodyAt(t) - p;
     Eigen::Vector3d f = up * way / way.z();
     f.head<2>() *= walker.gain;
-    f.x() += 0.015 * up * errors[2].Next(kPlateRate);
-    f.y() += 0.015 * up * errors[3].Next(kPlateRate);
+    f.x() += 0.015 * up * errors[2].Next(kWalkPlateRate);
+    f.y() += 0.015 * up * errors[3].Next(kWalkPlateRate);
     const Eigen::Vector3d f_P = plate.R_WP.transpose() * f;
     const Eigen::Vector3d p_P = plate.R_WP.transpose() * (p - plate.p_WP);
     channels.col(k) << f_P, 1e3 * p_P.cross(f_P);
@@ -129,10 +129,10 @@ Eigen::MatrixXd ChannelsOf(const Walker& walker, int i) {
 
 FootMotion MotionOf(const Walker& walker) {
   FootMotion motion;
-  motion.rate = kFrameRate;
+  motion.rate = kWalkFrameRate;
   motion.body.resize(3, kWalkFrames);
   for (int k = 0; k < kWalkFrames; ++k) {
-    motion.body.col(k) = walker.BodyAt(k / kFrameRate) + walker.body_error;
+    motion.body.col(k) = walker.BodyAt(k / kWalkFrameRate) + walker.body_error;
   }
   for (int i = 0; i < 2; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -142,13 +142,13 @@ FootMotion MotionOf(const Walker& walker) {
     foot.heel_speed.resize(kWalkFrames);
     LastingError error(walker.noise + 5 + 10 * n);
     for (int k = 0; k < kWalkFrames; ++k) {
-      const double t = k / kFrameRate;
+      const double t = k / kWalkFrameRate;
       const double before = std::max(0.0, walker.begin[n] - t);
       const double after = std::max(0.0, t - walker.begin[n] - walker.stance);
       const bool stands = before == 0 && after == 0;
       foot.heel.col(k) = walker.heel[n] + walker.marker_error[n] +
                          2 * walker.speed * (after - before) * walker.ahead +
-                         0.003 * error.Next(kFrameRate) * walker.ahead;
+                         0.003 * error.Next(kWalkFrameRate) * walker.ahead;
       foot.heel(2, k) = stands ? 0 : 0.1;
       foot.heel_speed[k] = stands ? 0 : 2 * walker.speed;
     }
@@ -173,7 +173,7 @@ class PlateWalkersTest : public ::testing::Test {
     Channels channels = truth;
     fault(&plates, &channels);
     RecordedForces forces, right;
-    forces.rate = right.rate = kPlateRate;
+    forces.rate = right.rate = kWalkPlateRate;
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_TRUE(PlaceBetweenCorners(&plates[i]));
       forces.plates.push_back(ReadPlate(plates[i], channels[i]));
@@ -209,7 +209,7 @@ class PlateWalkersTest : public ::testing::Test {
   static PlateForces ReadPlate(const ForcePlate& plate, const Eigen::MatrixXd& channels) {
     PlateForces forces = ForcesOfPlate(plate, channels);
     forces.channels = channels;
-    JudgeLoads(kPlateRate, &forces, nullptr);
+    JudgeLoads(kWalkPlateRate, &forces, nullptr);
     return forces;
   }
 };
