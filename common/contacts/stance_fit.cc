@@ -174,10 +174,11 @@ std::optional<double> StanceFeet::Advance(const Stance& stance, const Eigen::Mat
   const auto beside = [&](Side side) { return (middle_of(side, mid).head<2>() - p).norm(); };
   const Side side = beside(Side::kLeft) < beside(Side::kRight) ? Side::kLeft : Side::kRight;
   Eigen::Vector2d of_body(0, 0), of_pressure(0, 0);
-  for (Eigen::Index i = 0; i < count / 3; ++i) {
+  const Eigen::Index third = count / 3;
+  for (Eigen::Index i = 0; i < third; ++i) {
     for (const Eigen::Index k : {i, count - 1 - i}) {
       const int frame = stance.frames[static_cast<std::size_t>(k)];
-      const double sign = (k == i ? -1.0 : 1.0) / static_cast<double>(count / 3);
+      const double sign = (k == i ? -1.0 : 1.0) / static_cast<double>(third);
       const Eigen::Vector2d foot = middle_of(side, frame).head<2>();
       of_body += sign * (motion_.body.col(frame).head<2>() - foot);
       of_pressure += sign * (cop.col(k).head<2>() - foot);
