@@ -195,6 +195,7 @@ std::string StanceFeet::Lateness() const {
     for (const LoadInterval& load : plate.loads) {
       const double begin = (forces_.time(load.begin) - motion_.first_time) * motion_.rate;
       const double end = (forces_.time(load.end) - motion_.first_time) * motion_.rate;
+      if (begin < 0 || end > motion_.num_frames()) continue;
       if (!IsOfPerson(plate.plate, static_cast<int>(begin), static_cast<int>(end))) continue;
       const SlowFoot* foot = nullptr;
       double most = 0;

@@ -226,6 +226,20 @@ TEST_F(PlateReadingsTest, ForcesThatComeLateAreTold) {
   }
 }
 
+TEST_F(PlateReadingsTest, LoadsBeforeAndBehindTheMotionTellNothing) {
+  for (FootPath& foot : motion_.feet) {
+    foot.heel = foot.heel.middleCols(70, 60).eval();
+    foot.toe = foot.toe.middleCols(70, 60).eval();
+    foot.heel_speed = foot.heel_speed.segment(70, 60).eval();
+    foot.toe_speed = foot.toe_speed.segment(70, 60).eval();
+  }
+  motion_.body = motion_.body.middleCols(70, 60).eval();
+  motion_.first_time = 0.7;
+  EXPECT_THAT(Fit(), IsEmpty());
+  EXPECT_THAT(warnings_.texts(), IsEmpty());
+  ExpectTrue();
+}
+
 TEST_F(PlateReadingsTest, APlateThatBearsNothingUnderAFootIsTold) {
   forces_.plates[1] = ReadPlate(TruePlate(1), 1e-3 * MakeChannels(1));
   EXPECT_THAT(Fit(), IsEmpty());
