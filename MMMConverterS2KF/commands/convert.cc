@@ -198,7 +198,7 @@ int ConvertSeveral(const Arguments& arguments) {
     try {
       ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
       bar.Clear();
-      CompareForces(exports, &report);
+      StudyExports(exports, &report);
       request.exports.clear();
       WriteConversion(request, &report);
       LogWarnings(report.warnings);

@@ -67,11 +67,16 @@ void Save(Conversion* conversion, const std::string& file) {
   files.Commit();
 }
 
-void Export(const Conversion& conversion, const std::string& name, const std::string& file) {
+void Export(Conversion* conversion, const std::string& name, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckOneOutput(conversion, file, false, name);
+  CheckOneOutput(*conversion, file, false, name);
+  const ExportFiles exports = {{name, file}};
+  Warnings told = std::exchange(conversion->report.warnings, {});
+  StudyExports(exports, &conversion->report);
+  told.AppendNew(conversion->report.warnings);
+  conversion->report.warnings = std::move(told);
   FilesTogether files;
-  WriteExports({{name, file}}, conversion.report);
+  WriteExports(exports, conversion->report);
   files.Commit();
 }
 

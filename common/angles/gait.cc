@@ -20,7 +20,7 @@ constexpr double kOneBelt = 0.15;
 constexpr double kUncutStance = 0.4;     // [s] of a contact whose end is not known
 constexpr double kTurn = 20 / kDegrees;  // [rad] by which a foot's way differs at random
 constexpr double kRuns = 0.5;            // of a stride on the ground: who stands less has a flight
-constexpr double kStair = 0.08;          // [m] of a step; kerbs and stairs are higher
+constexpr double kStair = 0.08;          // [m] of a stride; kerbs and stairs are higher
 
 /// A column at a time between two frames: on a straight line; beyond the ends the last.
 template <typename Columns>
@@ -116,7 +116,9 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   const StandingPlace from = PlaceOf(contact, feet);
   const StandingPlace to = PlaceOf(next, feet);
   const Eigen::Vector3d& belt = feet.foot(stride.side).belt;
-  const Eigen::Vector2d way = WayBetween(from, to, belt).head<2>();
+  const Eigen::Vector3d of_foot = WayBetween(from, to, belt);
+  const Eigen::Vector2d way = of_foot.head<2>();
+  stride.rise = of_foot.z();
   stride.length = way.norm();
   stride.heading = std::atan2(way.y(), way.x());
   stride.is_backwards = std::cos(from.yaw - stride.heading) < 0;
@@ -125,14 +127,13 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   const FootContact* before = ContactBefore(contacts, other, stride.end);
   const bool is_step = before != nullptr && *before->begin > stride.begin;
   stride.step_time = is_step ? stride.end - *before->begin : kNaN;
-  stride.step_length = stride.step_width = stride.rise = kNaN;
+  stride.step_length = stride.step_width = kNaN;
   if (is_step && stride.length > 0) {
     const Eigen::Vector2d forward = way.normalized();
     const Eigen::Vector3d step =
         WayBetween(PlaceOf(*before, feet), to, (belt + feet.foot(other).belt) / 2);
     stride.step_length = step.head<2>().dot(forward);
     stride.step_width = std::abs(step.x() * forward.y() - step.y() * forward.x());
-    stride.rise = step.z();
   }
   return stride;
 }

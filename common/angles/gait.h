@@ -23,7 +23,7 @@ struct Stride {
   double step_width = 0;      ///< [m] between both feet then
   double step_time = 0;       ///< [s] since the other foot's contact
   double double_support = 0;  ///< of the stride [0, 1]: the share that both feet stood
-  double rise = 0;            ///< of that step, upwards [m]
+  double rise = 0;            ///< from where the foot stood to where it stands next, upwards [m]
   bool is_backwards = false;  ///< the toes point against the way
 
   double time() const { return end - begin; }

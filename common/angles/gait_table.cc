@@ -42,7 +42,6 @@ constexpr StrideFigure kFigures[] = {
     {"step_length_m", [](const Stride& one) { return one.step_length; }},
     {"step_width_m", [](const Stride& one) { return one.step_width; }}};
 
-/// Without what CSV and JSON would quote.
 std::string StrideJson(const Stride& stride) {
   std::string text = fmt::format(
       R"({{"side": "{}", "begin_s": {}, "end_s": {}, "stride_time_deviation_s": {})",

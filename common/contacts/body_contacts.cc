@@ -264,8 +264,10 @@ GroundContact FindGroundContact(const KinematicModel& model, const std::vector<C
       return body.name == std::string(Name(side)) + " foot";
     });
     if (feet == nullptr || foot == bodies.end()) continue;
-    for (int k = 0; k < measured.num_frames(); ++k) {
-      contact.touches(foot - bodies.begin(), k) = feet->StandsAt(side, measured.time(k)) ? 1 : 0;
+    const std::vector<bool> stands =
+        feet->StandingFrames(side, measured.first_time, measured.rate, measured.num_frames());
+    for (std::size_t k = 0; k < stands.size(); ++k) {
+      contact.touches(foot - bodies.begin(), static_cast<Index>(k)) = stands[k] ? 1 : 0;
     }
   }
   return contact;

@@ -10,6 +10,7 @@
 namespace mmm_converter {
 namespace {
 
+constexpr double kSameFrame = 1e-6;  // of a frame: times are rounded
 constexpr double kJoined = 0.05;     // [s] loads of a foot that are so near are one contact
 constexpr double kSameEvent = 0.15;  // [s] between what plates and what speeds say of one event
 // Of walks that plates recorded: how much later the load begins and ends than a foot is slow, and
@@ -175,10 +176,19 @@ std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plat
 
 }  // namespace
 
-bool Contacts::StandsAt(Side side, double time) const {
-  return std::any_of(contacts.begin(), contacts.end(), [&](const FootContact& one) {
-    return one.side == side && one.begin.value_or(time) <= time && time <= one.end.value_or(time);
-  });
+std::vector<bool> Contacts::StandingFrames(Side side, double first_time, double rate,
+                                           int frames) const {
+  std::vector<bool> stands(static_cast<std::size_t>(frames), false);
+  const auto frame = [&](double time) { return (time - first_time) * rate; };
+  for (const FootContact& one : contacts) {
+    if (one.side != side) continue;
+    const double begin = one.begin ? std::ceil(frame(*one.begin) - kSameFrame) : 0;
+    const double end = one.end ? std::floor(frame(*one.end) + kSameFrame) : frames - 1.0;
+    const auto first = static_cast<std::ptrdiff_t>(std::clamp<double>(begin, 0, frames));
+    const auto behind = static_cast<std::ptrdiff_t>(std::clamp<double>(end + 1, 0, frames));
+    if (first < behind) std::fill(stands.begin() + first, stands.begin() + behind, true);
+  }
+  return stands;
 }
 
 Contacts FindContacts(const FootMotion& motion, const RecordedForces& forces) {

@@ -43,7 +43,8 @@ struct Contacts {
   std::vector<PlateLoad> loads;       ///< in the order of the plates
   std::vector<FootContact> contacts;  ///< the left foot's, then the right foot's, over time
 
-  bool StandsAt(Side side, double time) const;
+  /// Of frames at first_time + k / rate [s, Hz]: whether a foot stands.
+  std::vector<bool> StandingFrames(Side side, double first_time, double rate, int frames) const;
 };
 
 /// Which foot stands where and when, for all that asks. On plates: of whose heel-toe line the

@@ -219,10 +219,8 @@ std::array<FootRests, 2> FindRests(const FootMotion& motion, const FootStates& s
                                    const Contacts& contacts) {
   std::array<FootRests, 2> feet;
   for (std::size_t i = 0; i < 2; ++i) {
-    std::vector<bool> on(static_cast<std::size_t>(motion.num_frames()));
-    for (std::size_t k = 0; k < on.size(); ++k) {
-      on[k] = contacts.StandsAt(kSides[i], motion.time(static_cast<double>(k)));
-    }
+    const std::vector<bool> on =
+        contacts.StandingFrames(kSides[i], motion.first_time, motion.rate, motion.num_frames());
     feet[i].heel = FindRest(states.heels[i], on, motion.rate);
     feet[i].toe = FindRest(states.toes[i], on, motion.rate);
     FindStances(states, i, &feet[i]);

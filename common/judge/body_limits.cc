@@ -15,6 +15,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
+#include "common/model/posture.h"
 #include "common/motion/flat_frames.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/support/text.h"
@@ -37,8 +38,23 @@ constexpr std::size_t kFewestFlatFrames = 5;
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
 
-void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory, bool is_calibrated,
-                 VerdictReasons* reasons) {
+/// Of frames that show too few markers nobody says where joints are.
+std::vector<int> SeenFrames(const TrackingSetup& setup, const MarkerSequence& recording,
+                            int num_frames) {
+  std::vector<int> seen;
+  for (int k = 0; k < std::min(num_frames, recording.num_frames()); ++k) {
+    const auto frame = recording.frame(k);
+    const auto count =
+        std::count_if(setup.assignments().begin(), setup.assignments().end(),
+                      [&](const MarkerAssignment& one) { return IsSeen(frame.col(one.label)); });
+    if (count >= kFewestMarkers) seen.push_back(k);
+  }
+  return seen;
+}
+
+void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory,
+                 const std::vector<int>& seen, bool is_calibrated, VerdictReasons* reasons) {
+  if (seen.empty()) return;
   const KinematicModel& model = *setup.model;
   const MarkerKinematics kinematics(model, setup.joints, MarkerIndices(setup.assignments()));
   std::vector<std::string> standing;
@@ -50,15 +66,15 @@ void JudgeJoints(const TrackingSetup& setup, const PoseTrajectory& trajectory, b
     const bool is_leg = LimbOfJoint(joint.name).ends_with("leg");
     if (!is_leg || moved < kFewestShowing || HasNoLimits(joint)) continue;
     double frames = 0;
-    for (const Posture& posture : trajectory.postures) {
-      const double angle = posture.joint_angles[j];
+    for (const int k : seen) {
+      const double angle = trajectory.postures[static_cast<std::size_t>(k)].joint_angles[j];
       const bool is_low =
           angle < joint.lower + kAtLimitWithin && joint.lower < joint.rest - kNearRest;
       const bool is_high =
           angle > joint.upper - kAtLimitWithin && joint.upper > joint.rest + kNearRest;
       frames += is_low || is_high ? 1 : 0;
     }
-    const double share = frames / static_cast<double>(trajectory.postures.size());
+    const double share = frames / static_cast<double>(seen.size());
     if (!kBodyAtLimit.IsBeyond(share)) continue;
     standing.push_back(fmt::format("{} ({:.0f} %)", joint.name, kPercent * share));
     most = std::max(most, share);
@@ -147,7 +163,8 @@ void JudgeBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording
                      VerdictReasons* reasons) {
   // Of the reference model: robots and OpenSim's bodies have limits of their own kinds.
   if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return;
-  JudgeJoints(setup, trajectory, is_calibrated, reasons);
+  JudgeJoints(setup, trajectory, SeenFrames(setup, recording, trajectory.num_frames()),
+              is_calibrated, reasons);
   JudgeLegs(*setup.model, trajectory, reasons);
   JudgeSoles(setup, recording, trajectory, reasons);
 }

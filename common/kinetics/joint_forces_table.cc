@@ -112,8 +112,9 @@ std::string JsonOfLeg(const JointForces& found, std::size_t i) {
   return fmt::format(
       R"({{"name": "{}", "unit": "{}", "known_frames": {}, "largest": {}, "largest_at_s": {}, )"
       R"("largest_deviation": {}, "smallest": {}, "smallest_at_s": {}, "smallest_deviation": {}}})",
-      PlainCell(found.names[i]), found.is_moment[i] ? "N m/kg" : "N/kg", frames, value(largest),
-      time(largest), deviation(largest), value(smallest), time(smallest), deviation(smallest));
+      PlainCell(OneWord(found.names[i])), found.is_moment[i] ? "N m/kg" : "N/kg", frames,
+      value(largest), time(largest), deviation(largest), value(smallest), time(smallest),
+      deviation(smallest));
 }
 
 }  // namespace

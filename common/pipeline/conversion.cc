@@ -287,7 +287,7 @@ void WriteObjectModel(const ConversionPlan& plan) {
 
 void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
   FilesTogether files;
-  CompareForces(request.exports, report);
+  StudyExports(request.exports, report);
   WriteObjectModel(report->plan);
   WriteMotions(request, {report});
   WritePerson(report->plan);

@@ -74,7 +74,9 @@ bool IsC3d(const std::string& file) {
 std::string GaitSentence(const Gait& gait) {
   std::vector<std::string> texts;
   if (gait.left_out > 0) {
-    texts.push_back(fmt::format("{} strides are left out: a leg is hidden in them", gait.left_out));
+    texts.push_back(fmt::format(
+        "{} left out, in which a leg is hidden",
+        gait.left_out == 1 ? "1 stride is" : fmt::format("{} strides are", gait.left_out)));
   }
   if (gait.turns > 0) {
     texts.push_back(fmt::format("{} strides over a turn are left out of the means", gait.turns));
@@ -115,23 +117,20 @@ std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport
 }  // namespace
 
 void WriteContacts(const std::string& file, const ConversionReport& report) {
-  const auto ground = StudyGround(report);
-  const Contacts contacts = SeenContacts(report, *ground);
+  const auto& ground = report.ground;
   if (IsC3d(file)) {
-    WriteC3dWithEvents(report.plan.input.recording.file, AllEvents(contacts, report), file);
+    WriteC3dWithEvents(report.plan.input.recording.file, ground->events, file);
     return;
   }
+  const Contacts contacts = SeenContacts(report, *ground);
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatContactsJson(contacts, *ground->forces, ground->mass)
                                     : FormatContactsCsv(contacts));
 }
 
 void WriteResults(const std::string& file, const ConversionReport& report) {
-  const auto ground = StudyGround(report);
-  const std::vector<C3dResult> results =
-      ground->results.empty() ? C3dResultsOf(report, *ground, nullptr) : ground->results;
-  WriteC3dWithResults(report.plan.input.recording.file, results,
-                      AllEvents(SeenContacts(report, *ground), report), file);
+  const GroundStudy& ground = *report.ground;
+  WriteC3dWithResults(report.plan.input.recording.file, ground.results, ground.events, file);
 }
 
 void WriteGait(const std::string& file, const ConversionReport& report) {
@@ -139,22 +138,17 @@ void WriteGait(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports) {
-  std::vector<Gait> gaits;
-  gaits.reserve(reports.size());
   std::vector<GaitTrial> trials;
   for (const ConversionReport* report : reports) {
-    const auto ground = StudyGround(*report);
-    gaits.push_back(ground->gait ? *ground->gait : GaitOf(*report, *ground));
     const std::string name = fs::path(report->plan.input.recording.file).stem().string();
-    trials.push_back({name, &gaits.back()});
+    trials.push_back({name, &*report->ground->gait});
   }
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatGaitJson(trials) : FormatGaitCsv(trials));
 }
 
 void WriteGrf(const std::string& file, const ConversionReport& report) {
-  const auto ground = StudyGround(report);
-  CheckHasPlates(*ground->forces, report.plan.input);
+  const auto& ground = report.ground;
   const PoseTrajectory& motion = report.result.trajectory;
   const ExternalLoads loads = {ground->forces.get(), &ground->contacts, motion.first_time,
                                motion.time(motion.num_frames() - 1)};
@@ -166,10 +160,7 @@ void WriteGrf(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteJointForces(const std::string& file, const ConversionReport& report) {
-  const auto ground = StudyGround(report);
-  const JointForces found = ground->joint_forces
-                                ? *ground->joint_forces
-                                : JointForcesOf(report, *ground, HasDeviations(file));
+  const JointForces& found = *report.ground->joint_forces;
   const std::string ending = fs::path(file).extension().string();
   if (ending == ".json") {
     WriteFileAtomically(file, FormatJointForcesJson(found));
@@ -184,11 +175,12 @@ void StudyPlates(ConversionReport* report) {
   if (forces && !forces->plates.empty()) report->ground = StudyGround(*report, &report->warnings);
 }
 
-void CompareForces(const ExportFiles& files, ConversionReport* report) {
+void StudyExports(const ExportFiles& files, ConversionReport* report) {
   if (!NeedForces(files)) return;
   auto ground = std::make_shared<GroundStudy>(*StudyGround(*report, &report->warnings));
   report->ground = ground;
   const auto table = files.find(kGrf);
+  if (table != files.end()) CheckHasPlates(*ground->forces, report->plan.input);
   if (table != files.end() && ground->contacts.loads.empty()) {
     report->warnings.Add(
         fmt::format("{}: no force plate is loaded while the person is tracked: {} "
@@ -219,8 +211,8 @@ void CompareForces(const ExportFiles& files, ConversionReport* report) {
     ground->results = C3dResultsOf(*report, *ground, &report->warnings);
   }
   if (files.count(kResults) > 0 || (contacts != files.end() && IsC3d(contacts->second))) {
-    CheckC3dResults(report->plan.input.recording.file, ground->results,
-                    AllEvents(SeenContacts(*report, *ground), *report));
+    ground->events = AllEvents(SeenContacts(*report, *ground), *report);
+    CheckC3dResults(report->plan.input.recording.file, ground->results, ground->events);
   }
   if (files.count(kGait) > 0 || files.count(kContacts) > 0 || files.count(kResults) > 0) {
     for (const std::string& note : ground->event_notes) report->warnings.Add(note);

@@ -11,7 +11,8 @@ namespace mmm_converter {
 struct ConversionPlan;
 class OutputPlan;
 
-// Exports that are made of where feet stand and of what force plates measured.
+// Exports that are made of where feet stand and of what force plates measured. They write what
+// StudyExports found.
 
 /// When which foot is on the ground: JSON where the file is called so, else CSV.
 void WriteContacts(const std::string& file, const ConversionReport& report);
@@ -44,7 +45,8 @@ void StudyPlates(ConversionReport* report);
 /// Before exports are written: computes what these need, and warns of what they lack, where the
 /// plates tell another mass than was given, or where motion and forces do not fit together. No
 /// verdict depends on it.
-void CompareForces(const ExportFiles& files, ConversionReport* report);
+/// @throws Error where one of these exports can't be made.
+void StudyExports(const ExportFiles& files, ConversionReport* report);
 
 /// Says in the plan which files exports write.
 void NameOutputs(const ExportFiles& files, OutputPlan* plan);

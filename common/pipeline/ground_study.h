@@ -29,9 +29,11 @@ struct GroundStudy {
   Contacts steps;                        ///< the same, with the file's events where they count
   std::vector<std::string> event_notes;  ///< what there is to say of the file's events
   std::optional<MassByPlates> mass;
-  std::optional<JointForces> joint_forces;  ///< where they are exported
-  std::optional<Gait> gait;                 ///< where it is exported
-  std::vector<C3dResult> results;           ///< where they are exported
+  // What exports ask for: StudyExports.
+  std::optional<JointForces> joint_forces;
+  std::optional<Gait> gait;
+  std::vector<C3dResult> results;
+  std::vector<C3dEvent> events;  ///< of the copies of the recording
 };
 
 /// Forces of the recording's file, or of the one that is beside it.

@@ -13,55 +13,15 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFlatHeight = 0.04;  // [m] of both ends
-constexpr double kStandsShare = 25;   // [%] of heights below what is about the floor
 constexpr double kTurns = 0.3;        // [m/s] of one end by the other, of a foot that lies flat
 constexpr double kSlowest = 0.2;      // [m/s] of a belt
 constexpr double kAlike = 0.15;       // of its speed, by which feet on it differ
-constexpr double kMostAlike = 0.7;    // share of what lies flat that is alike
 constexpr double kStays = 0.2;        // of its speed, at which the person may go on
-constexpr double kLeastTime = 1;      // [s]
-constexpr double kLeastFlat = 0.1;    // of the time, of one foot
 constexpr double kFlatTime = 0.4;     // [s] that feet have to lie flat
 constexpr double kRemembers = 0.4;    // [s] of these
 constexpr double kHipsRemember = 1;   // [s]: a stride
 
 }  // namespace
-
-Vector3d FindBelt(const HumanMotion& motion) {
-  const int frames = motion.num_frames();
-  if (frames < kLeastTime * motion.rate) return Vector3d::Zero();
-  std::vector<double> along_x, along_y;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto level = [&](const Eigen::Matrix3Xd& path) {
-      const Eigen::VectorXd heights = path.row(2).transpose();
-      return Percentile({heights.data(), static_cast<std::size_t>(frames)}, kStandsShare);
-    };
-    const double heel_level = level(motion.heels[i]), toe_level = level(motion.toes[i]);
-    for (int k = 1; k + 1 < frames; ++k) {
-      const Vector3d heel = (motion.heels[i].col(k + 1) - motion.heels[i].col(k - 1));
-      const Vector3d toe = (motion.toes[i].col(k + 1) - motion.toes[i].col(k - 1));
-      const bool is_flat = motion.heels[i](2, k) < heel_level + kFlatHeight &&
-                           motion.toes[i](2, k) < toe_level + kFlatHeight &&
-                           (heel - toe).norm() * 0.5 * motion.rate < kTurns;
-      if (!is_flat) continue;
-      along_x.push_back(0.25 * motion.rate * (heel + toe).x());
-      along_y.push_back(0.25 * motion.rate * (heel + toe).y());
-    }
-  }
-  if (static_cast<double>(along_x.size()) < kLeastFlat * frames) return Vector3d::Zero();
-  const Vector3d belt(Median(along_x), Median(along_y), 0);
-  const double speed = belt.norm();
-  if (speed < kSlowest) return Vector3d::Zero();
-  double alike = 0;
-  for (std::size_t n = 0; n < along_x.size(); ++n) {
-    const double off = std::hypot(along_x[n] - belt.x(), along_y[n] - belt.y());
-    if (off < kAlike * speed) ++alike;
-  }
-  if (alike < kMostAlike * static_cast<double>(along_x.size())) return Vector3d::Zero();
-  const Vector3d way = motion.bodies.back().mid_hip - motion.bodies.front().mid_hip;
-  const double going = way.head<2>().norm() * motion.rate / (frames - 1);
-  return going < kStays * speed ? belt : Vector3d(Vector3d::Zero());
-}
 
 void MoveAgainst(const Vector3d& velocity, HumanMotion* motion) {
   for (int k = 0; k < motion->num_frames(); ++k) {

@@ -9,14 +9,11 @@
 
 namespace mmm_converter {
 
-/// Velocity of a treadmill's belt on which the person walks without going anywhere [m/s]; zero: the
-/// floor stands. Feet that lie flat on it all go one way at one speed.
-Eigen::Vector3d FindBelt(const HumanMotion& motion);
-
 /// As on a floor that goes with that velocity: everything is moved the other way [m/s].
 void MoveAgainst(const Eigen::Vector3d& velocity, HumanMotion* motion);
 
-/// The same frame by frame.
+/// The velocity of a treadmill's belt, as FootPath has it, frame by frame: feet that lie flat on it
+/// all go one way at one speed, and the person goes nowhere.
 class BeltWatch {
  public:
   /// feet: their heels and toes as they move over the belt as it is known until then; hips: their

@@ -13,11 +13,12 @@ constexpr double kOthersRate = 30;     // [Hz]
 constexpr double kOthersSlide = 0.01;  // [m] a frame
 
 std::vector<bool> ContactsOf(const Retargeted& retargeted, std::size_t foot) {
-  std::vector<bool> contact(retargeted.human.num_frames());
+  const PoseTrajectory& motion = retargeted.motion;
+  std::vector<bool> contact = retargeted.contacts.StandingFrames(
+      kSides[foot], motion.first_time, motion.rate, retargeted.human.num_frames());
   for (int k = 0; k < retargeted.human.num_frames(); ++k) {
-    contact[k] =
-        retargeted.contacts.StandsAt(kSides[foot], retargeted.motion.time(k)) &&
-        (IsAtRest(retargeted.states.heels[foot], k) || IsAtRest(retargeted.states.toes[foot], k));
+    contact[k] = contact[k] && (IsAtRest(retargeted.states.heels[foot], k) ||
+                                IsAtRest(retargeted.states.toes[foot], k));
   }
   return contact;
 }

@@ -20,8 +20,9 @@ constexpr double kSpeedsUpIn = 0.1;                    // [s] to the speed of a 
 constexpr double kRise = 250;
 constexpr double kRootSpeed = 6, kRootRise = 100;         // [m/s], [m/s^2]
 constexpr double kTurningSpeed = 20, kTurningRise = 250;  // [rad/s], [rad/s^2]
-constexpr double kBraking =
-    0.25;  // of an acceleration, with which what nears its target slows down
+// Of an acceleration, with which what nears its target slows down: with 0.7 it overshoots, and
+// turns back as hard.
+constexpr double kBraking = 0.25;
 constexpr double kLimitBraking = 0.85;  // before the end of a joint: frames need an eighth more
 constexpr double kStopping = 0.5;       // and what has no target
 constexpr double kBlendSpeed = 0.7, kBlendRise = 0.5;          // of the limits, for a blend

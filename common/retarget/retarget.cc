@@ -60,11 +60,10 @@ Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajector
   const HumanBody person = FindHumanBody(human_model);
   const PoseTrajectory& recorded = ground.recorded != nullptr ? *ground.recorded : motion;
   Retargeted result;
-  result.human = MoveHuman(human_model, person, recorded);
-  result.belt = FindBelt(result.human);
-  if (ground.recorded != nullptr) result.human = MoveHuman(human_model, person, motion);
-  MoveAgainst(result.belt, &result.human);
   const FootMotion feet = MoveFeet(human_model, recorded);
+  result.belt = (feet.feet[0].belt + feet.feet[1].belt) / 2;
+  result.human = MoveHuman(human_model, person, motion);
+  MoveAgainst(result.belt, &result.human);
   result.contacts = ground.contacts != nullptr ? *ground.contacts : FindContacts(feet, {});
   result.states = FindFootStates(feet);
   result.rests = FindRests(feet, result.states, result.contacts);

@@ -69,6 +69,10 @@ void OnlineTracker::Start(const Ref<const Matrix3Xd>& points, TrackState* state,
 void OnlineTracker::Step(const Ref<const Matrix3Xd>& points, double dt, TrackState* state,
                          TrackedFrame* frame) {
   frame->seen = markers_.Gather(points, &frame->measured);
+  StepTo(dt, state, frame);
+}
+
+void OnlineTracker::StepTo(double dt, TrackState* state, TrackedFrame* frame) {
   filter_.Predict(dt, &state->belief);
   state->gate.Advance(dt);
   Update(state, frame);
@@ -96,7 +100,7 @@ void OnlineTracker::Track(const Ref<const Matrix3Xd>& points, double dt, TrackSt
     watch_.IsInDoubt(frame->z, Distance(*frame), dt, &state->watch);
     return;
   }
-  Step(points, dt, state, frame);
+  StepTo(dt, state, frame);
   frame->reassembled = settings_.recovery && Reopen(state, frame);
   if (!settings_.recovery) return;
   if (frame->seen < kFewestMarkers) {

@@ -55,6 +55,8 @@ class OnlineTracker {
   void Update(TrackState* state, TrackedFrame* frame) {
     update_.Update(&filter_, &state->belief, &state->gate, frame);
   }
+  /// Predicts, and takes the markers that have been gathered.
+  void StepTo(double dt, TrackState* state, TrackedFrame* frame);
   /// After a gap: takes the track up where the markers are, from the posture before it.
   void Return(double dt, TrackState* state, TrackedFrame* frame);
   /// Where many markers are left out: takes the track up at a posture that explains them, too.

@@ -29,6 +29,8 @@ PostureRecovery::PostureRecovery(const TrackedMarkers& markers, const S2kfSettin
   fresh_.joint_angles.setZero(markers.kinematics().num_joints());
   options_.max_iterations = kFitIterations;
   options_.pulls = markers.pulls();
+  search_options_ = options_;
+  search_options_.max_iterations = kSearchIterations;
 }
 
 void PostureRecovery::Assemble(const TrackedFrame& frame, std::mt19937* random, Posture* posture) {
@@ -53,14 +55,12 @@ bool PostureRecovery::FindBetter(const TrackedFrame& frame, const TrackWatch& wa
 void PostureRecovery::FindAgain(const TrackedFrame& frame, const Posture& held,
                                 const TrackWatch& watch, std::mt19937* random, Posture* posture) {
   PostureFit& fit = search_.fit();
-  PostureFitOptions options = options_;
-  options.max_iterations = kSearchIterations;
   *posture = held;
-  fit.Solve(frame.z, scale_, options, posture);
-  search_.ImproveFrom(held.joint_angles, frame.z, scale_, options, posture);
+  fit.Solve(frame.z, scale_, search_options_, posture);
+  search_.ImproveFrom(held.joint_angles, frame.z, scale_, search_options_, posture);
   fresh_ = held;
   fresh_.joint_angles = fit.natural_angles();
-  search_.ImproveFrom(fit.natural_angles(), frame.z, scale_, options, &fresh_);
+  search_.ImproveFrom(fit.natural_angles(), frame.z, scale_, search_options_, &fresh_);
   std::swap(search_.random(), *random);
   for (int i = 0; i < start_attempts_; ++i) {
     search_.Improve(frame.z, scale_, options_, &fresh_);

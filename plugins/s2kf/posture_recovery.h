@@ -41,7 +41,7 @@ class PostureRecovery {
                   Posture* posture);
 
  private:
-  PostureFitOptions options_;
+  PostureFitOptions options_, search_options_;
   int start_attempts_;
   /// Of the markers, so that costs are those of markers of scale 1, which TrackWatch knows.
   Eigen::VectorXd scale_;

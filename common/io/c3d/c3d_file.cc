@@ -128,7 +128,7 @@ std::vector<std::string> C3dPointNames(const C3dFile& file, Warnings* warnings) 
   for (std::size_t i = 0; i < points; ++i) {
     if (names[i].empty()) names[i] = fmt::format("*{}", i + 1);
     if (seen.insert(names[i]).second) continue;
-    if (repeated.size() < 200) repeated += " " + names[i];
+    if (repeated.size() < 200) repeated += (repeated.empty() ? " " : ", ") + names[i];
     names[i] = fmt::format("*{}#{}", names[i], i + 1);
     seen.insert(names[i]);
   }

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/convert/marker_mapping.h"
 #include "common/convert/marker_set.h"
 #include "common/io/mmm/mmm_model.h"
@@ -28,6 +30,7 @@ class BodyLimitsTest : public ::testing::Test {
     for (int m = 0; m < static_cast<int>(reference.markers().size()); ++m) {
       setup_.mapping.assignments.push_back({LabelIx(m), MarkerIx(m), 1});
     }
+    Fly();
   }
 
   /// Of a motion in which a joint has an angle in some of 100 frames.
@@ -43,6 +46,12 @@ class BodyLimitsTest : public ::testing::Test {
     VerdictReasons reasons;
     JudgeBodyLimits(setup_, recording_, trajectory, false, &reasons);
     return reasons.Conclude().reasons;
+  }
+
+  /// Markers that go up, so that no foot lies flat.
+  void Fly() {
+    Stand();
+    for (int k = 0; k < 100; ++k) recording_.frame(k).row(2).array() += 0.05 * k;
   }
 
   /// Markers that stand still.
@@ -64,6 +73,11 @@ TEST_F(BodyLimitsTest, AJointAtItsLimitIsNamed) {
       ElementsAre(AllOf(HasSubstr("joints stand at their limits"), HasSubstr("LAy_joint (10 %)"))));
   EXPECT_THAT(Judge("LAy_joint", 0.349, 4), IsEmpty());
   EXPECT_THAT(Judge("LAy_joint", 0.3, 50), IsEmpty());
+}
+
+TEST_F(BodyLimitsTest, FramesThatShowNobodyDoNotCount) {
+  for (int k = 40; k < 100; ++k) recording_.frame(k).setConstant(NAN);
+  EXPECT_THAT(Judge("LAy_joint", 0.349, 4), ElementsAre(HasSubstr("LAy_joint (10 %)")));
 }
 
 TEST_F(BodyLimitsTest, AStraightKneeStands) { EXPECT_THAT(Judge("LKx_joint", 0, 100), IsEmpty()); }
