@@ -11,6 +11,7 @@
 #include "common/angles/gait_feet.h"
 #include "common/angles/gait_table.h"
 #include "common/angles/normal_bands.h"
+#include "common/judge/coverage.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -61,7 +62,7 @@ std::vector<GaitCycle> SingleCycles(const ConversionReport& report, const Ground
                                     const Gait& gait) {
   PoseTrajectory motion = report.result.trajectory;
   motion.standard_deviations.resize(0, 0);
-  const AnatomicalAngles angles = ComputeAnatomicalAngles(*report.plan.setup.model, motion);
+  const AnatomicalAngles angles = ShownAngles(report.plan.setup, motion);
   std::vector<GaitCycle> singles;
   for (const Stride& stride : gait.strides) {
     for (GaitCycle& one : CyclesOf(angles, {stride})) singles.push_back(one);

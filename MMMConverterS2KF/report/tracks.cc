@@ -10,6 +10,7 @@
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/angles/anatomical_angles.h"
+#include "common/judge/coverage.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/advice.h"
@@ -24,9 +25,8 @@ Json Floats(const MatrixXd& numbers) { return ToJson(PackFloats(numbers)); }
 Json Quantised(const MatrixXd& numbers) { return ToJson(PackQuantised(numbers)); }
 
 /// Angles by the names that people have for them: a column each.
-Json AnatomyJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
-  const AnatomicalAngles angles = ComputeAnatomicalAngles(model, trajectory);
-  const DrawnFrames drawn(trajectory.num_frames());
+Json AnatomyJson(const AnatomicalAngles& angles) {
+  const DrawnFrames drawn(angles.num_frames());
   Json names = Json::array();
   for (const AnatomicalAngle& one : angles.angles) {
     names.push_back({{"joint", one.joint}, {"side", one.side}, {"motion", one.motion}});
@@ -69,6 +69,9 @@ Json TrialJson(const Trial& trial, const CommonGround& ground) {
   if (trial.subject) out["subject"] = ToJson(*trial.subject);
   if (trial.truth && trial.truth->num_frames() == frames) {
     out["truth"] = MotionJson(*trial.model, *trial.truth);
+    if (HasAnatomy(*trial.model)) {
+      out["truth"]["anatomy"] = AnatomyJson(ComputeAnatomicalAngles(*trial.model, *trial.truth));
+    }
   }
   return out;
 }
@@ -115,6 +118,14 @@ Json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
   return incidents;
 }
 
+Json TrackedJson(const KinematicModel& model, const ComparisonRow& row) {
+  Json motion = MotionJson(model, row.result.trajectory);
+  if (HasAnatomy(model)) {
+    motion["anatomy"] = AnatomyJson(ShownAngles(row.setup, row.result.trajectory));
+  }
+  return motion;
+}
+
 Json RowJson(const Trial& trial, const ComparisonRow& row) {
   Json out = {{"trial", row.trial},
               {"contender", row.contender},
@@ -129,7 +140,7 @@ Json RowJson(const Trial& trial, const ComparisonRow& row) {
     seconds[static_cast<Eigen::Index>(k)] = row.result.frames[k].seconds;
   }
   out.update({{"incidents", IncidentsJson(trial, row)},
-              {"motion", MotionJson(*trial.model, row.result.trajectory)},
+              {"motion", TrackedJson(*trial.model, row)},
               {"distances", Quantised(drawn.Of(row.distances.transpose()))},
               {"mean", Floats(drawn.Of(row.mean_distance))},
               {"p05", Floats(drawn.LeastOf(row.p05_distance))},
@@ -181,7 +192,6 @@ Json MotionJson(const KinematicModel& model, const PoseTrajectory& trajectory) {
   if (deviations.cols() == frames && deviations.rows() == 6 + num_joints) {
     motion["deviations"] = Quantised(drawn.Of(deviations.bottomRows(num_joints).transpose()));
   }
-  if (HasAnatomy(model)) motion["anatomy"] = AnatomyJson(model, trajectory);
   return motion;
 }
 

@@ -219,6 +219,7 @@ struct Row {
   int joint = 0;  // of JointFrames
   Sense sense;
   double sign = 1;
+  std::vector<int> joints;  // of the model, that change it
 };
 
 std::vector<Row> RowsOf(const KinematicModel& model, const std::vector<JointFrames>& joints) {
@@ -232,7 +233,12 @@ std::vector<Row> RowsOf(const KinematicModel& model, const std::vector<JointFram
       if (effects.cols() == 0) continue;
       if (effects.row(sense.turn).cwiseAbs().maxCoeff() < kLeastEffect) continue;
       const double side = sense.is_mirrored && joints[j].is_left ? -1 : 1;
-      rows.push_back({static_cast<int>(j), sense, side * sense.sign});
+      Row row{static_cast<int>(j), sense, side * sense.sign, {}};
+      for (std::size_t i = 0; i < columns.size() && joints[j].proximal >= 0; ++i) {
+        const double effect = effects(sense.turn, static_cast<Eigen::Index>(i));
+        if (std::abs(effect) >= kLeastEffect) row.joints.push_back(columns[i] - 6);
+      }
+      rows.push_back(std::move(row));
     }
   }
   return rows;
@@ -285,6 +291,7 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
     const char* side = joint.is_left ? "left" : "right";
     angles.angles.push_back(
         {joint.anatomy->joint, joint.anatomy->is_sided ? side : "", row.sense.motion});
+    angles.joints.push_back(row.joints);
   }
   const bool has_deviations = motion.standard_deviations.size() > 0;
   const auto count = static_cast<Eigen::Index>(rows.size());
@@ -311,6 +318,27 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
     }
   }
   return angles;
+}
+
+AnatomicalAngles WithoutJoints(const AnatomicalAngles& angles, const std::vector<int>& joints) {
+  AnatomicalAngles left;
+  left.rate = angles.rate;
+  left.first_time = angles.first_time;
+  left.forward = angles.forward;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < angles.angles.size(); ++i) {
+    const std::vector<int>& own = angles.joints[i];
+    const bool changes = own.empty() || std::any_of(own.begin(), own.end(), [&](int joint) {
+                           return std::find(joints.begin(), joints.end(), joint) == joints.end();
+                         });
+    if (!changes) continue;
+    rows.push_back(static_cast<Eigen::Index>(i));
+    left.angles.push_back(angles.angles[i]);
+    left.joints.push_back(own);
+  }
+  left.values = angles.values(rows, Eigen::all);
+  if (angles.deviations.size() > 0) left.deviations = angles.deviations(rows, Eigen::all);
+  return left;
 }
 
 Eigen::MatrixXd AnatomicalMoments(const KinematicModel& model, const PoseTrajectory& motion,

@@ -35,6 +35,8 @@ struct AnatomicalAngles {
   double rate = 0;        ///< [Hz]
   double first_time = 0;  ///< [s]
   std::vector<AnatomicalAngle> angles;
+  std::vector<std::vector<int>>
+      joints;  ///< of the model, by which each angle changes; empty: the root
   Eigen::Vector2d forward = Eigen::Vector2d::UnitY();  ///< where a pelvis without rotation faces, W
   Eigen::MatrixXd values;                              ///< angles x frames [rad], without jumps
   Eigen::MatrixXd deviations;  ///< standard deviations [rad]; empty: the motion has none
@@ -49,6 +51,9 @@ bool HasAnatomy(const KinematicModel& model);
 /// Joints that the motion does not name are as in ZeroPosture. Deviations of joints are taken as
 /// independent of each other. @throws Error where HasAnatomy is false.
 AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model, const PoseTrajectory& motion);
+
+/// Without the angles that change by none but these joints of the model.
+AnatomicalAngles WithoutJoints(const AnatomicalAngles& angles, const std::vector<int>& joints);
 
 /// Moments about the axes of these angles, a row for each: times the angles' rates they are the
 /// power of the joints. joint_forces: generalised forces, the model's joints x the motion's frames

@@ -58,6 +58,22 @@ double SecondsBeyond(const Gap& gap, const Gap& other, double rate) {
   return gap.seconds - std::max(0, common) / rate;
 }
 
+// Of the model: those that no assigned marker moves, and UntoldJoints.
+std::vector<int> UnshownJoints(const TrackingSetup& setup) {
+  const MarkerKinematics kinematics(*setup.model, setup.joints, MarkerIndices(setup.assignments()));
+  std::vector<int> unshown;
+  for (int joint = 0; joint < setup.model->num_joints(); ++joint) {
+    const auto& tracked = kinematics.joints();
+    const auto found = std::find(tracked.begin(), tracked.end(), joint);
+    bool is_shown = false;
+    for (int m = 0; m < kinematics.num_markers() && found != tracked.end(); ++m) {
+      is_shown = is_shown || kinematics.Moves(static_cast<int>(found - tracked.begin()), m);
+    }
+    if (!is_shown) unshown.push_back(joint);
+  }
+  return unshown;
+}
+
 }  // namespace
 
 std::vector<Limb> LimbsOf(const TrackingSetup& setup) {
@@ -92,6 +108,10 @@ std::string DescribeUnshown(const std::vector<Limb>& limbs) {
     }
   }
   return unshown.empty() ? "" : JoinNames(unshown, " and ");
+}
+
+AnatomicalAngles ShownAngles(const TrackingSetup& setup, const PoseTrajectory& motion) {
+  return WithoutJoints(ComputeAnatomicalAngles(*setup.model, motion), UnshownJoints(setup));
 }
 
 std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,

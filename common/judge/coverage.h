@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "common/angles/anatomical_angles.h"
 #include "common/convert/tracking_setup.h"
 #include "common/motion/marker_sequence.h"
+#include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {
 
@@ -26,6 +28,9 @@ std::vector<Limb> LimbsOf(const TrackingSetup& setup);
 /// Limbs that no or too few markers show, and joints that none does: they are at rest, or drawn
 /// along. Empty: all are shown.
 std::string DescribeUnshown(const std::vector<Limb>& limbs);
+
+/// The angles of a motion that is tracked so, without those that no assigned marker tells.
+AnatomicalAngles ShownAngles(const TrackingSetup& setup, const PoseTrajectory& motion);
 
 struct Gap {
   std::string what;  ///< a limb, or "the body"

@@ -15,6 +15,7 @@
 #include "common/angles/anatomical_angles.h"
 #include "common/angles/normal_bands.h"
 #include "common/io/c3d/c3d_file.h"
+#include "common/judge/coverage.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"
 #include "common/support/error.h"
@@ -149,7 +150,7 @@ std::vector<C3dResult> C3dResultsOf(const ConversionReport& report, const Ground
   const PoseTrajectory motion = TrackedMotion(report.result);
   const KnownLegs known = FindKnownLegs(report);
   ResultPoints points(PrefixOf(file, recording.subject), FirstFrame(file, motion), known);
-  points.Add(ComputeAnatomicalAngles(*report.plan.setup.model, motion));
+  points.Add(ShownAngles(report.plan.setup, motion));
   if (const auto moments = LegMomentsOf(report, ground)) points.Add(*moments);
   std::vector<C3dResult> results = points.Take();
   const std::vector<std::string> hidden = HideUnstorable(file, &results);

@@ -297,8 +297,7 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
 }
 
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
-  const AnatomicalAngles angles =
-      ComputeAnatomicalAngles(*report.plan.setup.model, report.result.trajectory);
+  const AnatomicalAngles angles = ShownAngles(report.plan.setup, report.result.trajectory);
   Gait gait = AnalyzeGait(ground.feet, ground.steps, angles, FindKnownLegs(report));
   AddForces(report, ground, &gait);
   if (report.plan.emg) AddEmg(*report.plan.emg, &gait);
