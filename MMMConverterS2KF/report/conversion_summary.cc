@@ -136,7 +136,7 @@ std::string FormatSummary(const ConversionReport& report) {
       fmt::format("converter  {}, {}\n", plan.converter.config.type, plan.converter.config.file);
   text += fmt::format("markers    {}{}\n", DescribeMarkersShortly(plan.setup.mapping),
                       plan.setup.marker_set.empty() ? "" : ", marker set " + plan.setup.marker_set);
-  const std::string unshown = DescribeUnshown(LimbsOf(plan.setup));
+  const std::string unshown = DescribeUnshown(plan.setup);
   if (!plan.object && !unshown.empty()) {
     text += "not shown  " + unshown + ": at rest, with large deviations\n";
   }

@@ -62,7 +62,8 @@ std::vector<GaitCycle> SingleCycles(const ConversionReport& report, const Ground
                                     const Gait& gait) {
   PoseTrajectory motion = report.result.trajectory;
   motion.standard_deviations.resize(0, 0);
-  const AnatomicalAngles angles = ShownAngles(report.plan.setup, motion);
+  AnatomicalAngles angles = ShownAngles(report.plan.setup, motion);
+  HideUnknown(report.plan.setup, report.plan.input.recording.markers, &angles);
   std::vector<GaitCycle> singles;
   for (const Stride& stride : gait.strides) {
     for (GaitCycle& one : CyclesOf(angles, {stride})) singles.push_back(one);
@@ -108,12 +109,11 @@ Json BandsJson(const NormalBands& normal) {
 }
 
 /// Of each foot the Gait Variable Scores of its strides, and their root mean square, the Gait
-/// Profile Score. Null: a normal band is missing, or an angle.
-Json ProfileJson(const Gait& gait, const std::vector<GaitCycle>& singles,
-                 const NormalBands& normal) {
+/// Profile Score. Null: a normal band is missing, or an angle of a stride.
+Json ProfileJson(const std::vector<GaitCycle>& singles, const NormalBands& normal) {
   Json profile;
   for (const Side side : kSides) {
-    std::vector<double> squares(gait.strides.size(), 0);
+    std::vector<double> squares;
     Json scores = Json::array();
     for (const ProfileAngle& angle : kProfileAngles) {
       const NormalBand* band = normal.Find(angle.joint, angle.motion, side);
@@ -124,10 +124,12 @@ Json ProfileJson(const Gait& gait, const std::vector<GaitCycle>& singles,
       std::vector<double> values;
       for (const GaitCycle& one : ThoseOf(asked, singles)) {
         values.push_back(VariableScore(one, *band));
-        squares[values.size() - 1] += values.back() * values.back() / kProfileAngles.size();
       }
-      if (values.empty()) return nullptr;
-      squares.resize(std::min(squares.size(), values.size()));
+      if (scores.empty()) squares.assign(values.size(), 0);
+      if (values.empty() || values.size() != squares.size()) return nullptr;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        squares[i] += values[i] * values[i] / kProfileAngles.size();
+      }
       Json score = FigureJson(values);
       score["joint"] = angle.joint;
       score["what"] = angle.motion;
@@ -174,7 +176,7 @@ Json GaitPageJson(const ConversionReport& report, const GroundStudy& ground) {
               {"cycles", cycles}};
   if (report.plan.normal) {
     out["normal"] = BandsJson(*report.plan.normal);
-    out["profile"] = ProfileJson(gait, singles, *report.plan.normal);
+    out["profile"] = ProfileJson(singles, *report.plan.normal);
   }
   return out;
 }

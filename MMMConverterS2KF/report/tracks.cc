@@ -118,10 +118,12 @@ Json IncidentsJson(const Trial& trial, const ComparisonRow& row) {
   return incidents;
 }
 
-Json TrackedJson(const KinematicModel& model, const ComparisonRow& row) {
-  Json motion = MotionJson(model, row.result.trajectory);
-  if (HasAnatomy(model)) {
-    motion["anatomy"] = AnatomyJson(ShownAngles(row.setup, row.result.trajectory));
+Json TrackedJson(const Trial& trial, const ComparisonRow& row) {
+  Json motion = MotionJson(*trial.model, row.result.trajectory);
+  if (HasAnatomy(*trial.model)) {
+    AnatomicalAngles angles = ShownAngles(row.setup, row.result.trajectory);
+    HideUnknown(row.setup, trial.markers, &angles);
+    motion["anatomy"] = AnatomyJson(angles);
   }
   return motion;
 }
@@ -140,7 +142,7 @@ Json RowJson(const Trial& trial, const ComparisonRow& row) {
     seconds[static_cast<Eigen::Index>(k)] = row.result.frames[k].seconds;
   }
   out.update({{"incidents", IncidentsJson(trial, row)},
-              {"motion", TrackedJson(*trial.model, row)},
+              {"motion", TrackedJson(trial, row)},
               {"distances", Quantised(drawn.Of(row.distances.transpose()))},
               {"mean", Floats(drawn.Of(row.mean_distance))},
               {"p05", Floats(drawn.LeastOf(row.p05_distance))},

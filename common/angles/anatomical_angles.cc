@@ -320,25 +320,18 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
   return angles;
 }
 
-AnatomicalAngles WithoutJoints(const AnatomicalAngles& angles, const std::vector<int>& joints) {
-  AnatomicalAngles left;
-  left.rate = angles.rate;
-  left.first_time = angles.first_time;
-  left.forward = angles.forward;
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < angles.angles.size(); ++i) {
-    const std::vector<int>& own = angles.joints[i];
-    const bool changes = own.empty() || std::any_of(own.begin(), own.end(), [&](int joint) {
-                           return std::find(joints.begin(), joints.end(), joint) == joints.end();
-                         });
-    if (!changes) continue;
-    rows.push_back(static_cast<Eigen::Index>(i));
-    left.angles.push_back(angles.angles[i]);
-    left.joints.push_back(own);
+AnatomicalAngles SomeOf(const AnatomicalAngles& angles, const std::vector<Eigen::Index>& rows) {
+  AnatomicalAngles some;
+  some.rate = angles.rate;
+  some.first_time = angles.first_time;
+  some.forward = angles.forward;
+  for (const Eigen::Index row : rows) {
+    some.angles.push_back(angles.angles[static_cast<std::size_t>(row)]);
+    some.joints.push_back(angles.joints[static_cast<std::size_t>(row)]);
   }
-  left.values = angles.values(rows, Eigen::all);
-  if (angles.deviations.size() > 0) left.deviations = angles.deviations(rows, Eigen::all);
-  return left;
+  some.values = angles.values(rows, Eigen::all);
+  if (angles.deviations.size() > 0) some.deviations = angles.deviations(rows, Eigen::all);
+  return some;
 }
 
 Eigen::MatrixXd AnatomicalMoments(const KinematicModel& model, const PoseTrajectory& motion,

@@ -52,8 +52,8 @@ bool HasAnatomy(const KinematicModel& model);
 /// independent of each other. @throws Error where HasAnatomy is false.
 AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model, const PoseTrajectory& motion);
 
-/// Without the angles that change by none but these joints of the model.
-AnatomicalAngles WithoutJoints(const AnatomicalAngles& angles, const std::vector<int>& joints);
+/// These rows of them.
+AnatomicalAngles SomeOf(const AnatomicalAngles& angles, const std::vector<Eigen::Index>& rows);
 
 /// Moments about the axes of these angles, a row for each: times the angles' rates they are the
 /// power of the joints. joint_forces: generalised forces, the model's joints x the motion's frames

@@ -164,7 +164,7 @@ GaitKind KindOf(const std::vector<Stride>& strides) {
 
 bool IsKnown(const FootContact& contact, const FootContact& next, const FootMotion& feet,
              const KnownLegs& known) {
-  const int begin = feet.frame(*contact.begin), end = feet.frame(*next.begin);
+  const int begin = feet.frame(*contact.begin - kSeenBeside), end = feet.frame(*next.begin);
   return std::all_of(known.begin(), known.end(), [&](const std::vector<bool>& leg) {
     return std::find(leg.begin() + begin, leg.begin() + end + 1, false) == leg.begin() + end + 1;
   });

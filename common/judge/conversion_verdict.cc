@@ -210,7 +210,7 @@ class Judge {
 
   void JudgeGaps() {
     const int late = FramesBeforeFirstSeen(evidence_.result.residuals);
-    for (const Gap& gap : LongGaps(evidence_.setup, limbs_, markers_)) {
+    for (const Gap& gap : LongGaps(evidence_.setup, markers_)) {
       if (gap.last_frame < late) continue;
       reasons_.Add(Level::kCheck,
                    fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what, gap.seconds,

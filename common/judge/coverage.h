@@ -25,12 +25,34 @@ struct Limb {
 /// Those with tracked joints; none of a model that is not MMM's.
 std::vector<Limb> LimbsOf(const TrackingSetup& setup);
 
+/// An end of the body, which markers elsewhere do not tell: "pelvis", "left foot", "right hand".
+struct EndPart {
+  std::string name;
+  int fewest = 1;               ///< markers that tell it
+  std::vector<LabelIx> labels;  ///< of the assigned markers on it
+
+  bool IsKnownBy(int markers) const { return markers >= fewest; }
+};
+
+/// Those that a person of MMM or OpenSim has; none of another model.
+std::vector<EndPart> EndPartsOf(const TrackingSetup& setup);
+
+/// The frames in which all of these limbs and end parts are known, but for a tenth of a second;
+/// what the model does not have is left out. A part whose markers are too few in all frames is
+/// never known, but for a pelvis that has some.
+std::vector<bool> KnownFrames(const TrackingSetup& setup, const std::vector<std::string>& parts,
+                              const MarkerSequence& recording);
+
 /// Limbs that no or too few markers show, and joints that none does: they are at rest, or drawn
 /// along. Empty: all are shown.
-std::string DescribeUnshown(const std::vector<Limb>& limbs);
+std::string DescribeUnshown(const TrackingSetup& setup);
 
 /// The angles of a motion that is tracked so, without those that no assigned marker tells.
 AnatomicalAngles ShownAngles(const TrackingSetup& setup, const PoseTrajectory& motion);
+
+/// NaN where what an angle lies between is not known. The angles' last frame is the recording's.
+void HideUnknown(const TrackingSetup& setup, const MarkerSequence& recording,
+                 AnatomicalAngles* angles);
 
 struct Gap {
   std::string what;  ///< a limb, or "the body"
@@ -39,10 +61,10 @@ struct Gap {
   double seconds = 0;
 };
 
-/// limbs: LimbsOf(setup). The three longest times of half a second in which no marker is seen, and
-/// the longest of a second in which a limb has fewer than it is known by; limbs that have fewer at
-/// all times, or are hidden hardly longer than the whole body, are left out.
-std::vector<Gap> LongGaps(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                          const MarkerSequence& recording);
+/// The three longest times of half a second in which no marker is seen, and the longest of a second
+/// in which a limb or a hand, of half a second in which the pelvis or a foot has fewer than it is
+/// known by; what has fewer at all times, or is hidden hardly longer than what it is a part of, is
+/// left out.
+std::vector<Gap> LongGaps(const TrackingSetup& setup, const MarkerSequence& recording);
 
 }  // namespace mmm_converter

@@ -130,6 +130,14 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
     reasons->Add(Level::kCheck,
                  fmt::format("too few markers to know {}", JoinNames(lost, " and ")));
   }
+  const std::vector<EndPart> parts = EndPartsOf(setup);
+  const bool shows_leg = std::any_of(limbs.begin(), limbs.end(), [&](const Limb& one) {
+    return one.name.ends_with("leg") && is_known(one);
+  });
+  if (shows_leg && !parts.empty() && parts.front().labels.empty()) {
+    reasons->Add(Level::kCheck,
+                 "no marker is on the pelvis: how it and the hips turn is hardly known");
+  }
   const int markers = static_cast<int>(setup.assignments().size());
   const bool shows_limb = std::any_of(limbs.begin(), limbs.end(), is_known);
   if (3 * markers >= degrees && (shows_limb || limbs.empty())) return;

@@ -87,7 +87,7 @@ class ResultPoints {
         const double unit = kind == C3dResultKind::kAngle ? kDegrees : 1;
         C3dResult& result = ResultOf(row.joint, side, kind, rows.num_frames());
         result.values.row(*plane) += unit * OwnSideSign(row.joint, row.motion, side) * values;
-        if (IsOfLeg(row.joint)) Hide(side, &result);
+        if (kind != C3dResultKind::kAngle && IsOfLeg(row.joint)) Hide(side, &result);
       }
     }
   }
@@ -150,7 +150,9 @@ std::vector<C3dResult> C3dResultsOf(const ConversionReport& report, const Ground
   const PoseTrajectory motion = TrackedMotion(report.result);
   const KnownLegs known = FindKnownLegs(report);
   ResultPoints points(PrefixOf(file, recording.subject), FirstFrame(file, motion), known);
-  points.Add(ShownAngles(report.plan.setup, motion));
+  AnatomicalAngles angles = ShownAngles(report.plan.setup, motion);
+  HideUnknown(report.plan.setup, recording.markers, &angles);
+  points.Add(angles);
   if (const auto moments = LegMomentsOf(report, ground)) points.Add(*moments);
   std::vector<C3dResult> results = points.Take();
   const std::vector<std::string> hidden = HideUnstorable(file, &results);

@@ -75,7 +75,7 @@ std::string GaitSentence(const Gait& gait) {
   std::vector<std::string> texts;
   if (gait.left_out > 0) {
     texts.push_back(fmt::format(
-        "{} left out, in which a leg is hidden",
+        "{} left out, in which a leg or a foot is hidden",
         gait.left_out == 1 ? "1 stride is" : fmt::format("{} strides are", gait.left_out)));
   }
   if (gait.turns > 0) {

@@ -95,24 +95,16 @@ void CheckIsOfRecording(const RecordedForces& forces, const Input& input) {
 }  // namespace
 
 KnownLegs FindKnownLegs(const ConversionReport& report) {
-  const MarkerSequence& markers = report.plan.input.recording.markers;
   const Eigen::MatrixXd& residuals = report.result.residuals;
-  const std::vector<Limb> limbs = LimbsOf(report.plan.setup);
   KnownLegs known;
   for (const Side side : kSides) {
-    const std::string name = fmt::format("{} leg", Name(side));
-    const auto limb =
-        std::find_if(limbs.begin(), limbs.end(), [&](const Limb& one) { return one.name == name; });
+    const std::vector<bool> frames = KnownFrames(
+        report.plan.setup, {fmt::format("{} leg", Name(side)), fmt::format("{} foot", Name(side))},
+        report.plan.input.recording.markers);
     std::vector<bool>& leg = known[static_cast<std::size_t>(side)];
-    for (int k = FramesBeforeFirstSeen(residuals); k < markers.num_frames(); ++k) {
-      bool is_known = residuals.col(k).array().isFinite().any();
-      if (is_known && limb != limbs.end()) {
-        const auto seen = std::count_if(limb->labels.begin(), limb->labels.end(), [&](int label) {
-          return IsSeen(markers.frame(k).col(label));
-        });
-        is_known = limb->IsKnownBy(static_cast<int>(seen));
-      }
-      leg.push_back(is_known);
+    for (int k = FramesBeforeFirstSeen(residuals); k < static_cast<int>(frames.size()); ++k) {
+      leg.push_back(frames[static_cast<std::size_t>(k)] &&
+                    residuals.col(k).array().isFinite().any());
     }
   }
   return known;
@@ -258,8 +250,8 @@ Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground)
     const auto is_seen = [&](double time) {
       return leg[static_cast<std::size_t>(feet.frame(time))];
     };
-    if (one.begin && !is_seen(*one.begin)) one.begin.reset();
-    if (one.end && !is_seen(*one.end)) one.end.reset();
+    if (one.begin && !is_seen(*one.begin - kSeenBeside)) one.begin.reset();
+    if (one.end && !is_seen(*one.end + kSeenBeside)) one.end.reset();
   }
   return seen;
 }
@@ -297,7 +289,8 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
 }
 
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground) {
-  const AnatomicalAngles angles = ShownAngles(report.plan.setup, report.result.trajectory);
+  AnatomicalAngles angles = ShownAngles(report.plan.setup, report.result.trajectory);
+  HideUnknown(report.plan.setup, report.plan.input.recording.markers, &angles);
   Gait gait = AnalyzeGait(ground.feet, ground.steps, angles, FindKnownLegs(report));
   AddForces(report, ground, &gait);
   if (report.plan.emg) AddEmg(*report.plan.emg, &gait);

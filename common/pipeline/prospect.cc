@@ -25,7 +25,7 @@ Prospect FindProspect(const InputRequest& request, std::shared_ptr<const Recordi
     for (const ReadingDoubt& doubt : plan.input.recording.doubts) {
       prospect.doubts.push_back(WithAdvice(doubt.text, doubt.remedy));
     }
-    prospect.gaps = LongGaps(plan.setup, prospect.limbs, plan.input.recording.markers);
+    prospect.gaps = LongGaps(plan.setup, plan.input.recording.markers);
   } catch (const Error& error) {
     prospect.failure = WithAdvice(error);
   }

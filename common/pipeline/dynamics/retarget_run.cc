@@ -101,7 +101,7 @@ void RetargetConversion(const ConversionReport& converted, RetargetReport* repor
   warnings->Append(converted.warnings);
   report->motion_name = converted.plan.motion_name;
   report->conversion_verdict = converted.verdict;
-  report->unshown = DescribeUnshown(LimbsOf(converted.plan.setup));
+  report->unshown = DescribeUnshown(converted.plan.setup);
   PoseTrajectory motion = TrackedFrames(converted, warnings);
   const Eigen::MatrixXd& all = converted.result.trajectory.standard_deviations;
   const Eigen::Index seen = std::min<Eigen::Index>(all.cols(), motion.num_frames());
