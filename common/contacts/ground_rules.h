@@ -17,9 +17,9 @@ inline constexpr double kLowHeight = 0.06;
 /// Of a contact, and of a gap between two [s]: a runner's foot stands for 0.1 s.
 inline constexpr double kShortestContact = 0.05;
 
-/// A foot that is not seen for so long before it strikes, and after it lifts, strikes and lifts at no
-/// known time [s].
-inline constexpr double kSeenBeside = 0.1;
+/// A foot that is not seen for so long before it strikes, and after it lifts, strikes and lifts at
+/// no known time [s].
+inline constexpr double kSeenBeside = 0.08;
 
 // An end of a foot rests on the ground from below the first height and speed until it is above
 // kLowHeight or the last speed. A robot's foot is held where its person's rests: where it is held

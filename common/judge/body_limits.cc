@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/judge/knee_limits.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
@@ -165,6 +166,7 @@ void JudgeBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording
   if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return;
   JudgeJoints(setup, trajectory, SeenFrames(setup, recording, trajectory.num_frames()),
               is_calibrated, reasons);
+  JudgeKnees(setup, recording, trajectory, reasons);
   JudgeLegs(*setup.model, trajectory, reasons);
   JudgeSoles(setup, recording, trajectory, reasons);
 }

@@ -50,13 +50,17 @@ KinematicModel WithMass(const KinematicModel& model, double mass) {
   return KinematicModel(std::move(description));
 }
 
-/// Whether it is told by plates, or by a leg that is seen for most of it.
+/// Whether it is told by plates, or by a leg that is seen where it begins or for most of it.
 bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs& known) {
   const std::vector<bool>& leg = known[static_cast<std::size_t>(contact.side)];
   const int last = feet.num_frames() - 1;
   const int from = contact.begin ? feet.frame(*contact.begin) : 0;
   const int to = contact.end ? feet.frame(*contact.end) : last;
   if (!contact.plates.empty() || to < from) return !contact.plates.empty();
+  if (contact.begin && leg[static_cast<std::size_t>(feet.frame(*contact.begin - kSeenBeside))] &&
+      leg[static_cast<std::size_t>(from)]) {
+    return true;
+  }
   return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
 }
 

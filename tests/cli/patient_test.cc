@@ -73,7 +73,7 @@ TEST(Patient, NormalBandsThatCannotBeReadEndItBeforeAnythingIsWritten) {
 
 // The gait of a recording, compared with what it exports of itself: no difference is left.
 TEST(PatientRealFiles, StridesAreScoredAgainstNormalBands) {
-  const std::string walk = SharedData("field/c3dio_gait-pig.c3d");
+  const std::string walk = SharedData("field/btk_FunctionalWalk.c3d");
   if (!std::filesystem::exists(walk)) GTEST_SKIP() << "no " << walk;
   const std::string csv = TestFolder() + "/norm.csv", page = TestFolder() + "/page.html";
   const std::string out = TestFolder() + "/o.xml";
