@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/cli/program.h"
 #include "tests/support/shared_data.h"
@@ -69,6 +72,49 @@ TEST(Patient, NormalBandsThatCannotBeReadEndItBeforeAnythingIsWritten) {
       RunProgram({"convert", Handstand(), "-o", out, "--normal", norm, "--report", norm});
   EXPECT_EQ(same.exit_code, 1);
   EXPECT_THAT(ReadText(norm), HasSubstr("knee"));
+}
+
+// The least and the largest knee flexion in the mean of a side's strides [degrees].
+std::pair<double, double> KneeRange(const Json& gait, const std::string& side) {
+  for (const Json& cycle : gait["cycles"]) {
+    if (cycle["joint"] != "knee" || cycle["side"] != side || cycle["what"] != "flexion") continue;
+    const auto mean = cycle["mean"].get<std::vector<double>>();
+    const auto [least, most] = std::minmax_element(mean.begin(), mean.end());
+    return {*least, *most};
+  }
+  return {0, 0};
+}
+
+// The page of examples, and what its command writes today, show what examples/
+// make_gait_recording.cc made. Tolerances are what markers tell that are 8 mm off their places.
+TEST(Patient, ExamplePageShowsTheGaitThatWasMade) {
+  const std::string example = testing::SourcePath("examples/gait");
+  const std::string page = TestFolder() + "/page.html";
+  const auto run = RunProgram({"convert", example + ".c3d", "--height", "1.75", "--mass", "68",
+                               "--self-calibrate", "-c", "s2kf_offline", "-o",
+                               TestFolder() + "/o.xml", "--report", page});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const std::string& shown : {page, example + ".html"}) {
+    SCOPED_TRACE(shown);
+    const Json gait = GaitOf(shown);
+    for (const bool is_left : {true, false}) {
+      const std::string side = is_left ? "left" : "right";
+      const Json& summary = gait["summary"][side];
+      const auto mean = [&summary](const char* what) {
+        return summary[what]["mean"].get<double>();
+      };
+      EXPECT_EQ(summary["step_length_m"]["strides"], 4);
+      EXPECT_NEAR(mean("cadence_steps_per_min"), 120 / 1.06, 0.5);
+      EXPECT_NEAR(mean("speed_m_per_s"), 1.26 / 1.06, 0.01);
+      EXPECT_NEAR(mean("step_length_m"), is_left ? 0.66 : 0.60, 0.01);
+      EXPECT_NEAR(mean("step_time_s"), (is_left ? 0.51 : 0.49) * 1.06, 0.01);
+      EXPECT_NEAR(mean("foot_off_percent"), 61, 2);
+      EXPECT_NEAR(mean("double_support_percent"), 22, 3);
+      const auto [straight, bent] = KneeRange(gait, side);
+      EXPECT_NEAR(straight, 4, 3) << side;
+      EXPECT_NEAR(bent, is_left ? 62 : 53.7, 3) << side;
+    }
+  }
 }
 
 // The gait of a recording, compared with what it exports of itself: no difference is left.

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/mmm/mmm_model.h"
@@ -34,10 +35,23 @@ TEST(SampleRecordingTest, IsWhatItsGeneratorMakes) {
   }
 }
 
+TEST(SampleRecordingTest, GaitIsWhatItsGeneratorMakes) {
+  const std::string folder = testing::TestFolder();
+  const std::string command = std::string("\"") + MAKE_GAIT_RECORDING + "\" \"" +
+                              SourcePath("xml_config/models/mmm.xml") + "\" \"" + folder + "\"";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(ReadFileContent(folder + "/gait.c3d") ==
+              ReadFileContent(SourcePath("examples/gait.c3d")))
+      << "make it and its page anew as examples/README.md says";
+}
+
 TEST(SampleRecordingTest, SaysThatItIsSynthetic) {
-  const std::string content = ReadFileContent(SourcePath("examples/handstand.c3d"));
-  EXPECT_NE(content.find("Synthetic: not a recorded person"), std::string::npos);
-  EXPECT_LT(content.size(), 1500000U);
+  for (const auto& [file, most_bytes] :
+       {std::pair("examples/handstand.c3d", 1500000U), {"examples/gait.c3d", 300000U}}) {
+    const std::string content = ReadFileContent(SourcePath(file));
+    EXPECT_NE(content.find("Synthetic: not a recorded person"), std::string::npos) << file;
+    EXPECT_LT(content.size(), most_bytes) << file;
+  }
 }
 
 TEST(SampleRecordingTest, ShowsTheTrueMotionWithRealisticMarkers) {
