@@ -26,6 +26,7 @@ struct Standing {
   double begin = 0, end = 0;
   bool has_begin = true, has_end = true;
   std::vector<int> plates;
+  bool begins_late = false, ends_early = false;  // PlateLoad
 };
 
 /// How much later plates say that something happens.
@@ -45,7 +46,9 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
                          load.end,
                          load.samples.begin > 0,
                          load.samples.end < plate.force.cols(),
-                         {plate.plate.number}});
+                         {plate.plate.number},
+                         load.begins_late,
+                         load.ends_early});
   }
   std::sort(standings.begin(), standings.end(),
             [](const Standing& a, const Standing& b) { return a.begin < b.begin; });
@@ -59,6 +62,7 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
     if (one.end > last.end) {
       last.end = one.end;
       last.has_end = one.has_end;
+      last.ends_early = one.ends_early;
     }
     last.plates.push_back(one.plates[0]);
   }
@@ -104,10 +108,10 @@ Lags FindLags(const Standings& on_plates, const Standings& by_speed) {
         if (slow.end < plate.begin || slow.begin > plate.end) continue;
         const double begin = plate.begin - slow.begin;
         const double end = plate.end - slow.end;
-        if (plate.has_begin && slow.has_begin && std::abs(begin) < kSameEvent) {
-          begins.push_back(begin);
-        }
-        if (plate.has_end && slow.has_end && std::abs(end) < kSameEvent) ends.push_back(end);
+        const bool tells_begin = plate.has_begin && !plate.begins_late && slow.has_begin;
+        const bool tells_end = plate.has_end && !plate.ends_early && slow.has_end;
+        if (tells_begin && std::abs(begin) < kSameEvent) begins.push_back(begin);
+        if (tells_end && std::abs(end) < kSameEvent) ends.push_back(end);
       }
     }
   }
@@ -144,8 +148,8 @@ FootContact ContactOf(Side side, const Standing& standing, const Lags& lags) {
   return contact;
 }
 
-/// The plates' standings, and those of speed between them; an end that speed sees well beyond the
-/// load, when the foot is half on the floor, is that of speed.
+/// The plates' standings, and those of speed between them; an end that speed sees beyond the load,
+/// when the foot is half on the floor, is that of speed, and what it sees well beyond any load.
 std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plates,
                                  std::vector<Standing> by_speed, const Lags& lags) {
   std::vector<FootContact> contacts;
@@ -153,11 +157,11 @@ std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plat
     FootContact contact = ContactOf(side, plate, {{0, kPlateDeviation}, {0, kPlateDeviation}});
     for (Standing& slow : by_speed) {
       if (slow.end <= plate.begin || slow.begin >= plate.end) continue;
-      if (plate.begin - slow.begin > kSameEvent) {
+      if (plate.begin - slow.begin > (plate.begins_late ? 0 : kSameEvent)) {
         contact.begin = slow.has_begin ? std::optional(slow.begin) : std::nullopt;
         contact.begin_deviation = lags.begin.deviation;
       }
-      if (slow.end - plate.end > kSameEvent) {
+      if (slow.end - plate.end > (plate.ends_early ? 0 : kSameEvent)) {
         contact.end = slow.has_end ? std::optional(slow.end) : std::nullopt;
         contact.end_deviation = lags.end.deviation;
       }
