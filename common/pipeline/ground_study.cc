@@ -235,6 +235,10 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, W
                      ? WithStoredEvents(*report.plan.events, ground.feet, ground.contacts, *forces,
                                         &ground.event_notes)
                      : ground.contacts;
+  if (report.plan.events && report.plan.events->choice != EventChoice::kFound) {
+    std::string doubt = DoubtOfEvents(*report.plan.events, ground.feet, ground.contacts);
+    if (!doubt.empty()) ground.doubts.push_back(std::move(doubt));
+  }
   ground.mass = EstimateMass(ground.contacts, *forces, ground.feet);
   if (std::string doubt = DoubtOfScale(ground.mass, report.plan.person.mass); !doubt.empty()) {
     ground.doubts.push_back(std::move(doubt));
