@@ -85,6 +85,8 @@ Json StudyJson(const ConversionReport& report) {
     Warnings of_events;
     for (const std::string& note : ground->event_notes) of_events.Add(note);
     warnings.AppendNew(of_events);
+    const std::string deviations = DeviationSentence(ground->steps);
+    if (!deviations.empty()) warnings.Add(deviations);
   }
   if (ground->forces->plates.empty() && gait.is_null()) return nullptr;
   const double mass = KnownMass(report, *ground);

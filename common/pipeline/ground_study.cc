@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,6 +62,7 @@ bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs&
   return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
 }
 
+constexpr double kToldDeviation = 0.01;           // [s] of events by plates or by a file
 constexpr double kMostTimes = 1.5;                // of a stated mass: what people carry is less
 constexpr double kLightest = 8, kHeaviest = 250;  // [kg] persons who walk
 
@@ -278,6 +280,21 @@ std::string UnappliedSentence(const GroundStudy& ground) {
   return fmt::format("{:.0f} % of what the plates bore is applied to no foot: {}{}",
                      kPercent * unapplied / all, fmt::join(texts, ", "),
                      more > 0 ? fmt::format(" and {} more times", more) : "");
+}
+
+std::string DeviationSentence(const Contacts& steps) {
+  double begins = 0, ends = 0;
+  for (const FootContact& one : steps.contacts) {
+    if (one.begin) begins = std::max(begins, one.begin_deviation);
+    if (one.end) ends = std::max(ends, one.end_deviation);
+  }
+  if (std::max(begins, ends) <= kToldDeviation) return "";
+  const double stance = std::hypot(begins, ends);
+  return fmt::format(
+      "off force plates feet come to the ground within +-{:.0f} ms and leave it within +-{:.0f} ms "
+      "(standard deviations): stance lasts +-{:.0f} ms, double support +-{:.0f} ms",
+      kMilliseconds * begins, kMilliseconds * ends, kMilliseconds * stance,
+      kMilliseconds * std::numbers::sqrt2 * stance);
 }
 
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground) {
