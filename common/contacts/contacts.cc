@@ -43,13 +43,14 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
   for (const PlateLoad& load : loads) {
     if (load.bearer != bearer) continue;
     const PlateForces& plate = forces.plates[load.plate];
-    standings.push_back({load.begin,
-                         load.end,
-                         load.samples.begin > 0,
-                         load.samples.end < plate.force.cols(),
-                         {plate.plate.number},
-                         load.begins_late,
-                         load.ends_early});
+    standings.push_back(
+        {load.begin,
+         load.end,
+         load.samples.begin > 0,
+         load.samples.end < plate.force.cols() && plate.force.col(load.samples.end).allFinite(),
+         {plate.plate.number},
+         load.begins_late,
+         load.ends_early});
   }
   std::sort(standings.begin(), standings.end(),
             [](const Standing& a, const Standing& b) { return a.begin < b.begin; });

@@ -298,6 +298,22 @@ void JudgeLoads(double rate, PlateForces* forces, Warnings* warnings) {
   if (forces->tells_contact) forces->loads = LoadsOf(*forces, rate);
 }
 
+void LeaveOutStopped(double rate, double first_time, const ForcePlate& plate,
+                     Eigen::MatrixXd* channels, Warnings* warnings) {
+  Eigen::Index begin = channels->cols() - 1;
+  while (begin > 0 && channels->col(begin) == channels->col(begin - 1)) --begin;
+  const Eigen::Index still = channels->cols() - begin;
+  if (begin <= 0 || static_cast<double>(still) < kStandsLong * rate) return;
+  const Eigen::VectorXd vertical = VerticalForce(ForcesOfPlate(plate, *channels));
+  const double level = UnloadedLevel(vertical.head(begin)).value_or(0);
+  if (!(std::abs(vertical[begin] - level) > kSurelyLoaded)) return;
+  channels->rightCols(still).setConstant(kNaN);
+  Warn(warnings,
+       fmt::format("force plate {}: none of its channels changes from {:.2f} s on, which "
+                   "makes {:.0f} N: it is not measured from there",
+                   plate.number, first_time + static_cast<double>(begin) / rate, vertical[begin]));
+}
+
 std::vector<int> StillShears(const ForcePlate& plate, const Eigen::MatrixXd& channels) {
   std::vector<int> still;
   if (plate.type == PlateType::kEightForces || channels.cols() < 2) return still;

@@ -39,6 +39,11 @@ void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* cha
 /// beside one, is at the end of its range. first_time: of sample 0 [s].
 void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* warnings);
 
+/// No numbers from where all channels of the plate stand still to the end, at a load that nobody is
+/// there to exert: the recorder had stopped. first_time: of sample 0 [s].
+void LeaveOutStopped(double rate, double first_time, const ForcePlate& plate,
+                     Eigen::MatrixXd* channels, Warnings* warnings);
+
 /// Fx and Fy whose channel never changes, as rows of these: they are not measured.
 std::vector<int> StillShears(const ForcePlate& plate, const Eigen::MatrixXd& channels);
 

@@ -50,6 +50,7 @@ PlateForces ReadPlate(ForcePlate plate, const Eigen::MatrixXd& samples, const Re
                       const std::optional<C3dZeroFrames>& zero, Warnings* warnings) {
   Eigen::MatrixXd channels = ChannelsOf(plate, samples);
   const std::vector<int> still = StillShears(plate, channels);
+  LeaveOutStopped(all.rate, all.first_time, plate, &channels, warnings);
   if (zero) SubtractBaseline(plate, *zero, all.samples_per_frame, &channels, warnings);
   SubtractUnloaded(all.rate, plate, &channels, warnings);
   CorrectUnits(channels, &plate, warnings);

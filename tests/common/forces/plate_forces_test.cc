@@ -221,6 +221,27 @@ TEST_F(PlateLoadsTest, AHorizontalForceThatNeverChangesTellsNoMoments) {
   EXPECT_THAT(warnings.texts(), SizeIs(1));
 }
 
+TEST_F(PlateLoadsTest, NothingIsMeasuredAfterTheRecorderStopped) {
+  ForcePlate plate = TurnedPlate(PlateType::kForcesAndMoments);
+  plate.R_WP = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Random(6, 1000);
+  channels.row(2) += Step(0).transpose();
+  channels.rightCols(200).setZero();  // as an unloaded plate
+  const Eigen::MatrixXd as_it_was = channels;
+  LeaveOutStopped(kRate, 2, plate, &channels, &warnings);
+  EXPECT_EQ(channels, as_it_was);
+  channels.rightCols(200).colwise() = Eigen::VectorXd::Constant(6, 2887);
+  LeaveOutStopped(kRate, 2, plate, &channels, &warnings);
+  EXPECT_EQ(channels.leftCols(800), as_it_was.leftCols(800));
+  EXPECT_TRUE(channels.rightCols(200).array().isNaN().all());
+  EXPECT_THAT(warnings.texts(),
+              ElementsAre(HasSubstr("changes from 2.80 s on, which makes -2887 N")));
+  PlateForces forces = ForcesOfPlate(plate, channels);
+  JudgeLoads(kRate, &forces, nullptr);
+  EXPECT_TRUE(forces.tells_contact);
+  EXPECT_THAT(forces.loads, SizeIs(1));
+}
+
 TEST_F(PlateLoadsTest, WhatAnUnloadedPlateShowsIsTakenAway) {
   ForcePlate plate = TurnedPlate(PlateType::kForcesAndMoments);
   plate.origin.setZero();
