@@ -200,7 +200,8 @@ TEST_F(WalkTest, WithoutPlatesFeetStandWhereTheyAreSlow) {
   ASSERT_THAT(left, SizeIs(2));
   EXPECT_NEAR(*left[0].begin, 0.5, 0.03);
   EXPECT_NEAR(*left[0].end, 1.5, 0.03);
-  EXPECT_GT(left[0].begin_deviation, 0.005);
+  EXPECT_EQ(left[0].begin_deviation, 0.03);
+  EXPECT_EQ(left[0].end_deviation, 0.02);
   const std::vector<FootContact> right = Of(Side::kRight, contacts);
   ASSERT_THAT(right, SizeIs(3));
   EXPECT_FALSE(right[0].begin);  // it stood there when the recording began
