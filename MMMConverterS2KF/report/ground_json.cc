@@ -82,7 +82,11 @@ Json StudyJson(const ConversionReport& report) {
   for (const std::string& doubt : ground->doubts) warnings.Add(doubt);
   const Json gait = GaitPageJson(report, *ground);
   if (!gait.is_null()) {
-    for (const std::string& note : ground->event_notes) warnings.Add(note);
+    Warnings of_events;
+    for (const std::string& note : ground->event_notes) of_events.Add(note);
+    warnings.AppendNew(of_events);
+    const std::string deviations = DeviationSentence(ground->steps);
+    if (!deviations.empty()) warnings.Add(deviations);
   }
   if (ground->forces->plates.empty() && gait.is_null()) return nullptr;
   const double mass = KnownMass(report, *ground);

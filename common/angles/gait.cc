@@ -126,6 +126,11 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   const Side other = stride.side == Side::kLeft ? Side::kRight : Side::kLeft;
   const FootContact* before = ContactBefore(contacts, other, stride.end);
   const bool is_step = before != nullptr && *before->begin > stride.begin;
+  const double of_own = std::hypot(contact.begin_deviation, contact.end_deviation);
+  const double of_other =
+      before == nullptr ? of_own : std::hypot(before->begin_deviation, before->end_deviation);
+  stride.foot_off_deviation = of_own / stride.time();
+  stride.double_support_deviation = std::hypot(of_own, of_other) / stride.time();
   stride.step_time = is_step ? stride.end - *before->begin : kNaN;
   stride.step_length = stride.step_width = kNaN;
   if (is_step && stride.length > 0) {

@@ -24,6 +24,8 @@ struct Stride {
   double step_time = 0;       ///< [s] since the other foot's contact
   double double_support = 0;  ///< of the stride [0, 1]: the share that both feet stood
   double rise = 0;            ///< from where the foot stood to where it stands next, upwards [m]
+  /// Standard deviations of foot_off and double_support.
+  double foot_off_deviation = 0, double_support_deviation = 0;
   bool is_backwards = false;  ///< the toes point against the way
 
   double time() const { return end - begin; }

@@ -49,6 +49,9 @@ std::string StrideJson(const Stride& stride) {
   for (const StrideFigure& figure : kFigures) {
     text += fmt::format(R"(, "{}": {})", figure.name, Json(figure.of(stride)));
   }
+  text += fmt::format(
+      R"(, "foot_off_deviation_percent": {}, "double_support_deviation_percent": {})",
+      Json(kPercent * stride.foot_off_deviation), Json(kPercent * stride.double_support_deviation));
   return text + "}";
 }
 

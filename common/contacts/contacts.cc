@@ -17,7 +17,8 @@ constexpr double kSameEvent = 0.15;  // [s] between what plates and what speeds 
 // how much that differs from event to event [s].
 constexpr double kBeginsLater = 0.02;
 constexpr double kEndsLater = 0.0;
-constexpr double kSpeedDeviation = 0.02;
+constexpr double kBeginDeviation = 0.03;   // 29 ms rms of 36 strikes of 14 recordings
+constexpr double kEndDeviation = 0.02;     // 19 ms rms of 34 offs
 constexpr double kPlateDeviation = 0.002;  // of a threshold of 20 N
 constexpr std::size_t kEnoughEvents = 3;   // to tell a deviation from
 
@@ -26,12 +27,13 @@ struct Standing {
   double begin = 0, end = 0;
   bool has_begin = true, has_end = true;
   std::vector<int> plates;
+  bool begins_late = false, ends_early = false;  // PlateLoad
 };
 
 /// How much later plates say that something happens.
 struct Lag {
   double seconds = 0;
-  double deviation = kSpeedDeviation;
+  double deviation = 0;
 };
 
 std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
@@ -41,11 +43,14 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
   for (const PlateLoad& load : loads) {
     if (load.bearer != bearer) continue;
     const PlateForces& plate = forces.plates[load.plate];
-    standings.push_back({load.begin,
-                         load.end,
-                         load.samples.begin > 0,
-                         load.samples.end < plate.force.cols(),
-                         {plate.plate.number}});
+    standings.push_back(
+        {load.begin,
+         load.end,
+         load.samples.begin > 0,
+         load.samples.end < plate.force.cols() && plate.force.col(load.samples.end).allFinite(),
+         {plate.plate.number},
+         load.begins_late,
+         load.ends_early});
   }
   std::sort(standings.begin(), standings.end(),
             [](const Standing& a, const Standing& b) { return a.begin < b.begin; });
@@ -59,6 +64,7 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
     if (one.end > last.end) {
       last.end = one.end;
       last.has_end = one.has_end;
+      last.ends_early = one.ends_early;
     }
     last.plates.push_back(one.plates[0]);
   }
@@ -78,8 +84,7 @@ std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFo
 }
 
 /// What differences of the same events of plates and speeds tell.
-Lag LagOf(std::vector<double> later, double otherwise) {
-  Lag lag{otherwise};
+Lag LagOf(std::vector<double> later, Lag lag) {
   if (later.empty()) return lag;
   lag.seconds = Median(later);
   if (later.size() < kEnoughEvents) return lag;
@@ -104,14 +109,15 @@ Lags FindLags(const Standings& on_plates, const Standings& by_speed) {
         if (slow.end < plate.begin || slow.begin > plate.end) continue;
         const double begin = plate.begin - slow.begin;
         const double end = plate.end - slow.end;
-        if (plate.has_begin && slow.has_begin && std::abs(begin) < kSameEvent) {
-          begins.push_back(begin);
-        }
-        if (plate.has_end && slow.has_end && std::abs(end) < kSameEvent) ends.push_back(end);
+        const bool tells_begin = plate.has_begin && !plate.begins_late && slow.has_begin;
+        const bool tells_end = plate.has_end && !plate.ends_early && slow.has_end;
+        if (tells_begin && std::abs(begin) < kSameEvent) begins.push_back(begin);
+        if (tells_end && std::abs(end) < kSameEvent) ends.push_back(end);
       }
     }
   }
-  return {LagOf(std::move(begins), kBeginsLater), LagOf(std::move(ends), kEndsLater)};
+  return {LagOf(std::move(begins), {kBeginsLater, kBeginDeviation}),
+          LagOf(std::move(ends), {kEndsLater, kEndDeviation})};
 }
 
 /// Plates that bear more than this foot while it stands on them.
@@ -144,8 +150,8 @@ FootContact ContactOf(Side side, const Standing& standing, const Lags& lags) {
   return contact;
 }
 
-/// The plates' standings, and those of speed between them; an end that speed sees well beyond the
-/// load, when the foot is half on the floor, is that of speed.
+/// The plates' standings, and those of speed between them; an end that speed sees beyond the load,
+/// when the foot is half on the floor, is that of speed, and what it sees well beyond any load.
 std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plates,
                                  std::vector<Standing> by_speed, const Lags& lags) {
   std::vector<FootContact> contacts;
@@ -153,11 +159,11 @@ std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plat
     FootContact contact = ContactOf(side, plate, {{0, kPlateDeviation}, {0, kPlateDeviation}});
     for (Standing& slow : by_speed) {
       if (slow.end <= plate.begin || slow.begin >= plate.end) continue;
-      if (plate.begin - slow.begin > kSameEvent) {
+      if (plate.begin - slow.begin > (plate.begins_late ? 0 : kSameEvent)) {
         contact.begin = slow.has_begin ? std::optional(slow.begin) : std::nullopt;
         contact.begin_deviation = lags.begin.deviation;
       }
-      if (slow.end - plate.end > kSameEvent) {
+      if (slow.end - plate.end > (plate.ends_early ? 0 : kSameEvent)) {
         contact.end = slow.has_end ? std::optional(slow.end) : std::nullopt;
         contact.end_deviation = lags.end.deviation;
       }

@@ -28,6 +28,10 @@ struct PlateLoad {
   std::array<double, 2> distances = {};
   /// The bearer stands with heel or toe beside the plate, which then bears a part of it alone.
   bool is_part_of_foot = false;
+  /// So far beside it rest heel and toe then [m]; 0: on it.
+  std::array<double, 2> beside = {};
+  /// What is beside it bore the foot before the load began, or after it ended.
+  bool begins_late = false, ends_early = false;
 };
 
 /// A foot on the ground.

@@ -21,7 +21,12 @@ constexpr int kForceDecimals = 6;
 struct PlateAndBearer {
   const PlateForces* plate = nullptr;
   Bearer bearer = Bearer::kUnknown;
+  bool is_part_of_foot = false;
   std::vector<LoadInterval> loads;
+
+  bool IsOf(const PlateForces* other, const PlateLoad& load) const {
+    return plate == other && bearer == load.bearer && is_part_of_foot == load.is_part_of_foot;
+  }
 };
 
 bool HasCentreOfPressure(const PlateForces& plate) {
@@ -40,10 +45,10 @@ std::vector<PlateAndBearer> PairsOf(const ExternalLoads& loads) {
     const PlateForces* plate = &loads.forces->plates[load.plate];
     if (!HasCentreOfPressure(*plate)) continue;
     const auto same = std::find_if(pairs.begin(), pairs.end(), [&](const PlateAndBearer& one) {
-      return one.plate == plate && one.bearer == load.bearer;
+      return one.IsOf(plate, load);
     });
     if (same == pairs.end()) {
-      pairs.push_back({plate, load.bearer, {load.samples}});
+      pairs.push_back({plate, load.bearer, load.is_part_of_foot, {load.samples}});
     } else {
       same->loads.push_back(load.samples);
     }
@@ -154,9 +159,10 @@ std::string FormatExternalLoadsXml(const ExternalLoads& loads, const std::string
   const std::vector<PlateAndBearer> pairs = PairsOf(loads);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Bearer bearer = pairs[i].bearer;
-    const bool is_one_foot = bearer == Bearer::kLeft || bearer == Bearer::kRight;
+    const bool is_part = pairs[i].is_part_of_foot;
+    const bool is_one_foot = (bearer == Bearer::kLeft || bearer == Bearer::kRight) && !is_part;
     text += fmt::format(
-        "      <ExternalForce name=\"plate_{}_{}\">\n"
+        "      <ExternalForce name=\"plate_{}_{}{}\">\n"
         "        <appliesForce>{}</appliesForce>\n"
         "        <applied_to_body>{}</applied_to_body>\n"
         "        <force_expressed_in_body>ground</force_expressed_in_body>\n"
@@ -166,7 +172,7 @@ std::string FormatExternalLoadsXml(const ExternalLoads& loads, const std::string
         "        <torque_identifier>ground_torque_{}_</torque_identifier>\n"
         "        <data_source_name>{}</data_source_name>\n"
         "      </ExternalForce>\n",
-        pairs[i].plate->plate.number, Name(bearer), is_one_foot,
+        pairs[i].plate->plate.number, Name(bearer), is_part ? "_part" : "", is_one_foot,
         bearer == Bearer::kLeft ? "calcn_l" : "calcn_r", i + 1, i + 1, i + 1, EscapeXml(table));
   }
   return text + fmt::format(

@@ -378,6 +378,7 @@ class Plates {
           ForcesOfPlate(Read(reading, forces_.plates[i].plate, source.plate), source.channels);
       read[i].channels = source.channels;
       read[i].clipped = source.clipped;
+      if (source.moment.array().isNaN().all()) read[i].moment.setConstant(kNaN);
       JudgeLoads(forces_.rate, &read[i], nullptr);
     }
     for (const std::size_t i : plates) {

@@ -24,6 +24,8 @@ constexpr double kFarthestEvent = 0.3;     // [s] else it is of another step
 constexpr double kStoredDeviation = 0.01;  // [s] people set events by frames
 constexpr double kUncut = 0.1;             // [s] of a contact whose other end is not told
 constexpr std::size_t kMostNamed = 6;      // contradictions
+constexpr std::size_t kFewest = 3;         // events that tell an exchange ...
+constexpr std::size_t kTimesMore = 3;      // ... and so many times those that fit as they are
 
 using Events = std::vector<ContactEvent>;
 
@@ -59,6 +61,16 @@ bool Alternate(const Events& events) {
 std::size_t CountAmong(const Events& found, const Events& stored) {
   return static_cast<std::size_t>(std::count_if(
       found.begin(), found.end(), [&](const ContactEvent& one) { return IsAmong(stored, one); }));
+}
+
+/// Of the times of the motion.
+Events EventsIn(const FootMotion& motion, Events events) {
+  const double half = 0.5 / motion.rate;
+  std::erase_if(events, [&](const ContactEvent& one) {
+    return one.time < motion.first_time - half ||
+           one.time > motion.time(motion.num_frames() - 1) + half;
+  });
+  return events;
 }
 
 std::vector<FootContact> ContactsBetween(const Events& events, Side side, const Contacts& found) {
@@ -173,16 +185,33 @@ bool IsAmong(const std::vector<ContactEvent>& events, const ContactEvent& one) {
   });
 }
 
+std::string DoubtOfEvents(const StoredEvents& stored, const FootMotion& motion,
+                          const Contacts& found) {
+  const Events events = EventsIn(motion, stored.events), all_found = EventsOf(found);
+  Events exchanged = events;
+  for (ContactEvent& one : exchanged) {
+    one.side = one.side == Side::kLeft ? Side::kRight : Side::kLeft;
+  }
+  const std::size_t as_told = CountAmong(events, all_found);
+  const std::size_t otherwise = CountAmong(exchanged, all_found);
+  if (otherwise < kFewest || 2 * otherwise <= events.size() || otherwise < kTimesMore * as_told) {
+    return "";
+  }
+  return fmt::format(
+      "the file's events have left and right exchanged: {} of {} are when the other foot comes or "
+      "goes, {} when the own one does; they do not count, those that are found do",
+      otherwise, events.size(), as_told);
+}
+
 Contacts WithStoredEvents(const StoredEvents& stored, const FootMotion& motion,
                           const Contacts& found, const RecordedForces& forces,
                           std::vector<std::string>* notes) {
-  Events events = stored.events;
-  const double half = 0.5 / motion.rate;
-  std::erase_if(events, [&](const ContactEvent& one) {
-    return one.time < motion.first_time - half ||
-           one.time > motion.time(motion.num_frames() - 1) + half;
-  });
+  const Events events = EventsIn(motion, stored.events);
   if (events.empty()) return found;
+  if (std::string doubt = DoubtOfEvents(stored, motion, found); !doubt.empty()) {
+    notes->push_back(std::move(doubt));
+    return found;
+  }
   if (std::string text = ContradictionsOf(events, found, forces); !text.empty()) {
     notes->push_back(std::move(text));
   }

@@ -30,8 +30,13 @@ std::vector<ContactEvent> FootEventsOf(const std::vector<C3dEvent>& all, const s
 /// Whether one of `events` says the same of the same foot within 0.15 s.
 bool IsAmong(const std::vector<ContactEvent>& events, const ContactEvent& one);
 
+/// What speaks against the file's events, in a sentence: they fit the found contacts with left and
+/// right exchanged. Empty: nothing.
+std::string DoubtOfEvents(const StoredEvents& stored, const FootMotion& motion,
+                          const Contacts& found);
+
 /// `found`, but of feet whose stored events count the contacts that these tell. notes: whose count,
-/// and stored events that contradict plates by more than 40 ms.
+/// stored events that contradict plates by more than 40 ms, and DoubtOfEvents, of which none count.
 Contacts WithStoredEvents(const StoredEvents& stored, const FootMotion& motion,
                           const Contacts& found, const RecordedForces& forces,
                           std::vector<std::string>* notes);

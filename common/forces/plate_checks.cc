@@ -298,6 +298,48 @@ void JudgeLoads(double rate, PlateForces* forces, Warnings* warnings) {
   if (forces->tells_contact) forces->loads = LoadsOf(*forces, rate);
 }
 
+void LeaveOutStopped(double rate, double first_time, const ForcePlate& plate,
+                     Eigen::MatrixXd* channels, Warnings* warnings) {
+  Eigen::Index begin = channels->cols() - 1;
+  while (begin > 0 && channels->col(begin) == channels->col(begin - 1)) --begin;
+  const Eigen::Index still = channels->cols() - begin;
+  if (begin <= 0 || static_cast<double>(still) < kStandsLong * rate) return;
+  const Eigen::VectorXd vertical = VerticalForce(ForcesOfPlate(plate, *channels));
+  const double level = UnloadedLevel(vertical.head(begin)).value_or(0);
+  if (!(std::abs(vertical[begin] - level) > kSurelyLoaded)) return;
+  channels->rightCols(still).setConstant(kNaN);
+  Warn(warnings,
+       fmt::format("force plate {}: none of its channels changes from {:.2f} s on, which "
+                   "makes {:.0f} N: it is not measured from there",
+                   plate.number, first_time + static_cast<double>(begin) / rate, vertical[begin]));
+}
+
+std::vector<int> StillShears(const ForcePlate& plate, const Eigen::MatrixXd& channels) {
+  std::vector<int> still;
+  if (plate.type == PlateType::kEightForces || channels.cols() < 2) return still;
+  for (const int row : {0, 1}) {
+    if (channels.row(row).minCoeff() == channels.row(row).maxCoeff()) still.push_back(row);
+  }
+  return still;
+}
+
+void LeaveOutStill(const std::vector<int>& shears, PlateForces* forces, Warnings* warnings) {
+  if (shears.empty() || forces->loads.empty()) return;
+  forces->moment.setConstant(kNaN);
+  for (const int row : shears) {
+    const bool is_raw = forces->plate.type == PlateType::kCalibratedChannels;
+    const std::string name = is_raw     ? ""
+                             : row == 0 ? "horizontal force Fx, "
+                                        : "horizontal force Fy, ";
+    Warn(
+        warnings,
+        fmt::format("force plate {}: its {}channel {} never changes, also while somebody is on it: "
+                    "it is not measured, and no joint moments are told from this plate",
+                    forces->plate.number, name,
+                    forces->plate.channels[static_cast<std::size_t>(row)] + 1));
+  }
+}
+
 void LeaveOutSaturated(const Eigen::MatrixXd& channels, PlateForces* forces, Warnings* warnings) {
   if (forces->plate.type != PlateType::kForcesAndMoments || forces->loads.empty()) return;
   for (const int row : {3, 4}) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "common/forces/plate_forces.h"
 
@@ -37,6 +38,17 @@ void SubtractUnloaded(double rate, const ForcePlate& plate, Eigen::MatrixXd* cha
 /// Fills clipped: a loaded channel that stands still at its extreme between steep slopes, or long
 /// beside one, is at the end of its range. first_time: of sample 0 [s].
 void FindClipped(double rate, double first_time, PlateForces* forces, Warnings* warnings);
+
+/// No numbers from where all channels of the plate stand still to the end, at a load that nobody is
+/// there to exert: the recorder had stopped. first_time: of sample 0 [s].
+void LeaveOutStopped(double rate, double first_time, const ForcePlate& plate,
+                     Eigen::MatrixXd* channels, Warnings* warnings);
+
+/// Fx and Fy whose channel never changes, as rows of these: they are not measured.
+std::vector<int> StillShears(const ForcePlate& plate, const Eigen::MatrixXd& channels);
+
+/// No moments where one of these is not measured and somebody is on the plate.
+void LeaveOutStill(const std::vector<int>& shears, PlateForces* forces, Warnings* warnings);
 
 /// No centre of pressure where a moment's channel stands still while the plate is loaded.
 void LeaveOutSaturated(const Eigen::MatrixXd& channels, PlateForces* forces, Warnings* warnings);

@@ -49,6 +49,8 @@ void SubtractBaseline(const ForcePlate& plate, const C3dZeroFrames& zero, int sa
 PlateForces ReadPlate(ForcePlate plate, const Eigen::MatrixXd& samples, const RecordedForces& all,
                       const std::optional<C3dZeroFrames>& zero, Warnings* warnings) {
   Eigen::MatrixXd channels = ChannelsOf(plate, samples);
+  const std::vector<int> still = StillShears(plate, channels);
+  LeaveOutStopped(all.rate, all.first_time, plate, &channels, warnings);
   if (zero) SubtractBaseline(plate, *zero, all.samples_per_frame, &channels, warnings);
   SubtractUnloaded(all.rate, plate, &channels, warnings);
   CorrectUnits(channels, &plate, warnings);
@@ -56,6 +58,7 @@ PlateForces ReadPlate(ForcePlate plate, const Eigen::MatrixXd& samples, const Re
   PlateForces forces = ForcesOfPlate(plate, channels);
   JudgeLoads(all.rate, &forces, warnings);
   LeaveOutSaturated(channels, &forces, warnings);
+  LeaveOutStill(still, &forces, warnings);
   forces.channels = std::move(channels);
   FindClipped(all.rate, all.first_time, &forces, warnings);
   return forces;

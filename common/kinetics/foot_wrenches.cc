@@ -101,6 +101,13 @@ FootWrenches WrenchesOnFeet(const Contacts& contacts, const RecordedForces& forc
     const std::size_t foot = load.bearer == Bearer::kLeft ? 0 : 1;
     const bool is_known = AddLoad(load, forces, times, &feet[foot]);
     if (!is_known || load.is_part_of_foot) unknown.Mark(foot, load.begin, load.end);
+    if (!load.is_part_of_foot) continue;
+    for (const FootContact& one : contacts.contacts) {
+      const double begin = one.begin.value_or(-HUGE_VAL), end = one.end.value_or(HUGE_VAL);
+      const bool is_its =
+          static_cast<std::size_t>(one.side) == foot && begin < load.end && end > load.begin;
+      if (is_its) unknown.Mark(foot, begin, end);
+    }
   }
   if (!(cutoff > 0)) return feet;
   for (FootWrench& foot : feet) {

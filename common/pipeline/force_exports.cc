@@ -91,13 +91,15 @@ std::string GaitSentence(const Gait& gait) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Those of the recording, and what contacts tell beyond; where found ones count, these instead of
-/// the person's among the recording's.
+/// Those of the recording, and what contacts tell beyond; where found ones count, or the file's are
+/// doubtful, these instead of the person's among the recording's.
 std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
   const PoseTrajectory& motion = report.result.trajectory;
   const std::string& person = report.plan.input.recording.subject;
   const auto& stored = report.plan.events;
-  const bool replaces = stored && stored->choice == EventChoice::kFound;
+  const GroundStudy& ground = *report.ground;
+  const bool replaces = stored && (stored->choice == EventChoice::kFound ||
+                                   !DoubtOfEvents(*stored, ground.feet, ground.contacts).empty());
   std::vector<C3dEvent> events = ReadC3dEvents(C3dFile(report.plan.input.recording.file), nullptr);
   std::erase_if(events, [&](const C3dEvent& one) {
     const bool is_of_person = one.subject.empty() || person.empty() || one.subject == person;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "common/judge/coverage.h"
 #include "common/kinetics/foot_wrenches.h"
 #include "common/kinetics/moment_deviations.h"
+#include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"
@@ -64,6 +66,7 @@ bool IsTold(const FootContact& contact, const FootMotion& feet, const KnownLegs&
   return 2 * std::count(leg.begin() + from, leg.begin() + to + 1, true) > to - from;
 }
 
+constexpr double kToldDeviation = 0.01;           // [s] of events by plates or by a file
 constexpr double kMostTimes = 1.5;                // of a stated mass: what people carry is less
 constexpr double kLightest = 8, kHeaviest = 250;  // [kg] persons who walk
 
@@ -79,6 +82,30 @@ std::string DoubtOfScale(const std::optional<MassByPlates>& borne, const PersonV
       "the force plates bore {:.3g} kg{}: their forces are of another scale", borne->mass,
       is_stated ? fmt::format(", the person's mass is {:.3g} kg ({})", stated.value, stated.source)
                 : "");
+}
+
+std::string PartOf(const PlateLoad& load) {
+  const char* foot = Name(load.bearer);
+  if (load.beside[0] > 0 && load.beside[1] > 0) return fmt::format("{} foot", foot);
+  return fmt::format("{} foot's {}", foot, load.beside[0] > 0 ? "heel" : "toes");
+}
+
+/// Of feet that are on a plate with a part of them.
+void WarnOfParts(const Contacts& contacts, const RecordedForces& forces, Warnings* warnings) {
+  for (const PlateLoad& load : contacts.loads) {
+    if (!load.is_part_of_foot) continue;
+    const char* event = load.begins_late ? (load.ends_early ? "comes and goes" : "comes") : "goes";
+    const std::string told = load.begins_late || load.ends_early
+                                 ? fmt::format("when it {} is by its motion, and ", event)
+                                 : "";
+    Warn(warnings,
+         fmt::format("force plate {}: the {} rest{} some {:.0f} mm beside it from {:.2f} to {:.2f} "
+                     "s: it bears a part of the foot; {}forces and moments of this step are left "
+                     "out",
+                     forces.plates[load.plate].plate.number, PartOf(load),
+                     load.beside[1] > 0 && load.beside[0] == 0 ? "" : "s",
+                     kMillimetres * Max(load.beside), load.begin, load.end, told));
+  }
 }
 
 /// A table of other times tells nothing, and is as long as it likes.
@@ -201,10 +228,15 @@ std::shared_ptr<const GroundStudy> StudyGround(const ConversionReport& report, W
                     one.plate.number, forces->time(one.clipped.front().begin)));
   }
   ground.contacts = FindContacts(ground.feet, *forces);
+  WarnOfParts(ground.contacts, *forces, warnings);
   ground.steps = report.plan.events
                      ? WithStoredEvents(*report.plan.events, ground.feet, ground.contacts, *forces,
                                         &ground.event_notes)
                      : ground.contacts;
+  if (report.plan.events && report.plan.events->choice != EventChoice::kFound) {
+    std::string doubt = DoubtOfEvents(*report.plan.events, ground.feet, ground.contacts);
+    if (!doubt.empty()) ground.doubts.push_back(std::move(doubt));
+  }
   ground.mass = EstimateMass(ground.contacts, *forces, ground.feet);
   if (std::string doubt = DoubtOfScale(ground.mass, report.plan.person.mass); !doubt.empty()) {
     ground.doubts.push_back(std::move(doubt));
@@ -224,15 +256,18 @@ std::string UnappliedSentence(const GroundStudy& ground) {
       if (std::isfinite(plate.Load(k))) impulse += plate.Load(k) / forces.rate;
     }
     all += impulse;
-    if (load.bearer == Bearer::kLeft || load.bearer == Bearer::kRight) continue;
+    const bool is_one = load.bearer == Bearer::kLeft || load.bearer == Bearer::kRight;
+    if (is_one && !load.is_part_of_foot) continue;
+    const std::string who = is_one ? fmt::format("a part of the {} foot", Name(load.bearer))
+                            : load.bearer == Bearer::kBoth ? "both feet"
+                                                           : "no foot is known there";
     unapplied += impulse;
-    texts.push_back(
-        fmt::format("plate {} from {:.3f} to {:.3f} s ({}{})", plate.plate.number, load.begin,
-                    load.end, load.bearer == Bearer::kBoth ? "both feet" : "no foot is known there",
-                    ground.mass ? fmt::format(", {:.0f} % of the body weight on average",
-                                              kPercent * impulse / (load.end - load.begin) /
-                                                  (ground.mass->mass * kStandardGravity))
-                                : ""));
+    texts.push_back(fmt::format(
+        "plate {} from {:.3f} to {:.3f} s ({}{})", plate.plate.number, load.begin, load.end, who,
+        ground.mass ? fmt::format(", {:.0f} % of the body weight on average",
+                                  kPercent * impulse / (load.end - load.begin) /
+                                      (ground.mass->mass * kStandardGravity))
+                    : ""));
   }
   if (texts.empty()) return "";
   constexpr std::size_t kMost = 6;
@@ -241,6 +276,21 @@ std::string UnappliedSentence(const GroundStudy& ground) {
   return fmt::format("{:.0f} % of what the plates bore is applied to no foot: {}{}",
                      kPercent * unapplied / all, fmt::join(texts, ", "),
                      more > 0 ? fmt::format(" and {} more times", more) : "");
+}
+
+std::string DeviationSentence(const Contacts& steps) {
+  double begins = 0, ends = 0;
+  for (const FootContact& one : steps.contacts) {
+    if (one.begin) begins = std::max(begins, one.begin_deviation);
+    if (one.end) ends = std::max(ends, one.end_deviation);
+  }
+  if (std::max(begins, ends) <= kToldDeviation) return "";
+  const double stance = std::hypot(begins, ends);
+  return fmt::format(
+      "off force plates feet come to the ground within +-{:.0f} ms and leave it within +-{:.0f} ms "
+      "(standard deviations): stance lasts +-{:.0f} ms, double support +-{:.0f} ms",
+      kMilliseconds * begins, kMilliseconds * ends, kMilliseconds * stance,
+      kMilliseconds * std::numbers::sqrt2 * stance);
 }
 
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground) {

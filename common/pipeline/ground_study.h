@@ -72,6 +72,10 @@ KnownLegs FindKnownLegs(const ConversionReport& report);
 /// a sentence; empty: all is given.
 std::string UnappliedSentence(const GroundStudy& ground);
 
+/// How well the times of steps that no plate tells are known, in a sentence; empty: plates or the
+/// file tell all.
+std::string DeviationSentence(const Contacts& steps);
+
 /// Those that plates tell, and of a foot off the plates those that its leg shows: what begins or
 /// ends while that is hidden has no begin or end.
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground);

@@ -85,6 +85,8 @@ TEST_F(GaitTest, FiguresOfStrides) {
     EXPECT_NEAR(one.step_length, kStride / 2, kSame);
     EXPECT_NEAR(one.step_width, kWidth, kSame);
     EXPECT_NEAR(one.time_deviation, 0.01 * std::sqrt(2), kSame);
+    EXPECT_NEAR(one.foot_off_deviation, 0.01 * std::sqrt(2), kSame);
+    EXPECT_NEAR(one.double_support_deviation, 0.02, kSame);
   }
   EXPECT_EQ(gait.strides[2].side, Side::kRight);
 }

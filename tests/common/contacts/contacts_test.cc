@@ -200,7 +200,8 @@ TEST_F(WalkTest, WithoutPlatesFeetStandWhereTheyAreSlow) {
   ASSERT_THAT(left, SizeIs(2));
   EXPECT_NEAR(*left[0].begin, 0.5, 0.03);
   EXPECT_NEAR(*left[0].end, 1.5, 0.03);
-  EXPECT_GT(left[0].begin_deviation, 0.005);
+  EXPECT_EQ(left[0].begin_deviation, 0.03);
+  EXPECT_EQ(left[0].end_deviation, 0.02);
   const std::vector<FootContact> right = Of(Side::kRight, contacts);
   ASSERT_THAT(right, SizeIs(3));
   EXPECT_FALSE(right[0].begin);  // it stood there when the recording began
@@ -244,6 +245,48 @@ TEST_F(WalkTest, TwoFeetOnOnePlateHaveNoSide) {
   // Each stands there while it is slow.
   EXPECT_THAT(Of(Side::kLeft, contacts)[0].plates, ElementsAre(1));
   EXPECT_THAT(Of(Side::kRight, contacts)[1].plates, ElementsAre(1));
+}
+
+/// The left foot's heel and toes are at 0.5 and 0.75 m; it stands from 0.5 to 1.5 s, its heel
+/// to 1.2.
+TEST_F(WalkTest, AFootHalfBesideItsPlateComesAndGoesByItsMotion) {
+  FootMotion walk = Walk();
+  walk.feet[0].heel.row(2).segment(120, 30).setConstant(0.1);
+  const PlateForces whole = Plate(2, kRightX, -0.1, -0.13, 1.32, 2.2);
+  const auto find = [&](double middle, double begin, double end) {
+    PlateForces part = Plate(1, middle, 0.1, 0.1, begin, end);
+    part.cop.row(0).setConstant(kLeftX);
+    return FindContacts(walk, ForcesOf({part, whole}));
+  };
+  const Contacts heel = find(0.9, 0.6, 1.5);  // from 0.6 m on
+  ASSERT_THAT(heel.loads, SizeIs(2));
+  EXPECT_TRUE(heel.loads[0].is_part_of_foot && heel.loads[0].begins_late);
+  EXPECT_FALSE(heel.loads[0].ends_early || heel.loads[1].is_part_of_foot);
+  EXPECT_NEAR(heel.loads[0].beside[0], 0.1, kExact);
+  EXPECT_EQ(heel.loads[0].beside[1], 0);
+  const std::vector<FootContact> by_heel = Of(Side::kLeft, heel);
+  // The right foot's load begins 30 ms later than it is slow, which the late one does not change.
+  EXPECT_NEAR(*by_heel[0].begin, 0.52, 0.01);
+  EXPECT_GT(by_heel[0].begin_deviation, 0.01);
+  EXPECT_EQ(*by_heel[0].end, 1.5);
+  EXPECT_LT(by_heel[0].end_deviation, 0.01);
+  EXPECT_THAT(by_heel[0].plates, ElementsAre(1));
+  EXPECT_NEAR(*by_heel[1].begin, 2.02, 0.01);
+  const Contacts toes = find(0.35, 0.5, 1.4);  // up to 0.65 m
+  EXPECT_NEAR(toes.loads[0].beside[1], 0.1, kExact);
+  EXPECT_TRUE(toes.loads[0].ends_early);
+  EXPECT_NEAR(*Of(Side::kLeft, toes)[0].end, 1.5, 0.02);
+  EXPECT_FALSE(find(0.82, 0.6, 1.5).loads[0].is_part_of_foot);  // 20 mm
+  EXPECT_FALSE(find(0.41, 0.5, 1.4).loads[0].is_part_of_foot);  // 40 mm of toes
+}
+
+TEST_F(WalkTest, OpenSimsTableAppliesNoPartOfAFoot) {
+  RecordedForces forces = ForcesOf({Plate(1, 0.9, 0.1, 0.1, 0.6, 1.5)});
+  forces.plates[0].cop.row(0).setConstant(kLeftX);
+  const Contacts contacts = FindContacts(Walk(), forces);
+  const std::string xml = FormatExternalLoadsXml({&forces, &contacts, 0.5, 2}, "grf.mot");
+  EXPECT_NE(xml.find("name=\"plate_1_left_part\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<appliesForce>false</appliesForce>"), std::string::npos) << xml;
 }
 
 TEST_F(WalkTest, WhatIsFarFromBothFeetIsUnknown) {

@@ -120,6 +120,22 @@ TEST_F(StoredEventsTest, WhatContradictsAPlateIsNamed) {
   EXPECT_THAT(notes_[0], HasSubstr("Left Foot Strike at 1.045 s (plate 1: 1.000 s)"));
 }
 
+TEST_F(StoredEventsTest, OfTheOtherFootAreToldAndDoNotCount) {
+  for (PlateLoad& load : found_.loads) load.bearer = Bearer::kRight;
+  for (FootContact& one : found_.contacts) one.side = Side::kRight;
+  for (const auto choice : {EventChoice::kFile, EventChoice::kWhereComplete}) {
+    const Contacts told = Told({1.01, 1.59, 2.03, 2.55}, choice);
+    ASSERT_THAT(told.contacts, SizeIs(2));
+    EXPECT_EQ(told.contacts[0].side, Side::kRight);
+    EXPECT_THAT(told.contacts[0].begin, Optional(1.0));
+    EXPECT_THAT(notes_, ElementsAre(HasSubstr("left and right exchanged: 4 of 4")));
+  }
+  // Two tell too little, and others may be of steps that are not found.
+  EXPECT_THAT(Told({1.01, 1.59}, EventChoice::kFile).contacts[0].begin, Optional(1.01));
+  EXPECT_THAT(Told({0.2, 0.8, 1.01, 1.59, 2.03, 2.8, 3.2, 3.8}, EventChoice::kFile).contacts,
+              SizeIs(4));
+}
+
 TEST_F(StoredEventsTest, OfOtherTimesAreNone) {
   EXPECT_THAT(Told({11, 12}, EventChoice::kFile).contacts, SizeIs(2));
 }

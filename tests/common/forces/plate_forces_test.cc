@@ -11,7 +11,9 @@
 namespace mmm_converter {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 // What rounding leaves of forces of a kilonewton.
@@ -196,6 +198,48 @@ TEST_F(PlateLoadsTest, AMomentThatNeverChangesTellsNoCentreOfPressure) {
   LeaveOutSaturated(channels, &forces, &warnings);
   EXPECT_FALSE(forces.cop.col(500).allFinite());
   EXPECT_THAT(warnings.texts()[0], HasSubstr("its moment My never changes"));
+}
+
+TEST_F(PlateLoadsTest, AHorizontalForceThatNeverChangesTellsNoMoments) {
+  ForcePlate plate = TurnedPlate(PlateType::kForcesAndMoments);
+  plate.R_WP = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Random(6, 1000);
+  channels.row(2) += Step(0).transpose();
+  EXPECT_THAT(StillShears(plate, channels), IsEmpty());
+  channels.row(1).setConstant(0.3);
+  EXPECT_THAT(StillShears(plate, channels), ElementsAre(1));
+  PlateForces forces = ForcesOfPlate(plate, channels);
+  JudgeLoads(kRate, &forces, nullptr);
+  LeaveOutStill({1}, &forces, &warnings);
+  EXPECT_FALSE(forces.moment.col(500).allFinite());
+  EXPECT_TRUE(forces.cop.col(500).allFinite());
+  EXPECT_THAT(warnings.texts(),
+              ElementsAre(HasSubstr("force plate 1: its horizontal force Fy, channel ")));
+  // Nobody is there.
+  forces.loads.clear();
+  LeaveOutStill({1}, &forces, &warnings);
+  EXPECT_THAT(warnings.texts(), SizeIs(1));
+}
+
+TEST_F(PlateLoadsTest, NothingIsMeasuredAfterTheRecorderStopped) {
+  ForcePlate plate = TurnedPlate(PlateType::kForcesAndMoments);
+  plate.R_WP = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  Eigen::MatrixXd channels = Eigen::MatrixXd::Random(6, 1000);
+  channels.row(2) += Step(0).transpose();
+  channels.rightCols(200).setZero();  // as an unloaded plate
+  const Eigen::MatrixXd as_it_was = channels;
+  LeaveOutStopped(kRate, 2, plate, &channels, &warnings);
+  EXPECT_EQ(channels, as_it_was);
+  channels.rightCols(200).colwise() = Eigen::VectorXd::Constant(6, 2887);
+  LeaveOutStopped(kRate, 2, plate, &channels, &warnings);
+  EXPECT_EQ(channels.leftCols(800), as_it_was.leftCols(800));
+  EXPECT_TRUE(channels.rightCols(200).array().isNaN().all());
+  EXPECT_THAT(warnings.texts(),
+              ElementsAre(HasSubstr("changes from 2.80 s on, which makes -2887 N")));
+  PlateForces forces = ForcesOfPlate(plate, channels);
+  JudgeLoads(kRate, &forces, nullptr);
+  EXPECT_TRUE(forces.tells_contact);
+  EXPECT_THAT(forces.loads, SizeIs(1));
 }
 
 TEST_F(PlateLoadsTest, WhatAnUnloadedPlateShowsIsTakenAway) {

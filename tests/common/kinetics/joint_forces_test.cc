@@ -132,6 +132,8 @@ TEST_F(JointForcesTest, BothFeetOnAPlateTellNeither) {
 
 TEST_F(JointForcesTest, AFootPartlyBesideItsPlateTellsNotItsLeg) {
   contacts_.loads[1].is_part_of_foot = true;
+  // It stood before the load.
+  contacts_.loads[1].begin += 0.2;
   const JointForces found = Compute();
   EXPECT_TRUE(std::isfinite(Of(found, "hip_l")[kMiddle]));
   EXPECT_TRUE(Of(found, "hip_r").array().isNaN().all());
