@@ -141,10 +141,9 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
 
 void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons) {
   JudgeClusters(names, reasons);
-  std::vector<std::string> contradicted, unknown;
+  std::vector<std::string> unknown;
   std::set<std::string> kinds;
   for (const NamedLabel& one : names.labels) {
-    if (one.is_contradicted) contradicted.push_back(fmt::format("{} ({})", one.label, one.note));
     if (!one.readings.empty() || !one.note.empty()) continue;
     // Of points without names ("U1", "*17") none is missed.
     const std::string kind = LettersOf(one.label);
@@ -156,10 +155,12 @@ void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons) {
                                         FirstNames(unknown, 6)),
                             Remedy::kMarkerSet));
   }
-  if (contradicted.empty()) return;
-  reasons->Add(
-      2 * contradicted.size() > names.labels.size() ? Level::kFailed : Level::kCheck,
-      fmt::format("labels that are not where their names say: {}", FirstNames(contradicted, 6)));
+  const auto contradicted = std::count_if(names.labels.begin(), names.labels.end(),
+                                          [](const auto& one) { return one.is_contradicted; });
+  if (contradicted == 0) return;
+  reasons->Add(2 * contradicted > std::ssize(names.labels) ? Level::kFailed : Level::kCheck,
+               fmt::format("labels that are not where their names say: {}",
+                           FirstNames(DescribeContradictions(names), 6)));
 }
 
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
