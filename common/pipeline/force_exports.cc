@@ -17,6 +17,7 @@
 #include "common/contacts/stored_events.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces_table.h"
+#include "common/pipeline/all_motions.h"
 #include "common/pipeline/c3d_results.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/ground_study.h"
@@ -138,10 +139,10 @@ void WriteGait(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports) {
+  const std::vector<std::string> names = NamesOfReports(reports);
   std::vector<GaitTrial> trials;
-  for (const ConversionReport* report : reports) {
-    const std::string name = fs::path(report->plan.input.recording.file).stem().string();
-    trials.push_back({name, &*report->ground->gait});
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    trials.push_back({names[i], &*reports[i]->ground->gait});
   }
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatGaitJson(trials) : FormatGaitCsv(trials));
