@@ -25,7 +25,8 @@ std::string DescribeForPage(const ConversionReport& report) {
   return text + fmt::format(
                     "\n\nThe person \"{}\" was calibrated on {} frames of this recording: the best "
                     "postures leave "
-                    "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
+                    "{:.1f} mm to the markers where the model scaled by height, with each marker "
+                    "where it is usually worn, leaves {:.1f}.",
                     plan.person.subject->name, plan.calibration->frames,
                     kMillimetres * plan.calibration->distance_after,
                     kMillimetres * plan.calibration->distance_before);

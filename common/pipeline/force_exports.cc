@@ -80,7 +80,10 @@ std::string GaitSentence(const Gait& gait) {
         gait.left_out == 1 ? "1 stride is" : fmt::format("{} strides are", gait.left_out)));
   }
   if (gait.turns > 0) {
-    texts.push_back(fmt::format("{} strides over a turn are left out of the means", gait.turns));
+    texts.push_back(fmt::format("{} left out of the means",
+                                gait.turns == 1
+                                    ? "1 stride over a turn is"
+                                    : fmt::format("{} strides over a turn are", gait.turns)));
   }
   if (gait.strides.empty() && texts.empty()) {
     texts.push_back(fmt::format(
