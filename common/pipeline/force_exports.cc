@@ -176,7 +176,16 @@ void WriteJointForces(const std::string& file, const ConversionReport& report) {
 
 void StudyPlates(ConversionReport* report) {
   const auto& forces = report->plan.forces;
-  if (forces && !forces->plates.empty()) report->ground = StudyGround(*report, &report->warnings);
+  if (!forces || forces->plates.empty()) return;
+  report->ground = StudyGround(*report, &report->warnings);
+  const auto& borne = report->ground->mass;
+  PersonValue& mass = report->plan.person.mass;
+  if (!borne || !IsAssumed(mass) || !DoubtOfScale(borne, mass).empty()) return;
+  mass = MassByForcePlates(borne->mass);
+  auto& calibration = report->plan.calibration;
+  if (!calibration) return;
+  calibration->subject.mass = mass.value;
+  report->plan.person.subject = std::make_shared<const Subject>(calibration->subject);
 }
 
 void StudyExports(const ExportFiles& files, ConversionReport* report) {
