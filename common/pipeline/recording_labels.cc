@@ -401,9 +401,10 @@ LabelReport RunLabelling(const LabelRequest& request,
   const bool is_calibrated = found.person.subject != nullptr;
   const bool has_size = is_calibrated || report.input.reference->coordinates();
   report.fit = FitLabels(found, recording.markers, has_size ? nullptr : found.reference.get());
-  const MarkerSequence written = Relabelled(PointsOfPerson(found), recording.markers);
+  Input written = report.input;
+  written.recording.markers = Relabelled(PointsOfPerson(found), recording.markers);
   const auto names =
-      UnderstoodNames(LabelsOf(written, recording.file), report.input, report.config);
+      UnderstoodNames(LabelsOf(written.recording.markers, recording.file), written, report.config);
   report.verdict =
       JudgeLabels({recording, found.labelling, report.fit, is_calibrated, found.person.height.value,
                    names.get(), report.input.reference->coordinates() ? nullptr : found.reference,
