@@ -213,6 +213,11 @@ int ConvertSeveral(const Arguments& arguments) {
   std::vector<const ConversionReport*> all;
   all.reserve(reports.size());
   for (const ConversionReport& report : reports) all.push_back(&report);
+  Verdict together;
+  for (std::string& doubt : DoubtsTogether(all)) AddDoubt(std::move(doubt), &together);
+  if (!together.reasons.empty()) {
+    std::cout << fmt::format("\ntogether   {} recordings\n", all.size()) << FormatVerdict(together);
+  }
   if (const auto file = arguments.Get("report"); file && !reports.empty()) {
     WriteFileAtomically(*file, FormatConversionPage(all, failures));
   }

@@ -11,10 +11,12 @@
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "common/io/bytes/file_content.h"
+#include "common/judge/evidence.h"
 #include "common/pipeline/comparison/comparison_setup.h"
 #include "common/pipeline/input/finished_motion.h"
 #include "common/pipeline/input/input.h"
 #include "common/support/atomic_file.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -85,6 +87,18 @@ Comparison CompareSolutions(const Arguments& arguments) {
                          std::move(solutions.results));
 }
 
+void TellStrangers(const Comparison& comparison) {
+  for (const ComparisonRow& row : comparison.rows) {
+    const double mean = row.quality.all.mean;
+    if (!row.failure.empty() || !(mean > kMeanDistance.failed)) continue;
+    LogWarning(fmt::format(
+        "{}: is {:.0f} mm from the markers of {} on average: it seems to be another recording's "
+        "motion, or of other frames",
+        comparison.contenders[static_cast<std::size_t>(row.contender)].name, kMillimetres * mean,
+        comparison.trials[static_cast<std::size_t>(row.trial)].name));
+  }
+}
+
 std::string ReportOutputFile(const Arguments& arguments) {
   if (const auto file = arguments.Get("output")) return *file;
   const std::filesystem::path input = arguments.positionals().front();
@@ -110,6 +124,7 @@ int RunReport(const Arguments& arguments) {
   plan.Write(output);
   plan.Check();
   const Comparison comparison = CompareSolutions(arguments);
+  TellStrangers(comparison);
   plan.Check();
   const std::string title = comparison.trials.front().name;
   FilesTogether files;

@@ -11,6 +11,7 @@
 #include "MMMConverterS2KF/report/ground_json.h"
 #include "MMMConverterS2KF/report/patient_json.h"
 #include "MMMConverterS2KF/report/report.h"
+#include "common/pipeline/all_motions.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -24,7 +25,8 @@ std::string DescribeForPage(const ConversionReport& report) {
   return text + fmt::format(
                     "\n\nThe person \"{}\" was calibrated on {} frames of this recording: the best "
                     "postures leave "
-                    "{:.1f} mm to the markers where the model scaled by height leaves {:.1f}.",
+                    "{:.1f} mm to the markers where the model scaled by height, with each marker "
+                    "where it is usually worn, leaves {:.1f}.",
                     plan.person.subject->name, plan.calibration->frames,
                     kMillimetres * plan.calibration->distance_after,
                     kMillimetres * plan.calibration->distance_before);
@@ -43,23 +45,6 @@ Comparison MakeComparison(const ConversionReport& report) {
   contender.config = plan.converter.config;
   return CompareFinished(std::move(trial), {contender},
                          {{plan.setup.mapping, report.warnings, report.result}});
-}
-
-// Estimated heights of one person are not so far apart.
-constexpr double kSamePerson = 0.05;  // [m]
-
-// Where recordings of several persons seem to be on one page.
-std::string DescribePersons(const std::vector<const ConversionReport*>& reports) {
-  if (reports.front()->plan.person.subject) return "";
-  const auto height = [](const auto* one) { return one->plan.person.height.value; };
-  const auto [least, most] = std::minmax_element(
-      reports.begin(), reports.end(), [&](auto* a, auto* b) { return height(a) < height(b); });
-  if (height(*most) - height(*least) < kSamePerson) return "";
-  return fmt::format(
-      "\n\nThe persons of these recordings are {:.2f} to {:.2f} m tall: strides of all together "
-      "are "
-      "of several persons, if these heights are right.",
-      height(*least), height(*most));
 }
 
 // The motion; of several those of a file, or the person of several files.
@@ -83,22 +68,22 @@ std::string FormatConversionPage(const std::vector<const ConversionReport*>& rep
                                  const std::vector<std::string>& failures) {
   std::string of_all;
   for (const std::string& failure : failures) of_all += "\n\nNot converted: " + failure;
-  if (reports.size() > 1) of_all += DescribePersons(reports);
+  for (const std::string& doubt : DoubtsTogether(reports)) of_all += "\n\n" + doubt + ".";
+  const std::vector<std::string> names = NamesOfReports(reports);
   std::vector<Comparison> comparisons;
   std::vector<Json> grounds;
   std::vector<ReportSection> sections;
   comparisons.reserve(reports.size());
   grounds.reserve(reports.size());
   sections.reserve(reports.size());
-  for (const ConversionReport* report : reports) {
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const ConversionReport* report = reports[i];
     comparisons.push_back(MakeComparison(*report));
     grounds.push_back(GroundJson(*report));
-    const std::string file =
-        std::filesystem::path(report->plan.input.recording.file).stem().string();
     const auto namesakes = std::count_if(reports.begin(), reports.end(), [&](const auto* one) {
       return one->plan.motion_name == report->plan.motion_name;
     });
-    sections.push_back({namesakes > 1 ? file : report->plan.motion_name,
+    sections.push_back({namesakes > 1 ? names[i] : report->plan.motion_name,
                         DescribeForPage(*report) + of_all, &comparisons.back(), &grounds.back(),
                         Name(report->verdict.level)});
   }

@@ -98,7 +98,7 @@ std::string DescribeSubject(const ConversionReport& report) {
   return text +
          fmt::format(
              ", from this recording: best postures of {} frames {:.1f} mm from the markers, "
-             "{:.1f} without\n",
+             "{:.1f} with each where it is usually worn\n",
              plan.calibration->frames, kMillimetres * plan.calibration->distance_after,
              kMillimetres * plan.calibration->distance_before) +
          FormatSubjectSummary(subject);

@@ -105,7 +105,7 @@ Json BandsJson(const NormalBands& normal) {
                      {"mean", SamplesJson(one.mean, 1, 2)},
                      {"sd", SamplesJson(one.deviation, 1, 2)}});
   }
-  return {{"source", normal.source}, {"bands", bands}};
+  return {{"source", normal.source}, {"lacking", LackingAngles(normal)}, {"bands", bands}};
 }
 
 /// Of each foot the Gait Variable Scores of its strides, and their root mean square, the Gait

@@ -2,11 +2,13 @@
 #include "MMMConverterS2KF/report/names_summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "common/convert/marker_set_text.h"
@@ -17,12 +19,15 @@ namespace mmm_converter {
 
 std::string DescribeNames(const NamedMarkers& named) {
   std::map<std::string, std::vector<std::string>> left_out;  // by reason
-  std::string changed;
+  std::vector<std::pair<std::string, std::vector<std::string>>> changed;
   for (const NamedLabel& one : named.labels) {
     if (one.marker.empty()) {
       left_out[one.landmark.empty() ? "no landmark" : one.note].push_back(one.label);
     } else if (!one.note.empty()) {
-      changed += fmt::format("           {} is {}\n", one.label, one.note);
+      auto same = std::find_if(changed.begin(), changed.end(),
+                               [&](const auto& other) { return other.first == one.note; });
+      if (same == changed.end()) same = changed.insert(same, {one.note, {}});
+      same->second.push_back(one.label);
     }
   }
   std::string text =
@@ -32,7 +37,11 @@ std::string DescribeNames(const NamedMarkers& named) {
     text += fmt::format("{}{} ({})", separator, reason, FirstNames(labels, 6));
     separator = ", ";
   }
-  return text + "\n" + changed;
+  text += "\n";
+  for (const auto& [note, labels] : changed) {
+    text += fmt::format("           {}: {}\n", fmt::join(labels, ", "), note);
+  }
+  return text;
 }
 
 std::string FormatNames(const NamedMarkers& named) {

@@ -156,6 +156,24 @@ void CheckReach(const std::vector<BandRow>& rows, const std::string& name,
                           rows.front().line, name, rows.front().percent, rows.back().percent));
 }
 
+// Degrees by which hips or knees of no gait stay below, and radians above none.
+constexpr double kRadians = 2;
+
+void CheckAreDegrees(const RowsOfAngles& rows, const std::string& file) {
+  bool bends = false;
+  double most = 0;
+  for (const auto& [key, of] : rows) {
+    const auto& [joint, motion, side] = key;
+    bends |= (joint == "hip" || joint == "knee") && motion == "flexion";
+    for (const BandRow& row : of) most = std::max(most, std::abs(row.mean));
+  }
+  if (!bends || most > kRadians) return;
+  throw Error(fmt::format(
+      "{}: all angles are within {:g} degrees, of hips and knees, too: are they radians? Give "
+      "degrees",
+      file, kRadians));
+}
+
 NormalBand BandOf(const std::vector<BandRow>& rows) {
   NormalBand band;
   std::size_t next = 1;
@@ -188,6 +206,7 @@ NormalBands ParseNormalBands(std::string_view content, const std::string& file) 
   const RowsOfAngles rows = BandReader(content, file).Read(&normal.source);
   if (rows.empty()) throw Error(file + ": no bands of normal gait: no row follows the header");
   if (normal.source.empty()) normal.source = std::filesystem::path(file).filename().string();
+  CheckAreDegrees(rows, file);
   for (const auto& [key, of] : rows) {
     const auto& [joint, motion, side] = key;
     CheckReach(of, joint + ' ' + motion, file);
@@ -198,6 +217,16 @@ NormalBands ParseNormalBands(std::string_view content, const std::string& file) 
     normal.bands.push_back(std::move(band));
   }
   return normal;
+}
+
+std::vector<std::string> LackingAngles(const NormalBands& normal) {
+  std::vector<std::string> lacking;
+  for (const auto& [joint, motion] : kProfileAngles) {
+    const bool is_there = normal.Find(joint, motion, Side::kLeft) != nullptr &&
+                          normal.Find(joint, motion, Side::kRight) != nullptr;
+    if (!is_there) lacking.push_back(fmt::format("{} {}", joint, motion));
+  }
+  return lacking;
 }
 
 double OwnSideSign(std::string_view joint, std::string_view motion, Side side) {

@@ -34,7 +34,7 @@ inline constexpr std::size_t kMostNormalBytes = std::size_t{16} << 20;
 /// any order, and perhaps side, and unit, of which degrees alone count: what --export-gait writes
 /// of others is such a file. Percent grow from 0 to 100 in each angle; between them it is linear.
 /// Lines that begin with # say the source.
-/// @throws Error with all that is wrong.
+/// @throws Error with all that is wrong; also where hips and knees bend as little as radians say.
 NormalBands ParseNormalBands(std::string_view content, const std::string& file);
 
 /// +1 where an angle means the same for both sides of the body, and where it is the side's own;
@@ -56,6 +56,9 @@ inline constexpr std::array<ProfileAngle, 9> kProfileAngles = {{{"pelvis", "tilt
                                                                 {"pelvis", "rotation"},
                                                                 {"hip", "internal rotation"},
                                                                 {"foot", "progression"}}};
+
+/// Of these, those that the bands lack, without which there is no score: "pelvis tilt".
+std::vector<std::string> LackingAngles(const NormalBands& normal);
 
 /// Root mean square over the cycle of what a stride's angle [rad] differs from the normal mean,
 /// each with its own side's sign [degrees]: a Gait Variable Score. NaN: some of it is not known.

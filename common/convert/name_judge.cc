@@ -39,7 +39,8 @@ constexpr double kNearby = 0.08;  ///< another meaning is right
 constexpr double kBetter = 0.5;
 constexpr double kExchangedShare = 0.75;  ///< of the distance, with sides exchanged
 
-/// "arms", "legs" or neither.
+}  // namespace
+
 std::string_view LimbsOf(const Landmark& landmark) {
   for (const char* part : {"upper arm", "forearm", "hand"}) {
     if (landmark.part == part) return "arms";
@@ -49,8 +50,6 @@ std::string_view LimbsOf(const Landmark& landmark) {
   }
   return "";
 }
-
-}  // namespace
 
 NameJudge::NameJudge(const KinematicModel& reference, const std::vector<int>& joints,
                      const MarkerSequence& recording, const LandmarkTable& table,

@@ -28,6 +28,9 @@ constexpr std::size_t kClusterMarkers = 5;
 /// Of a cluster, the first marker of the reading that was chosen.
 inline std::size_t FirstMarkerOf(const Hypothesis& one) { return kClusterMarkers * one.chosen; }
 
+/// "arms", "legs" or neither.
+std::string_view LimbsOf(const Landmark& landmark);
+
 /// Postures of some frames of a recording, fitted to what the labels' names mean, and what they say
 /// of the names; see UnderstandLabels.
 class NameJudge {
@@ -85,13 +88,20 @@ class NameJudge {
   std::size_t MirroredReading(const Hypothesis& one) const;
 
   /// Gives each of two labels of a part of the body the other's place, on one side or on both, and
-  /// keeps that where it takes most of their distances away: MT1 and MT5, the front and the back of
-  /// a head.
+  /// keeps what takes most of their distances away: MT1 and MT5, the front and the back of a head
+  /// or of a pelvis, the heels.
   void ExchangePairs(double height);
   /// Labels of places that are exchanged together.
   using ExchangedPair = std::vector<std::pair<std::size_t, std::size_t>>;
   std::vector<ExchangedPair> DoubtfulPairs() const;
+  /// Of two places: by how much nearer they are to each other's in the postures of their own [m];
+  /// NaN where they are not exchanged.
+  double GainOf(std::size_t i, std::size_t j) const;
+  /// Returns what it gains, all labels together [m]; 0: it is wrong.
+  double TryExchange(const ExchangedPair& pairs, double height);
   void Exchange(const ExchangedPair& pairs);
+  void ExchangeReadings(Hypothesis* one, Hypothesis* other, std::size_t markers_of_one);
+  void TellExchange(const Hypothesis& a, const Hypothesis& b);
   double SumOfDistances(const ExchangedPair& pairs) const;
 
   /// Clusters whose names can mean several segments are on the one that is nearest.
@@ -102,10 +112,19 @@ class NameJudge {
   /// Whether the name itself can mean several places.
   bool HasChoice(const Hypothesis& one) const;
 
-  /// Where clusters are on their segments, by the postures.
+  /// Where a cluster is on a segment, by the postures [m].
+  struct ClusterPlace {
+    Eigen::Vector3d p_SM;  ///< of 1 m
+    double stray = 0;      ///< of its label about it, the median
+    double away = 0;       ///< from where such are usually worn
+    bool IsWorn() const;
+  };
+  /// marker: the first of the cluster's reading. Nothing where no frame shows it.
+  std::optional<ClusterPlace> FindPlace(int label, int marker, double height) const;
+  /// Two clusters neither of which can be worn as it says, and both as the other says.
+  void ExchangeClusters(double height);
   void PlaceClusters(double height);
-  void PlaceCluster(const Hypothesis& one, const std::vector<Eigen::Vector3d>& places,
-                    double height);
+  void PlaceCluster(const Hypothesis& one, const ClusterPlace& place);
   void TakePlace(const NamedLabel& before, const NamedLabel& now, MarkerSet* set) const;
 
   const KinematicModel& reference_;

@@ -48,6 +48,22 @@ int NamedMarkers::num_without_side() const {
                                         [](const NamedLabel& one) { return one.lacks_side; }));
 }
 
+std::vector<std::string> DescribeContradictions(const NamedMarkers& named) {
+  std::vector<std::string> labels, notes;
+  for (const NamedLabel& one : named.labels) {
+    if (!one.is_contradicted) continue;
+    const auto same = std::find(notes.begin(), notes.end(), one.note);
+    if (same == notes.end()) {
+      labels.push_back(one.label);
+      notes.push_back(one.note);
+    } else {
+      labels[static_cast<std::size_t>(same - notes.begin())] += ", " + one.label;
+    }
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] += fmt::format(" ({})", notes[i]);
+  return labels;
+}
+
 std::string DescribeReading(const LabelReading& reading, const LandmarkTable& table) {
   return WithSide(LandmarkOf(reading, table).name, reading.side);
 }

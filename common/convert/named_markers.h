@@ -37,6 +37,10 @@ struct NamedMarkers {
   bool are_of_one_side() const { return num_without_side() >= 3; }
 };
 
+/// What the body says of the labels that it contradicts, those with the same to say together:
+/// "LTHI (317 mm from the left thigh)".
+std::vector<std::string> DescribeContradictions(const NamedMarkers& named);
+
 /// "left heel"
 std::string DescribeReading(const LabelReading& reading, const LandmarkTable& table);
 

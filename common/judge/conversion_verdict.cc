@@ -13,8 +13,6 @@
 #include "common/judge/coverage.h"
 #include "common/judge/evidence.h"
 #include "common/judge/limb_places.h"
-#include "common/judge/told_distances.h"
-#include "common/judge/worn_distances.h"
 #include "common/math/statistics.h"
 #include "common/model/coordinate_map.h"
 #include "common/motion/marker_residuals.h"
@@ -31,12 +29,6 @@ using Level = Verdict::Level;
 // One position. A marker on skin or a wand is at most 0.18 from the model (above), and 0.25 for 0.1
 // s of a somersault; the frame, or the label in it, is wrong beyond.
 constexpr Limit kFarthest = {0.3, kNever};
-// What a label of a known place is off by: ToldDistances, at most 0.11 where right, of real persons
-// and of 9 made ones in 10, whose places are off by 0.028 on each axis; WornDistances, at most 0.11
-// of all of these.
-constexpr Limit kToldDistance = {0.112, kNever};
-// Of noise scales: a place that is known better has a posture about it that is not.
-constexpr double kSurestPlace = 0.75;
 // Of a posture that is not tracked [s]: what a prediction bridges.
 constexpr Limit kLateStart = {0.5, kNever};
 // Share of the frames: right at most 0.06; left and right exchanged 0.1 to 0.8.
@@ -168,29 +160,9 @@ class Judge {
                     far.size(), figures_.of_markers.size(), kMillimetres * kMarkerMean.check,
                     LabelsOf(far)));
     const bool is_told_by_size = evidence_.person.size && !evidence_.person.subject;
-    if (is_told_by_size && most == 0) JudgePlaces();
-  }
-
-  // Labels that are within what any marker may be off, but not within what their names leave open.
-  void JudgePlaces() {
-    const PoseTrajectory& trajectory = evidence_.result.trajectory;
-    const Eigen::VectorXd told = ToldDistances(evidence_.setup, markers_, trajectory);
-    const Eigen::VectorXd distances =
-        told.binaryExpr(WornDistances(evidence_.setup, markers_, trajectory),
-                        [](double a, double b) { return std::fmax(a, b); });
-    std::vector<std::string> labels;
-    double most = 0;
-    for (int i = 0; i < distances.size(); ++i) {
-      const double scale = evidence_.setup.assignments()[static_cast<std::size_t>(i)].noise_scale;
-      const double surest = std::min(1.0, scale / kSurestPlace);
-      if (!kToldDistance.IsBeyond(surest * distances[i])) continue;
-      labels.push_back(
-          fmt::format("{} ({:.0f} mm)", LabelsOf({i}), kMillimetres * scale * distances[i]));
-      most = std::max(most, distances[i]);
+    if (is_told_by_size && most == 0) {
+      JudgePlaces(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
     }
-    reasons_.AddBeyond(
-        kToldDistance, most,
-        fmt::format("labels that are far from where their names say: {}", FirstNames(labels, 6)));
   }
 
   void JudgeFarthest() {

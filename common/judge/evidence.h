@@ -14,6 +14,7 @@
 #include "common/judge/coverage.h"
 #include "common/judge/verdict.h"
 #include "common/model/subject.h"
+#include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {
 
@@ -74,6 +75,11 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
 
 /// Labels that are not where their names say.
 void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons);
+
+/// Labels of a person known by size alone that are within what any marker may be off, but not
+/// within what their names leave open.
+void JudgePlaces(const TrackingSetup& setup, const MarkerSequence& markers,
+                 const PoseTrajectory& trajectory, VerdictReasons* reasons);
 
 void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, VerdictReasons* reasons);
 

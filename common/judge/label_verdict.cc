@@ -21,18 +21,31 @@ constexpr Limit kNamesNotFound = {0.4, 0.6};
 // file 0.02 to 0.15.
 constexpr Limit kUnsure = {0.08, 0.4};
 
+/// The names as those of a conversion.
+void JudgeMeaning(const LabelEvidence& evidence, bool is_far, VerdictReasons* reasons) {
+  const LabelFit& fit = evidence.fit;
+  if (evidence.names != nullptr) JudgeNames(*evidence.names, reasons);
+  if (evidence.reference == nullptr || fit.setup.assignments().empty()) return;
+  if (!evidence.is_calibrated && fit.far_names.empty()) {
+    JudgePlaces(fit.setup, fit.frames, fit.trajectory, reasons);
+  }
+  if (!is_far && evidence.names == nullptr) return;
+  JudgeSides(fit.setup, evidence.reference, evidence.person, fit.frames, reasons);
+}
+
 void JudgeFit(const LabelEvidence& evidence, VerdictReasons* reasons) {
   const LabelFit& fit = evidence.fit;
   const char* whose = evidence.is_calibrated ? "the subject: another person's, or put on anew since"
                                              : "the model of that height";
-  reasons->AddBeyond(evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance,
-                     fit.mean_distance,
-                     fmt::format("the named points are {:.0f} mm from the markers of {}",
-                                 kMillimetres * fit.mean_distance, whose));
-  reasons->AddBeyond(evidence.is_calibrated ? kCalibratedPercentile : kPercentile, fit.p95_distance,
-                     fmt::format("5 % of the named points are more than {:.0f} mm from the markers "
-                                 "of {}",
-                                 kMillimetres * fit.p95_distance, whose));
+  bool is_far = reasons->AddBeyond(
+      evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance, fit.mean_distance,
+      fmt::format("the named points are {:.0f} mm from the markers of {}",
+                  kMillimetres * fit.mean_distance, whose));
+  is_far |= reasons->AddBeyond(
+      evidence.is_calibrated ? kCalibratedPercentile : kPercentile, fit.p95_distance,
+      fmt::format("5 % of the named points are more than {:.0f} mm from the markers "
+                  "of {}",
+                  kMillimetres * fit.p95_distance, whose));
   reasons->AddBeyond(
       kMarkerMean, fit.farthest,
       fmt::format("{} of the names {} on average more than {:.0f} mm from where the "
@@ -40,6 +53,7 @@ void JudgeFit(const LabelEvidence& evidence, VerdictReasons* reasons) {
                   fit.far_names.size(), fit.far_names.size() == 1 ? "is" : "are",
                   kMillimetres * kMarkerMean.check, fit.far_names.size() == 1 ? "it" : "them",
                   FirstNames(fit.far_names, 6)));
+  JudgeMeaning(evidence, is_far, reasons);
   if (evidence.height <= 0 || fit.told_height <= 0) return;
   const double ratio = fit.told_height / evidence.height;
   reasons->AddBeyond(kHeight, std::abs(ratio - 1),

@@ -58,10 +58,10 @@ struct RecordingContent {
   /// Of a skeleton that is a body's: which labels are its joints; the length of its legs has told
   /// the unit. Else none.
   std::vector<SkeletonJoint> body;
-  double metres = 0;                  ///< of a body: length of the unit
-  std::string doubt;                  ///< of it; empty: none
-  std::string doubt_of_names;         ///< of a skeleton's joints; empty: none
-  std::optional<double> stated_mass;  ///< of the person [kg]
+  double metres = 0;           ///< of a body: length of the unit
+  std::string doubt;           ///< of it; empty: none
+  std::string doubt_of_names;  ///< of a skeleton's joints; empty: none
+  BodySize stated_size;        ///< of the person, as the file says
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
   /// To be called once.
   std::function<MarkerSequence(const std::vector<int>& points,

@@ -33,6 +33,14 @@ AllMotions RunAllMotions(const ConversionRequest& request,
 /// Of the motions that were converted; they point into `all`.
 std::vector<const ConversionReport*> ReportsOf(const AllMotions& all);
 
+/// A name for each, no two equal: those of the files, with their folders where that tells them
+/// apart; of motions of one file, the motions'.
+std::vector<std::string> NamesOfReports(const std::vector<const ConversionReport*>& reports);
+
+/// What speaks against strides of all of them together: other persons, other ways to walk, the same
+/// frames twice.
+std::vector<std::string> DoubtsTogether(const std::vector<const ConversionReport*>& reports);
+
 /// Writes the models of the objects, and one file with all motions.
 void WriteAllMotions(const ConversionRequest& request, AllMotions* all);
 

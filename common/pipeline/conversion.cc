@@ -22,6 +22,7 @@
 #include "common/support/error.h"
 #include "common/support/opened_files.h"
 #include "common/support/output_plan.h"
+#include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
@@ -213,6 +214,11 @@ ConversionPlan PlanConversion(const ConversionRequest& request, const ReadBefore
   if (const std::string& file = plan.patient.normal_file; !file.empty()) {
     plan.normal = std::make_shared<const NormalBands>(
         ParseNormalBands(ReadFileContent(file, kMostNormalBytes), file));
+    const std::vector<std::string> lacking = LackingAngles(*plan.normal);
+    if (!lacking.empty()) {
+      plan.warnings.Add(fmt::format("{}: has no bands of {}: without them there are no scores",
+                                    file, JoinNames(lacking)));
+    }
   }
   plan.keeps_covariances = request.keeps_covariances || NeedCovariances(request.exports);
   plan.takes_covariances = TakeCovariances(request.exports);

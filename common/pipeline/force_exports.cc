@@ -17,6 +17,7 @@
 #include "common/contacts/stored_events.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces_table.h"
+#include "common/pipeline/all_motions.h"
 #include "common/pipeline/c3d_results.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/ground_study.h"
@@ -79,7 +80,10 @@ std::string GaitSentence(const Gait& gait) {
         gait.left_out == 1 ? "1 stride is" : fmt::format("{} strides are", gait.left_out)));
   }
   if (gait.turns > 0) {
-    texts.push_back(fmt::format("{} strides over a turn are left out of the means", gait.turns));
+    texts.push_back(fmt::format("{} left out of the means",
+                                gait.turns == 1
+                                    ? "1 stride over a turn is"
+                                    : fmt::format("{} strides over a turn are", gait.turns)));
   }
   if (gait.strides.empty() && texts.empty()) {
     texts.push_back(fmt::format(
@@ -140,10 +144,10 @@ void WriteGait(const std::string& file, const ConversionReport& report) {
 }
 
 void WriteGaitOf(const std::string& file, const std::vector<const ConversionReport*>& reports) {
+  const std::vector<std::string> names = NamesOfReports(reports);
   std::vector<GaitTrial> trials;
-  for (const ConversionReport* report : reports) {
-    const std::string name = fs::path(report->plan.input.recording.file).stem().string();
-    trials.push_back({name, &*report->ground->gait});
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    trials.push_back({names[i], &*reports[i]->ground->gait});
   }
   const bool is_json = fs::path(file).extension() == ".json";
   WriteFileAtomically(file, is_json ? FormatGaitJson(trials) : FormatGaitCsv(trials));
@@ -174,7 +178,16 @@ void WriteJointForces(const std::string& file, const ConversionReport& report) {
 
 void StudyPlates(ConversionReport* report) {
   const auto& forces = report->plan.forces;
-  if (forces && !forces->plates.empty()) report->ground = StudyGround(*report, &report->warnings);
+  if (!forces || forces->plates.empty()) return;
+  report->ground = StudyGround(*report, &report->warnings);
+  const auto& borne = report->ground->mass;
+  PersonValue& mass = report->plan.person.mass;
+  if (!borne || !IsAssumed(mass) || !DoubtOfScale(borne, mass).empty()) return;
+  mass = MassByForcePlates(borne->mass);
+  auto& calibration = report->plan.calibration;
+  if (!calibration) return;
+  calibration->subject.mass = mass.value;
+  report->plan.person.subject = std::make_shared<const Subject>(calibration->subject);
 }
 
 void StudyExports(const ExportFiles& files, ConversionReport* report) {

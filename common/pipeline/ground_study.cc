@@ -70,20 +70,6 @@ constexpr double kToldDeviation = 0.01;           // [s] of events by plates or 
 constexpr double kMostTimes = 1.5;                // of a stated mass: what people carry is less
 constexpr double kLightest = 8, kHeaviest = 250;  // [kg] persons who walk
 
-/// Empty: the plates bore what a person weighs.
-std::string DoubtOfScale(const std::optional<MassByPlates>& borne, const PersonValue& stated) {
-  if (!borne) return "";
-  const bool is_stated = stated.value > 0 && !IsAssumed(stated);
-  const bool is_far =
-      is_stated ? std::max(borne->mass / stated.value, stated.value / borne->mass) > kMostTimes
-                : borne->mass < kLightest || borne->mass > kHeaviest;
-  if (!is_far) return "";
-  return fmt::format(
-      "the force plates bore {:.3g} kg{}: their forces are of another scale", borne->mass,
-      is_stated ? fmt::format(", the person's mass is {:.3g} kg ({})", stated.value, stated.source)
-                : "");
-}
-
 std::string PartOf(const PlateLoad& load) {
   const char* foot = Name(load.bearer);
   if (load.beside[0] > 0 && load.beside[1] > 0) return fmt::format("{} foot", foot);
@@ -124,6 +110,19 @@ void CheckIsOfRecording(const RecordedForces& forces, const Input& input) {
 }
 
 }  // namespace
+
+std::string DoubtOfScale(const std::optional<MassByPlates>& borne, const PersonValue& stated) {
+  if (!borne) return "";
+  const bool is_stated = stated.value > 0 && !IsAssumed(stated) && !IsByPlates(stated);
+  const bool is_far =
+      is_stated ? std::max(borne->mass / stated.value, stated.value / borne->mass) > kMostTimes
+                : borne->mass < kLightest || borne->mass > kHeaviest;
+  if (!is_far) return "";
+  return fmt::format(
+      "the force plates bore {:.3g} kg{}: their forces are of another scale", borne->mass,
+      is_stated ? fmt::format(", the person's mass is {:.3g} kg ({})", stated.value, stated.source)
+                : "");
+}
 
 KnownLegs FindKnownLegs(const ConversionReport& report) {
   const Eigen::MatrixXd& residuals = report.result.residuals;
@@ -311,9 +310,10 @@ Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground)
 }
 
 double KnownMass(const ConversionReport& report, const GroundStudy& ground) {
-  const double modelled = report.plan.setup.model->total_mass();
-  if (!IsAssumed(report.plan.person.mass)) return modelled;
-  return ground.mass ? ground.mass->mass : modelled;
+  const PersonValue& mass = report.plan.person.mass;
+  if (IsByPlates(mass)) return mass.value;
+  if (IsAssumed(mass) && ground.mass) return ground.mass->mass;
+  return report.plan.setup.model->total_mass();
 }
 
 std::string MassSentence(const ConversionReport& report, const GroundStudy& ground) {
@@ -322,6 +322,7 @@ std::string MassSentence(const ConversionReport& report, const GroundStudy& grou
   const std::string borne = fmt::format("the force plates bore {:.1f} +- {:.1f} kg",
                                         ground.mass->mass, ground.mass->deviation);
   if (!(mass.value > 0)) return borne;
+  if (IsByPlates(mass)) return borne + ", and nobody says another mass";
   return fmt::format("{}, the person's mass is {:.1f} kg ({}){}", borne, mass.value, mass.source,
                      IsAssumed(mass) && ground.joint_forces
                          ? "; forces and moments are of what the plates bore"

@@ -11,6 +11,7 @@
 #include "common/contacts/person_mass.h"
 #include "common/io/c3d/c3d_relabelling.h"
 #include "common/kinetics/joint_forces.h"
+#include "common/pipeline/input/person.h"
 
 namespace mmm_converter {
 
@@ -79,6 +80,9 @@ std::string DeviationSentence(const Contacts& steps);
 /// Those that plates tell, and of a foot off the plates those that its leg shows: what begins or
 /// ends while that is hidden has no begin or end.
 Contacts SeenContacts(const ConversionReport& report, const GroundStudy& ground);
+
+/// Why the plates' forces can't be those of this person; empty: they can.
+std::string DoubtOfScale(const std::optional<MassByPlates>& borne, const PersonValue& stated);
 
 /// The mass that plates bore where none was given, else the model's [kg].
 double KnownMass(const ConversionReport& report, const GroundStudy& ground);

@@ -42,15 +42,18 @@ NamedMarkersOf FindMarkers(const FoundLabels& found, const MarkerSequence& named
   return of;
 }
 
-/// Frames x markers [m]; NaN: not seen, or the frame shows too few.
+/// Frames x markers [m]; NaN: not seen, or the frame shows too few. fit: gets the frames that show
+/// enough; may be null.
 Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
-                          const MarkerSequence& named) {
+                          const MarkerSequence& named, LabelFit* fit) {
   const MarkerKinematics kinematics(*found.setup.model, found.setup.joints, of.markers);
   MarkerJacobian at = kinematics.MakeJacobian();
   PostureSearch search(kinematics);
   PostureFitOptions options;
   options.robust_distance = 0.1;
   Eigen::MatrixXd distances = Eigen::MatrixXd::Constant(kFrames, kinematics.num_markers(), kNaN);
+  std::vector<int> told;
+  std::vector<Posture> postures;
   for (int i = 0; i < kFrames; ++i) {
     const int k = (2 * i + 1) * named.num_frames() / (2 * kFrames);
     const Matrix3Xd z = named.frame(k)(Eigen::all, of.columns);
@@ -60,6 +63,15 @@ Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
     kinematics.ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                               posture.joint_angles, &at);
     distances.row(i) = (z - at.p_WM).colwise().norm();
+    told.push_back(k);
+    postures.push_back(std::move(posture));
+  }
+  if (fit != nullptr) {
+    const int n = static_cast<int>(told.size());
+    fit->frames = MarkerSequence(named.labels(), n, named.rate(), 0);
+    for (int i = 0; i < n; ++i) fit->frames.frame(i) = named.frame(told[i]);
+    fit->trajectory.postures = std::move(postures);
+    fit->trajectory.rate = named.rate();
   }
   return distances;
 }
@@ -91,7 +103,7 @@ std::set<std::string> NamesThatFit(const FoundLabels& found, const MarkerSequenc
   const NamedMarkersOf of = FindMarkers(found, markers);
   std::set<std::string> names;
   if (of.markers.size() < kFewestPoints) return names;
-  const Eigen::MatrixXd distances = Distances(found, of, markers);
+  const Eigen::MatrixXd distances = Distances(found, of, markers, nullptr);
   for (Eigen::Index m = 0; m < distances.cols(); ++m) {
     if (MeanDistance(distances, m) <= most) names.insert(of.names[static_cast<std::size_t>(m)]);
   }
@@ -104,8 +116,14 @@ LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
   const MarkerSequence named = Relabelled(PointsOfPerson(found), markers);
   const NamedMarkersOf of = FindMarkers(found, named);
   if (of.markers.size() < kFewestPoints) return fit;
-  const Eigen::MatrixXd distances = Distances(found, of, named);
+  const Eigen::MatrixXd distances = Distances(found, of, named, &fit);
   if (!distances.array().isFinite().any()) return fit;
+  fit.setup = found.setup;
+  fit.setup.mapping.assignments.clear();
+  for (std::size_t m = 0; m < of.markers.size(); ++m) {
+    const double scale = of.noise_scale[static_cast<Eigen::Index>(m)];
+    fit.setup.mapping.assignments.push_back({of.columns[m], of.markers[m], scale});
+  }
   for (Eigen::Index m = 0; m < distances.cols(); ++m) {
     const double mean = MeanDistance(distances, m);
     if (!std::isfinite(mean)) continue;

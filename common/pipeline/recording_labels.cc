@@ -232,10 +232,12 @@ void CheckAreFree(const std::vector<std::string>& names, const std::set<std::str
   }
 }
 
-// What there is before the points: whose they are, and the names that they can have.
+// What there is before the points: whose they are, and the names that they can have. own: gets the
+// names by which the recording's own labels were understood.
 FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hints,
                                const Input& input, const ConverterConfig& config, LabelScene* scene,
-                               LabelOptions* options, Warnings* warnings) {
+                               LabelOptions* options, Warnings* warnings,
+                               std::shared_ptr<const NamedMarkers>* own_names = nullptr) {
   const Recording& recording = input.recording;
   FoundLabels found;
   NameList names;
@@ -246,6 +248,7 @@ FoundLabels FindNamesAndPerson(const InputRequest& request, const LabelHints& hi
     reference = own.setup.model;
     AddLabels(own.setup, recording.markers, true, &names);
     found.setup.marker_set = own.setup.marker_set;
+    if (own_names != nullptr) *own_names = own.names;
   }
   std::optional<Labelled> like;
   if (!hints.like.empty()) {
@@ -314,14 +317,23 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
   LabelScene scene;
   LabelOptions options;
   Warnings of_exchange = warnings != nullptr ? *warnings : Warnings();
-  FoundLabels found = FindNamesAndPerson(request, known, input, config, &scene, &options, warnings);
+  std::shared_ptr<const NamedMarkers> own_names;
+  FoundLabels found =
+      FindNamesAndPerson(request, known, input, config, &scene, &options, warnings, &own_names);
   const std::vector<std::string>& labels = input.recording.markers.labels();
   std::optional<Input> exchanged;
   if (hints.repair) {
-    if (auto sides =
-            ExchangeSides(found.setup, options.stored, input.recording.markers, &of_exchange)) {
+    const MarkerSequence& stored = input.recording.markers;
+    std::optional<MarkerSequence> right;
+    if (own_names != nullptr) {
+      const NamedMarkers by_name = ComposeNamedMarkers(LabelsOf(stored, input.recording.file),
+                                                       *input.reference, ShippedLandmarks());
+      right = ExchangeNames(by_name, *own_names, stored, &of_exchange);
+    }
+    if (!right) right = ExchangeSides(found.setup, options.stored, stored, &of_exchange);
+    if (right) {
       exchanged = input;
-      exchanged->recording.markers = std::move(*sides);
+      exchanged->recording.markers = std::move(*right);
       scene = {};
       options = {};
       // What was said of the wrong sides does not hold.
@@ -356,7 +368,8 @@ LabelReport LabelPoints(const LabelRequest& request, const ReadBefore& read_befo
   report.input = ReadInput(input, read_before, warnings);
   const Recording& recording = report.input.recording;
   const WarningContext context(warnings, recording.file, recording.motion());
-  ConverterConfig config = ChosenConverter(request.converter, read_before, warnings).config;
+  ConverterConfig& config = report.config;
+  config = ChosenConverter(request.converter, read_before, warnings).config;
   if (request.ignores_subject) config.subject_file.clear();
   CheckKeepsRecording(request.output, recording);
   LabelHints hints = request.hints;
@@ -388,8 +401,14 @@ LabelReport RunLabelling(const LabelRequest& request,
   const bool is_calibrated = found.person.subject != nullptr;
   const bool has_size = is_calibrated || report.input.reference->coordinates();
   report.fit = FitLabels(found, recording.markers, has_size ? nullptr : found.reference.get());
-  report.verdict = JudgeLabels(
-      {recording, found.labelling, report.fit, is_calibrated, found.person.height.value});
+  Input written = report.input;
+  written.recording.markers = Relabelled(PointsOfPerson(found), recording.markers);
+  const auto names =
+      UnderstoodNames(LabelsOf(written.recording.markers, recording.file), written, report.config);
+  report.verdict =
+      JudgeLabels({recording, found.labelling, report.fit, is_calibrated, found.person.height.value,
+                   names.get(), report.input.reference->coordinates() ? nullptr : found.reference,
+                   ScalingOf(found.person, report.config)});
   return report;
 }
 

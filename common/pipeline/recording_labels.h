@@ -109,6 +109,7 @@ struct LabelRequest {
 /// Everything that a summary tells.
 struct LabelReport {
   Input input;
+  ConverterConfig config;  ///< matched with the model
   FoundLabels found;
   std::string output;
   LabelFit fit;

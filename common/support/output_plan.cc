@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <set>
@@ -97,12 +98,29 @@ void OutputPlan::CheckIsNoInput(const Output& output) const {
   }
 }
 
+std::string OutputPlan::WhyTwo(const std::string& file) const {
+  const fs::path asked = Destination(file);
+  const bool is_beside = std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& one) {
+    return !one.own_begin.empty() && Destination(one.file) == asked;
+  });
+  if (!is_beside) return "";
+  for (const Output& one : outputs_) {
+    const fs::path other = Destination(one.file);
+    if (other != asked && other.parent_path() == asked.parent_path() &&
+        other.stem() == asked.stem()) {
+      return fmt::format(", one of which is written beside {}", one.file);
+    }
+  }
+  return ", one of which is written beside another one";
+}
+
 void OutputPlan::Check() const {
   std::set<fs::path> files;
   for (const Output& output : outputs_) CheckIsNoInput(output);
   for (const Output& output : outputs_) {
     if (IsDevice(output.file) || files.insert(Destination(output.file)).second) continue;
-    throw Error(fmt::format("{}: is to hold two outputs; give each its own file", output.file));
+    throw Error(fmt::format("{}: is to hold two outputs{}; give each its own file", output.file,
+                            WhyTwo(output.file)));
   }
   for (const Output& output : outputs_) CheckIsOwn(output.file, output.own_begin);
   for (const Output& output : outputs_) {

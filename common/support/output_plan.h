@@ -39,6 +39,8 @@ class OutputPlan {
     std::string own_begin = {};  // of what it may replace; empty: anything
   };
   void CheckIsNoInput(const Output& output) const;
+  /// Of a file that two outputs have: whether one comes beside another; else empty.
+  std::string WhyTwo(const std::string& file) const;
 
   std::vector<std::string> inputs_;
   std::vector<Output> outputs_;

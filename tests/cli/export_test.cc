@@ -253,6 +253,28 @@ TEST(Export, APageOfSeveralRecordingsNamesThoseThatAreNotThere) {
   EXPECT_THAT(text, HasSubstr(R"("verdict":")"));
 }
 
+TEST(Export, RecordingsThatDoNotBelongTogetherAreTold) {
+  const std::string a = TestFolder() + "/a", b = TestFolder() + "/b";
+  const MarkerSequence walk = ReadRecording(Handstand(), {}).markers.Slice(0, 30);
+  MarkerSequence child = walk;
+  for (int k = 0; k < child.num_frames(); ++k) child.frame(k) *= 0.55;
+  for (const std::string& folder : {a, b}) {
+    std::filesystem::create_directory(folder);
+    WriteC3d(folder + "/walk.c3d", walk, {});
+  }
+  WriteC3d(b + "/child.c3d", child, {});
+  const std::string page = TestFolder() + "/page.html";
+  const auto run = RunProgram(WithTestConverter(
+      {"convert", a + "/walk.c3d", b + "/walk.c3d", b + "/child.c3d", "--report", page}));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string text = ReadText(page);
+  for (const std::string said : {"a/walk and b/walk have 30 frames in common", "m tall (a/walk 1.",
+                                 "are of several persons"}) {
+    EXPECT_THAT(run.out, HasSubstr(said));
+    EXPECT_THAT(text, HasSubstr(said));
+  }
+}
+
 TEST(Export, WhatCantBeWrittenIsNamedBeforeAnythingIsWritten) {
   for (const std::string option :
        {"--export-csv", "--export-trc", "--export-mot", "--summary", "--report"}) {

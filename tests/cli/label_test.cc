@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -148,6 +149,61 @@ TEST(LabelRealFiles, RepairKnowsNamesOfLandmarks) {
       RunProgram({"label", SharedData("field/btk_FunctionalWalk.c3d"), "--repair"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("verdict    "));
+}
+
+// Labels that are wrong all along, whose right names the body tells, get these.
+TEST(LabelRealFiles, RepairGivesTheNamesOfWhereLabelsAre) {
+  MMM_CONVERTER_NEEDS_SHARED_DATA();
+  const MarkerSequence all = ReadRecording(SharedData("field/btk_FunctionalWalk.c3d"), {}).markers;
+  const std::string legs[] = {"ASI", "PSI", "THI", "KNE", "TIB", "ANK", "HEE", "TOE"};
+  std::vector<std::string> right;
+  for (const char* side : {"L", "R"}) {
+    for (const std::string& one : legs) right.push_back(side + one);
+  }
+  const auto other_side = [](std::string label) {
+    label[0] = label[0] == 'L' ? 'R' : 'L';
+    return label;
+  };
+  const std::map<std::string, std::string> pairs[] = {
+      {},
+      {{"LTHI", "LTIB"}, {"LTIB", "LTHI"}},
+      {{"LASI", "LPSI"}, {"LPSI", "LASI"}, {"RASI", "RPSI"}, {"RPSI", "RASI"}}};
+  for (const auto& exchanged : pairs) {
+    std::vector<std::string> wrong;
+    for (const std::string& label : right) {
+      const auto other = exchanged.find(label);
+      wrong.push_back(exchanged.empty()          ? other_side(label)
+                      : other == exchanged.end() ? label
+                                                 : other->second);
+    }
+    SCOPED_TRACE(wrong[0] + wrong[2]);
+    const int frames = 120;
+    MarkerSequence recording(wrong, frames, all.rate(), 0);
+    for (int k = 0; k < frames; ++k) {
+      for (std::size_t i = 0; i < right.size(); ++i) {
+        recording.frame(k).col(static_cast<Eigen::Index>(i)) =
+            all.frame(2 * k + 100).col(all.FindLabel(right[i]));
+      }
+    }
+    const std::string input = InFolder("wrong.c3d"), output = InFolder("right.c3d");
+    WriteC3d(input, recording, {});
+    const auto unchanged = RunProgram({"label", input});
+    EXPECT_THAT(unchanged.out, ::testing::Not(HasSubstr("verdict    good")));
+    const auto run = RunProgram({"label", input, "--repair", "-o", output});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("get the names of where they are"));
+    EXPECT_THAT(run.out, HasSubstr("verdict    good"));
+    const MarkerSequence repaired = ReadRecording(output, {}).markers;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      const int label = repaired.FindLabel(right[i]);
+      ASSERT_GE(label, 0) << right[i];
+      for (int k = 0; k < frames; k += 20) {
+        const Eigen::Vector3d p = recording.frame(k).col(static_cast<Eigen::Index>(i));
+        if (!IsSeen(p)) continue;
+        ASSERT_LT((repaired.frame(k).col(label) - p).norm(), 1e-4) << right[i];
+      }
+    }
+  }
 }
 
 // Half of a file, by the subject file of somebody else.

@@ -36,7 +36,9 @@ function showNormal(normal, groups) {
   const scored = groups.filter(({profile}) => profile);
   byId("profile-part").hidden = scored.length === 0;
   if (!normal) return;
-  byId("normal-source").textContent = `Normal: ${normal.source}`;
+  const lacking = normal.lacking || [];
+  byId("normal-source").textContent = `Normal: ${normal.source}` +
+    (lacking.length > 0 ? `. No scores: there are no bands of ${lacking.join(", ")}.` : "");
   replaceContent(byId("profile"), ...scored.flatMap(({name, profile}) => [name ? element("h3", {}, name) : null,
     makeProfileTable(profile), element("p", {}, `Gait Profile Score of both sides: ${formatNumber(overallScore(profile), 1)}°`)]),
   element("p", {class: "caption"}, "Gait Variable Scores are root mean square differences from the normal mean over the cycle, of " +

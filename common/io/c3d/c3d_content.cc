@@ -32,7 +32,7 @@ RecordingContent ReadC3dContent(const std::string& file, const ContentOptions& o
   content.declared_frames = info.layout.declared_frames;
   content.comment = info.comment;
   content.origin = info.origin;
-  content.stated_mass = info.stated_mass;
+  content.stated_size = info.stated_size;
   content.read = [reader, ignore_residuals = options.ignore_residuals](
                      const std::vector<int>& points, const std::vector<std::string>& labels,
                      double rate) {

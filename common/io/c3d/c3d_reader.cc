@@ -48,25 +48,45 @@ RecordingOrigin OriginOf(const C3dParameters& parameters) {
   return origin;
 }
 
-constexpr double kLightest = 5, kHeaviest = 300;  // [kg] persons
+constexpr double kLightest = 5, kHeaviest = 300;   // [kg] persons
+constexpr double kShortest = 0.5, kTallest = 2.5;  // [m]
+constexpr double kFewestCentimetres = 80;          // fewer are inches
 
-/// PROCESSING:BODYMASS of Nexus, and what others call it. Nothing: of several persons, or of none.
-std::optional<double> StatedMass(const C3dParameters& parameters) {
+/// A height in metres, centimetres or millimetres.
+std::optional<double> HeightOf(double number) {
+  if (number >= kShortest && number <= kTallest) return number;
+  if (number >= kFewestCentimetres && number <= 100 * kTallest) return number / 100;
+  if (number >= 1000 * kShortest && number <= 1000 * kTallest) return number / 1000;
+  return std::nullopt;
+}
+
+/// PROCESSING:BODYMASS and HEIGHT of Nexus, and what others call them, also in the group that is
+/// named as the only subject. Nothing of several persons, or of none.
+BodySize StatedSize(const C3dParameters& parameters) {
+  const std::vector<std::string> subjects = parameters.TextList("SUBJECTS", "NAMES", 2);
+  BodySize size;
   for (const C3dParameter& one : parameters.all()) {
-    if (one.group != "PROCESSING" && !one.group.starts_with("SUBJECT") && one.group != "PATIENT") {
+    const bool is_subjects =
+        subjects.size() == 1 && !one.group.empty() && EqualIgnoringCase(one.group, subjects[0]);
+    if (!is_subjects && one.group != "PROCESSING" && !one.group.starts_with("SUBJECT") &&
+        one.group != "PATIENT") {
       continue;
     }
+    if (one.type < 1 || one.size() != 1) continue;
     std::string letters;
     for (const char c : one.name) {
       if (c >= 'A' && c <= 'Z') letters += c;
     }
+    const double number = one.Number(0).value_or(0);
     const bool is_mass = letters.find("BODYMASS") != std::string::npos || letters == "MASS" ||
                          letters == "MASSKG" || letters == "WEIGHTKG" || letters == "WEIGHT";
-    if (!is_mass || one.type < 1 || one.size() != 1) continue;
-    const double mass = one.Number(0).value_or(0);
-    if (mass >= kLightest && mass <= kHeaviest) return mass;
+    const bool is_height = letters.find("BODYHEIGHT") != std::string::npos || letters == "HEIGHT" ||
+                           letters == "HEIGHTM" || letters == "HEIGHTCM" || letters == "HEIGHTMM" ||
+                           letters == "STATURE";
+    if (is_mass && !size.mass && number >= kLightest && number <= kHeaviest) size.mass = number;
+    if (is_height && !size.height) size.height = HeightOf(number);
   }
-  return std::nullopt;
+  return size;
 }
 
 }  // namespace
@@ -89,7 +109,7 @@ C3dReader::C3dReader(const std::string& path, Warnings* warnings) : file_(path, 
   info_.comment = parameters.Text("MANUFACTURER", "COMMENT");
   info_.origin = OriginOf(parameters);
   info_.up = parameters.Text("POINT", "Y_SCREEN");
-  info_.stated_mass = StatedMass(parameters);
+  info_.stated_size = StatedSize(parameters);
 }
 
 MarkerSequence C3dReader::ReadPoints(const std::vector<int>& points,

@@ -22,7 +22,7 @@ struct C3dInfo {
   std::string comment;                      ///< MANUFACTURER:COMMENT
   RecordingOrigin origin;  ///< SUBJECTS:NAMES, TRIAL:DATE, MANUFACTURER:COMPANY and SOFTWARE
   std::string up;  ///< POINT:Y_SCREEN, the axis that points up on a screen, as "+Z"; may be empty
-  std::optional<double> stated_mass;  ///< of the person [kg]
+  BodySize stated_size;  ///< of the person
 };
 
 /// A point of a frame as it is stored.

@@ -207,7 +207,7 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
   recording.comment = std::move(content.comment);
   recording.origin = std::move(content.origin);
   recording.mmm = std::move(content.mmm);
-  recording.stated_mass = content.stated_mass;
+  recording.stated_size = content.stated_size;
   const WarningContext context(warnings, file, recording.motion());
   if (content.is_settled) {
     TakeSettled(content, options, &recording, warnings);

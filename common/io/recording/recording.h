@@ -50,13 +50,13 @@ struct Recording {
   long first_frame = 1;                  ///< number of the first stored frame in the capture
   std::string comment;                   ///< C3D files of this project: what they say of themselves
   RecordingOrigin origin;
-  std::optional<MmmPart> mmm;         ///< of MMM files only
-  std::vector<SkeletonJoint> body;    ///< of skeletons only: which labels are joints of a body
-  std::optional<double> stated_mass;  ///< of the person, as a C3D file's processing says [kg]
+  std::optional<MmmPart> mmm;       ///< of MMM files only
+  std::vector<SkeletonJoint> body;  ///< of skeletons only: which labels are joints of a body
+  BodySize stated_size;             ///< of the person, as a C3D file's processing says
 
   std::string motion() const { return mmm ? mmm->motion : ""; }  ///< empty: not named
   /// As the file says.
-  BodySize size() const { return mmm ? mmm->size : BodySize{{}, stated_mass, {}}; }
+  BodySize size() const { return mmm ? mmm->size : stated_size; }
 };
 
 /// Reads a recording of any format of RecordingFormats, told from the content, not the name.

@@ -18,28 +18,6 @@
 namespace mmm_converter {
 namespace {
 
-/// Null: a marker set is asked for, or knows as much, or names say too little.
-std::shared_ptr<const NamedMarkers> FindNames(const MarkerLabels& labels, const Input& input,
-                                              const ConverterConfig& config) {
-  constexpr int kFewest = 4, kFewestOfLimb = 6, kFewestOfObject = 8;
-  const Recording& recording = input.recording;
-  const bool may_be_object = recording.mmm && !recording.mmm->is_of_person;
-  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
-  if (!is_free || !input.model->is_reference) return nullptr;
-  const LandmarkTable& table = ShippedLandmarks();
-  NamedMarkers named = ComposeNamedMarkers(labels, *input.reference, table);
-  const bool is_limb =
-      named.are_of_one_side() && named.num_used() + named.num_without_side() >= kFewestOfLimb;
-  if (named.num_used() < (may_be_object ? kFewestOfObject : kFewest) && !is_limb) return nullptr;
-  const auto known = FindKnownSet(labels, *input.reference);
-  if (known && IsOfSet(named, *known)) return nullptr;
-  if (recording.markers.num_frames() > 0) {
-    named = UnderstandLabels(labels, recording.markers, *input.reference, table,
-                             {ResolveJoints(config, *input.reference), !input.keeps_usual_places});
-  }
-  return std::make_shared<const NamedMarkers>(std::move(named));
-}
-
 /// Of a model with markers of its own: names of landmarks, where they pair more than names alike
 /// do.
 std::shared_ptr<const NamedMarkers> PairNames(const MarkerLabels& labels, const Input& input,
@@ -84,6 +62,28 @@ TrackingSetup MatchPlaced(const MarkerSet& set, const MarkerLabels& labels, cons
 
 }  // namespace
 
+std::shared_ptr<const NamedMarkers> UnderstoodNames(const MarkerLabels& labels, const Input& input,
+                                                    const ConverterConfig& config) {
+  // A marker set is asked for, or knows as much, or names say too little: null.
+  constexpr int kFewest = 4, kFewestOfLimb = 6, kFewestOfObject = 8;
+  const Recording& recording = input.recording;
+  const bool may_be_object = recording.mmm && !recording.mmm->is_of_person;
+  const bool is_free = config.marker_pairs.empty() && config.marker_set == "auto";
+  if (!is_free || !input.model->is_reference) return nullptr;
+  const LandmarkTable& table = ShippedLandmarks();
+  NamedMarkers named = ComposeNamedMarkers(labels, *input.reference, table);
+  const bool is_limb =
+      named.are_of_one_side() && named.num_used() + named.num_without_side() >= kFewestOfLimb;
+  if (named.num_used() < (may_be_object ? kFewestOfObject : kFewest) && !is_limb) return nullptr;
+  const auto known = FindKnownSet(labels, *input.reference);
+  if (known && IsOfSet(named, *known)) return nullptr;
+  if (recording.markers.num_frames() > 0) {
+    named = UnderstandLabels(labels, recording.markers, *input.reference, table,
+                             {ResolveJoints(config, *input.reference), !input.keeps_usual_places});
+  }
+  return std::make_shared<const NamedMarkers>(std::move(named));
+}
+
 MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
                           const ConverterConfig& config, Warnings* warnings) {
   if (input.reference->coordinates() && input.reference->markers().empty()) {
@@ -98,7 +98,7 @@ MatchedLabels MatchLabels(const MarkerLabels& labels, const Input& input,
     matched.setup = MatchPlaced(set, labels, input, config, warnings);
     return matched;
   }
-  matched.names = FindNames(labels, input, config);
+  matched.names = UnderstoodNames(labels, input, config);
   if (!matched.names) matched.names = PairNames(labels, input, config);
   if (!matched.names) {
     matched.setup = MatchMarkers(labels, input.reference, config, warnings);

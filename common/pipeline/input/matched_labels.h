@@ -14,6 +14,10 @@ struct MatchedLabels {
   std::shared_ptr<const NamedMarkers> names;  ///< null: a marker set knows the labels
 };
 
+/// The names that MatchLabels goes by; null: it does not.
+std::shared_ptr<const NamedMarkers> UnderstoodNames(const MarkerLabels& labels, const Input& input,
+                                                    const ConverterConfig& config);
+
 /// MatchMarkers, by the names of the labels where no marker set is asked for and they tell more of
 /// the body than the sets that know them: then the setup's model is the reference with the markers
 /// that they mean, which the recording's frames judge, if it has any (UnderstandLabels).

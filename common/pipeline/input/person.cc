@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kAssumedMass = 70;  // [kg]
 constexpr const char* kAssumed = "assumed";
+constexpr const char* kByPlates = "force plates";
 constexpr const char* kSetOfNames = "names";  // what ComposeNamedMarkers calls its sets
 // Of persons whose bones are as long: Winter's proportions differ by some percent [m].
 constexpr double kSkeletonHeightDeviation = 0.05;
@@ -71,6 +72,9 @@ void Estimate(const TrackingSetup& setup, const MarkerSequence& markers, const N
   }
 }
 
+// Of one person's heights, one of which may be estimated from markers: relative.
+constexpr double kHeightsOfOne = 0.05;
+
 // Files have at least 6 digits of a metre or a kilogram.
 bool AreEqual(double a, double b) { return std::abs(a - b) < 1e-6; }
 
@@ -103,11 +107,12 @@ void UseSubject(const PersonRequest& request, const BodySize& processor, const R
                               subject.mass, mass->value, mass->source));
     person->mass = *mass;
   }
-  if (recording.size().height && !AreEqual(*recording.size().height, subject.height)) {
+  const std::optional<double> stated = recording.size().height;
+  if (stated && std::abs(*stated / subject.height - 1) > kHeightsOfOne) {
     warnings->Add(
         fmt::format("{}: the recording is of a person of {:g} m, the subject has {:g} m; is it the "
                     "same person?",
-                    file, *recording.size().height, subject.height));
+                    file, *stated, subject.height));
   }
 }
 
@@ -179,6 +184,10 @@ Person LeaveUnscaled(const PersonRequest& request, const ConverterConfig& config
 }  // namespace
 
 bool IsAssumed(const PersonValue& value) { return value.source == kAssumed; }
+
+bool IsByPlates(const PersonValue& value) { return value.source == kByPlates; }
+
+PersonValue MassByForcePlates(double mass) { return {mass, kByPlates}; }
 
 bool IsGiven(const PersonRequest& request) {
   return !request.processor_file.empty() || !request.subject_file.empty() || !request.size.empty();

@@ -35,6 +35,9 @@ struct PersonValue {
 
 /// Nobody said it, nor does anything tell it.
 bool IsAssumed(const PersonValue& value);
+/// A mass that nobody said, but plates bore [kg]; the model has the assumed one.
+PersonValue MassByForcePlates(double mass);
+bool IsByPlates(const PersonValue& value);
 
 struct Person {
   PersonValue height, mass;

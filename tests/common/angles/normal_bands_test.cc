@@ -116,5 +116,20 @@ TEST(GaitProfile, ABandOfASideIsAsItWasExported) {
   EXPECT_NEAR(VariableScore(stride, normal), 0, kSameValue);
 }
 
+TEST(NormalBands, InRadiansAreRefused) {
+  const std::string head = kHeader;
+  EXPECT_THAT(MessageOf(head + "knee,flexion,0,0.1,0.1\nknee,flexion,100,1.1,0.1\n"),
+              HasSubstr("norm.csv: all angles are within 2 degrees"));
+  EXPECT_EQ(MessageOf(head + "pelvis,obliquity,0,1,1\npelvis,obliquity,100,-1,1\n"), "");
+}
+
+TEST(NormalBands, TellWhichAnglesScoresLack) {
+  const NormalBands normal =
+      Parse(std::string(kHeader) + "knee,flexion,0,10,2\nknee,flexion,100,10,2\n");
+  const std::vector<std::string> lacking = LackingAngles(normal);
+  EXPECT_EQ(lacking.size(), kProfileAngles.size() - 1);
+  EXPECT_EQ(lacking.front(), "pelvis tilt");
+}
+
 }  // namespace
 }  // namespace mmm_converter

@@ -258,7 +258,8 @@ TEST_F(NamedPersons, WhoseLegsHaveExchangedSidesAreContradicted) {
 
 // Of MT1 and MT5 each is far from its place, and the foot turns between them.
 TEST_F(NamedPersons, WhosePairsAreExchangedAreTold) {
-  constexpr std::pair<const char*, const char*> kPairs[] = {{"%MT1", "%MT5"}, {"%FHD", "%BHD"}};
+  constexpr std::pair<const char*, const char*> kPairs[] = {
+      {"%MT1", "%MT5"}, {"%FHD", "%BHD"}, {"%ASI", "%PSI"}, {"%HEE", "%KNE"}};
   for (const auto& [one, other] : kPairs) {
     Vocabulary vocabulary = Vocabularies()[0];
     std::swap(vocabulary.labels.at(one), vocabulary.labels.at(other));
@@ -277,6 +278,38 @@ TEST_F(NamedPersons, WhosePairsAreExchangedAreTold) {
       EXPECT_EQ(label.note.starts_with("exchanged with "), is_exchanged) << label.note;
     }
   }
+}
+
+// Of clusters names tell the segment, to which each moves with the other's.
+TEST_F(NamedPersons, WhoseClustersAreExchangedAreTold) {
+  Vocabulary right = Vocabularies()[3];
+  right.labels["%THI"] = "%thigh1_study";
+  right.labels["%TIP"] = "%sh1_study";
+  Vocabulary wrong = right;
+  std::swap(wrong.labels.at("%THI"), wrong.labels.at("%TIP"));
+  std::vector<std::string> kit;
+  const MarkerSequence legs = Rename(Record(right, 22), wrong, BodyPart::kLegs, &kit);
+  const NamedMarkers named =
+      UnderstandLabels(LabelsOf(legs), legs, reference_, table_, {joints_, true});
+  for (std::size_t i = 0; i < kit.size(); ++i) {
+    const NamedLabel& label = named.labels[i];
+    const bool is_thigh = kit[i].ends_with("THI"), is_shank = kit[i].ends_with("TIP");
+    EXPECT_EQ(label.is_contradicted, is_thigh || is_shank) << label.label << ": " << label.note;
+    if (is_thigh) EXPECT_TRUE(label.part.ends_with("thigh")) << label.part;
+    if (is_shank) EXPECT_TRUE(label.part.ends_with("shank")) << label.part;
+  }
+}
+
+TEST(NamedMarkers, WithTheSameToSayAreToldTogether) {
+  NamedMarkers named;
+  for (const char* label : {"LASI", "RASI", "C7", "LTHI"}) {
+    NamedLabel& one = named.labels.emplace_back();
+    one.label = label;
+    one.is_contradicted = one.label != "C7";
+    one.note = one.label == "LTHI" ? "elsewhere" : "exchanged";
+  }
+  EXPECT_EQ(DescribeContradictions(named),
+            (std::vector<std::string>{"LASI, RASI (exchanged)", "LTHI (elsewhere)"}));
 }
 
 // A tracker crosses the legs, and its markers are not far from the model.

@@ -45,6 +45,28 @@ TEST(LabelVerdict, IsGoodWhereEveryNameIsSurelyFound) {
   EXPECT_THAT(verdict.reasons, IsEmpty());
 }
 
+TEST(LabelVerdict, IsNotGoodWhereTheBodyContradictsNames) {
+  const Case right = MakeCase(4, 4, 4);
+  NamedMarkers names;
+  for (int i = 0; i < 3; ++i) {
+    NamedLabel& one = names.labels.emplace_back();
+    one.label = "N" + std::to_string(i);
+    one.readings = {{0, BodySide::kLeft}};
+    one.note = "exchanged";
+  }
+  LabelFit fit;
+  fit.mean_distance = kNear;
+  LabelEvidence evidence = {right.recording, right.labelling, fit, true};
+  evidence.names = &names;
+  EXPECT_EQ(JudgeLabels(evidence).level, Verdict::Level::kGood);
+  names.labels[0].is_contradicted = true;
+  EXPECT_EQ(JudgeLabels(evidence).level, Verdict::Level::kCheck);
+  names.labels[1].is_contradicted = true;
+  const Verdict verdict = JudgeLabels(evidence);
+  EXPECT_EQ(verdict.level, Verdict::Level::kFailed);
+  EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr("N0, N1 (exchanged)")));
+}
+
 TEST(LabelVerdict, CountsNamesThatAreNotFound) {
   // A marker that is not worn is no fault, a point that stays without a name beside it is.
   EXPECT_EQ(Judge(MakeCase(4, 4, 5)).level, Verdict::Level::kGood);

@@ -90,6 +90,16 @@ TEST(OutputPlan, TwoOutputsAreTwoFiles) {
   }
 }
 
+TEST(OutputPlan, WhatIsWrittenBesideAnOutputIsNamed) {
+  OutputPlan plan;
+  plan.Write(In("loads.xml"));
+  plan.Write(In("loads.mot"));
+  plan.WriteBeside(In("loads.xml"), "<?xml");
+  EXPECT_EQ(WhyRefused(plan), In("loads.xml") +
+                                  ": is to hold two outputs, one of which is written beside " +
+                                  In("loads.mot") + "; give each its own file");
+}
+
 TEST(OutputPlan, DevicesAreInNobodysWay) {
   OutputPlan plan;
   plan.Read("/dev/null");

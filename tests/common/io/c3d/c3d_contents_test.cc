@@ -57,6 +57,31 @@ RecordingOrigin OriginOf(C3dSection section) {
   return C3dReader(WriteTemp(bytes.File(section))).info().origin;
 }
 
+TEST(C3dContents, HeightAndMassThatAreStated) {
+  const auto size_of = [](const C3dSection& section) {
+    const C3dBytes bytes = {.points = 1, .frames = {{1, 2, 3, 0}}};
+    return C3dReader(WriteTemp(bytes.File(section))).info().stated_size;
+  };
+  const auto height_of = [&](const char* group, const char* name, float height) {
+    return size_of(C3dSection().Group(2, group).Float(2, name, height)).height;
+  };
+  EXPECT_NEAR(height_of("PROCESSING", "Height", 1680).value_or(0), 1.68, 1e-6);
+  EXPECT_NEAR(height_of("SUBJECT", "HEIGHT", 151).value_or(0), 1.51, 1e-6);
+  EXPECT_NEAR(height_of("PATIENT", "Height", 1.63F).value_or(0), 1.63, 1e-6);
+  EXPECT_FALSE(height_of("PROCESSING", "Height", 66));  // inches
+  EXPECT_FALSE(height_of("PROCESSING", "Height", 0));
+  EXPECT_FALSE(height_of("21989", "Height", 1050));  // of whom?
+  // A subject has a group of its own.
+  const BodySize child = size_of(C3dSection()
+                                     .Group(2, "SUBJECTS")
+                                     .Texts(2, "NAMES", 5, "21989")
+                                     .Group(3, "21989")
+                                     .Float(3, "Height", 1050)
+                                     .Float(3, "Bodymass", 13));
+  EXPECT_NEAR(child.height.value_or(0), 1.05, 1e-6);
+  EXPECT_NEAR(child.mass.value_or(0), 13, 1e-6);
+}
+
 TEST(C3dContents, WhoWasRecordedWhenAndByWhat) {
   const C3dSection who = C3dSection().Group(2, "SUBJECTS").Texts(2, "NAMES", 5, "Zo\xEB  ");
   EXPECT_EQ(OriginOf(who).subject, "Zo\xC3\xAB");
