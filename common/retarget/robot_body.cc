@@ -247,7 +247,7 @@ RobotFoot MakeFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
   foot.segment = sole->segment;
   foot.said = sole->said;
   foot.doubt = sole->doubt;
-  foot.rolls = static_cast<int>(leg.chain.size()) - leg.fold > 2;
+  foot.rolls = static_cast<int>(leg.chain.size()) - leg.beyond > 1;
   foot.shapes = sole->shapes;
   foot.R_FA = (LevelKnee(X_WS, map, leg) * X_WS[foot.segment].linear()).transpose() * map.R_WA;
   if (choice.size) foot.shapes = {GivenBox(robot, foot, choice)};
@@ -391,9 +391,9 @@ RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice, const S
     const LimbMap& leg = *body.map.legs[0];
     const BodyPosture zero = PostureOfBody(body.map, X_WS);
     body.hip_width = (zero.legs[0].proximal - zero.legs[1].proximal).norm();
-    body.size = leg.upper.length + leg.lower.length + (*body.feet)[0].ankle_height;
+    body.size = leg.length() + (*body.feet)[0].ankle_height;
   } else {
-    body.size = body.map.arms[0]->upper.length + body.map.arms[0]->lower.length;
+    body.size = body.map.arms[0]->length();
   }
   if (body.size > kMostSize) {
     throw Error(

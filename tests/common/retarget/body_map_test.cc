@@ -135,6 +135,26 @@ TEST(BodyMapTest, LegsThatAreNoImagesAreRefusedNotLeftOut) {
   EXPECT_EQ(RefusalOf(shape), "");
 }
 
+TEST(BodyMapTest, AKneeOfTwoJointsThatTurnAsOneIsOneKnee) {
+  for (const double gap : {0.0, 0.04}) {
+    for (const bool reversed : {false, true}) {
+      BipedShape shape;
+      shape.halves = gap;
+      shape.halves_reversed = reversed;
+      const Robot robot = MakeBiped(shape);
+      const BodyMap map = FindBodyMap(robot.model, {});
+      for (const auto* limb : {&map.legs[0], &map.legs[1], &map.arms[0], &map.arms[1]}) {
+        const bool is_leg = limb == &map.legs[0] || limb == &map.legs[1];
+        EXPECT_EQ(NameOf(robot, *limb).substr(NameOf(robot, *limb).size() - 5), "_half");
+        EXPECT_EQ((*limb)->lower.segment, (*limb)->chain[(*limb)->fold + 1]);
+        EXPECT_NEAR((*limb)->lower.length, is_leg ? 0.36 : 0.22, 1e-9);
+        EXPECT_NEAR((*limb)->length(), (is_leg ? 0.72 : 0.47) + gap, 1e-9);
+      }
+      EXPECT_TRUE((*FindRobotBody(robot, {}, {}).feet)[0].rolls);
+    }
+  }
+}
+
 TEST(BodyMapTest, HandsAndToesEndTheirChains) {
   BipedShape shape;
   shape.has_fingers = shape.has_toes = true;

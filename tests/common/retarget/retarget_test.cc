@@ -58,6 +58,29 @@ TEST(RetargetTest, ASquatIsASquatAndItsFeetStandStill) {
   EXPECT_NEAR(result.motion.postures[100].joint_angles[knee], 0.0, 0.06);
 }
 
+TEST(RetargetTest, LimbsWhoseKneesAreTwoJointsPointAsThePersons) {
+  const KinematicModel person = Person(1.75);
+  testing::BipedShape shape;
+  shape.halves_reversed = true;
+  for (const double gap : {0.0, 0.04}) {
+    shape.halves = gap;
+    const Robot robot = MakeBiped(shape);
+    const RobotBody body = FindRobotBody(robot, {}, {});
+    const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
+    const int knee = robot.model.FindSegment("left_knee");
+    const int ankle = robot.model.FindSegment("left_ankle_pitch");
+    double most = 0;
+    for (int k = 0; k < result.human.num_frames(); ++k) {
+      const LimbPosture& leg = result.human.bodies[static_cast<std::size_t>(k)].legs[0];
+      const auto X_WS = SegmentPoses(robot.model, result.motion.postures[k]);
+      const Eigen::Vector3d shank = X_WS[knee].translation() - X_WS[ankle].translation();
+      most = std::max(most, std::acos(shank.normalized().dot(LowerDirection(leg))));
+    }
+    EXPECT_LT(most, 4 * kDegree) << gap;
+    EXPECT_LT(MeasureRetargeting(result, robot, body).direction, 2 * kDegree) << gap;
+  }
+}
+
 TEST(RetargetTest, TurnsWithThePerson) {
   const KinematicModel person = Person(1.75);
   const Robot robot = MakeBiped({});
