@@ -99,12 +99,12 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   ReadFeet(FindRobotMap(robot, map), sole, &robot, &of_meshes);
   RobotBody body = FindBody(robot, map, sole, of_meshes);
   if (warnings != nullptr) warnings->Append(of_meshes);
-  if (body.feet && !(*body.feet)[0].doubt.empty()) Warn(warnings, (*body.feet)[0].doubt);
   if (!request.objects.empty() && !body.feet) {
     throw Error(fmt::format("{}: {} needs a robot with legs, and this one has none", request.file,
                             OptionText("objects")));
   }
   HoldJoints(robot, request.hold, &body);
+  if (const std::string doubt = DoubtOf(robot, body); !doubt.empty()) Warn(warnings, doubt);
   return {std::move(robot), std::move(body)};
 }
 

@@ -121,6 +121,7 @@ void HoldJoints(const Robot& robot, const std::string& angles, RobotBody* body) 
   for (const std::string& pattern : Split(angles, ',')) {
     HoldPattern(robot.model, legs, ParsePattern(pattern), body);
   }
+  PlaceBase(robot, body);
   WatchContacts(robot, body);
 }
 

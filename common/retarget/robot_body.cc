@@ -81,6 +81,38 @@ void CheckSole(const SoleChoice& choice) {
 
 }  // namespace
 
+std::string DoubtOf(const Robot& robot, const RobotBody& body) {
+  if (body.feet) return (*body.feet)[0].doubt;
+  if (robot.model.is_root_fixed()) return "";
+  return "the robot has no legs that are used: its base stands where it is, and does not follow "
+         "the "
+         "person";
+}
+
+void PlaceBase(const Robot& robot, RobotBody* body) {
+  Posture rest = ZeroPosture(robot.model);
+  body->base = rest.position;
+  if (body->feet || robot.model.is_root_fixed()) return;
+  rest.joint_angles = body->rest;
+  const auto X_WS = SegmentPoses(robot.model, rest);
+  double lowest = INFINITY;
+  for (const ContactShape& shape : robot.shapes) {
+    lowest = std::min(lowest, LowestHeight(shape, X_WS[shape.segment]));
+  }
+  for (const CapsuleBody& one : body->capsules.bodies) {
+    for (const BodyCapsule& capsule : one.capsules) {
+      for (const Vector3d& end : {capsule.a_S, capsule.b_S}) {
+        if (!robot.shapes.empty()) continue;
+        lowest = std::min(lowest, (X_WS[one.segment] * end).z() - capsule.radius);
+      }
+    }
+  }
+  for (const Robot::Link& link : robot.links) {
+    lowest = std::min(lowest, (X_WS[link.segment] * link.X_SL).translation().z());
+  }
+  body->base.z() -= lowest;
+}
+
 BodyMap FindRobotMap(const Robot& robot, const BodyMapChoice& choice) {
   BodyMap map = FindBodyMap(robot.model, choice);
   CheckLoops(robot, map);
@@ -117,6 +149,7 @@ RobotBody FindRobotBody(const Robot& robot, const BodyMapChoice& choice, const S
   body.rest = ZeroPosture(robot.model).joint_angles;
   HoldIdleJoints(robot, &body);
   body.capsules = FindCapsules(robot, body.map);
+  PlaceBase(robot, &body);
   WatchContacts(robot, &body);
   return body;
 }

@@ -25,8 +25,15 @@ struct RobotBody {
   std::vector<FloorBall> balls;  ///< of arms, trunk and knees: with them, too, it stays above z = 0
   std::array<BodyPoint, 2> palms;  ///< of hands (PalmOf); segment -1: it has no such arm
   Eigen::VectorXd rest;            ///< of all joints, where nothing moves them
-  std::vector<int> held;           ///< joints that stay there (held_joints.h)
+  /// Of the root where it has no legs: as its file says, or floating, so high that it stands [m].
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();
+  std::vector<int> held;  ///< joints that stay there (held_joints.h)
 };
+
+/// Why the motion may not be what is wanted, of its soles or its base; empty: nothing.
+std::string DoubtOf(const Robot& robot, const RobotBody& body);
+/// Puts RobotBody::base where the lowest point of the robot at rest is on the floor.
+void PlaceBase(const Robot& robot, RobotBody* body);
 
 /// FindBodyMap. @throws Error as that, and where the file ties a knee or an elbow to another joint
 /// of the limb.

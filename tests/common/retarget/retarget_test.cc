@@ -112,6 +112,24 @@ TEST(RetargetTest, AFixedTrunkMovesItsArms) {
   EXPECT_LT(result.motion.postures[70].position.norm(), 1e-3);
 }
 
+TEST(RetargetTest, ARobotWhoseLegsAreNotUsedStandsOnThemAndSaysSo) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  BodyMapChoice arms;
+  arms.arms = {LimbChoice{"left_shoulder_pitch", "left_elbow", "left_elbow"},
+               LimbChoice{"right_shoulder_pitch", "right_elbow", "right_elbow"}};
+  const RobotBody body = FindRobotBody(robot, arms, {});
+  ASSERT_FALSE(body.feet);
+  EXPECT_THAT(DoubtOf(robot, body), ::testing::HasSubstr("does not follow the person"));
+  for (const bool follows : {false, true}) {
+    const Retargeted result = follows ? FollowMotion(person, Squat(person), robot, body)
+                                      : RetargetMotion(person, Squat(person), robot, body);
+    for (const Posture& posture : result.motion.postures) {
+      ASSERT_LT((posture.position - Eigen::Vector3d(0, 0, 0.8)).norm(), 1e-3) << follows;
+    }
+  }
+}
+
 TEST(RetargetTest, FeetStandStillAtTheRateOfAFile) {
   const KinematicModel person = Person(1.75);
   const Robot robot = MakeBiped({});
