@@ -104,6 +104,10 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
                             OptionText("objects")));
   }
   HoldJoints(robot, request.hold, &body);
+  if (!request.hold.empty() && BendFeet(body, &robot.model)) {
+    body = FindBody(robot, map, sole, of_meshes);
+    HoldJoints(robot, request.hold, &body);
+  }
   if (const std::string doubt = DoubtOf(robot, body); !doubt.empty()) Warn(warnings, doubt);
   return {std::move(robot), std::move(body)};
 }
