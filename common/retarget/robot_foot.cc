@@ -23,6 +23,8 @@ constexpr double kTilts[] = {0.3, 1};     // of directions in which the sole's e
 constexpr int kAround = 8;                // of these
 constexpr double kLeastSpread = 0.05, kMostSpread = 1;  // [rad] of a leg at the zero pose
 constexpr double kSamePlace = 1e-4;                     // [m]
+constexpr double kFlatTurn = 0.05;  // [rad] by which a foot that lies flat rises about its edges
+constexpr double kFlatLever = 0.1;  // of its length or width, from the ankle to an edge
 // A hull's corners that are kept above the floor: as the foot tilts so far, the others are above
 // these by no more than half of what a foot may be in the floor.
 constexpr double kHullTolerance = 0.0005;                        // [m]
@@ -203,6 +205,45 @@ Eigen::Matrix3d LevelKnee(const std::vector<Eigen::Isometry3d>& X_WS, const Body
   return Eigen::AngleAxisd(-tilt, map.R_WA.col(0)).toRotationMatrix();
 }
 
+/// Where a height is least, downhill from 0 [rad]; 0 where it is not as of what lies flat: turned
+/// by kFlatTurn either way it is higher by that times lever [m] at least.
+template <typename Height>
+double FlatAngle(double lever, const Height& height) {
+  double at = 0;
+  for (double step = kFlatTurn; step > kFlatTurn * 1e-6; step /= 4) {
+    const double way = height(at + step) < height(at - step) ? step : -step;
+    while (height(at + way) < height(at) && std::abs(at) < kMostSpread) at += way;
+  }
+  const double rise = std::min(height(at - kFlatTurn), height(at + kFlatTurn)) - height(at);
+  return rise > kFlatTurn * lever ? at : 0;
+}
+
+/// From where a foot is at the zero pose to where it lies flat: there its ankle is lowest. Feet
+/// that are hardly tilted, or round, stay.
+Eigen::Matrix3d LaidFlat(const RobotFoot& foot, const Vector3d& ankle_S) {
+  double pitch = 0, roll = 0;
+  const auto turned = [](double by_pitch, double by_roll) {
+    return Eigen::Matrix3d(Eigen::AngleAxisd(by_pitch, Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(by_roll, Vector3d::UnitX()));
+  };
+  const auto height = [&](double by_pitch, double by_roll) {
+    const Vector3d down_A = -turned(by_pitch, by_roll).col(2);
+    return (FarthestOf(foot, down_A) - ankle_S).dot(foot.R_FA * down_A);
+  };
+  const auto lever = [&](int axis) {
+    const Vector3d across = foot.R_FA.col(axis);
+    return kFlatLever *
+           (FarthestOf(foot, Vector3d::Unit(axis)) - FarthestOf(foot, -Vector3d::Unit(axis)))
+               .dot(across);
+  };
+  for (int pass = 0; pass < 3; ++pass) {
+    pitch = FlatAngle(lever(0), [&](double angle) { return height(angle, roll); });
+    roll = FlatAngle(lever(1), [&](double angle) { return height(pitch, angle); });
+  }
+  return std::hypot(pitch, roll) < kLeastSpread ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                                : turned(pitch, roll);
+}
+
 /// Under the foot's centre of mass, if that is known and above it, else under its joint.
 ContactShape GivenBox(const Robot& robot, const RobotFoot& foot, const SoleChoice& choice) {
   const Segment& segment = robot.model.segments()[foot.segment];
@@ -287,7 +328,10 @@ RobotFoot FindFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
   foot.rolls = static_cast<int>(leg.chain.size()) - leg.beyond > 1;
   foot.shapes = sole->shapes;
   foot.R_FA = (LevelKnee(X_WS, map, leg) * X_WS[foot.segment].linear()).transpose() * map.R_WA;
+  const Vector3d ankle_W = X_WS[leg.distal.segment] * leg.distal.p_S;
+  const Vector3d ankle_S = X_WS[foot.segment].inverse() * ankle_W;
   if (choice.size) foot.shapes = {GivenBox(robot, foot, choice)};
+  foot.R_FA = foot.R_FA * LaidFlat(foot, ankle_S);
   for (const ContactShape& shape : foot.shapes) AddBalls(foot, shape, &foot.balls);
   AddHullBalls(&foot);
   AddBearing(&foot);
@@ -295,8 +339,7 @@ RobotFoot FindFoot(const Robot& robot, const std::vector<Eigen::Isometry3d>& X_W
   const Vector3d lowest = R_AF * FarthestOf(foot, -Vector3d::UnitZ());
   const double right = (R_AF * FarthestOf(foot, {0, -1, -3})).y();
   const double left = (R_AF * FarthestOf(foot, {0, 1, -3})).y();
-  const Vector3d ankle_W = X_WS[leg.distal.segment] * leg.distal.p_S;
-  const Vector3d ankle = R_AF * (X_WS[foot.segment].inverse() * ankle_W);
+  const Vector3d ankle = R_AF * ankle_S;
   foot.width = left - right;
   const double middle = 0.5 * (right + left);
   const auto place = [&](double x) {

@@ -65,7 +65,10 @@ std::string LegText(const BipedShape& shape, const std::string& side, double y) 
                   {side + "knee", link("hip_pitch"), fmt::format("0 0 {}", -thigh), "0 1 0",
                    shape.knee_lower, shape.knee_upper, 20},
                   "0 0 -0.18") +
-         JointAndLink({side + "ankle_pitch", link("knee"), "0 0 -0.36", "0 1 0", -1, 1, 20}, here) +
+         JointAndLink(
+             {side + "ankle_pitch", link("knee"),
+              fmt::format(R"(0 0 -0.36" rpy="0 {} 0)", shape.ankle_zero), "0 1 0", -1, 1, 20},
+             here) +
          JointAndLink({side + "ankle_roll", link("ankle_pitch"), here, "1 0 0", -0.5, 0.5, 20},
                       "0.02 0 -0.04", foot) +
          (shape.has_toes ? JointAndLink({side + "toes", link("ankle_roll"), "0.12 0 -0.06", "0 1 0",

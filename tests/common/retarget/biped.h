@@ -32,6 +32,7 @@ struct BipedShape {
   /// ("left_knee_half"), so far below it [m]; reversed: about the opposite axis.
   std::optional<double> halves = {};
   bool halves_reversed = false;
+  double ankle_zero = 0;  ///< [rad] of feet at the zero pose, their toes down
 };
 
 /// A URDF.

@@ -343,6 +343,20 @@ TEST(BodyMapTest, JointsWithoutLimitsAreMappedByTheirAxesAndNames) {
   EXPECT_TRUE(map.R_WA.isApprox(known.R_WA, 1e-9));
 }
 
+TEST(RobotBodyTest, ALegIsAsLongWhateverAnAnglesZeroIs) {
+  for (const double zero : {0.35, -0.2, 0.02}) {
+    BipedShape shape;
+    shape.ankle_zero = zero;
+    const RobotBody body = FindRobotBody(MakeBiped(shape), {}, {});
+    const RobotFoot& foot = (*body.feet)[0];
+    EXPECT_NEAR(body.size, 0.8, std::abs(zero) < 0.05 ? 0.004 : 1e-5) << zero;
+    EXPECT_NEAR(foot.ankle_height, 0.08, std::abs(zero) < 0.05 ? 0.004 : 1e-5) << zero;
+    if (std::abs(zero) < 0.05) continue;  // as files round
+    EXPECT_TRUE(foot.R_FA.isApprox(Eigen::Matrix3d::Identity(), 1e-5)) << zero;
+    EXPECT_NEAR((foot.toe - foot.heel).norm(), 0.2, 1e-5) << zero;
+  }
+}
+
 TEST(RobotBodyTest, ToesBelongToTheSole) {
   BipedShape shape;
   shape.has_toes = true;
