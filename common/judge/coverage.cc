@@ -100,11 +100,13 @@ std::vector<Limb> LimbsOf(const TrackingSetup& setup) {
 std::string DescribeUnshown(const std::vector<Limb>& limbs) {
   std::vector<std::string> unshown;
   for (const Limb& limb : limbs) {
-    if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) {
+    const int told = 3 * static_cast<int>(limb.labels.size());
+    const int missing = std::max(limb.free_joints, limb.num_joints - told);
+    if (limb.labels.empty()) {
       unshown.push_back("the " + limb.name);
-    } else if (limb.free_joints > 0) {
+    } else if (missing > 0) {
       unshown.push_back(
-          fmt::format("{} of {} joints of the {}", limb.free_joints, limb.num_joints, limb.name));
+          fmt::format("{} of {} joints of the {}", missing, limb.num_joints, limb.name));
     }
   }
   return unshown.empty() ? "" : JoinNames(unshown, " and ");

@@ -137,6 +137,11 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   }
   if (const std::string doubt = DoubtOf(robot, body); !doubt.empty()) Warn(warnings, doubt);
   WarnOfBareRoot(robot, warnings);
+  if (!body.map.left_out.empty()) {
+    Warn(warnings, fmt::format("{} are of no two limbs that are images of each other: they stay at "
+                               "rest",
+                               FirstNames(body.map.left_out)));
+  }
   return {std::move(robot), std::move(body)};
 }
 

@@ -51,6 +51,7 @@ struct BodyMap {
   Eigen::Matrix3d R_PA = Eigen::Matrix3d::Identity();  ///< the same in the pelvis
   Eigen::Matrix3d R_CA = Eigen::Matrix3d::Identity();  ///< in the chest
   std::vector<std::string> evidence;                   ///< why, in words
+  std::vector<std::string> left_out;  ///< joints named as of a limb that was not found in a pair
 
   const std::optional<LimbMap>& leg(Side side) const {
     return legs[static_cast<std::size_t>(side)];

@@ -66,6 +66,13 @@ HeldPattern ParsePattern(const std::string& text) {
 }
 
 [[noreturn]] void ThrowUnknown(const KinematicModel& model, const HeldPattern& pattern) {
+  for (const Segment& segment : model.segments()) {
+    if (fnmatch(pattern.name.c_str(), segment.name.c_str(), 0) != 0 || segment.parent < 0) continue;
+    throw Error(
+        fmt::format("{}: {} does not move: it is fixed, slides in a URDF, has equal limits "
+                    "or follows another joint",
+                    OptionText("hold"), segment.name));
+  }
   std::vector<std::string> names;
   names.reserve(model.num_joints());
   for (int j = 0; j < model.num_joints(); ++j) names.push_back(model.joint(j).name);
