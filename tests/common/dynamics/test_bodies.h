@@ -69,6 +69,7 @@ inline KinematicModel CoupledChain() {
   slides.type = JointType::kSliding;
   slides.leader = 3;
   slides.function = std::make_shared<const ScalarFunction>(ScalarFunction::Linear(-0.4, 0.1));
+  description.markers.push_back({"tip", 6, {0.1, 0, 0}});
   return KinematicModel(description);
 }
 
