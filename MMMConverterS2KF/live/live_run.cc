@@ -185,7 +185,7 @@ class LiveRun {
     RetargetFigures figures = stream_.robot()->figures();
     if (figures.num_frames == 0) return;
     report_.robot_verdict = JudgeRetargeting(figures, nullptr);
-    const std::string& doubt = stream_.robot()->sole_doubt();
+    const std::string& doubt = stream_.robot()->doubt();
     if (!doubt.empty()) AddDoubt(doubt, &*report_.robot_verdict);
     report_.robot = std::move(figures);
   }

@@ -56,16 +56,14 @@ void PlaceLimb(const KinematicModel& model, const LimbMap& limb, bool is_leg, Si
   const char* const names[2][3] = {{"shoulder", "elbow", "wrist"}, {"hip", "knee", "ankle"}};
   int part = 0;
   std::vector<bool> is_below(model.segments().size());
-  const int fold = limb.chain[limb.fold];
   for (int i = limb.chain.front(); i < static_cast<int>(model.segments().size()); ++i) {
     const Segment& segment = model.segments()[i];
     is_below[i] = i == limb.chain.front() || (segment.parent >= 0 && is_below[segment.parent]);
     if (!is_below[i]) continue;
     const auto of_chain = std::find(limb.chain.begin(), limb.chain.end(), i);
-    const bool is_before =
-        of_chain != limb.chain.end() && of_chain - limb.chain.begin() < limb.fold;
-    part = is_before ? 0 : i == fold ? 1 : 2;
-    if (segment.joint >= 0) {
+    const auto at = of_chain - limb.chain.begin();
+    part = of_chain == limb.chain.end() || at >= limb.beyond ? 2 : at < limb.fold ? 0 : 1;
+    if (segment.joint >= 0 && segment.leader < 0) {
       (*places)[segment.joint] = {names[is_leg ? 1 : 0][part], Name(side), counts[part]++};
     }
   }

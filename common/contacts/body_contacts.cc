@@ -234,7 +234,8 @@ double DistanceFromEdge(const Vector2d& a, const Vector2d& b, const Vector2d& p)
 std::vector<ContactBody> ContactBodies(const KinematicModel& model) {
   std::vector<std::string> names;
   std::vector<int> owner = EndsOfReferenceModel(model, &names);
-  if (names.empty()) owner = EndsOfLimbs(model, &names);
+  const bool is_other = names.empty();
+  if (is_other) owner = EndsOfLimbs(model, &names);
   names.emplace_back("body");
   std::vector<ContactBody> bodies(names.size());
   for (std::size_t i = 0; i < names.size(); ++i) bodies[i].name = names[i];
@@ -245,6 +246,9 @@ std::vector<ContactBody> ContactBodies(const KinematicModel& model) {
   for (int i = 0; i < static_cast<int>(model.markers().size()); ++i) {
     body_of(model.markers()[i].segment).markers.push_back(i);
   }
+  // A robot's root that is nothing but a name, as "world", touches nothing.
+  std::vector<int>& rest = bodies.back().segments;
+  if (is_other && model.segments()[0].mass == 0 && rest.size() > 1) rest.erase(rest.begin());
   return bodies;
 }
 

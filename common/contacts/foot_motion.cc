@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/contacts/foot_motion.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,6 +25,8 @@ constexpr double kMostTravel = 0.5;    // of the belt's speed: persons drift alo
 constexpr double kShortestRun = 1.5;   // [s] two strides, at least
 constexpr double kSameBelt = 0.1;  // [m/s] from a belt's speed: carried, neither coming nor going
 constexpr double kLowFoot = 0.05;  // [m] above where a foot is in a tenth of the time
+
+constexpr double kStillPelvis = 0.01;  // [m] a walker's goes up and down by more
 
 constexpr double kCutoff = 12;  // [Hz] a foot is stopped by the ground within some 50 ms
 
@@ -185,9 +188,12 @@ FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion) {
     foot.upright.resize(motion.num_frames());
   }
   moved.body.resize(3, motion.num_frames());
+  const auto pelvis = static_cast<std::size_t>(std::max(0, model.FindSegment("pelvis")));
+  Eigen::AlignedBox3d places;  // of the pelvis
   for (int k = 0; k < motion.num_frames(); ++k) {
     const auto X_WS = SegmentPoses(model, ModelPosture(model, motion, k));
     moved.body.col(k) = BodyCentre(model, X_WS);
+    places.extend(X_WS[pelvis].translation());
     for (const Side side : kSides) {
       const FootSegments segments = SegmentsOf(model, side);
       const auto [heel, toe] = EndsOf(segments, X_WS);
@@ -198,6 +204,13 @@ FootMotion MoveFeet(const KinematicModel& model, const PoseTrajectory& motion) {
     }
   }
   FindSpeeds(&moved);
+  // What has no motion in the world goes nowhere, as a person on a treadmill.
+  for (FootPath& foot : moved.feet) {
+    if (places.diagonal().norm() > kStillPelvis || foot.belt.isZero()) continue;
+    foot.belt.setZero();
+    foot.heel_speed = VelocityOf(foot.heel, moved.rate).colwise().norm();
+    foot.toe_speed = VelocityOf(foot.toe, moved.rate).colwise().norm();
+  }
   return moved;
 }
 

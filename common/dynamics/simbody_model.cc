@@ -60,15 +60,23 @@ struct SimbodyModel::System {
   SimTK::State At(const Posture& posture) const;
   SimTK::State Moving(const Posture& posture, const Eigen::VectorXd& velocities) const;
   SimTK::Vector_<SimTK::SpatialVec> Weights(const SimTK::State& state) const;
-  SimTK::Vector InOrder(const Eigen::VectorXd& ours, const SimTK::State& state) const;
-  Eigen::VectorXd OutOfOrder(const SimTK::Vector& theirs, const SimTK::State& state) const;
+  SimTK::Vector InOrder(const Eigen::VectorXd& accelerations, const Posture& posture,
+                        const Eigen::VectorXd& velocities, const SimTK::State& state) const;
+  SimTK::Vector InOrder(const Eigen::VectorXd& forces, const SimTK::State& state) const;
+  Eigen::VectorXd OutOfOrder(const SimTK::Vector& theirs, const Posture& posture,
+                             const SimTK::State& state) const;
 
   const SimTK::MobilizedBody& body(int segment) const {
     return matter.getMobilizedBody(bodies[segment]);
   }
-  SimTK::UIndex rate_index(int joint, const SimTK::State& state) const {
-    return body(model.joint_segment(joint)).getFirstUIndex(state);
+  SimTK::UIndex rate_index(std::size_t segment, const SimTK::State& state) const {
+    return body(static_cast<int>(segment)).getFirstUIndex(state);
   }
+  /// What a joint of the posture turns its segment by, or shifts it: f(q) with its derivatives.
+  struct JointFunction {
+    double value, slope = 1, curvature = 0;
+  };
+  JointFunction FunctionOf(const Segment& segment, const Posture& posture) const;
 
   KinematicModel model;
   SimTK::MultibodySystem multibody;
@@ -89,11 +97,27 @@ void SimbodyModel::System::AddSegment(const Segment& segment) {
         SimTK::MobilizedBody::Weld(parent, X_PF, body, SimTK::Transform()).getMobilizedBodyIndex());
     return;
   }
+  if (segment.type == JointType::kSliding) {
+    const SimTK::Transform along_axis(
+        SimTK::Rotation(SimTK::UnitVec3(ToSimbody(segment.axis)), SimTK::XAxis));
+    bodies.push_back(SimTK::MobilizedBody::Slider(parent, X_PF * along_axis, body, along_axis)
+                         .getMobilizedBodyIndex());
+    return;
+  }
   // A pin turns about the z axes of two frames: both are laid along our axis.
   const SimTK::Transform along_axis(
       SimTK::Rotation(SimTK::UnitVec3(ToSimbody(segment.axis)), SimTK::ZAxis));
   bodies.push_back(SimTK::MobilizedBody::Pin(parent, X_PF * along_axis, body, along_axis)
                        .getMobilizedBodyIndex());
+}
+
+SimbodyModel::System::JointFunction SimbodyModel::System::FunctionOf(const Segment& segment,
+                                                                     const Posture& posture) const {
+  JointFunction found{posture.joint_angles[segment.joint]};
+  if (segment.function) {
+    found.value = segment.function->Value(found.value, &found.slope, &found.curvature);
+  }
+  return found;
 }
 
 SimTK::State SimbodyModel::System::At(const Posture& posture) const {
@@ -102,8 +126,10 @@ SimTK::State SimbodyModel::System::At(const Posture& posture) const {
   Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
   X_WR.translate(posture.position).rotate(posture.orientation);
   body(0).setQToFitTransform(state, ToSimbody(X_WR));
-  for (int i = 0; i < model.num_joints(); ++i) {
-    body(model.joint_segment(i)).setOneQ(state, 0, posture.joint_angles[i]);
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const Segment& segment = model.segments()[i];
+    if (segment.joint < 0) continue;
+    body(static_cast<int>(i)).setOneQ(state, 0, FunctionOf(segment, posture).value);
   }
   multibody.realize(state, SimTK::Stage::Position);
   return state;
@@ -119,8 +145,11 @@ SimTK::State SimbodyModel::System::Moving(const Posture& posture,
     body(0).setOneU(state, i, velocities[3 + i]);
     body(0).setOneU(state, 3 + i, velocities[i]);
   }
-  for (int i = 0; i < model.num_joints(); ++i) {
-    body(model.joint_segment(i)).setOneU(state, 0, velocities[6 + i]);
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const Segment& segment = model.segments()[i];
+    if (segment.joint < 0) continue;
+    body(static_cast<int>(i))
+        .setOneU(state, 0, FunctionOf(segment, posture).slope * velocities[6 + segment.joint]);
   }
   multibody.realize(state, SimTK::Stage::Velocity);
   return state;
@@ -128,6 +157,22 @@ SimTK::State SimbodyModel::System::Moving(const Posture& posture,
 
 /// Ours: root position, root rotation (W), joints. Simbody's Free mobilizer on the ground has the
 /// angular velocity (W) first, then the velocity of its origin; so has every dual of it.
+SimTK::Vector SimbodyModel::System::InOrder(const Eigen::VectorXd& accelerations,
+                                            const Posture& posture,
+                                            const Eigen::VectorXd& velocities,
+                                            const SimTK::State& state) const {
+  SimTK::Vector theirs = InOrder(accelerations, state);
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const Segment& segment = model.segments()[i];
+    if (segment.joint < 0) continue;
+    const JointFunction function = FunctionOf(segment, posture);
+    const double speed = velocities[6 + segment.joint];
+    theirs[rate_index(i, state)] =
+        function.slope * accelerations[6 + segment.joint] + function.curvature * speed * speed;
+  }
+  return theirs;
+}
+
 SimTK::Vector SimbodyModel::System::InOrder(const Eigen::VectorXd& ours,
                                             const SimTK::State& state) const {
   assert(ours.size() == 6 + model.num_joints());
@@ -137,19 +182,27 @@ SimTK::Vector SimbodyModel::System::InOrder(const Eigen::VectorXd& ours,
     theirs[root + i] = ours[3 + i];
     theirs[root + 3 + i] = ours[i];
   }
-  for (int i = 0; i < model.num_joints(); ++i) theirs[rate_index(i, state)] = ours[6 + i];
+  for (int i = 0; i < model.num_joints(); ++i) {
+    theirs[rate_index(static_cast<std::size_t>(model.joint_segment(i)), state)] = ours[6 + i];
+  }
   return theirs;
 }
 
+/// Forces. Those on bodies that follow a joint are its own, too.
 Eigen::VectorXd SimbodyModel::System::OutOfOrder(const SimTK::Vector& theirs,
+                                                 const Posture& posture,
                                                  const SimTK::State& state) const {
-  Eigen::VectorXd ours(6 + model.num_joints());
+  Eigen::VectorXd ours = Eigen::VectorXd::Zero(6 + model.num_joints());
   const int root = body(0).getFirstUIndex(state);
   for (int i = 0; i < 3; ++i) {
     ours[3 + i] = theirs[root + i];
     ours[i] = theirs[root + 3 + i];
   }
-  for (int i = 0; i < model.num_joints(); ++i) ours[6 + i] = theirs[rate_index(i, state)];
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const Segment& segment = model.segments()[i];
+    if (segment.joint < 0) continue;
+    ours[6 + segment.joint] += FunctionOf(segment, posture).slope * theirs[rate_index(i, state)];
+  }
   return ours;
 }
 
@@ -223,9 +276,10 @@ WholeBodyMotion SimbodyModel::Moving(const Posture& posture, const Eigen::Vector
   }
   result.kinetic_energy = matter.calcKineticEnergy(state);
   SimTK::Vector forces;
-  matter.calcResidualForceIgnoringConstraints(state, SimTK::Vector(), system.Weights(state),
-                                              system.InOrder(accelerations, state), forces);
-  result.forces = system.OutOfOrder(forces, state);
+  matter.calcResidualForceIgnoringConstraints(
+      state, SimTK::Vector(), system.Weights(state),
+      system.InOrder(accelerations, posture, velocities, state), forces);
+  result.forces = system.OutOfOrder(forces, posture, state);
   return result;
 }
 
@@ -239,7 +293,7 @@ Eigen::VectorXd SimbodyModel::Accelerations(const Posture& posture,
   SimTK::Vector_<SimTK::SpatialVec> of_bodies;
   system.matter.calcAccelerationIgnoringConstraints(
       state, system.InOrder(forces, state), system.Weights(state), accelerations, of_bodies);
-  return system.OutOfOrder(accelerations, state);
+  return system.OutOfOrder(accelerations, posture, state);
 }
 
 }  // namespace mmm_converter

@@ -53,7 +53,7 @@ class SimbodyModel {
                          const Eigen::VectorXd& accelerations) const;
 
   /// Forward dynamics: the accelerations under weight and `forces`, laid out as WholeBodyMotion's.
-  /// Needs a body that moves with every joint.
+  /// Needs a body that moves with every joint, and none that follows another's.
   Eigen::VectorXd Accelerations(const Posture& posture, const Eigen::VectorXd& velocities,
                                 const Eigen::VectorXd& forces) const;
 

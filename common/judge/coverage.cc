@@ -84,14 +84,14 @@ bool IsOn(const KinematicModel& model, int segment, int part) {
   return segment == part;
 }
 
-/// Limbs, and the pelvis, that all their markers together do not tell.
+/// Limbs, and the pelvis, that no marker shows.
 std::vector<std::string> NeverKnown(const TrackingSetup& setup) {
   std::vector<std::string> never;
   for (const EndPart& part : EndPartsOf(setup)) {
     if (part.name == kEndSegments[0].name && part.labels.empty()) never.push_back(part.name);
   }
   for (const Limb& limb : LimbsOf(setup)) {
-    if (!limb.IsKnownBy(static_cast<int>(limb.labels.size()))) never.push_back(limb.name);
+    if (limb.labels.empty()) never.push_back(limb.name);
   }
   return never;
 }
@@ -212,7 +212,11 @@ std::vector<bool> KnownFrames(const TrackingSetup& setup, const std::vector<std:
     }
   };
   for (const Limb& limb : LimbsOf(setup)) {
-    if (is_asked(limb.name)) take(limb.labels, [&](int seen) { return limb.IsKnownBy(seen); });
+    const int all = static_cast<int>(limb.labels.size());
+    const auto is_known = [&](int seen) {
+      return seen > 0 && (seen == all || limb.IsKnownBy(seen));
+    };
+    if (is_asked(limb.name)) take(limb.labels, is_known);
   }
   for (const EndPart& part : EndPartsOf(setup)) {
     const int all = static_cast<int>(part.labels.size());
@@ -226,9 +230,11 @@ std::string DescribeUnshown(const TrackingSetup& setup) {
   std::vector<std::string> unshown;
   for (const std::string& part : NeverKnown(setup)) unshown.push_back("the " + part);
   for (const Limb& limb : LimbsOf(setup)) {
-    if (limb.free_joints == 0 || !limb.IsKnownBy(static_cast<int>(limb.labels.size()))) continue;
+    const int told = 3 * static_cast<int>(limb.labels.size());
+    const int missing = std::max(limb.free_joints, limb.num_joints - told);
+    if (limb.labels.empty() || missing <= 0) continue;
     unshown.push_back(
-        fmt::format("{} of {} joints of the {}", limb.free_joints, limb.num_joints, limb.name));
+        fmt::format("{} of {} joints of the {}", missing, limb.num_joints, limb.name));
   }
   return unshown.empty() ? "" : JoinNames(unshown, " and ");
 }

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/io/robot_file.h"
 #include "common/io/robot_meshes.h"
+#include "common/model/forward_kinematics.h"
 #include "common/retarget/body_map.h"
 #include "common/retarget/held_joints.h"
 #include "common/support/advice.h"
@@ -17,6 +19,8 @@
 namespace mmm_converter {
 
 namespace {
+
+constexpr double kSameRoot = 1e-3;  // [m]
 
 BodyMapChoice MapChoiceOf(const RobotRequest& request) {
   return request.map_file.empty() ? BodyMapChoice{} : ReadBodyMapChoice(request.map_file);
@@ -89,6 +93,29 @@ RobotBody FindBody(const Robot& robot, const BodyMapChoice& map, const SoleChoic
   }
 }
 
+/// Learning tools take the root for the body that floats.
+void WarnOfBareRoot(const Robot& robot, Warnings* warnings) {
+  const KinematicModel& model = robot.model;
+  int body = 0;  // the first with mass that is fixed to the root
+  while (body < static_cast<int>(model.segments().size()) &&
+         (model.segments()[body].mass == 0 || RigidRoot(model, body) != 0)) {
+    ++body;
+  }
+  if (model.is_root_fixed() || body == 0 || body == static_cast<int>(model.segments().size())) {
+    return;
+  }
+  const auto X_WS = SegmentPoses(model, ZeroPosture(model));
+  const double way = (X_WS[body].translation() - X_WS[0].translation()).norm();
+  const auto link = std::find_if(robot.links.begin(), robot.links.end(),
+                                 [&](const Robot::Link& one) { return one.segment == body; });
+  if (way < kSameRoot || link == robot.links.end()) return;
+  Warn(warnings, fmt::format("the root of the robot is the link {}, which has no mass, {:.3f} m "
+                             "from {}: all files hold where {} is; where {} is to float, take the "
+                             "joint {} out of the robot's file",
+                             robot.links.front().name, way, link->name, robot.links.front().name,
+                             link->name, model.segments()[body].name));
+}
+
 }  // namespace
 
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
@@ -99,12 +126,22 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   ReadFeet(FindRobotMap(robot, map), sole, &robot, &of_meshes);
   RobotBody body = FindBody(robot, map, sole, of_meshes);
   if (warnings != nullptr) warnings->Append(of_meshes);
-  if (body.feet && !(*body.feet)[0].doubt.empty()) Warn(warnings, (*body.feet)[0].doubt);
   if (!request.objects.empty() && !body.feet) {
     throw Error(fmt::format("{}: {} needs a robot with legs, and this one has none", request.file,
                             OptionText("objects")));
   }
   HoldJoints(robot, request.hold, &body);
+  if (!request.hold.empty() && BendFeet(body, &robot.model)) {
+    body = FindBody(robot, map, sole, of_meshes);
+    HoldJoints(robot, request.hold, &body);
+  }
+  if (const std::string doubt = DoubtOf(robot, body); !doubt.empty()) Warn(warnings, doubt);
+  WarnOfBareRoot(robot, warnings);
+  if (!body.map.left_out.empty()) {
+    Warn(warnings, fmt::format("{} are of no two limbs that are images of each other: they stay at "
+                               "rest",
+                               FirstNames(body.map.left_out)));
+  }
   return {std::move(robot), std::move(body)};
 }
 

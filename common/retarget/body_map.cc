@@ -153,7 +153,8 @@ Vote FoldVote(const ZeroPose& zero, const LimbReading& limb, const Vector3d& alo
 
 struct Limbs {
   std::vector<std::array<LimbReading, 2>> pairs;
-  std::vector<Vector3d> normals;  ///< from the second to the first, level
+  std::vector<Vector3d> normals;           ///< from the second to the first, level
+  std::vector<std::string> left_out = {};  ///< BodyMap::left_out
 };
 
 Limbs ReadLimbs(const ZeroPose& zero, const LimbPairs& pairs) {
@@ -264,8 +265,10 @@ Limbs ChosenLimbs(const ZeroPose& zero, const BodyMapChoice& choice, bool are_le
   return limbs;
 }
 
-/// Joints outside the limbs that are named as a leg's or an arm's, left and right.
-std::vector<std::string> NamedOutside(const ZeroPose& zero, const Limbs& limbs, int role) {
+/// Joints outside the limbs that are named as a leg's or an arm's, left and right; left_out gets
+/// them all.
+std::vector<std::string> NamedOutside(const ZeroPose& zero, int role, Limbs* of) {
+  const Limbs& limbs = *of;
   std::set<int> taken;
   for (const auto& pair : limbs.pairs) {
     for (const LimbReading& limb : pair) taken.insert(limb.chain.begin(), limb.chain.end());
@@ -275,6 +278,9 @@ std::vector<std::string> NamedOutside(const ZeroPose& zero, const Limbs& limbs, 
     if (zero.Moves(s) && taken.count(s) == 0 && RoleByNames(zero, {s}) == role) named.push_back(s);
   }
   const auto name = [&](int segment) { return zero.model->segments()[segment].name; };
+  if (named.size() >= kFewestNamed) {
+    for (const int one : named) of->left_out.push_back(name(one));
+  }
   std::vector<std::string> lefts;
   for (const int a : named) {
     const bool has_other = std::any_of(named.begin(), named.end(),
@@ -285,10 +291,10 @@ std::vector<std::string> NamedOutside(const ZeroPose& zero, const Limbs& limbs, 
 }
 
 /// What looks like no limb and is called one is not left standing still in silence.
-void CheckNoneIsLeft(const ZeroPose& zero, const LimbPairs& pairs, const Limbs& limbs) {
+void CheckNoneIsLeft(const ZeroPose& zero, const LimbPairs& pairs, Limbs* limbs) {
   for (const bool is_leg : {true, false}) {
     if ((is_leg ? pairs.legs : pairs.arms) != nullptr) continue;
-    const std::vector<std::string> names = NamedOutside(zero, limbs, is_leg ? 1 : -1);
+    const std::vector<std::string> names = NamedOutside(zero, is_leg ? 1 : -1, limbs);
     if (names.size() < kFewestNamed) continue;
     Refuse(zero, fmt::format("{} are named as {} are, but no two chains of them are images of each "
                              "other that fold; say in a map what the limbs are (those that it "
@@ -305,7 +311,7 @@ Limbs FindLimbs(const ZeroPose& zero, const BodyMapChoice& choice) {
     const std::vector<MirroredPair> pairs = FindLimbPairs(zero);
     const LimbPairs chosen = ChoosePairs(zero, pairs);
     Limbs limbs = ReadLimbs(zero, chosen);
-    CheckNoneIsLeft(zero, chosen, limbs);
+    CheckNoneIsLeft(zero, chosen, &limbs);
     return limbs;
   }
   legs.pairs.insert(legs.pairs.end(), arms.pairs.begin(), arms.pairs.end());
@@ -363,6 +369,7 @@ BodyMap FindBodyMap(const KinematicModel& model, const BodyMapChoice& choice) {
   const ZeroPose zero(model);
   BodyMap map;
   const Limbs limbs = FindLimbs(zero, choice);
+  map.left_out = limbs.left_out;
   Vector3d forward;
   if (choice.forward) {
     forward = *choice.forward;

@@ -31,11 +31,15 @@ struct LimbSegment {
 struct LimbMap {
   std::vector<int> chain;              ///< its segments that move, the first one first
   int fold = 0;                        ///< of chain: the knee or the elbow
+  int beyond = 1;                      ///< the first that is not: several that turn as one may be
   int end = -1;                        ///< of chain.back(): the foot or the hand
   BodyPoint proximal, middle, distal;  ///< hip, knee, ankle; shoulder, elbow, wrist
   LimbSegment upper, lower;            ///< thigh and shank; upper arm and forearm
+  double between = 0;                  ///< from the fold's first joint to its last [m]
   Eigen::Matrix3d R_ED = Eigen::Matrix3d::Identity();  ///< axes of `end` that are `lower`'s at zero
   bool has_wrist = false;  ///< joints beyond the fold turn the end otherwise than the forearm
+
+  double length() const { return upper.length + between + lower.length; }  ///< [m]
 };
 
 /// Which of a body's segments are which part of a person.
@@ -47,6 +51,7 @@ struct BodyMap {
   Eigen::Matrix3d R_PA = Eigen::Matrix3d::Identity();  ///< the same in the pelvis
   Eigen::Matrix3d R_CA = Eigen::Matrix3d::Identity();  ///< in the chest
   std::vector<std::string> evidence;                   ///< why, in words
+  std::vector<std::string> left_out;  ///< joints named as of a limb that was not found in a pair
 
   const std::optional<LimbMap>& leg(Side side) const {
     return legs[static_cast<std::size_t>(side)];

@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 constexpr double kPitchSmoothing = 0.025;  // [s]
 constexpr double kLongestDraw = 0.5;       // [s] in which a swing leaves or reaches a place
 constexpr double kSoftness = 0.04;         // [rad] of feet in the first pass
+constexpr double kLift = 0.06;             // [s] from a stance to the person's full clearance
 
 /// Below the ankle, W.
 Vector3d HumanSole(const HumanMotion& human, double ankle_height, std::size_t foot, int k) {
@@ -30,6 +31,31 @@ double SoleLevel(const Retargeted& retargeted, double ankle_height, std::size_t 
     if (retargeted.rests[foot].heel[k]) standing.push_back(all.back());
   }
   return standing.empty() ? Percentile(all, 5) : Median(standing);
+}
+
+/// Of the lower end of the person's foot above where that stands on the floor, by frame [m]; 0 in
+/// stances, from which it grows.
+std::vector<double> ClearancesOf(const Retargeted& retargeted, std::size_t foot) {
+  const HumanMotion& human = retargeted.human;
+  const FootStates& states = retargeted.states;
+  std::vector<double> away(human.num_frames(), INFINITY), clearances;  // from a stance [frames]
+  for (const FrameInterval& stance : retargeted.rests[foot].stances) {
+    for (int k = 0; k < human.num_frames(); ++k) {
+      const int from = std::max({0, stance.begin - k, k - stance.end + 1});
+      away[k] = std::min(away[k], static_cast<double>(from));
+    }
+  }
+  for (int k = 0; k < human.num_frames(); ++k) {
+    if (away[k] == 0) {
+      clearances.push_back(0);
+      continue;
+    }
+    const double heel = human.heels[foot](2, k) - states.heels[foot].level;
+    const double toe = human.toes[foot](2, k) - states.toes[foot].level;
+    const double share = std::min(1.0, away[k] / (kLift * human.rate));
+    clearances.push_back(share * std::max(0.0, std::min(heel, toe)));
+  }
+  return clearances;
 }
 
 /// What of an angle is more than a fit's softness: the robot's joints do not allow a flat foot.
@@ -119,7 +145,7 @@ Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::si
   X.translation() = place - X.linear() * foot.sole;
   const double lowest = LowestOf(foot, X);
   if (of.pitch) X.translation().z() += of.scale * of.support - lowest;
-  if (!of.pitch && lowest < 0) X.translation().z() -= lowest;
+  if (!of.pitch) X.translation().z() += std::max(0.0, of.scale * of.clearance - lowest);
   return X;
 }
 
@@ -129,6 +155,7 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
   const HumanMotion& human = retargeted.human;
   for (std::size_t i = 0; i < 2; ++i) {
     const double level = SoleLevel(retargeted, retargeted.ankle_height, i);
+    const std::vector<double> clearances = ClearancesOf(retargeted, i);
     tracks[i].stands.assign(human.num_frames(), false);
     for (const FrameInterval& stance : retargeted.rests[i].stances) {
       std::fill(tracks[i].stands.begin() + stance.begin, tracks[i].stands.begin() + stance.end,
@@ -141,7 +168,8 @@ FootTracks ScaledFeet(const Retargeted& retargeted, const RobotBody& body) {
                        level,
                        retargeted.scale,
                        {},
-                       retargeted.states.support(i, k)};
+                       retargeted.states.support(i, k),
+                       clearances[k]};
       if (tracks[i].stands[k]) {
         const FootRests& rests = retargeted.rests[i];
         of.pitch = GatedPitch(rests.heel[k], rests.toe[k], PitchOf(of.R_foot.col(0)));
@@ -186,12 +214,13 @@ FootTracks AnchoredFeet(const Retargeted& retargeted, const RobotBody& body,
       DrawSwing(pass, track, stances[n].end - 1, 1, next, rate, &draws);
       DrawSwing(pass, track, stances[n].begin, -1, last, rate, &draws);
     }
+    const std::vector<double> clearances = ClearancesOf(retargeted, i);
     for (int k = 0; k < frames; ++k) {
       if (track.stands[k]) continue;
       Eigen::Isometry3d& X = track.X_WF[k];
       X.translation() += draws[k].head<3>();
       X.linear() = Exp(draws[k].tail<3>()).toRotationMatrix() * X.linear();
-      X.translation().z() += std::max(0.0, -LowestOf(foot, X));
+      X.translation().z() += std::max(0.0, retargeted.scale * clearances[k] - LowestOf(foot, X));
     }
   }
   return tracks;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/retarget/self_contact.h"
@@ -24,6 +25,11 @@ void MarkAbove(const KinematicModel& model, int segment, std::vector<bool>* join
   for (int at = segment; at >= 0; at = model.segments()[at].parent) {
     if (model.segments()[at].joint >= 0) (*joints)[model.segments()[at].joint] = true;
   }
+}
+
+bool IsBelow(const KinematicModel& model, int segment, int above) {
+  while (segment > above) segment = model.segments()[segment].parent;
+  return segment == above;
 }
 
 std::vector<bool> JointsOfLegs(const KinematicModel& model, const RobotBody& body) {
@@ -60,6 +66,13 @@ HeldPattern ParsePattern(const std::string& text) {
 }
 
 [[noreturn]] void ThrowUnknown(const KinematicModel& model, const HeldPattern& pattern) {
+  for (const Segment& segment : model.segments()) {
+    if (fnmatch(pattern.name.c_str(), segment.name.c_str(), 0) != 0 || segment.parent < 0) continue;
+    throw Error(
+        fmt::format("{}: {} does not move: it is fixed, slides in a URDF, has equal limits "
+                    "or follows another joint",
+                    OptionText("hold"), segment.name));
+  }
   std::vector<std::string> names;
   names.reserve(model.num_joints());
   for (int j = 0; j < model.num_joints(); ++j) names.push_back(model.joint(j).name);
@@ -121,7 +134,23 @@ void HoldJoints(const Robot& robot, const std::string& angles, RobotBody* body) 
   for (const std::string& pattern : Split(angles, ',')) {
     HoldPattern(robot.model, legs, ParsePattern(pattern), body);
   }
+  PlaceBase(robot, body);
   WatchContacts(robot, body);
+}
+
+bool BendFeet(const RobotBody& body, KinematicModel* model) {
+  ModelDescription bent = DescriptionOf(*model);
+  bool are_bent = false;
+  for (const int joint : body.held) {
+    const int segment = model->joint_segment(joint);
+    for (std::size_t i = 0; i < 2 && body.feet; ++i) {
+      if (!IsBelow(*model, segment, (*body.feet)[i].segment)) continue;
+      bent.segments[static_cast<std::size_t>(segment)].rest = body.rest[joint];
+      are_bent = true;
+    }
+  }
+  if (are_bent) *model = KinematicModel(std::move(bent));
+  return are_bent;
 }
 
 void PutHeldJoints(const RobotBody& body, Posture* posture) {

@@ -16,6 +16,10 @@ void HoldIdleJoints(const Robot& robot, RobotBody* body);
 /// @throws Error where no joint is called so, one is a leg's, or its limits do not allow the angle.
 void HoldJoints(const Robot& robot, const std::string& angles, RobotBody* body);
 
+/// Where held joints bend feet, as toes do: these angles become the model's at rest, at which soles
+/// are found. Whether there are any.
+bool BendFeet(const RobotBody& body, KinematicModel* model);
+
 /// The posture's held joints exactly where they are held.
 void PutHeldJoints(const RobotBody& body, Posture* posture);
 

@@ -57,6 +57,7 @@ LimbMap MakeHumanLimb(const KinematicModel& model, const std::vector<Eigen::Isom
   limb.end = Find(model, names.end, is_left);
   limb.chain = {upper, lower, limb.end};
   limb.fold = 1;
+  limb.beyond = 2;
   // OpenSim's calcn begins at the heel; what carries it begins at the ankle.
   const int distal =
       model.coordinates() && &names == &kLeg ? model.segments()[limb.end].parent : limb.end;

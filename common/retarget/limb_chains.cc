@@ -165,18 +165,27 @@ bool AreMirrored(const ZeroPose& zero, const Plane& plane, const std::vector<int
   return true;
 }
 
-double DistanceToEnd(const ZeroPose& zero, const std::vector<int>& chain, int joint, double angle) {
-  const Eigen::Vector3d end = zero.mass_centre[chain.back()];
-  const int segment = chain[joint];
-  const Eigen::Vector3d pivot = zero.origin(segment);
-  const Eigen::Vector3d turned = Eigen::AngleAxisd(angle, zero.axis(segment)) * (end - pivot);
-  return (pivot + turned - CentreBefore(zero, chain, joint)).norm();
+/// By how much a segment turns as its joint does.
+double SlopeOf(const ZeroPose& zero, int segment) {
+  double slope = 1;
+  const Segment& one = zero.model->segments()[segment];
+  if (one.function) one.function->Value(zero.angles[one.joint], &slope);
+  return slope;
+}
+
+bool TurnsWith(const ZeroPose& zero, int a, int b) {
+  const Segment &one = zero.model->segments()[a], &other = zero.model->segments()[b];
+  if (one.joint != other.joint || other.type != JointType::kRevolute) return false;
+  const double way = SlopeOf(zero, a) * SlopeOf(zero, b) < 0 ? -1 : 1;
+  return way * zero.axis(a).dot(zero.axis(b)) > kParallel;
 }
 
 }  // namespace
 
 ZeroPose::ZeroPose(const KinematicModel& of) : model(&of) {
-  X_WS = SegmentPoses(of, ZeroPosture(of));
+  const Posture posture = ZeroPosture(of);
+  angles = posture.joint_angles;
+  X_WS = SegmentPoses(of, posture);
   const int count = static_cast<int>(of.segments().size());
   moving_parent.assign(count, -1);
   std::vector<double> mass(count, 0);
@@ -204,6 +213,11 @@ Eigen::Vector3d ZeroPose::axis(int segment) const {
   return X_WS[segment].linear() * model->segments()[segment].axis;
 }
 
+double ZeroPose::Turn(int segment, double q) const {
+  const Segment& one = model->segments()[segment];
+  return JointValue(one, q) - JointValue(one, angles[one.joint]);
+}
+
 Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                              const Eigen::Vector3d& q, const Eigen::Vector3d& b, double share) {
   const double cosine = a.dot(b), sine2 = 1 - cosine * cosine;
@@ -226,6 +240,27 @@ Eigen::Vector3d CentreBefore(const ZeroPose& zero, const std::vector<int>& chain
   return p + (zero.origin(next) - p).dot(a) * a;
 }
 
+int LastOfFold(const ZeroPose& zero, const std::vector<int>& chain, int joint) {
+  const Eigen::Vector3d first = zero.origin(chain[joint]), end = zero.mass_centre[chain.back()];
+  int last = joint;
+  for (int i = joint + 1; i < static_cast<int>(chain.size()); ++i) {
+    const Eigen::Vector3d here = zero.origin(chain[i]);
+    if (!TurnsWith(zero, chain[joint], chain[i])) break;
+    if ((here - first).norm() > (end - here).norm()) break;
+    last = i;
+  }
+  return last;
+}
+
+Eigen::Vector3d Folded(const ZeroPose& zero, const std::vector<int>& chain, int joint, double q,
+                       Eigen::Vector3d p) {
+  for (int i = LastOfFold(zero, chain, joint); i >= joint; --i) {
+    const Eigen::Vector3d pivot = zero.origin(chain[i]);
+    p = pivot + Eigen::AngleAxisd(zero.Turn(chain[i], q), zero.axis(chain[i])) * (p - pivot);
+  }
+  return p;
+}
+
 FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain) {
   const auto count = static_cast<Eigen::Index>(chain.size());
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(count);
@@ -235,11 +270,12 @@ FoldSweep SweepChain(const ZeroPose& zero, const std::vector<int>& chain) {
     if (segment.type != JointType::kRevolute) continue;
     const double lower = std::max(segment.lower, -std::numbers::pi);
     const double upper = std::min(segment.upper, std::numbers::pi);
-    const double now = std::clamp(segment.rest, segment.lower, segment.upper);
+    const Eigen::Vector3d before = CentreBefore(zero, chain, i);
     double shortest = INFINITY, longest = -INFINITY;
     for (int step = 0; step <= kSweepSteps; ++step) {
       const double angle = lower + (upper - lower) * step / kSweepSteps;
-      const double distance = DistanceToEnd(zero, chain, i, angle - now);
+      const double distance =
+          (Folded(zero, chain, i, angle, zero.mass_centre[chain.back()]) - before).norm();
       shortest = std::min(shortest, distance);
       if (distance > longest) sweep.straight[i] = angle;
       longest = std::max(longest, distance);

@@ -16,6 +16,7 @@ struct ZeroPose {
   explicit ZeroPose(const KinematicModel& model);
 
   const KinematicModel* model;
+  Eigen::VectorXd angles;  ///< of all joints
   std::vector<Eigen::Isometry3d> X_WS;
   std::vector<int> moving_parent;  ///< of each segment, the next one above that moves; -1: none
   std::vector<Eigen::Vector3d> mass_centre;  ///< of its rigid body, W; its origin if it has no mass
@@ -25,6 +26,8 @@ struct ZeroPose {
   Eigen::Vector3d origin(int segment) const { return X_WS[segment].translation(); }
   /// Of a segment that moves: its joint's axis, W.
   Eigen::Vector3d axis(int segment) const;
+  /// How far a segment that moves turns about its axis until its joint is at q [rad].
+  double Turn(int segment, double q) const;
 };
 
 /// Two chains of moving segments that are images of each other in a vertical plane, from the first
@@ -46,8 +49,16 @@ Eigen::Vector3d NearestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
 /// not parallel come nearest. Where origins lie along their axes tells nothing.
 Eigen::Vector3d CentreBefore(const ZeroPose& zero, const std::vector<int>& chain, int joint);
 
+/// The last of the chain's joints that are one knee or elbow with that one: the same joint turns
+/// them all, the same way about parallel axes, and they are nearer to it than to the chain's end.
+int LastOfFold(const ZeroPose& zero, const std::vector<int>& chain, int joint);
+
+/// Where p, at the chain's end, is when the joints of that fold are at q, W.
+Eigen::Vector3d Folded(const ZeroPose& zero, const std::vector<int>& chain, int joint, double q,
+                       Eigen::Vector3d p);
+
 /// What bends a chain: by how much the distance of its end from CentreBefore changes while each
-/// joint goes through its limits [m], the others standing at zero; a row a joint.
+/// joint (LastOfFold) goes through its limits [m], the others standing at zero; a row a joint.
 struct FoldSweep {
   Eigen::VectorXd change;
   Eigen::VectorXd straight;  ///< where the distance is largest [rad]

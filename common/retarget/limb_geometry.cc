@@ -47,9 +47,9 @@ Vector3d CentreOn(const ZeroPose& zero, const std::vector<int>& chain, std::size
 }
 
 DistalCentre FindDistalCentre(const ZeroPose& zero, const LimbReading& limb) {
-  const Vector3d middle = zero.origin(limb.chain[limb.fold]);
+  const Vector3d middle = zero.origin(limb.chain[limb.beyond - 1]);
   const Vector3d fold = zero.axis(limb.chain[limb.fold]);
-  for (std::size_t i = limb.fold + 1; i < limb.chain.size(); ++i) {
+  for (std::size_t i = limb.beyond; i < limb.chain.size(); ++i) {
     const Vector3d centre = CentreOn(zero, limb.chain, i);
     const Vector3d along = centre - middle - (centre - middle).dot(fold) * fold;
     if (along.norm() < kLeastBeyond) continue;
@@ -65,11 +65,11 @@ BodyPoint Fix(const ZeroPose& zero, int segment, const Vector3d& p_W) {
 
 /// From knee to ankle where the limb is straight.
 Vector3d StraightLower(const ZeroPose& zero, const LimbReading& limb) {
-  const int fold = limb.chain[limb.fold];
-  const Segment& segment = zero.model->segments()[fold];
-  const double now = std::clamp(segment.rest, segment.lower, segment.upper);
-  const Vector3d lower = FindDistalCentre(zero, limb).p_W - zero.origin(fold);
-  return Eigen::AngleAxisd(limb.straight - now, zero.axis(fold)) * lower;
+  const auto folded = [&](const Vector3d& p) {
+    return Folded(zero, limb.chain, limb.fold, limb.straight, p);
+  };
+  return folded(FindDistalCentre(zero, limb).p_W) -
+         folded(zero.origin(limb.chain[limb.beyond - 1]));
 }
 
 /// Of joints that fold alike those whose names say so, if any does: a shoulder behind a clavicle
@@ -114,13 +114,16 @@ int SenseAside(const ZeroPose& zero, const LimbReading& limb) {
 LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fold, bool is_leg,
                      const Vector3d& normal) {
   const FoldSweep sweep = SweepChain(zero, chain);
-  LimbReading limb{chain, fold, is_leg};
+  LimbReading limb{chain, fold, 0, is_leg};
   if (fold < 0) {
     Eigen::Index most = 0;
     sweep.change.maxCoeff(&most);
     std::vector<int> alike;
     for (int i = 0; i < sweep.change.size(); ++i) {
-      if (sweep.change[i] >= kAlikeFolds * sweep.change[most]) alike.push_back(i);
+      const bool is_known = std::any_of(alike.begin(), alike.end(), [&](int other) {
+        return LastOfFold(zero, chain, other) >= i;
+      });
+      if (sweep.change[i] >= kAlikeFolds * sweep.change[most] && !is_known) alike.push_back(i);
     }
     if (!is_leg) KeepNamed(zero, chain, "elbow", &alike);
     limb.fold = MostAcross(zero, chain, alike, normal);
@@ -132,6 +135,8 @@ LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fo
                       NameOf(zero, chain[alike[1]]), is_leg ? "knee" : "elbow"));
     }
   }
+  while (limb.fold > 0 && LastOfFold(zero, chain, limb.fold - 1) >= limb.fold) --limb.fold;
+  limb.beyond = LastOfFold(zero, chain, limb.fold) + 1;
   const Segment& joint = zero.model->segments()[chain[limb.fold]];
   limb.straight = sweep.straight[limb.fold];
   const double below = limb.straight - std::max(joint.lower, -std::numbers::pi);
@@ -139,6 +144,8 @@ LimbReading ReadLimb(const ZeroPose& zero, const std::vector<int>& chain, int fo
   const bool is_full_turn = below + above > 1.9 * std::numbers::pi;
   if (!is_full_turn && below < kAlikeSides * above) limb.sense = 1;
   if (!is_full_turn && above < kAlikeSides * below) limb.sense = -1;
+  if (zero.Turn(chain[limb.fold], limb.straight + 1) < zero.Turn(chain[limb.fold], limb.straight))
+    limb.sense = -limb.sense;
   return limb;
 }
 
@@ -183,8 +190,9 @@ LimbMap MakeLimb(const ZeroPose& zero, const LimbReading& limb, const Vector3d& 
   LimbMap map;
   map.chain = limb.chain;
   map.fold = limb.fold;
+  map.beyond = limb.beyond;
   map.end = limb.chain.back();
-  const int fold = limb.chain[limb.fold];
+  const int fold = limb.chain[limb.fold], last = limb.chain[limb.beyond - 1];
   const int before = zero.model->segments()[fold].parent;
   Vector3d left = zero.axis(fold);
   // Knees turn forwards about the left, elbows backwards; both: the straight limb's end goes back
@@ -205,11 +213,12 @@ LimbMap MakeLimb(const ZeroPose& zero, const LimbReading& limb, const Vector3d& 
   const DistalCentre distal = FindDistalCentre(zero, limb);
   map.proximal = Fix(zero, before, proximal);
   map.middle = Fix(zero, before, middle);
-  map.distal = Fix(zero, fold, distal.p_W);
+  map.distal = Fix(zero, last, distal.p_W);
   map.upper = MakeLimbSegment(before, zero.X_WS[before], proximal, middle, left);
-  map.lower = MakeLimbSegment(fold, zero.X_WS[fold], middle, distal.p_W, left);
-  map.has_wrist = limb.fold + 1 < static_cast<int>(limb.chain.size());
-  map.R_ED = zero.X_WS[map.end].linear().transpose() * zero.X_WS[fold].linear() * map.lower.R_SL;
+  map.lower = MakeLimbSegment(last, zero.X_WS[last], zero.origin(last), distal.p_W, left);
+  map.between = left.cross(zero.origin(last) - middle).norm();
+  map.has_wrist = limb.beyond < static_cast<int>(limb.chain.size());
+  map.R_ED = zero.X_WS[map.end].linear().transpose() * zero.X_WS[last].linear() * map.lower.R_SL;
   if (std::min(map.upper.length, map.lower.length) < kLeastBeyond) {
     throw Error(fmt::format(
         "the robot {}: {} folds no limb: it is {:.0f} and {:.0f} mm long before "

@@ -12,9 +12,11 @@ namespace mmm_converter {
 /// A chain with its knee or elbow, before it is known where forward is.
 struct LimbReading {
   std::vector<int> chain;
-  int fold = 0;  ///< of chain
+  int fold = 0;    ///< of chain
+  int beyond = 0;  ///< of chain: the first joint that is not of the fold (LastOfFold)
   bool is_leg = false;
-  /// Of the fold's angle, in which the end comes nearer; 0: its limits allow both alike.
+  /// Of turning about the fold's axis, in which the end comes nearer; 0: its limits allow both
+  /// alike.
   int sense = 0;
   double straight = 0;  ///< where the limb is longest [rad]
 };

@@ -90,10 +90,9 @@ void AddLegs(const BodyMap& map, PersonAims* aims) {
 }
 
 /// Of a robot without legs, wherever it is mounted.
-void HoldRoot(const KinematicModel& model, PersonAims* aims) {
+void HoldRoot(const KinematicModel& model, const Vector3d& base, PersonAims* aims) {
   const Posture zero = ZeroPosture(model);
-  aims->Add(0, false, Vector3d::Zero(), kHeld,
-            [p = zero.position](const BodyPosture&, double) { return p; });
+  aims->Add(0, false, Vector3d::Zero(), kHeld, [base](const BodyPosture&, double) { return base; });
   for (const int axis : {0, 2}) {
     aims->Add(0, true, Vector3d::Unit(axis), kHeld,
               [d = Vector3d(zero.orientation * Vector3d::Unit(axis))](const BodyPosture&, double) {
@@ -143,7 +142,7 @@ std::vector<PersonAim> AimsAtPerson(const Robot& robot, const RobotBody& body, d
   }
   AddArms(map, &aims);
   if (!body.feet) {
-    HoldRoot(robot.model, &aims);
+    HoldRoot(robot.model, body.base, &aims);
     return aims.Take();
   }
   for (const int column : {0, 2}) {
@@ -226,7 +225,8 @@ TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
 Posture FirstPosture(const BodyPosture& person, double scale, const Robot& robot,
                      const RobotBody& body) {
   Posture posture = ZeroPosture(robot.model);
-  if (robot.model.is_root_fixed()) return posture;
+  if (!body.feet) posture.position = body.base;
+  if (!body.feet || robot.model.is_root_fixed()) return posture;
   const Vector3d forward = person.R_pelvis.col(0);
   const Vector3d zero = body.map.R_WA.col(0);
   const double yaw = std::atan2(forward.y(), forward.x()) - std::atan2(zero.y(), zero.x());

@@ -50,6 +50,7 @@ struct ScaledFoot {
   double scale = 1;
   std::optional<double> pitch;  ///< of a foot that stands; nothing: it swings
   double support = 0;           ///< of what the person's stands on, above the floor [m]
+  double clearance = 0;         ///< of the lowest point of the person's that swings [m]
 };
 Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::size_t foot);
 

@@ -23,6 +23,7 @@ constexpr double kFloorSpring = 1e9;   // [1/m^2]
 constexpr double kFarthestStep = 0.5;  // [rad]
 constexpr double kSwiftness = 25;      // [1/s] of what follows a foot's pitch and height
 constexpr double kDraw = 0.35;         // [s] in which a swing leaves its place
+constexpr double kClears = 0.06;       // [s] in which it gets the person's clearance
 constexpr double kRaised = 2;          // [s] after which the floor is where all of the feet are
 constexpr double kTooLong = 0.5;       // [s] between frames of a track
 constexpr double kLeftBelow = 5e-4;    // [m] of the floor
@@ -171,6 +172,8 @@ void RobotFollower::AimFeet(double dt) {
     const bool heel = is_following_ && points_[i][0].is_on();
     const bool toe = is_following_ && points_[i][1].is_on(), stands = heel || toe;
     ScaledFoot of = {&person_posture_, R_feet_[i], human_.ankle_height, Floor(), scale_, {}};
+    const double lifted = foot.stands ? 0 : std::min(1.0, foot.drawn_for / kClears);
+    of.clearance = lifted * std::max(0.0, std::min(points_[i][0].height(), points_[i][1].height()));
     const double pitch = GatedPitch(heel, toe, PitchOf(of.R_foot.col(0)));
     const Eigen::Isometry3d swinging = PlaceFoot(of, body_, i);
     if (stands) of.pitch = pitch;
@@ -187,7 +190,8 @@ void RobotFollower::AimFeet(double dt) {
       FootDifference draw = FootDifference::Zero();
       for (int j = 0; j < 6 && t < 1; ++j) draw[j] = Fading(foot.draw[j], foot.draw_slope[j], t);
       Move(draw, &foot.aim);
-      foot.aim.translation().z() += std::max(0.0, -LowestOf((*body_.feet)[i], foot.aim));
+      foot.aim.translation().z() +=
+          std::max(0.0, scale_ * of.clearance - LowestOf((*body_.feet)[i], foot.aim));
     }
     foot.scaled = swinging;
   }

@@ -41,7 +41,7 @@ BodyPosture StandingPerson(const RobotBody& body) {
 
 bool IsFootOrAnkle(const BodyMap& map, int segment) {
   return std::any_of(map.legs.begin(), map.legs.end(), [&](const std::optional<LimbMap>& leg) {
-    return leg && std::find(leg->chain.begin() + leg->fold + 1, leg->chain.end(), segment) !=
+    return leg && std::find(leg->chain.begin() + leg->beyond, leg->chain.end(), segment) !=
                       leg->chain.end();
   });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -18,6 +19,8 @@
 
 namespace mmm_converter {
 namespace {
+
+constexpr double kStillPelvis = 0.001, kMovedFeet = 0.05;  // [m] who breathes moves by more
 
 bool SeesAnything(const MarkerSequence& markers) {
   for (int k = 0; k < markers.num_frames(); ++k) {
@@ -198,6 +201,36 @@ void TakeOutHeldValues(Recording* recording, Warnings* warnings) {
   }
 }
 
+/// Of a label's places, the diagonal of a box around them [m]; 0: it is nowhere seen.
+double RangeOf(const MarkerSequence& markers, int label) {
+  Eigen::AlignedBox3d box;
+  for (int k = 0; k < markers.num_frames(); ++k) {
+    const Eigen::Vector3d p = markers.frame(k).col(label);
+    if (p.allFinite()) box.extend(p);
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+/// Places relative to the pelvis, or a file without its translation.
+void DoubtStillRoot(Recording* recording, Warnings* warnings) {
+  double pelvis = INFINITY, feet = 0;
+  for (const SkeletonJoint& joint : recording->body) {
+    if (joint.joint == BodyJoint::kPelvis) {
+      pelvis = std::min(pelvis, RangeOf(recording->markers, joint.label));
+    }
+    if (joint.joint == BodyJoint::kAnkle) {
+      feet = std::max(feet, RangeOf(recording->markers, joint.label));
+    }
+  }
+  if (!(pelvis < kStillPelvis) || feet < kMovedFeet) return;
+  recording->doubts.push_back(
+      {fmt::format("the pelvis never moves while a foot goes over {:.2f} m: the file has no motion "
+                   "of the body in the world, only of its parts against the pelvis; export it with "
+                   "the root's translation",
+                   feet)});
+  Warn(warnings, recording->doubts.back().text);
+}
+
 Recording MakeRecording(const std::string& file, RecordingContent content,
                         const ReadRecordingOptions& options, Warnings* warnings) {
   Recording recording;
@@ -222,6 +255,7 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
     BringToMetresAndZUp(content, options, &recording, warnings);
   }
   if (recording.body.empty()) TakeOutHeldValues(&recording, warnings);
+  DoubtStillRoot(&recording, warnings);
   if (content.declared_frames > recording.markers.num_frames()) {
     recording.doubts.push_back(
         {fmt::format("the file is cut off: it declares {} frames and holds {}",

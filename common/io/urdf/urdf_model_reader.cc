@@ -225,7 +225,7 @@ UrdfModel UrdfModelBuilder::Build() {
   FindLeaders();
   AddMarkers();
   diagnostics_.ThrowIfErrors();
-  WarnOf(slides_, "(prismatic): held, sliding is not tracked");
+  WarnOf(slides_, "(prismatic): held, sliding is not tracked, and no written file has it");
   WarnOf(stiff_, "(revolute with equal limits): does not turn");
   return {KinematicModel(std::move(description_)), std::move(segment_of_link_)};
 }

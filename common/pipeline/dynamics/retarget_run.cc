@@ -245,8 +245,8 @@ RetargetReport RunRetargeting(const RetargetRequest& request,
   report.figures = MeasureRetargeting(report.retargeted, report.robot, report.body);
   report.verdict = JudgeRetargeting(
       report.figures, report.conversion_verdict ? &*report.conversion_verdict : nullptr);
-  if (report.body.feet && !(*report.body.feet)[0].doubt.empty()) {
-    AddDoubt((*report.body.feet)[0].doubt, &report.verdict);
+  if (const std::string doubt = DoubtOf(report.robot, report.body); !doubt.empty()) {
+    AddDoubt(doubt, &report.verdict);
   }
   report.warnings = std::move(warnings);
   CheckFiles(request, output);

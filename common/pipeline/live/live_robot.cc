@@ -21,7 +21,7 @@ constexpr double kNextJump = 1;  // [s] until another one is worth a line
 
 LiveRobot::LiveRobot(const RobotRequest& request, const FollowOptions& options, Warnings* warnings)
     : robot_(ReadRobot(request, warnings)),
-      sole_doubt_(robot_.body.feet ? (*robot_.body.feet)[0].doubt : ""),
+      doubt_(DoubtOf(robot_.robot, robot_.body)),
       options_(options),
       watch_(robot_.robot, robot_.body) {}
 

@@ -33,7 +33,7 @@ class LiveRobot {
   RetargetFigures figures() const { return watch_.Figures(); }
 
   /// Why the soles may be others; empty: nothing.
-  const std::string& sole_doubt() const { return sole_doubt_; }
+  const std::string& doubt() const { return doubt_; }
 
   /// What there is to say since the last call, line by line.
   std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
@@ -43,7 +43,7 @@ class LiveRobot {
   void Name(std::int64_t number, double time);
 
   LoadedRobot robot_;
-  std::string sole_doubt_;
+  std::string doubt_;
   FollowOptions options_;
   std::shared_ptr<const LiveBody> person_, body_;
   std::unique_ptr<GuardedFollower> follower_;

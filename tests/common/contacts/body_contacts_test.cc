@@ -49,6 +49,12 @@ TEST(GroundContact, AnotherModelStandsOnTheEndsOfItsLimbs) {
   EXPECT_THAT(bodies[1].segments, ElementsAre(0, 1, 2));
 }
 
+TEST(GroundContact, ARootThatIsOnlyANameTouchesNothing) {
+  ModelDescription bare = DescriptionOf(testing::Chain(3));
+  bare.segments[0].mass = 0;
+  EXPECT_THAT(ContactBodies(KinematicModel(bare)).back().segments, ElementsAre(1, 2));
+}
+
 TEST(GroundContact, AnObjectIsOneBody) {
   const std::vector<ContactBody> bodies = ContactBodies(testing::Brick());
   EXPECT_THAT(Names(bodies), ElementsAre("body"));

@@ -215,6 +215,10 @@ void ExpectLawsOfMotion(const KinematicModel& model, double tolerance) {
 
 TEST(SimbodyDynamics, ObeysTheLawsOfMotionOnAChain) { ExpectLawsOfMotion(testing::Chain(6), 1e-5); }
 
+TEST(SimbodyDynamics, ObeysTheLawsOfMotionOnJointsThatFollowOthers) {
+  ExpectLawsOfMotion(testing::CoupledChain(), 1e-5);
+}
+
 TEST(SimbodyDynamics, ObeysTheLawsOfMotionOnThePersonsModel) {
   const KinematicModel read = ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml"));
   ExpectLawsOfMotion(ScaleWinter(read, {1.75, 70, {}}), 1e-4);

@@ -11,6 +11,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "common/support/error.h"
+#include "tests/common/dynamics/test_bodies.h"
 #include "tests/support/random_posture.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/whole_body_inertia.h"
@@ -50,6 +51,8 @@ TEST(SimbodyModel, AgreesOnTheReferenceModel) {
   ExpectSimbodyAgrees(read);
   ExpectSimbodyAgrees(ScaleWinter(read, {1.75, 70, 0.2}));
 }
+
+TEST(SimbodyModel, AgreesOnJointsThatFollowOthers) { ExpectSimbodyAgrees(testing::CoupledChain()); }
 
 TEST(SimbodyModelRealFiles, AgreesOnRealModels) {
   MMM_CONVERTER_NEEDS_SHARED_DATA();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "common/math/rotation.h"
 #include "common/math/seeded_random.h"
 #include "common/model/kinematic_model.h"
@@ -53,6 +55,21 @@ inline KinematicModel Chain(int links) {
     segment.inertia = R * Eigen::Vector3d(0.02, 0.03, 0.04).asDiagonal() * R.transpose();
     description.segments.push_back(segment);
   }
+  return KinematicModel(description);
+}
+
+/// Of its joints the fourth is curved and follows the third, the fifth slides and follows it too.
+inline KinematicModel CoupledChain() {
+  ModelDescription description = DescriptionOf(Chain(6));
+  Segment& curved = description.segments[4];
+  curved.leader = 3;
+  curved.function =
+      std::make_shared<const ScalarFunction>(ScalarFunction::Polynomial({0.3, -0.5, 0.2}));
+  Segment& slides = description.segments[5];
+  slides.type = JointType::kSliding;
+  slides.leader = 3;
+  slides.function = std::make_shared<const ScalarFunction>(ScalarFunction::Linear(-0.4, 0.1));
+  description.markers.push_back({"tip", 6, {0.1, 0, 0}});
   return KinematicModel(description);
 }
 

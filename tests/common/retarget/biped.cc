@@ -13,6 +13,7 @@ constexpr double kPi = 3.14;
 struct JointText {
   std::string name, parent, place, axis;
   double lower, upper, velocity;
+  std::string mimic = {};
 };
 
 /// A joint with the link that it carries; the link's centre of mass and box, if it has one.
@@ -22,10 +23,26 @@ std::string JointAndLink(const JointText& joint, const std::string& mass_at,
       R"(<link name="{0}_link"><inertial><origin xyz="{1}"/><mass value="1"/><inertia ixx="0.01"
  ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>{2}</link>
 <joint name="{0}" type="revolute"><parent link="{3}"/><child link="{0}_link"/><origin xyz="{4}"/>
-<axis xyz="{5}"/><limit lower="{6}" upper="{7}" effort="100" velocity="{8}"/></joint>
+<axis xyz="{5}"/><limit lower="{6}" upper="{7}" effort="100" velocity="{8}"/>{9}</joint>
 )",
       joint.name, mass_at, shape, joint.parent, joint.place, joint.axis, joint.lower, joint.upper,
-      joint.velocity);
+      joint.velocity, joint.mimic);
+}
+
+/// A knee or an elbow.
+std::string FoldText(const BipedShape& shape, JointText joint, const std::string& mass_at,
+                     const std::string& body = "") {
+  if (!shape.halves) return JointAndLink(joint, mass_at, body);
+  JointText half = joint;
+  half.name += "_half";
+  half.lower /= 2;
+  half.upper /= 2;
+  joint.parent = half.name + "_link";
+  joint.place = fmt::format("0 0 {}", -*shape.halves);
+  if (shape.halves_reversed) joint.axis = "0 -1 0";
+  joint.mimic = fmt::format(R"(<mimic joint="{}" multiplier="{}"/>)", half.name,
+                            shape.halves_reversed ? -1 : 1);
+  return JointAndLink(half, "0 0 0") + JointAndLink(joint, mass_at, body);
 }
 
 std::string LegText(const BipedShape& shape, const std::string& side, double y) {
@@ -44,10 +61,14 @@ std::string LegText(const BipedShape& shape, const std::string& side, double y) 
          JointAndLink({side + "hip_pitch", link("hip_roll"), fmt::format("{} 0 0", -slip), "0 1 0",
                        -2, 2, v},
                       "0 0 -0.18") +
-         JointAndLink({side + "knee", link("hip_pitch"), fmt::format("0 0 {}", -thigh), "0 1 0",
-                       shape.knee_lower, shape.knee_upper, 20},
-                      "0 0 -0.18") +
-         JointAndLink({side + "ankle_pitch", link("knee"), "0 0 -0.36", "0 1 0", -1, 1, 20}, here) +
+         FoldText(shape,
+                  {side + "knee", link("hip_pitch"), fmt::format("0 0 {}", -thigh), "0 1 0",
+                   shape.knee_lower, shape.knee_upper, 20},
+                  "0 0 -0.18") +
+         JointAndLink(
+             {side + "ankle_pitch", link("knee"),
+              fmt::format(R"(0 0 -0.36" rpy="0 {} 0)", shape.ankle_zero), "0 1 0", -1, 1, 20},
+             here) +
          JointAndLink({side + "ankle_roll", link("ankle_pitch"), here, "1 0 0", -0.5, 0.5, 20},
                       "0.02 0 -0.04", foot) +
          (shape.has_toes ? JointAndLink({side + "toes", link("ankle_roll"), "0.12 0 -0.06", "0 1 0",
@@ -86,12 +107,13 @@ std::string ArmText(const BipedShape& shape, const std::string& side, double y) 
                        here);
   text += JointAndLink({side + "shoulder_yaw", link("shoulder_roll"), here, "0 0 1", -2, 2, 20},
                        "0 0 -0.12") +
-          JointAndLink({side + "elbow", link("shoulder_yaw"), "0 0 -0.25", shape.elbow_axis,
-                        shape.elbow_lower, shape.elbow_upper, 20},
-                       "0 0 -0.22",
-                       shape.has_bodies ? R"(<collision><origin xyz="0 0 -0.13"/>
+          FoldText(shape,
+                   {side + "elbow", link("shoulder_yaw"), "0 0 -0.25", shape.elbow_axis,
+                    shape.elbow_lower, shape.elbow_upper, 20},
+                   "0 0 -0.22",
+                   shape.has_bodies ? R"(<collision><origin xyz="0 0 -0.13"/>
 <geometry><box size="0.05 0.05 0.2"/></geometry></collision>)"
-                                        : "");
+                                    : "");
   if (shape.elbow_bends_twice) {
     text +=
         JointAndLink({side + "elbow_x", link("elbow"), here, "1 0 0", -2.4, 2.4, 20}, "0 0 -0.22");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "common/model/robot.h"
@@ -27,6 +28,11 @@ struct BipedShape {
   double right_thigh = 0.36;
   std::string elbow_axis = "0 1 0";
   bool elbow_bends_twice = false;  ///< another joint there, about x
+  /// Knees and elbows are two joints, of which the second ("left_knee") mimics the first
+  /// ("left_knee_half"), so far below it [m]; reversed: about the opposite axis.
+  std::optional<double> halves = {};
+  bool halves_reversed = false;
+  double ankle_zero = 0;  ///< [rad] of feet at the zero pose, their toes down
 };
 
 /// A URDF.

@@ -135,6 +135,26 @@ TEST(BodyMapTest, LegsThatAreNoImagesAreRefusedNotLeftOut) {
   EXPECT_EQ(RefusalOf(shape), "");
 }
 
+TEST(BodyMapTest, AKneeOfTwoJointsThatTurnAsOneIsOneKnee) {
+  for (const double gap : {0.0, 0.04}) {
+    for (const bool reversed : {false, true}) {
+      BipedShape shape;
+      shape.halves = gap;
+      shape.halves_reversed = reversed;
+      const Robot robot = MakeBiped(shape);
+      const BodyMap map = FindBodyMap(robot.model, {});
+      for (const auto* limb : {&map.legs[0], &map.legs[1], &map.arms[0], &map.arms[1]}) {
+        const bool is_leg = limb == &map.legs[0] || limb == &map.legs[1];
+        EXPECT_EQ(NameOf(robot, *limb).substr(NameOf(robot, *limb).size() - 5), "_half");
+        EXPECT_EQ((*limb)->lower.segment, (*limb)->chain[(*limb)->fold + 1]);
+        EXPECT_NEAR((*limb)->lower.length, is_leg ? 0.36 : 0.22, 1e-9);
+        EXPECT_NEAR((*limb)->length(), (is_leg ? 0.72 : 0.47) + gap, 1e-9);
+      }
+      EXPECT_TRUE((*FindRobotBody(robot, {}, {}).feet)[0].rolls);
+    }
+  }
+}
+
 TEST(BodyMapTest, HandsAndToesEndTheirChains) {
   BipedShape shape;
   shape.has_fingers = shape.has_toes = true;
@@ -321,6 +341,20 @@ TEST(BodyMapTest, JointsWithoutLimitsAreMappedByTheirAxesAndNames) {
     EXPECT_EQ(map.arms[i]->fold, known.arms[i]->fold);
   }
   EXPECT_TRUE(map.R_WA.isApprox(known.R_WA, 1e-9));
+}
+
+TEST(RobotBodyTest, ALegIsAsLongWhateverAnAnglesZeroIs) {
+  for (const double zero : {0.35, -0.2, 0.02}) {
+    BipedShape shape;
+    shape.ankle_zero = zero;
+    const RobotBody body = FindRobotBody(MakeBiped(shape), {}, {});
+    const RobotFoot& foot = (*body.feet)[0];
+    EXPECT_NEAR(body.size, 0.8, std::abs(zero) < 0.05 ? 0.004 : 1e-5) << zero;
+    EXPECT_NEAR(foot.ankle_height, 0.08, std::abs(zero) < 0.05 ? 0.004 : 1e-5) << zero;
+    if (std::abs(zero) < 0.05) continue;  // as files round
+    EXPECT_TRUE(foot.R_FA.isApprox(Eigen::Matrix3d::Identity(), 1e-5)) << zero;
+    EXPECT_NEAR((foot.toe - foot.heel).norm(), 0.2, 1e-5) << zero;
+  }
 }
 
 TEST(RobotBodyTest, ToesBelongToTheSole) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/judge/retarget_verdict.h"
+#include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/retarget/follow_figures.h"
 #include "common/retarget/guarded_follower.h"
@@ -65,6 +66,31 @@ TEST(RetargetTest, FingersStayWhereTheyAreHeldOrAtRest) {
   EXPECT_THAT(refusal("left_knee=10"), ::testing::HasSubstr("of a leg"));
   for (const char* text : {"thumb", "=3", "left_thumb=x", "left_thumb=nan", "left_thumb=1,"}) {
     EXPECT_NE(refusal(text), "") << text;
+  }
+}
+
+TEST(RetargetTest, SolesAreWhereHeldToesAre) {
+  testing::BipedShape shape;
+  shape.has_toes = true;
+  Robot robot = MakeBiped(shape);
+  RobotBody body = FindRobotBody(robot, {}, {});
+  HoldJoints(robot, "*toes=-25", &body);
+  ASSERT_TRUE(BendFeet(body, &robot.model));
+  body = FindRobotBody(robot, {}, {});
+  HoldJoints(robot, "*toes=-25", &body);
+  const PoseTrajectory motion = Squat(Person(1.75));
+  const Retargeted result = RetargetMotion(Person(1.75), motion, robot, body);
+  const int toes = robot.model.FindSegment("left_toes");
+  for (const Posture& posture : result.motion.postures) {
+    ASSERT_NEAR(posture.joint_angles[robot.model.FindJoint("left_toes")], -25 * kPerDegree, 1e-5);
+    const auto X_WS = SegmentPoses(robot.model, posture);
+    double lowest = INFINITY;
+    for (const ContactShape& one : robot.shapes) {
+      if (one.segment != toes && one.segment != (*body.feet)[0].segment) continue;
+      lowest = std::min(lowest, LowestHeight(one, X_WS[one.segment]));
+    }
+    ASSERT_NEAR(LowestOf((*body.feet)[0], X_WS[(*body.feet)[0].segment]), lowest, 1e-9);
+    ASSERT_NEAR(lowest, 0, 5e-4);
   }
 }
 

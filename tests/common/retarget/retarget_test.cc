@@ -58,6 +58,29 @@ TEST(RetargetTest, ASquatIsASquatAndItsFeetStandStill) {
   EXPECT_NEAR(result.motion.postures[100].joint_angles[knee], 0.0, 0.06);
 }
 
+TEST(RetargetTest, LimbsWhoseKneesAreTwoJointsPointAsThePersons) {
+  const KinematicModel person = Person(1.75);
+  testing::BipedShape shape;
+  shape.halves_reversed = true;
+  for (const double gap : {0.0, 0.04}) {
+    shape.halves = gap;
+    const Robot robot = MakeBiped(shape);
+    const RobotBody body = FindRobotBody(robot, {}, {});
+    const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
+    const int knee = robot.model.FindSegment("left_knee");
+    const int ankle = robot.model.FindSegment("left_ankle_pitch");
+    double most = 0;
+    for (int k = 0; k < result.human.num_frames(); ++k) {
+      const LimbPosture& leg = result.human.bodies[static_cast<std::size_t>(k)].legs[0];
+      const auto X_WS = SegmentPoses(robot.model, result.motion.postures[k]);
+      const Eigen::Vector3d shank = X_WS[knee].translation() - X_WS[ankle].translation();
+      most = std::max(most, std::acos(shank.normalized().dot(LowerDirection(leg))));
+    }
+    EXPECT_LT(most, 4 * kDegree) << gap;
+    EXPECT_LT(MeasureRetargeting(result, robot, body).direction, 2 * kDegree) << gap;
+  }
+}
+
 TEST(RetargetTest, TurnsWithThePerson) {
   const KinematicModel person = Person(1.75);
   const Robot robot = MakeBiped({});
@@ -87,6 +110,24 @@ TEST(RetargetTest, AFixedTrunkMovesItsArms) {
   const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
   EXPECT_LT(MeasureRetargeting(result, robot, body).direction, 1 * kDegree);
   EXPECT_LT(result.motion.postures[70].position.norm(), 1e-3);
+}
+
+TEST(RetargetTest, ARobotWhoseLegsAreNotUsedStandsOnThemAndSaysSo) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  BodyMapChoice arms;
+  arms.arms = {LimbChoice{"left_shoulder_pitch", "left_elbow", "left_elbow"},
+               LimbChoice{"right_shoulder_pitch", "right_elbow", "right_elbow"}};
+  const RobotBody body = FindRobotBody(robot, arms, {});
+  ASSERT_FALSE(body.feet);
+  EXPECT_THAT(DoubtOf(robot, body), ::testing::HasSubstr("does not follow the person"));
+  for (const bool follows : {false, true}) {
+    const Retargeted result = follows ? FollowMotion(person, Squat(person), robot, body)
+                                      : RetargetMotion(person, Squat(person), robot, body);
+    for (const Posture& posture : result.motion.postures) {
+      ASSERT_LT((posture.position - Eigen::Vector3d(0, 0, 0.8)).norm(), 1e-3) << follows;
+    }
+  }
 }
 
 TEST(RetargetTest, FeetStandStillAtTheRateOfAFile) {

@@ -120,6 +120,21 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(SkeletonStyle::Zero::kT, SkeletonStyle::Zero::kA,
                                          SkeletonStyle::Zero::kAllAlongX)));
 
+TEST(SkeletonContent, APelvisThatNeverMovesIsDoubted) {
+  PoseTrajectory motion = Standing(12);
+  for (Posture& posture : motion.postures) posture.position = {0.1, 0.2, 0.95};
+  for (const double moves : {0.0, 0.005}) {
+    motion.postures[6].position.z() = 0.95 + moves;
+    const testing::MadeSkeleton made = testing::MakeSkeleton(Person(), motion, {});
+    Warnings warnings;
+    const Recording recording = ReadRecording(FileOf(made.bvh), {}, &warnings);
+    ASSERT_EQ(recording.doubts.size(), moves > 0 ? 0U : 1U);
+    if (moves > 0) continue;
+    EXPECT_THAT(recording.doubts[0].text, ::testing::HasSubstr("the pelvis never moves"));
+    EXPECT_THAT(warnings.texts(), ::testing::ElementsAre(recording.doubts[0].text));
+  }
+}
+
 TEST(SkeletonContent, WhatWasExportedIsReadBack) {
   const PoseTrajectory motion = Standing(5);
   for (const BvhUnit unit : {BvhUnit::kCentimetres, BvhUnit::kMetres}) {
