@@ -21,13 +21,13 @@ set(layers
     common/convert "common/calibrate|common/forces" common/contacts "common/angles|common/kinetics" common/retarget
     common/label common/label/search "common/label/track|common/label/learn" common/judge
     common/pipeline/input common/pipeline "common/pipeline/comparison|common/pipeline/dynamics" common/live common/pipeline/live
-    plugins
+    "common|plugins"
     "MMMConverterS2KF/terminal|MMMConverterS2KF/report"
     "MMMConverterS2KF/batch|MMMConverterS2KF/live"
     "MMMConverterS2KF/commands|MMMConverterS2KF/python" MMMConverterS2KF
     examples tests)
 # Of these the files alone are a layer: each of their folders is a layer of its own.
-set(divided common/io common/label common/pipeline MMMConverterS2KF)
+set(divided common common/io common/label common/pipeline MMMConverterS2KF)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
 set(problems "")
 string(REPLACE "|" ";" folders_of_layers "${layers};common/dynamics")

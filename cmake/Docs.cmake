@@ -9,8 +9,9 @@ set(docs_work ${PROJECT_BINARY_DIR}/docs)
 set(docs_list ${docs_work}/pages.txt)
 
 # Headers that are installed, and the READMEs of all folders that users may look into.
-file(GLOB_RECURSE docs_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/common/*.h)
-list(FILTER docs_headers EXCLUDE REGEX "/common/(dynamics|calibrate|label)/")
+include(cmake/PublicHeaders.cmake)
+mmm_converter_public_headers(docs_headers ${PROJECT_SOURCE_DIR})
+list(TRANSFORM docs_headers PREPEND ${PROJECT_SOURCE_DIR}/)
 set(docs_pages ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
 foreach(folder common plugins MMMConverterS2KF xml_config examples)
   file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.md)

@@ -10,8 +10,15 @@ install(TARGETS mmm_converter_common mmm_converter_pipeline EXPORT MMMConverterS
 if(TARGET MMMConverterS2KF)
   install(TARGETS MMMConverterS2KF RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(DIRECTORY common DESTINATION ${header_dir} COMPONENT development FILES_MATCHING PATTERN "*.h"
-        PATTERN dynamics EXCLUDE PATTERN plausibility.h EXCLUDE)  # not exported
+# Which headers these are is found while they are installed: what a source includes may have changed since the project was
+# configured.
+install(CODE "
+  include(\"${PROJECT_SOURCE_DIR}/cmake/PublicHeaders.cmake\")
+  mmm_converter_public_headers(headers \"${PROJECT_SOURCE_DIR}\")
+  foreach(header IN LISTS headers)
+    cmake_path(GET header PARENT_PATH folder)
+    file(INSTALL \"${PROJECT_SOURCE_DIR}/\${header}\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${header_dir}/\${folder}\")
+  endforeach()" COMPONENT development)
 install(DIRECTORY xml_config/ DESTINATION ${MMM_CONVERTER_DATA_DIR}
         PATTERN CMakeLists.txt EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

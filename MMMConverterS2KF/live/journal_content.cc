@@ -11,7 +11,7 @@
 
 #include "MMMConverterS2KF/live/journal_lines.h"
 #include "MMMConverterS2KF/report/json.h"
-#include "common/live/live_tracker.h"
+#include "common/convert/live_tracker.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 #include "common/support/units.h"

@@ -13,7 +13,7 @@
 #include "common/model/posture.h"
 #include "common/pipeline/force_exports.h"
 #include "common/pipeline/live/live_bodies.h"
-#include "common/pipeline/live/live_plan.h"
+#include "common/pipeline/live_plan.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/atomic_file.h"
 #include "common/support/output_plan.h"

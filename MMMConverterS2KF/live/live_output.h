@@ -8,8 +8,8 @@
 #include "MMMConverterS2KF/live/motion_journal.h"
 #include "common/live/sink_runner.h"
 #include "common/pipeline/conversion.h"
-#include "common/pipeline/live/live_request.h"
 #include "common/pipeline/live/live_session.h"
+#include "common/pipeline/live_request.h"
 
 namespace mmm_converter {
 

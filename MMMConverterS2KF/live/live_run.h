@@ -11,8 +11,8 @@
 #include "common/live/frame_source.h"
 #include "common/live/latency_histogram.h"
 #include "common/pipeline/conversion.h"
-#include "common/pipeline/live/live_request.h"
 #include "common/pipeline/live/live_stream.h"
+#include "common/pipeline/live_request.h"
 #include "common/retarget/retarget_figures.h"
 
 namespace mmm_converter {

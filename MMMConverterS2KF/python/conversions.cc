@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
 #include "MMMConverterS2KF/python/background.h"
@@ -15,13 +14,8 @@
 #include "common/angles/gait_table.h"
 #include "common/contacts/contact_table.h"
 #include "common/convert/marker_incidents.h"
-#include "common/io/tables/osim_tables.h"
-#include "common/pipeline/conversion.h"
-#include "common/pipeline/force_exports.h"
+#include "common/convert/tracked_joints.h"
 #include "common/pipeline/ground_study.h"
-#include "common/pipeline/motion_output.h"
-#include "common/support/atomic_file.h"
-#include "common/support/error.h"
 
 namespace mmm_converter::python {
 
@@ -31,59 +25,24 @@ namespace {
 
 Conversion Convert(const py::dict& options, const py::object& progress) {
   const ConversionRequest request = RequestOf(options);
-  if (const std::string wrong = Contradiction(request); !wrong.empty()) throw Error(wrong);
   return InBackground(progress, [&](const Progress& on_progress) {
-    ConversionPlan plan = PlanConversion(request, LabelFirst(request, {}, on_progress));
-    return Conversion{request, CarryOut(std::move(plan), on_progress)};
+    return FinishConversion(request, on_progress);
   });
-}
-
-void CheckOneOutput(const Conversion& conversion, const std::string& file, bool is_motion,
-                    const std::string& exporter = "") {
-  OutputPlan plan;
-  plan.Read(conversion.report.plan.opened);
-  NameInputs(conversion.request.input, &plan);
-  NameInputs(conversion.report.plan.converter, &plan);
-  plan.Read(conversion.report.plan.person.subject_file);
-  if (is_motion) {
-    plan.Rewrite(file, conversion.request.input.file);
-    plan.WriteBeside(DeviationsOutput(conversion.report.plan), kOsimDeviations);
-  } else if (!exporter.empty()) {
-    NameOutputs({{exporter, file}}, &plan);
-  } else {
-    plan.Write(file);
-  }
-  plan.Check();
 }
 
 void Save(Conversion* conversion, const std::string& file) {
   const py::gil_scoped_release release;
-  conversion->request.output = file;
-  ChooseMotionOutput(conversion->request, false, &conversion->report.plan);
-  CheckOneOutput(*conversion, file, true);
-  FilesTogether files;
-  WriteObjectModel(conversion->report.plan);
-  WriteMotions(conversion->request, {&conversion->report});
-  files.Commit();
+  SaveMotion(file, conversion);
 }
 
 void Export(Conversion* conversion, const std::string& name, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckOneOutput(*conversion, file, false, name);
-  const ExportFiles exports = {{name, file}};
-  Warnings told = std::exchange(conversion->report.warnings, {});
-  StudyExports(exports, &conversion->report);
-  told.AppendNew(conversion->report.warnings);
-  conversion->report.warnings = std::move(told);
-  FilesTogether files;
-  WriteExports(exports, conversion->report);
-  files.Commit();
+  SaveExport(name, file, conversion);
 }
 
 void WritePage(const Conversion& conversion, const std::string& file) {
   const py::gil_scoped_release release;
-  CheckOneOutput(conversion, file, false);
-  WriteFileAtomically(file, FormatConversionPage({&conversion.report}));
+  SaveText(conversion, file, Whole(FormatConversionPage({&conversion.report})));
 }
 
 py::array_t<double> TimesOf(const PoseTrajectory& trajectory) {
@@ -151,11 +110,8 @@ py::dict FramesOf(const Conversion& conversion) {
 }
 
 std::vector<std::string> MarkerLabelsOf(const Conversion& conversion) {
-  std::vector<std::string> labels;
-  const int count = static_cast<int>(conversion.report.plan.setup.assignments().size());
-  labels.reserve(count);
-  for (int i = 0; i < count; ++i) labels.push_back(LabelOf(conversion.report.plan, i));
-  return labels;
+  const ConversionPlan& plan = conversion.report.plan;
+  return UsedLabels(plan.setup, plan.input.recording.markers.labels());
 }
 
 // None: the model has no feet, or is no person's.

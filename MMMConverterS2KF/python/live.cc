@@ -17,6 +17,7 @@
 #include "MMMConverterS2KF/python/estimates.h"
 #include "MMMConverterS2KF/python/module.h"
 #include "MMMConverterS2KF/python/requests.h"
+#include "common/convert/tracked_joints.h"
 #include "common/pipeline/live/live_stream.h"
 #include "common/support/error.h"
 

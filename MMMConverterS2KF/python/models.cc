@@ -13,6 +13,7 @@
 #include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/convert/motion_converter.h"
+#include "common/convert/tracked_joints.h"
 #include "common/io/mmm/subject_file.h"
 #include "common/pipeline/input/matched_labels.h"
 #include "common/support/error.h"

@@ -9,7 +9,7 @@
 #include "common/convert/tracking_setup.h"
 #include "common/io/model_file.h"
 #include "common/io/recording/recording.h"
-#include "common/pipeline/conversion.h"
+#include "common/pipeline/finished_work.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter::python {
@@ -30,12 +30,7 @@ struct PersonModel {
 };
 
 /// A conversion, and how it was asked for.
-struct Conversion {
-  ConversionRequest request;
-  ConversionReport report;
-
-  const PoseTrajectory& trajectory() const { return report.result.trajectory; }
-};
+using Conversion = FinishedConversion;
 
 // Each binds the classes and functions of a source.
 void BindRecordings(pybind11::module_* module);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include "MMMConverterS2KF/python/arrays.h"
@@ -16,11 +13,10 @@
 #include "common/io/c3d/c3d_events.h"
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/recording/recording.h"
+#include "common/io/recording/marker_recording.h"
 #include "common/io/recording/recording_axes.h"
 #include "common/io/tables/trc_writer.h"
 #include "common/support/atomic_file.h"
-#include "common/support/error.h"
 
 namespace mmm_converter::python {
 
@@ -56,28 +52,12 @@ ReadRecordingResult FromArrays(const std::vector<std::string>& labels, const Num
                                double rate, double first_time, const std::string& name) {
   const auto count = static_cast<py::ssize_t>(labels.size());
   CheckShape(positions, {-1, count, 3}, "markers");
-  if (!IsFrameRate(rate)) throw Error("rate: must be from 1 to 100000 frames a second");
-  if (positions.shape(0) == 0 || count == 0) throw Error("markers: there are none");
-  std::set<std::string> known;
-  for (const std::string& label : labels) {
-    if (known.insert(label).second) continue;
-    throw Error(
-        fmt::format("labels: {} is there twice; each marker needs a name of its own", label));
+  CheckFrameRate(rate);
+  MarkerSequence markers(labels, static_cast<int>(positions.shape(0)), rate, first_time);
+  if (positions.size() > 0) {
+    std::copy(positions.data(), positions.data() + positions.size(), markers.frame(0).data());
   }
-  const double* begin = positions.data();
-  if (std::any_of(begin, begin + positions.size(), [](double x) { return std::isinf(x); })) {
-    throw Error("markers: infinite; a marker that is not seen is NaN");
-  }
-  auto recording = std::make_shared<Recording>();
-  recording->file = name;
-  recording->format = "arrays";
-  recording->unit = "m";
-  recording->markers =
-      MarkerSequence(labels, static_cast<int>(positions.shape(0)), rate, first_time);
-  std::copy(positions.data(), positions.data() + positions.size(),
-            recording->markers.frame(0).data());
-  for (int i = 0; i < recording->markers.num_labels(); ++i) recording->points.push_back(i);
-  return {std::move(recording), {}, ""};
+  return {std::make_shared<Recording>(MakeRecording(std::move(markers), name)), {}, ""};
 }
 
 py::list EventsOf(const ReadRecordingResult& read) {

@@ -22,20 +22,17 @@
 #include "MMMConverterS2KF/report/report.h"
 #include "MMMConverterS2KF/report/retarget_page.h"
 #include "MMMConverterS2KF/report/retarget_summary.h"
-#include "common/io/mmm/mmm_model_subject.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/mmm/subject_file.h"
 #include "common/io/robot/robot_exports.h"
 #include "common/label/track/relabelled.h"
 #include "common/pipeline/comparison/comparison_setup.h"
 #include "common/pipeline/dynamics/dynamics_check.h"
 #include "common/pipeline/dynamics/retarget_run.h"
+#include "common/pipeline/finished_work.h"
 #include "common/pipeline/labelled_output.h"
 #include "common/pipeline/marker_learning.h"
-#include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
 #include "common/support/atomic_file.h"
-#include "common/support/opened_files.h"
 
 namespace mmm_converter::python {
 
@@ -51,55 +48,40 @@ std::vector<InputRequest> InputRequestsOf(const py::list& inputs) {
 }
 
 // An output that may not be one of the inputs.
-void WriteBeside(const std::vector<InputRequest>& inputs, const std::set<std::string>& opened,
-                 const std::string& file, const TextPieces& content) {
+void Write(const std::vector<InputRequest>& inputs, const std::set<std::string>& opened,
+           const std::string& file, const TextPieces& text) {
   const py::gil_scoped_release release;
-  OutputPlan plan;
-  for (const InputRequest& input : inputs) NameInputs(input, &plan);
-  plan.Read(opened);
-  plan.Write(file);
-  plan.Check();
-  WriteFileAtomically(file, content);
-}
-
-TextPieces Whole(std::string text) {
-  return [text = std::move(text)](const TextSink& sink) { sink(text); };
+  WriteBeside(inputs, opened, file, text);
 }
 
 struct Calibration {
-  CalibrationRequest request;
-  CalibrationReport report;
-  std::string output;  ///< where the subject was saved; empty: nowhere
-  std::set<std::string> opened = {};
+  FinishedCalibration work;
+  std::string output = {};  ///< where the subject was saved; empty: nowhere
+
+  const CalibrationReport& report() const { return work.report; }
 };
 
 Calibration Calibrate(const py::list& inputs, const py::dict& options, const py::object& progress) {
   CalibrationRequest request;
   request.inputs = InputRequestsOf(inputs);
-  if (request.inputs.empty()) throw Error("calibrate: which recordings?");
   request.converter = RequestOf(options).converter;
   request.name = TextOf(options, "name");
   return InBackground(progress, [&](const Progress& on_progress) {
-    Warnings warnings;
-    ConverterChoice choice = ChooseConverter(request.converter, &warnings);
-    return Calibration{request,
-                       RunCalibration(request, {std::move(choice.config), std::move(warnings)},
-                                      OrThrow(on_progress)),
-                       ""};
+    return Calibration{FinishCalibration(request, on_progress)};
   });
 }
 
-void SaveSubject(Calibration* calibration, const std::string& file) {
-  const Subject& subject = calibration->report.result.subject;
-  WriteBeside(calibration->request.inputs, calibration->opened, file,
-              Whole(FormatSubject(subject, SubjectProgram())));
+void SaveSubjectOf(Calibration* calibration, const std::string& file) {
+  {
+    const py::gil_scoped_release release;
+    SaveSubject(calibration->work, file);
+  }
   calibration->output = file;
 }
 
-void SaveSubjectsModel(const Calibration& calibration, const std::string& file) {
-  const std::string& model = calibration.report.recordings.front().input.model_file;
-  WriteBeside(calibration.request.inputs, calibration.opened, file,
-              Whole(ReadModelForSubject(model, calibration.report.result.subject)));
+void SaveModelOf(const Calibration& calibration, const std::string& file) {
+  const py::gil_scoped_release release;
+  SaveSubjectsModel(calibration.work, file);
 }
 
 struct Comparing {
@@ -235,7 +217,7 @@ Learning Learn(const py::list& inputs, const py::dict& options, const py::object
 void SaveMarkerSet(Learning* learning, const std::string& file) {
   LearnReport& report = learning->report;
   if (learning->request.name.empty()) report.name = std::filesystem::path(file).stem().string();
-  WriteBeside(learning->request.inputs, learning->opened, file, Whole(FormatLearnedSet(report)));
+  Write(learning->request.inputs, learning->opened, file, Whole(FormatLearnedSet(report)));
   report.output = file;
 }
 
@@ -310,23 +292,24 @@ void WriteRobotPage(const RetargetedMotion& motion, const std::string& file) {
 void BindStudies(py::module_* module) {
   py::class_<Calibration>(*module, "Calibration")
       .def_property_readonly(
-          "summary", [](const Calibration& c) { return PythonOf(ToJson(c.report, c.output)); })
+          "summary", [](const Calibration& c) { return PythonOf(ToJson(c.report(), c.output)); })
       .def_property_readonly(
-          "text", [](const Calibration& c) { return FormatCalibrationSummary(c.report, c.output); })
+          "text",
+          [](const Calibration& c) { return FormatCalibrationSummary(c.report(), c.output); })
       .def_property_readonly("verdict",
-                             [](const Calibration& c) { return Name(c.report.verdict.level); })
+                             [](const Calibration& c) { return Name(c.report().verdict.level); })
       .def_property_readonly("warnings",
-                             [](const Calibration& c) { return c.report.warnings.texts(); })
-      .def("save", &SaveSubject)
-      .def("save_model", &SaveSubjectsModel);
+                             [](const Calibration& c) { return c.report().warnings.texts(); })
+      .def("save", &SaveSubjectOf)
+      .def("save_model", &SaveModelOf);
   py::class_<Comparing>(*module, "Comparison")
       .def_property_readonly("summary",
                              [](const Comparing& c) { return PythonOf(ToJson(c.comparison)); })
       .def_property_readonly("text",
                              [](const Comparing& c) { return FormatComparisonTable(c.comparison); })
       .def("report", [](const Comparing& c, const std::string& file) {
-        WriteBeside(c.inputs, c.opened, file,
-                    Whole(FormatReport("Comparison", {{"Comparison", "", &c.comparison}})));
+        Write(c.inputs, c.opened, file,
+              Whole(FormatReport("Comparison", {{"Comparison", "", &c.comparison}})));
       });
   py::class_<LabelledRecording>(*module, "LabelledRecording")
       .def_property_readonly("summary",
@@ -338,7 +321,7 @@ void BindStudies(py::module_* module) {
       .def_property_readonly("recording", &RecordingOf)
       .def("save", &SaveLabelled)
       .def("report", [](const LabelledRecording& l, const std::string& file) {
-        WriteBeside({l.request.input}, l.opened, file, Whole(FormatLabelPage(l.report)));
+        Write({l.request.input}, l.opened, file, Whole(FormatLabelPage(l.report)));
       });
   py::class_<CheckedDynamics>(*module, "Dynamics")
       .def_property_readonly("summary",
@@ -352,7 +335,7 @@ void BindStudies(py::module_* module) {
           "warnings", [](const CheckedDynamics& d) { return d.report.motion.warnings.texts(); })
       .def("report", [](const CheckedDynamics& d, const std::string& file) {
         const std::string title = std::filesystem::path(d.report.motion.file).filename().string();
-        WriteBeside({d.request}, d.opened, file, Whole(FormatDynamicsPage(title, d.report)));
+        Write({d.request}, d.opened, file, Whole(FormatDynamicsPage(title, d.report)));
       });
   py::class_<Learning>(*module, "LearnedMarkers")
       .def_property_readonly("summary",

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "common/convert/marker_incidents.h"
+#include "common/convert/tracked_joints.h"
 #include "common/model/posture.h"
 #include "common/support/units.h"
 
@@ -69,9 +70,7 @@ void ResultWriter::Clear() {
   PoseTrajectory& trajectory = result_.trajectory;
   trajectory.rate = recording_.rate();
   trajectory.first_time = recording_.first_time();
-  for (const int joint : setup_.joints) {
-    trajectory.joint_names.push_back(setup_.model->joint(joint).name);
-  }
+  trajectory.joint_names = TrackedJoints(setup_);
   trajectory.postures.resize(static_cast<std::size_t>(frames));
   trajectory.standard_deviations.setConstant(6 + static_cast<Eigen::Index>(setup_.joints.size()),
                                              frames, kNaN);
@@ -80,20 +79,10 @@ void ResultWriter::Clear() {
   verdicts_.setConstant(assignments, frames, kAsLabelled);
 }
 
-void ResultWriter::WritePosture(int k, const FrameEstimate& estimate) {
-  Posture& posture = result_.trajectory.postures[static_cast<std::size_t>(k)];
-  posture.position = estimate.posture.position;
-  posture.orientation = estimate.posture.orientation;
-  posture.joint_angles = estimate.posture.joint_angles(setup_.joints);
-  if (estimate.standard_deviations.size() == 0) return;
-  auto deviations = result_.trajectory.standard_deviations.col(k);
-  deviations.head<6>() = estimate.standard_deviations.head<6>();
-  const auto of_joints = estimate.standard_deviations.tail(estimate.standard_deviations.size() - 6);
-  deviations.tail(static_cast<Eigen::Index>(setup_.joints.size())) = of_joints(setup_.joints);
-}
-
 void ResultWriter::Write(int k, const FrameEstimate& estimate, double seconds) {
-  WritePosture(k, estimate);
+  PoseTrajectory& trajectory = result_.trajectory;
+  TakeTracked(setup_, estimate, &trajectory.postures[static_cast<std::size_t>(k)],
+              trajectory.standard_deviations.col(k));
   result_.residuals.col(k) = estimate.residuals;
   result_.frames[static_cast<std::size_t>(k)] = {estimate.markers_seen,
                                                  estimate.markers_downweighted,

@@ -56,8 +56,6 @@ class ResultWriter {
   void FindIncidents();
 
  private:
-  void WritePosture(int k, const FrameEstimate& estimate);
-
   const MarkerSequence& recording_;
   const TrackingSetup& setup_;
   Eigen::MatrixXi& verdicts_;

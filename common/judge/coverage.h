@@ -38,8 +38,8 @@ struct EndPart {
 std::vector<EndPart> EndPartsOf(const TrackingSetup& setup);
 
 /// The frames in which all of these limbs and end parts are known, but for a tenth of a second;
-/// what the model does not have is left out. A part whose markers are too few in all frames is
-/// never known, but for a pelvis that has some.
+/// what the model does not have is left out. A limb with fewer markers than tell it is known where
+/// all are seen, a pelvis with one marker always; what has none is never known.
 std::vector<bool> KnownFrames(const TrackingSetup& setup, const std::vector<std::string>& parts,
                               const MarkerSequence& recording);
 

@@ -52,6 +52,10 @@ expect_fault(plugins/one/a.cc "${licence}#include \"common/dynamics/used.h\"\n"
              "plugins must not include common/dynamics")
 expect_fault(common/dynamics/a.cc "${licence}#include \"common/io/used.h\"\n"
              "common/dynamics must not include common/io")
+expect_fault(plugins/one/a.cc "${licence}#include \"common/front.h\"\n"
+             "plugins must not include common ")
+expect_fault(common/pipeline/a.cc "${licence}#include \"common/front.h\"\n"
+             "common/pipeline must not include common ")
 expect_fault(plugins/one/a.cc "${licence}#include \"plugins/two/used.h\"\n"
              "a plugin must not include another")
 expect_fault(MMMConverterS2KF/a.cc "${licence}#include \"plugins/one/used.h\"\n"

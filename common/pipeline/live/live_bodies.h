@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/io/recording/marker_labels.h"
-#include "common/pipeline/live/live_request.h"
+#include "common/pipeline/live_request.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

@@ -245,7 +245,7 @@ void LiveSession::TakePoints(const LaidOutFrame& frame, bool is_new) {
 }
 
 void LiveSession::Track() {
-  const FrameEstimate* estimate = tracker_->Track(frame_);
+  const FrameEstimate* estimate = tracker_->Track(frame_.points, frame_.time);
   pose_.is_tracking = estimate != nullptr;
   if (estimate != nullptr) pose_.estimate = *estimate;
   const bool is_tracked = tracker_->is_tracking();

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "common/convert/live_tracker.h"
 #include "common/live/frame_mailbox.h"
 #include "common/live/live_labeller.h"
-#include "common/live/live_tracker.h"
 #include "common/live/pose_frame.h"
 #include "common/live/stream_clock.h"
 #include "common/pipeline/live/live_bodies.h"
-#include "common/pipeline/live/live_plan.h"
-#include "common/pipeline/live/live_request.h"
+#include "common/pipeline/live_plan.h"
+#include "common/pipeline/live_request.h"
 
 namespace mmm_converter {
 

@@ -16,9 +16,9 @@
 #include "common/live/frame_mailbox.h"
 #include "common/live/pose_frame.h"
 #include "common/live/source_address.h"
-#include "common/pipeline/live/live_request.h"
 #include "common/pipeline/live/live_robot.h"
 #include "common/pipeline/live/live_session.h"
+#include "common/pipeline/live_request.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

@@ -3,12 +3,12 @@
 
 #include <cstdlib>
 
+#include "common/convert/live_tracker.h"
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/recording/recording.h"
 #include "common/io/robot_file.h"
 #include "common/live/frame_mailbox.h"
-#include "common/live/live_tracker.h"
 #include "common/live/replay/replay_source.h"
 #include "common/live/sink_runner.h"
 #include "common/model/model_scaling.h"
@@ -70,7 +70,7 @@ TEST(LiveAllocation, TheTrackingThreadAllocatesNothing) {
     box.Put();
     const LaidOutFrame* frame = box.Take(std::chrono::milliseconds(0), 1);
     ASSERT_NE(frame, nullptr);
-    const FrameEstimate* estimate = tracker.Track(frame->frame);
+    const FrameEstimate* estimate = tracker.Track(frame->frame.points, frame->frame.time);
     ASSERT_NE(estimate, nullptr);
     pose.number = frame->frame.number;
     pose.is_tracking = true;

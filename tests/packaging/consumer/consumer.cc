@@ -7,24 +7,17 @@
 
 #include <iostream>
 
-#include "common/pipeline/conversion.h"
-#include "common/support/error.h"
+#include "common/mmm_converter.h"
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  mmm_converter::ConversionRequest request;
-  request.input.file = argv[1];
-  request.input.end_frame = 40;
-  request.input.person.size.height = 1.8;
-  request.output = argv[2];
-  mmm_converter::ConversionReport report = mmm_converter::RunConversion(request, {}, {});
-  mmm_converter::WriteConversion(request, &report);
-  std::cout << report.plan.setup.assignments().size() << " markers, "
-            << report.result.trajectory.num_frames() << " frames\n";
+  mmm::Conversion result = mmm::Convert(argv[1], {{"height", 1.8}, {"frames", ":40"}});
+  result.Save(argv[2]);
+  std::cout << result.markers().size() << " markers, " << result.motion().num_frames()
+            << " frames\n";
   try {
-    request.input.file = "/no/such/recording.c3d";
-    mmm_converter::RunConversion(request, {}, {});
-  } catch (const mmm_converter::Error& error) {
+    mmm::Read("/no/such/recording.c3d");
+  } catch (const mmm::Error& error) {
     std::cout << "as expected: " << error.what() << '\n';
     return 0;
   }

@@ -7,7 +7,7 @@
 
 #include "common/live/pose_frame.h"
 #include "common/support/units.h"
-#include "tests/common/live/fake_converter.h"
+#include "tests/common/convert/fake_converter.h"
 
 namespace mmm_converter::testing {
 

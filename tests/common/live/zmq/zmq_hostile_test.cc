@@ -14,7 +14,7 @@
 
 #include "common/live/zmq/subscriber_guard.h"
 #include "common/live/zmq/zmq_sink.h"
-#include "tests/common/live/fake_converter.h"
+#include "tests/common/convert/fake_converter.h"
 #include "tests/common/live/zmq/small_body.h"
 
 namespace mmm_converter {

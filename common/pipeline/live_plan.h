@@ -4,9 +4,8 @@
 #include <memory>
 
 #include "common/io/recording/recording.h"
-#include "common/live/pose_frame.h"
 #include "common/pipeline/conversion.h"
-#include "common/pipeline/live/live_request.h"
+#include "common/pipeline/live_request.h"
 
 namespace mmm_converter {
 

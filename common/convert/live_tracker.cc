@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/live/live_tracker.h"
+#include "common/convert/live_tracker.h"
 
 #include <cmath>
 #include <utility>
@@ -31,16 +31,17 @@ void LiveTracker::Prepare() {
   if (is_tracking_ && rate_ > 0) converter_->Prepare(1 / rate_);
 }
 
-const FrameEstimate* LiveTracker::Track(const StreamFrame& frame) {
-  const int seen = CountSeen(frame.points, setup());
-  if (is_tracking_ && IsOver(frame.time, seen)) is_tracking_ = false;
-  const double dt = StepTo(frame.time);
-  time_ = frame.time;
-  if (is_tracking_) return &converter_->Track(frame.points, dt);
-  if (!start_.IsAt(frame.time, seen)) return nullptr;
-  const FrameEstimate& estimate = converter_->Assemble(frame.points);
+const FrameEstimate* LiveTracker::Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                                        double time) {
+  const int seen = CountSeen(points, setup());
+  if (is_tracking_ && IsOver(time, seen)) is_tracking_ = false;
+  const double dt = StepTo(time);
+  time_ = time;
+  if (is_tracking_) return &converter_->Track(points, dt);
+  if (!start_.IsAt(time, seen)) return nullptr;
+  const FrameEstimate& estimate = converter_->Assemble(points);
   is_tracking_ = true;
-  seen_time_ = frame.time;
+  seen_time_ = time;
   ++starts_;
   return &estimate;
 }

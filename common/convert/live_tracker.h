@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 
 #include "common/convert/motion_converter.h"
 #include "common/convert/tracking_start.h"
-#include "common/live/frame_source.h"
 
 namespace mmm_converter {
 
@@ -24,9 +24,10 @@ class LiveTracker {
 
   const TrackingSetup& setup() const { return converter_->setup(); }
 
-  /// frame.points: 3 x labels of the setup. Null: the person is waited for. The estimate is valid
-  /// until the next call; tracking allocates nothing. The frames' own times drive the motion model.
-  const FrameEstimate* Track(const StreamFrame& frame);
+  /// points: 3 x labels of the setup [m]; time: the frame's own [s], which drives the motion model.
+  /// Null: the person is waited for. The estimate is valid until the next call; tracking allocates
+  /// nothing.
+  const FrameEstimate* Track(const Eigen::Ref<const Eigen::Matrix3Xd>& points, double time);
 
   /// After a frame has gone out: does what does not need the next one, one step of the source's
   /// rate later. Changes no estimate.

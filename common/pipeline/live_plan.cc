@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/pipeline/live/live_plan.h"
+#include "common/pipeline/live_plan.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "common/live/live_tracker.h"
+#include "common/convert/live_tracker.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/support/units.h"
-#include "tests/common/live/fake_converter.h"
+#include "tests/common/convert/fake_converter.h"
 
 namespace mmm_converter {
 namespace {
@@ -22,11 +22,9 @@ class LiveTrackerTest : public ::testing::Test {
  protected:
   // Whether there is a posture at this time, with so many markers seen.
   bool Track(double time, int seen) {
-    StreamFrame frame;
-    frame.time = time;
-    frame.points.setConstant(3, kLabels, kNaN);
-    frame.points.leftCols(seen).setZero();
-    return tracker_.Track(frame) != nullptr;
+    Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Constant(3, kLabels, kNaN);
+    points.leftCols(seen).setZero();
+    return tracker_.Track(points, time) != nullptr;
   }
 
   std::vector<double> calls_;
