@@ -149,23 +149,9 @@ bool Walks(const Stride& stride) {
   return stride.foot_off > 0 && stride.foot_off < kMostStance && std::isfinite(stride.step_time);
 }
 
-double TurnedBy(double angle) { return std::abs(std::remainder(angle, 2 * std::numbers::pi)); }
-
-/// A foot that is badly seen turns alone; a person turns the pelvis with it, where that is known.
-bool IsTurn(const FootContact& contact, const FootContact& next, const FootMotion& feet,
-            const AnatomicalAngles& angles) {
-  if (TurnedBy(PlaceOf(next, feet).yaw - PlaceOf(contact, feet).yaw) <= kTurn) return false;
-  const auto is_pelvis = [](const AnatomicalAngle& one) {
-    return std::string_view(one.joint) == "pelvis" && std::string_view(one.motion) == "rotation";
-  };
-  const auto pelvis = std::find_if(angles.angles.begin(), angles.angles.end(), is_pelvis);
-  if (pelvis == angles.angles.end()) return true;
-  const auto row = angles.values.row(pelvis - angles.angles.begin());
-  const auto at = [&](double time) {
-    return ColumnAt(row, (time - angles.first_time) * angles.rate)(0);
-  };
-  const double turned = at(*next.begin) - at(*contact.begin);
-  return !(TurnedBy(turned) <= kTurn / 2);
+bool IsTurn(const FootContact& contact, const FootContact& next, const FootMotion& feet) {
+  const double turned = PlaceOf(next, feet).yaw - PlaceOf(contact, feet).yaw;
+  return std::abs(std::remainder(turned, 2 * std::numbers::pi)) > kTurn;
 }
 
 GaitKind KindOf(const std::vector<Stride>& strides) {
@@ -189,8 +175,8 @@ bool IsKnown(const FootContact& contact, const FootContact& next, const FootMoti
   });
 }
 
-void AddStrides(Side side, const FootMotion& feet, const Contacts& contacts,
-                const AnatomicalAngles& angles, const KnownLegs& known, Gait* gait) {
+void AddStrides(Side side, const FootMotion& feet, const Contacts& contacts, const KnownLegs& known,
+                Gait* gait) {
   const FootContact* last = nullptr;
   for (const FootContact& one : contacts.contacts) {
     if (one.side != side || !one.begin) continue;
@@ -198,7 +184,7 @@ void AddStrides(Side side, const FootMotion& feet, const Contacts& contacts,
       if (!IsKnown(*last, one, feet, known)) {
         ++gait->left_out;
       } else if (const Stride stride = StrideOf(*last, one, feet, contacts); Walks(stride)) {
-        if (IsTurn(*last, one, feet, angles)) {
+        if (IsTurn(*last, one, feet)) {
           ++gait->turns;
         } else {
           gait->strides.push_back(stride);
@@ -311,7 +297,7 @@ Gait AnalyzeGait(const FootMotion& moved, const Contacts& contacts, const Anatom
                  const KnownLegs& known) {
   const FootMotion feet = WithBelts(moved, contacts);
   Gait gait;
-  for (const Side side : kSides) AddStrides(side, feet, contacts, angles, known, &gait);
+  for (const Side side : kSides) AddStrides(side, feet, contacts, known, &gait);
   gait.kind = KindOf(gait.strides);
   if (gait.kind == GaitKind::kRunning) {
     for (Stride& one : gait.strides) one.double_support = kNaN;

@@ -206,7 +206,6 @@ NormalBands ParseNormalBands(std::string_view content, const std::string& file) 
   const RowsOfAngles rows = BandReader(content, file).Read(&normal.source);
   if (rows.empty()) throw Error(file + ": no bands of normal gait: no row follows the header");
   if (normal.source.empty()) normal.source = std::filesystem::path(file).filename().string();
-  CheckAreDegrees(rows, file);
   for (const auto& [key, of] : rows) {
     const auto& [joint, motion, side] = key;
     CheckReach(of, joint + ' ' + motion, file);
@@ -216,6 +215,7 @@ NormalBands ParseNormalBands(std::string_view content, const std::string& file) 
     if (!side.empty()) band.side = side == "left" ? Side::kLeft : Side::kRight;
     normal.bands.push_back(std::move(band));
   }
+  CheckAreDegrees(rows, file);
   return normal;
 }
 

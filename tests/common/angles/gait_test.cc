@@ -151,9 +151,6 @@ TEST_F(GaitTest, LengthsAreOnTheBelt) {
 TEST_F(GaitTest, StridesOverATurnAreLeftOut) {
   feet_.feet[0].toe.rightCols(60) = feet_.feet[0].heel.rightCols(60);
   feet_.feet[0].toe.rightCols(60).row(1).array() += 0.25;  // to the left from 2.41 s on
-  // The foot alone: it is badly seen.
-  EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).turns, 0);
-  angles_.values.row(2).rightCols(60).array() += 1;
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
   EXPECT_THAT(gait.strides, SizeIs(2));
   EXPECT_EQ(gait.turns, 1);

@@ -295,8 +295,12 @@ TEST_F(NamedPersons, WhoseClustersAreExchangedAreTold) {
     const NamedLabel& label = named.labels[i];
     const bool is_thigh = kit[i].ends_with("THI"), is_shank = kit[i].ends_with("TIP");
     EXPECT_EQ(label.is_contradicted, is_thigh || is_shank) << label.label << ": " << label.note;
-    if (is_thigh) EXPECT_TRUE(label.part.ends_with("thigh")) << label.part;
-    if (is_shank) EXPECT_TRUE(label.part.ends_with("shank")) << label.part;
+    if (is_thigh) {
+      EXPECT_TRUE(label.part.ends_with("thigh")) << label.part;
+    }
+    if (is_shank) {
+      EXPECT_TRUE(label.part.ends_with("shank")) << label.part;
+    }
   }
 }
 

@@ -82,6 +82,15 @@ TEST_F(BodyLimitsTest, FramesThatShowNobodyDoNotCount) {
 
 TEST_F(BodyLimitsTest, AStraightKneeStands) { EXPECT_THAT(Judge("LKx_joint", 0, 100), IsEmpty()); }
 
+TEST_F(BodyLimitsTest, AKneeThatBendsBackwardsIsNamed) {
+  Posture back = ZeroPosture(*setup_.model);
+  back.joint_angles[setup_.model->FindJoint("LKx_joint")] = 0.2;  // beyond its limit
+  const Eigen::Matrix3Xd p = MarkerPositions(*setup_.model, back);
+  for (int k = 0; k < 100; ++k) recording_.frame(k) = p;
+  EXPECT_THAT(Judge("LKx_joint", 0, 100),
+              Contains(HasSubstr("LKx_joint (100 %, bent backwards by 11 degrees)")));
+}
+
 TEST_F(BodyLimitsTest, WhatOneMarkerAloneShowsCanNotTell) {
   std::erase_if(setup_.mapping.assignments, [&](const MarkerAssignment& one) {
     const std::string& name = setup_.model->markers()[one.marker].name;
