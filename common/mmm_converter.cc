@@ -84,6 +84,7 @@ void ReadOptions(Task task, const Options& options, Request* request) {
     const core::Option* option = Find(table, name);
     if (option == nullptr) {
       std::vector<std::string> names;
+      names.reserve(table.size());
       for (const core::Option& one : table) names.emplace_back(one.names.keyword);
       throw Error(fmt::format("there is no option \"{}\" of {}; there are {}", name, NameOf(task),
                               core::JoinNames(names, " and ")));

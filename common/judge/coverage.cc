@@ -11,6 +11,7 @@
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -262,14 +263,14 @@ AnatomicalAngles ShownAngles(const TrackingSetup& setup, const PoseTrajectory& m
 
 void HideUnknown(const TrackingSetup& setup, const MarkerSequence& recording,
                  AnatomicalAngles* angles) {
-  const int first = recording.num_frames() - angles->num_frames();
+  const auto first = static_cast<std::size_t>(recording.num_frames() - angles->num_frames());
   std::map<std::vector<std::string>, std::vector<bool>> known;
   for (std::size_t i = 0; i < angles->angles.size(); ++i) {
     const std::vector<std::string> parts = PartsBeside(angles->angles[i]);
     const auto [found, is_new] = known.try_emplace(parts);
     if (is_new) found->second = KnownFrames(setup, parts, recording);
     for (int k = 0; k < angles->num_frames(); ++k) {
-      if (found->second[static_cast<std::size_t>(first + k)]) continue;
+      if (found->second[first + static_cast<std::size_t>(k)]) continue;
       angles->values(static_cast<Eigen::Index>(i), k) = kNaN;
       if (angles->deviations.size() > 0) {
         angles->deviations(static_cast<Eigen::Index>(i), k) = kNaN;

@@ -319,8 +319,8 @@ double KnownMass(const ConversionReport& report, const GroundStudy& ground) {
 std::string MassSentence(const ConversionReport& report, const GroundStudy& ground) {
   if (!ground.mass) return "";
   const PersonValue& mass = report.plan.person.mass;
-  const std::string borne = fmt::format("the force plates bore {:.1f} +- {:.1f} kg",
-                                        ground.mass->mass, ground.mass->deviation);
+  std::string borne = fmt::format("the force plates bore {:.1f} +- {:.1f} kg", ground.mass->mass,
+                                  ground.mass->deviation);
   if (!(mass.value > 0)) return borne;
   if (IsByPlates(mass)) return borne + ", and nobody says another mass";
   return fmt::format("{}, the person's mass is {:.1f} kg ({}){}", borne, mass.value, mass.source,

@@ -205,12 +205,15 @@ Eigen::Matrix3d LevelKnee(const std::vector<Eigen::Isometry3d>& X_WS, const Body
   return Eigen::AngleAxisd(-tilt, map.R_WA.col(0)).toRotationMatrix();
 }
 
+constexpr int kQuarterings = 10;  // of a step: to a millionth
+
 /// Where a height is least, downhill from 0 [rad]; 0 where it is not as of what lies flat: turned
 /// by kFlatTurn either way it is higher by that times lever [m] at least.
 template <typename Height>
 double FlatAngle(double lever, const Height& height) {
   double at = 0;
-  for (double step = kFlatTurn; step > kFlatTurn * 1e-6; step /= 4) {
+  double step = kFlatTurn;
+  for (int i = 0; i < kQuarterings; ++i, step /= 4) {
     const double way = height(at + step) < height(at - step) ? step : -step;
     while (height(at + way) < height(at) && std::abs(at) < kMostSpread) at += way;
   }
