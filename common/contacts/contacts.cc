@@ -73,6 +73,7 @@ std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
 
 std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFoot>& slow) {
   std::vector<Standing> standings;
+  standings.reserve(slow.size());
   for (const SlowFoot& one : slow) {
     standings.push_back({motion.time(one.begin),
                          motion.time(one.end),

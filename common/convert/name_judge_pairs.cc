@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "common/convert/name_judge.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {

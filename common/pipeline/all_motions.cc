@@ -220,7 +220,7 @@ std::vector<std::string> NamesOfReports(const std::vector<const ConversionReport
     if (files[file.string()] > 1) {
       name = one->plan.motion_name;
     } else if (stems[name] > 1) {
-      name = folder + "/" + name;
+      name.insert(0, folder + "/");
     }
     const int number = ++count[name];
     names.push_back(number > 1 ? fmt::format("{} ({})", name, number) : name);

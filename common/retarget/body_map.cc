@@ -219,6 +219,7 @@ int FindJointNamed(const ZeroPose& zero, const std::string& name) {
                              name));
   }
   std::vector<std::string> joints;
+  joints.reserve(static_cast<std::size_t>(zero.model->num_joints()));
   for (int j = 0; j < zero.model->num_joints(); ++j) joints.push_back(zero.model->joint(j).name);
   const std::string near = ClosestName(name, joints);
   Refuse(zero, fmt::format("the map names the joint \"{}\", which it has not{}; it has {}", name,
