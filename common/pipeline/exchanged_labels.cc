@@ -52,10 +52,9 @@ std::optional<MarkerSequence> ExchangeNames(const NamedMarkers& named,
   }
   const bool is_twice = std::set(labels.begin(), labels.end()).size() < labels.size();
   if (exchanged.labels.empty() || is_twice) return std::nullopt;
-  warnings->Add(fmt::format(
-      "labels that are not where their names say get the names of where they are: {}; if it is the "
-      "coordinates that are mirrored, mend these instead",
-      FirstNames(DescribeContradictions(exchanged), 6)));
+  warnings->Add(
+      fmt::format("labels that are not where their names say get the names of where they are: {}",
+                  FirstNames(DescribeContradictions(exchanged), 6)));
   MarkerSequence renamed(labels, recording.num_frames(), recording.rate(), recording.first_time());
   for (int k = 0; k < recording.num_frames(); ++k) renamed.frame(k) = recording.frame(k);
   return renamed;
