@@ -367,4 +367,42 @@ Eigen::MatrixXd AnatomicalMoments(const KinematicModel& model, const PoseTraject
   return moments;
 }
 
+std::vector<HeldAxis> FindHeldAxes(const KinematicModel& model) {
+  const std::vector<JointFrames> joints = FindJointFrames(model);
+  const std::vector<Row> rows = RowsOf(model, joints);
+  std::vector<HeldAxis> held;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const JointFrames& joint = joints[j];
+    if (std::string_view(joint.anatomy->joint) != "knee") continue;
+    for (const Sense& sense : joint.anatomy->senses) {
+      const bool turns = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+        return row.joint == static_cast<int>(j) && row.sense.turn == sense.turn;
+      });
+      if (turns) continue;
+      // Columns of the axes are forward, left and up; turns are about left, forward and along.
+      constexpr std::array<int, 3> kColumns = {1, 0, 2};
+      const double side = sense.is_mirrored && joint.is_left ? -1 : 1;
+      held.push_back({{joint.anatomy->joint, joint.is_left ? "left" : "right", sense.motion},
+                      joint.distal,
+                      side * sense.sign * joint.R_DA.col(kColumns[sense.turn])});
+    }
+  }
+  return held;
+}
+
+Eigen::MatrixXd HeldMoments(const KinematicModel& model, const PoseTrajectory& motion,
+                            const std::vector<HeldAxis>& axes,
+                            const std::vector<Eigen::Matrix3Xd>& held) {
+  Eigen::MatrixXd moments(static_cast<Eigen::Index>(axes.size()), motion.num_frames());
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    const auto X_WS = SegmentPoses(model, ModelPosture(model, motion, k));
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const Vector3d axis =
+          X_WS[static_cast<std::size_t>(axes[i].segment)].linear() * axes[i].axis_S;
+      moments(static_cast<Eigen::Index>(i), k) = axis.dot(held[i].col(k));
+    }
+  }
+  return moments;
+}
+
 }  // namespace mmm_converter

@@ -61,4 +61,18 @@ AnatomicalAngles SomeOf(const AnatomicalAngles& angles, const std::vector<Eigen:
 Eigen::MatrixXd AnatomicalMoments(const KinematicModel& model, const PoseTrajectory& motion,
                                   const Eigen::MatrixXd& joint_forces);
 
+/// An axis about which a knee of the model can't turn, and holds.
+struct HeldAxis {
+  AnatomicalAngle angle;   ///< that would grow by a turn about it
+  int segment = 0;         ///< the shank
+  Eigen::Vector3d axis_S;  ///< of the shank
+};
+std::vector<HeldAxis> FindHeldAxes(const KinematicModel& model);
+
+/// The moments about these axes that would make their angles grow, a row for each, of the whole
+/// moment by which the knee holds each axis' shank (W).
+Eigen::MatrixXd HeldMoments(const KinematicModel& model, const PoseTrajectory& motion,
+                            const std::vector<HeldAxis>& axes,
+                            const std::vector<Eigen::Matrix3Xd>& held);
+
 }  // namespace mmm_converter

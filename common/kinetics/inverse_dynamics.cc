@@ -67,7 +67,8 @@ void Push(const Segment& segment, MovingSegment* moving) {
 
 VectorXd InverseDynamics(const KinematicModel& model, const Posture& posture,
                          const VectorXd& velocities, const VectorXd& accelerations,
-                         const std::vector<BodyWrench>& wrenches, double gravity) {
+                         const std::vector<BodyWrench>& wrenches, double gravity,
+                         std::vector<Vector3d>* carried) {
   assert(velocities.size() == 6 + model.num_joints());
   assert(accelerations.size() == velocities.size());
   const std::vector<Segment>& segments = model.segments();
@@ -102,6 +103,10 @@ VectorXd InverseDynamics(const KinematicModel& model, const Posture& posture,
     MovingSegment& parent = moving[segment.parent];
     parent.force += one.force;
     parent.moment += one.moment + (one.p - parent.p).cross(one.force);
+  }
+  if (carried) {
+    carried->clear();
+    for (const MovingSegment& one : moving) carried->push_back(one.moment);
   }
   forces.head<3>() = moving[0].force;
   forces.segment<3>(3) = moving[0].moment;

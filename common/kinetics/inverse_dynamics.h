@@ -23,12 +23,14 @@ struct BodyWrench {
 /// [N m], sliding [N]. The recursion of Newton and Euler (Featherstone, "Rigid Body Dynamics
 /// Algorithms", 2008, section 5.3) over segments, of which several may follow one joint by
 /// functions. What couplers lead counts to its leader. velocities, accelerations: as
-/// PoseTrajectory has them, all joints of the model.
+/// PoseTrajectory has them, all joints of the model. carried: by segment, the moment by which its
+/// parent holds it, about its own origin (W) [N m]; null: not wanted.
 Eigen::VectorXd InverseDynamics(const KinematicModel& model, const Posture& posture,
                                 const Eigen::VectorXd& velocities,
                                 const Eigen::VectorXd& accelerations,
                                 const std::vector<BodyWrench>& wrenches,
-                                double gravity = kStandardGravity);
+                                double gravity = kStandardGravity,
+                                std::vector<Eigen::Vector3d>* carried = nullptr);
 
 /// These as generalised forces of coordinates(), whose values are those of the posture [rad, m]:
 /// conjugate to each coordinate. NaN: it is locked, or follows others.

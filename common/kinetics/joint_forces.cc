@@ -59,9 +59,11 @@ class Columns {
     }
   }
 
-  bool IsKnown(std::size_t column, int frame, const FootWrenches& feet) const {
+  int joint(std::size_t column) const { return joints_[column]; }
+
+  bool IsKnown(int joint, int frame, const FootWrenches& feet) const {
     for (std::size_t side = 0; side < feet.size(); ++side) {
-      if (IsOfLeg(column, side) && !feet[side].is_known[static_cast<std::size_t>(frame)]) {
+      if (IsOfLeg(joint, side) && !feet[side].is_known[static_cast<std::size_t>(frame)]) {
         return false;
       }
     }
@@ -73,15 +75,11 @@ class Columns {
     joints_.push_back(joint);
     found->names.push_back(name);
     found->is_moment.push_back(is_moment);
-    found->is_of_leg.push_back(joint >= 0 &&
-                               (IsOfLeg(joints_.size() - 1, 0) || IsOfLeg(joints_.size() - 1, 1)));
+    found->is_of_leg.push_back(joint >= 0 && (IsOfLeg(joint, 0) || IsOfLeg(joint, 1)));
   }
 
   /// The root carries both.
-  bool IsOfLeg(std::size_t column, std::size_t side) const {
-    const int joint = joints_[column];
-    return joint < 0 || legs_[side][joint];
-  }
+  bool IsOfLeg(int joint, std::size_t side) const { return joint < 0 || legs_[side][joint]; }
 
   std::vector<int> joints_;
   std::vector<std::vector<bool>> legs_;
@@ -163,6 +161,8 @@ JointForces ComputeJointForces(const KinematicModel& model, const PoseTrajectory
   double lowest = HUGE_VAL;
   std::vector<VectorXd> all(frames);
   std::vector<VectorXd> of_columns(frames);
+  std::vector<Eigen::Vector3d> carried;
+  found.held.assign(options.holding.size(), Eigen::Matrix3Xd(3, frames));
   for (int k = 0; k < frames; ++k) {
     const Posture& posture = smooth.postures[k];
     const VectorXd values = coordinates ? coordinates->Next(posture) : VectorXd();
@@ -170,7 +170,10 @@ JointForces ComputeJointForces(const KinematicModel& model, const PoseTrajectory
     const auto X_WS = SegmentPoses(model, posture);
     for (const int foot : feet_of_model) lowest = std::min(lowest, X_WS[foot].translation().z());
     all[k] = InverseDynamics(model, posture, smooth.velocities.col(k), smooth.accelerations.col(k),
-                             WrenchesAt(k, model, feet));
+                             WrenchesAt(k, model, feet), kStandardGravity, &carried);
+    for (std::size_t i = 0; i < options.holding.size(); ++i) {
+      found.held[i].col(k) = carried[options.holding[i]];
+    }
     of_columns[k] = coordinates ? ForcesOfCoordinates(model, posture, values, all[k])
                                 : VectorXd(all[k].tail(model.num_joints()));
   }
@@ -179,7 +182,14 @@ JointForces ComputeJointForces(const KinematicModel& model, const PoseTrajectory
     if (feet[0].is_known[k] && feet[1].is_known[k]) found.residuals.col(k) = all[k].head<6>();
     for (std::size_t i = 0; i < found.names.size(); ++i) {
       const auto row = static_cast<Index>(i);
-      if (columns.IsKnown(i, k, feet)) found.forces(row, k) = of_columns[k][row];
+      if (columns.IsKnown(columns.joint(i), k, feet)) found.forces(row, k) = of_columns[k][row];
+    }
+  }
+  for (std::size_t i = 0; i < options.holding.size(); ++i) {
+    const int joint = model.segments()[options.holding[i]].joint;
+    for (int k = 0; k < frames; ++k) {
+      const bool is_settled = k >= unsettled && k < frames - unsettled;
+      if (!is_settled || !columns.IsKnown(joint, k, feet)) found.held[i].col(k).setConstant(kNaN);
     }
   }
   found.height -= lowest;

@@ -16,6 +16,7 @@ namespace mmm_converter {
 struct JointForcesOptions {
   /// [Hz] of postures and wrenches alike; 0: both are smooth as they are.
   double cutoff = 6;
+  std::vector<int> holding = {};  ///< segments, each moved by a joint: see JointForces::held
 };
 
 /// Generalised forces of a motion with what plates exert on the feet. A column a frame; NaN: not
@@ -34,6 +35,9 @@ struct JointForces {
   Eigen::MatrixXd forces;       ///< names x frames [N m, N]
   /// Standard deviations of these; empty: not estimated (EstimateDeviations).
   Eigen::MatrixXd deviations;
+  /// Of each segment that was asked for, the whole moment by which its joint holds it, also about
+  /// axes about which it can't turn, about its origin (W) [N m]; NaN as in forces.
+  std::vector<Eigen::Matrix3Xd> held;
   /// What the root would still need, as force (W) [N] and moment about its origin (W) [N m].
   Eigen::MatrixXd residuals;  ///< 6 x frames
   /// In which more than a quarter of the weight was carried by feet without plates that had been

@@ -96,7 +96,9 @@ AnatomicalAngles LegMoments(const ConversionReport& report, const JointForces& f
   AnatomicalAngles rows;
   rows.rate = motion.rate;
   rows.first_time = motion.first_time;
-  rows.values.resize(2 * moments.rows(), moments.cols());
+  const std::vector<HeldAxis> held_axes = FindHeldAxes(model);
+  const Eigen::MatrixXd held = HeldMoments(model, motion, held_axes, found.held) / found.mass;
+  rows.values.resize(2 * moments.rows() + held.rows(), moments.cols());
   const auto add = [&](const AnatomicalAngle& angle, const Eigen::RowVectorXd& values) {
     rows.values.row(static_cast<Eigen::Index>(rows.angles.size())) = values;
     rows.angles.push_back(angle);
@@ -116,6 +118,15 @@ AnatomicalAngles LegMoments(const ConversionReport& report, const JointForces& f
       if (IsOfLeg(angle.joint) && name != nullptr) {
         add({angle.joint, angle.side, name}, -moments.row(row));
       }
+    }
+    for (std::size_t i = 0; i < held_axes.size(); ++i) {
+      const AnatomicalAngle& angle = held_axes[i].angle;
+      if (std::string_view(angle.joint) != first.joint ||
+          std::string_view(angle.side) != first.side) {
+        continue;
+      }
+      add({angle.joint, angle.side, OppositeOf(angle.motion)},
+          -held.row(static_cast<Eigen::Index>(i)));
     }
     if (IsOfLeg(first.joint)) add({first.joint, first.side, kPower}, power);
   }

@@ -334,7 +334,11 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
   CheckHasPlates(*ground.forces, report.plan.input);
   const KinematicModel model = WithMass(*report.plan.setup.model, KnownMass(report, ground));
   const PoseTrajectory motion = TrackedMotion(report.result);
-  JointForces found = ComputeJointForces(model, motion, ground.contacts, *ground.forces);
+  JointForcesOptions options;
+  if (HasAnatomy(model)) {
+    for (const HeldAxis& one : FindHeldAxes(model)) options.holding.push_back(one.segment);
+  }
+  JointForces found = ComputeJointForces(model, motion, ground.contacts, *ground.forces, options);
   const int begin = report.result.trajectory.num_frames() - motion.num_frames();
   if (with_deviations && !report.result.covariances.empty()) {
     EstimateDeviations(model, motion, ground.contacts, *ground.forces,

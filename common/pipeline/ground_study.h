@@ -98,8 +98,9 @@ JointForces JointForcesOf(const ConversionReport& report, const GroundStudy& gro
 /// Strides, and over them angles, without what was hidden, and where there are plates and a mass
 /// what legs bear and exert: of joint "ground" the "vertical force" in body weights; of hips, knees
 /// and ankles the "extension moment" and so on that muscles exert [N m/kg], each about the axis of
-/// its angle, and their "power" [W/kg]; of joint "residual" what the root would still need, "force"
-/// in body weights and "moment" [N m/kg].
+/// its angle, of knees also about axes of the shank about
+/// which they can't turn, and their "power" [W/kg]; of joint "residual" what the root would still
+/// need, "force" in body weights and "moment" [N m/kg].
 Gait GaitOf(const ConversionReport& report, const GroundStudy& ground);
 
 }  // namespace mmm_converter

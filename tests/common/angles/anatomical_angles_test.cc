@@ -77,6 +77,24 @@ TEST_F(AnatomicalAnglesTest, StandingIsZero) {
   EXPECT_LT(angles.values.cwiseAbs().maxCoeff(), kExact);
 }
 
+TEST_F(AnatomicalAnglesTest, KneesHoldAboutAxesAboutWhichTheyDoNotTurn) {
+  const std::vector<HeldAxis> axes = FindHeldAxes(model_);
+  ASSERT_EQ(axes.size(), 4);
+  const Eigen::Vector3d held(0, 7, 3);  // about forward and up
+  const Eigen::MatrixXd moments =
+      HeldMoments(model_, Still(ZeroPosture(model_)), axes,
+                  std::vector<Eigen::Matrix3Xd>(axes.size(), Eigen::Matrix3Xd(held)));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const AnatomicalAngle& angle = axes[i].angle;
+    EXPECT_STREQ(angle.joint, "knee");
+    // A turn about forward takes the foot to the left, one about up its toes: inwards on the right.
+    const double inwards = std::string(angle.side) == "right" ? 1 : -1;
+    const bool is_adduction = std::string(angle.motion) == "adduction";
+    EXPECT_TRUE(is_adduction || std::string(angle.motion) == "internal rotation");
+    EXPECT_NEAR(moments(static_cast<Eigen::Index>(i), 0), inwards * (is_adduction ? 7 : 3), kExact);
+  }
+}
+
 // What a posture looks like, and what its angle is called: p is where a segment is, and which way
 // it has gone from where it is in the posture that is all zero (x right, y forward, z up).
 struct Look {

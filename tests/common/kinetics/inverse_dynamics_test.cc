@@ -62,6 +62,19 @@ TEST(InverseDynamicsTest, APendulum) {
   EXPECT_NEAR(forces[2], 2 * kG + radial * std::cos(0.7) + tangential * std::sin(0.7), kExact);
 }
 
+TEST(InverseDynamicsTest, AHingeHoldsAboutItsOtherAxes) {
+  ModelDescription description = OnGround();
+  description.segments.push_back(Link("rod", 0, JointType::kRevolute, Vector3d::UnitY()));
+  description.segments.back().X_PF.translation() << 1, 2, 3;
+  const KinematicModel model(description);
+  const Vector3d force(4, 5, -6), p_W(1.5, 2.5, 2);
+  std::vector<Vector3d> carried;
+  InverseDynamics(model, ZeroPosture(model), Vector(1, 0), Vector(1, 0),
+                  {{1, force, p_W.cross(force)}}, kG, &carried);
+  ASSERT_EQ(carried.size(), 2);
+  EXPECT_NEAR((carried[1] + (p_W - Vector3d(1, 2, 3)).cross(force)).norm(), 0, kExact);
+}
+
 TEST(InverseDynamicsTest, AMassThatAFunctionLifts) {
   ModelDescription description = OnGround();
   Segment mass = Link("mass", 0, JointType::kSliding, Vector3d::UnitZ());
