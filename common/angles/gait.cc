@@ -21,6 +21,7 @@ constexpr double kUncutStance = 0.4;     // [s] of a contact whose end is not kn
 constexpr double kTurn = 20 / kDegrees;  // [rad] by which a foot's way differs at random
 constexpr double kRuns = 0.5;            // of a stride on the ground: who stands less has a flight
 constexpr double kStair = 0.08;          // [m] of a stride; kerbs and stairs are higher
+constexpr double kStairs = 0.36;         // rise by length: stairs begin at 20 degrees (DIN 18065)
 
 /// A column at a time between two frames: on a straight line; beyond the ends the last.
 template <typename Columns>
@@ -160,7 +161,9 @@ GaitKind KindOf(const std::vector<Stride>& strides) {
            static_cast<std::ptrdiff_t>(strides.size());
   };
   if (are_most([](const Stride& one) { return std::abs(one.rise) > kStair; })) {
-    return GaitKind::kStairs;
+    const bool are_steep =
+        are_most([](const Stride& one) { return std::abs(one.rise) > kStairs * one.length; });
+    return are_steep ? GaitKind::kStairs : GaitKind::kRamp;
   }
   if (are_most([](const Stride& one) { return one.foot_off < kRuns; })) return GaitKind::kRunning;
   const bool goes_back = are_most([](const Stride& one) { return one.is_backwards; });
@@ -276,7 +279,7 @@ GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,
 }  // namespace
 
 const char* Name(GaitKind kind) {
-  constexpr const char* kNames[] = {"walking", "running", "walking backwards", "stairs"};
+  constexpr const char* kNames[] = {"walking", "running", "walking backwards", "stairs", "a ramp"};
   return kNames[static_cast<int>(kind)];
 }
 

@@ -51,7 +51,7 @@ struct GaitCycle {
 std::vector<GaitCycle> CyclesOf(const AnatomicalAngles& rows, const std::vector<Stride>& strides);
 
 /// What most of the strides are.
-enum class GaitKind { kWalking, kRunning, kBackwards, kStairs };
+enum class GaitKind { kWalking, kRunning, kBackwards, kStairs, kRamp };
 const char* Name(GaitKind kind);  ///< "walking", "running", "walking backwards", "stairs"
 
 /// What a joint's muscles give and take in a stride, means of strides [J/kg].

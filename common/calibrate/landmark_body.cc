@@ -50,6 +50,8 @@ bool IsShown(double length, double of_model, Share share = {}) {
   return length > share.least * of_model && length < share.most * of_model;
 }
 
+constexpr BodySide kSides[] = {BodySide::kLeft, BodySide::kRight};
+
 /// A landmark that the recording has and the model has a marker for.
 struct Seen {
   int label = -1;
@@ -70,7 +72,12 @@ class LandmarkBody {
   Subject Find() {
     FindPelvis();
     FindLegs();
-    for (const BodySide side : {BodySide::kLeft, BodySide::kRight}) FindFoot(side);
+    std::vector<int> of_feet;
+    for (const BodySide side : kSides) {
+      for (const Seen& one : MarkersOfFoot(side)) of_feet.push_back(one.label);
+    }
+    ramp_ = RampOf(recording_, of_feet);
+    for (const BodySide side : kSides) FindFoot(side);
     return std::move(body_);
   }
 
@@ -131,6 +138,7 @@ class LandmarkBody {
   };
   Limb FindLimb(BodySide side) const;
   void FindLegs();
+  std::vector<Seen> MarkersOfFoot(BodySide side) const;
   void FindFoot(BodySide side);
   std::vector<double> HeightsOf(const std::vector<Seen>& foot) const;
 
@@ -163,13 +171,13 @@ class LandmarkBody {
   std::vector<Eigen::Isometry3d> X_WS_;  // model, at zero
   std::optional<Pelvis> pelvis_;
   std::optional<Seen> front_[2], back_[2], sacrum_;
+  Eigen::Vector2d ramp_ = Eigen::Vector2d::Zero();
   Subject body_;
 };
 
 constexpr const char* kHips[] = {"LHsegment_joint", "RHsegment_joint"};
 constexpr const char* kKnees[] = {"LKsegment_joint", "RKsegment_joint"};
 constexpr const char* kAnkles[] = {"LAsegment_joint", "RAsegment_joint"};
-constexpr BodySide kSides[] = {BodySide::kLeft, BodySide::kRight};
 
 Vector3d LandmarkBody::Back(int k) const {
   if (back_[0] && back_[1]) {
@@ -288,15 +296,27 @@ void LandmarkBody::FindLegs() {
   }
 }
 
-/// Of each marker against the first, where the foot is flat; empty: it never is.
+std::vector<Seen> LandmarkBody::MarkersOfFoot(BodySide side) const {
+  std::vector<Seen> foot;
+  for (const char* name :
+       {"lateral malleolus", "medial malleolus", "heel", "head of the first metatarsal",
+        "head of the second metatarsal", "head of the fifth metatarsal"}) {
+    if (const auto one = Find(name, side)) foot.push_back(*one);
+  }
+  return foot;
+}
+
+/// Of each marker against the first, square to the ground, where the foot is flat; empty: it never
+/// is.
 std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const {
   std::vector<int> labels;
   labels.reserve(foot.size());
   for (const Seen& one : foot) labels.push_back(one.label);
   std::vector<std::vector<double>> above(foot.size());
-  for (const int k : FlatFrames(recording_, labels)) {
+  const Vector3d up = Vector3d(-ramp_.x(), -ramp_.y(), 1).normalized();
+  for (const int k : FlatFrames(recording_, labels, ramp_)) {
     for (std::size_t i = 0; i < foot.size(); ++i) {
-      above[i].push_back(At(k, foot[i]).z() - At(k, foot[0]).z());
+      above[i].push_back(up.dot(At(k, foot[i]) - At(k, foot[0])));
     }
   }
   std::vector<double> heights;
@@ -313,12 +333,7 @@ std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const
 }
 
 void LandmarkBody::FindFoot(BodySide side) {
-  std::vector<Seen> foot;
-  for (const char* name :
-       {"lateral malleolus", "medial malleolus", "heel", "head of the first metatarsal",
-        "head of the second metatarsal", "head of the fifth metatarsal"}) {
-    if (const auto one = Find(name, side)) foot.push_back(*one);
-  }
+  const std::vector<Seen> foot = MarkersOfFoot(side);
   if (foot.size() < 2) return;
   const std::vector<double> heights = HeightsOf(foot);
   const auto n = static_cast<Eigen::Index>(foot.size());

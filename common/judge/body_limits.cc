@@ -158,11 +158,13 @@ void JudgeSoles(const TrackingSetup& setup, const MarkerSequence& recording,
     if (foot < 0 || front < 0 || shank_end < 0) continue;
     const std::vector<int> labels = LabelsOfFoot(setup, shank_end, foot, front);
     std::vector<double> slopes;
-    for (const int k : FlatFrames(recording, labels)) {
+    const Eigen::Vector2d ramp = RampOf(recording, labels);
+    const Eigen::Vector3d up = Eigen::Vector3d(-ramp.x(), -ramp.y(), 1).normalized();
+    for (const int k : FlatFrames(recording, labels, ramp)) {
       if (k >= trajectory.num_frames()) break;
       const auto X_WS = SegmentPoses(model, ModelPosture(model, trajectory, k));
       // The sole is level in the posture that is all zero.
-      slopes.push_back(std::asin(X_WS[static_cast<std::size_t>(foot)].linear()(2, 1)));
+      slopes.push_back(std::asin(up.dot(X_WS[static_cast<std::size_t>(foot)].linear().col(1))));
     }
     if (slopes.size() < kFewestFlatFrames) continue;
     const double slope = kDegrees * std::abs(Median(slopes));

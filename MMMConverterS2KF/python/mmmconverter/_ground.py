@@ -45,7 +45,7 @@ class Ground(Presented):
     mass : dict or None
         What force plates bore: kg, deviation_kg, intervals.
     kind : str
-        "walking", "running", "walking backwards" or "stairs".
+        "walking", "running", "walking backwards", "stairs" or "a ramp".
     """
 
     def __init__(self, raw):

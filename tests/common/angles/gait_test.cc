@@ -183,15 +183,17 @@ TEST_F(GaitTest, KindsOfGait) {
   EXPECT_NEAR(run.strides[0].step_length, kStride / 2, kSame);
 }
 
-TEST_F(GaitTest, StairsAreWhereEachFootRises) {
+TEST_F(GaitTest, RampsAndStairsAreWhereEachFootRises) {
   FootPath& left = feet_.feet[0];
   for (Eigen::Matrix3Xd* path : {&left.heel, &left.toe}) path->row(2).array() += 0.15;
   EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, GaitKind::kWalking);
-  for (FootPath& foot : feet_.feet) {
-    const Eigen::RowVectorXd rise = foot.heel.row(0) * 0.3 / kStride;
-    for (Eigen::Matrix3Xd* path : {&foot.heel, &foot.toe}) path->row(2) += rise;
+  for (const GaitKind kind : {GaitKind::kRamp, GaitKind::kStairs}) {
+    for (FootPath& foot : feet_.feet) {
+      const Eigen::RowVectorXd rise = foot.heel.row(0) * 0.3 / kStride;
+      for (Eigen::Matrix3Xd* path : {&foot.heel, &foot.toe}) path->row(2) += rise;
+    }
+    EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, kind);
   }
-  EXPECT_EQ(AnalyzeGait(feet_, contacts_, angles_, known_).kind, GaitKind::kStairs);
 }
 
 TEST_F(GaitTest, StandingIsNoStride) {
