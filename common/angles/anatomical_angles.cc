@@ -244,25 +244,45 @@ std::vector<Row> RowsOf(const KinematicModel& model, const std::vector<JointFram
   return rows;
 }
 
-/// Standard deviations of the model's posture, [6; its joints], from those of a motion.
-class DeviationsOfModel {
+/// The errors of a motion, by [6; joints of the model].
+class ErrorsOfModel {
  public:
-  DeviationsOfModel(const KinematicModel& model, const PoseTrajectory& motion) : motion_(motion) {
-    values_.setZero(6 + model.num_joints());
-    for (const std::string& name : motion.joint_names) joints_.push_back(model.FindJoint(name));
-  }
-  const Eigen::VectorXd& Of(int k) {
-    values_.head<6>() = motion_.standard_deviations.col(k).head<6>();
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
-      values_[6 + joints_[i]] = motion_.standard_deviations(6 + static_cast<Eigen::Index>(i), k);
+  ErrorsOfModel(const KinematicModel& model, const PoseTrajectory& motion) : motion_(motion) {
+    of_motion_.assign(static_cast<std::size_t>(6 + model.num_joints()), -1);
+    for (int i = 0; i < 6; ++i) of_motion_[static_cast<std::size_t>(i)] = i;
+    for (std::size_t i = 0; i < motion.joint_names.size(); ++i) {
+      const int joint = model.FindJoint(motion.joint_names[i]);
+      if (joint >= 0) of_motion_[static_cast<std::size_t>(6 + joint)] = 6 + static_cast<int>(i);
     }
-    return values_;
+  }
+
+  /// Standard deviations of what changes with these by D. Frames are asked for in their order.
+  Vector3d SpreadOf(const Eigen::Matrix3Xd& D, const std::vector<int>& columns, int k) {
+    const auto& all = motion_.correlations;
+    while (at_ + 1 < all.size() && all[at_ + 1].time <= motion_.time(k)) ++at_;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const int row = of_motion_[static_cast<std::size_t>(columns[i])];
+      if (row < 0) continue;
+      const Vector3d own =
+          D.col(static_cast<Eigen::Index>(i)) * motion_.standard_deviations(row, k);
+      covariance += own * own.transpose();
+      for (std::size_t j = 0; j < i && !all.empty(); ++j) {
+        const int other = of_motion_[static_cast<std::size_t>(columns[j])];
+        if (other < 0) continue;
+        const Eigen::Matrix3d both = all[at_].correlation(row, other) *
+                                     motion_.standard_deviations(other, k) * own *
+                                     D.col(static_cast<Eigen::Index>(j)).transpose();
+        covariance += both + both.transpose();
+      }
+    }
+    return covariance.diagonal().cwiseMax(0).cwiseSqrt();
   }
 
  private:
   const PoseTrajectory& motion_;
-  std::vector<int> joints_;
-  Eigen::VectorXd values_;
+  std::vector<int> of_motion_;  // rows of its deviations; -1: it does not have this joint
+  std::size_t at_ = 0;          // of its correlations
 };
 
 }  // namespace
@@ -297,7 +317,7 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
   const auto count = static_cast<Eigen::Index>(rows.size());
   angles.values.resize(count, motion.num_frames());
   if (has_deviations) angles.deviations.resize(count, motion.num_frames());
-  DeviationsOfModel deviations(model, motion);
+  ErrorsOfModel errors(model, motion);
   std::vector<Vector3d> turns(joints.size(), Vector3d::Zero());
   std::vector<Vector3d> spreads(joints.size(), Vector3d::Zero());
   std::vector<int> columns;
@@ -308,8 +328,7 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
       turns[j] = ContinuousRpy(TurnsOf(Against(joints[j], X_WS), joints[j].proximal < 0), turns[j]);
       if (!has_deviations) continue;
       const auto D = DerivativesOf(model, joints[j], posture, X_WS, &columns);
-      const Eigen::VectorXd sd = deviations.Of(k)(columns);
-      spreads[j] = (D * sd.asDiagonal()).rowwise().norm();
+      spreads[j] = errors.SpreadOf(D, columns, k);
     }
     for (Eigen::Index i = 0; i < count; ++i) {
       const Row& row = rows[static_cast<std::size_t>(i)];

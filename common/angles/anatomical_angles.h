@@ -48,8 +48,8 @@ struct AnatomicalAngles {
 /// Whether a model has a pelvis and legs of MMM's reference model or of OpenSim's persons.
 bool HasAnatomy(const KinematicModel& model);
 
-/// Joints that the motion does not name are as in ZeroPosture. Deviations of joints are taken as
-/// independent of each other. @throws Error where HasAnatomy is false.
+/// Joints that the motion does not name are as in ZeroPosture. @throws Error where HasAnatomy is
+/// false.
 AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model, const PoseTrajectory& motion);
 
 /// These rows of them.

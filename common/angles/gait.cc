@@ -37,7 +37,7 @@ auto ColumnAt(const Columns& columns, double frame) {
 /// Where a foot stands in mid-stance, and when; W, also on a belt.
 struct StandingPlace {
   double time = 0;
-  Eigen::Vector3d toe = Eigen::Vector3d::Zero();
+  Eigen::Vector3d toe = Eigen::Vector3d::Zero(), heel = Eigen::Vector3d::Zero();
   double yaw = 0;  ///< of the foot, from W's x to its y [rad]
 };
 
@@ -51,13 +51,13 @@ StandingPlace PlaceOf(const FootContact& contact, const FootMotion& feet) {
   const auto frame = [&](double time) { return (time - feet.first_time) * feet.rate; };
   StandingPlace place;
   place.time = (from + to) / 2;
-  Eigen::Vector3d line = Eigen::Vector3d::Zero();
   constexpr int kSamples = 5;
   for (int i = 0; i < kSamples; ++i) {
     const double at = frame(from + (to - from) * i / (kSamples - 1));
     place.toe += ColumnAt(foot.toe, at) / kSamples;
-    line += ColumnAt(foot.toe, at) - ColumnAt(foot.heel, at);
+    place.heel += ColumnAt(foot.heel, at) / kSamples;
   }
+  const Eigen::Vector3d line = place.toe - place.heel;
   place.yaw = std::atan2(line.y(), line.x());
   return place;
 }
@@ -136,10 +136,13 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   stride.step_length = stride.step_width = kNaN;
   if (is_step && stride.length > 0) {
     const Eigen::Vector2d forward = way.normalized();
-    const Eigen::Vector3d step =
-        WayBetween(PlaceOf(*before, feet), to, (belt + feet.foot(other).belt) / 2);
-    stride.step_length = step.head<2>().dot(forward);
-    stride.step_width = std::abs(step.x() * forward.y() - step.y() * forward.x());
+    const StandingPlace behind = PlaceOf(*before, feet);
+    const Eigen::Vector3d of_belts = (belt + feet.foot(other).belt) / 2;
+    stride.step_length = WayBetween(behind, to, of_belts).head<2>().dot(forward);
+    // Between heels: toes point outwards.
+    const Eigen::Vector3d across = to.heel - behind.heel - (to.time - behind.time) * of_belts;
+    const double to_right = across.x() * forward.y() - across.y() * forward.x();
+    stride.step_width = (stride.side == Side::kRight) != stride.is_backwards ? to_right : -to_right;
   }
   return stride;
 }

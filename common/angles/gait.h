@@ -20,7 +20,7 @@ struct Stride {
   double length = 0;          ///< [m]
   double heading = 0;         ///< of the way, from W's x to its y [rad]
   double step_length = 0;     ///< [m] from where the other foot stood to where it stands next
-  double step_width = 0;      ///< [m] between both feet then
+  double step_width = 0;      ///< [m] between both heels then; negative: the feet cross
   double step_time = 0;       ///< [s] since the other foot's contact
   double double_support = 0;  ///< of the stride [0, 1]: the share that both feet stood
   double rise = 0;            ///< from where the foot stood to where it stands next, upwards [m]

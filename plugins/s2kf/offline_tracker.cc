@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/support/units.h"
+#include "plugins/s2kf/correlation_log.h"
 #include "plugins/s2kf/trajectory_smoother.h"
 
 namespace mmm_converter::s2kf {
@@ -234,6 +235,7 @@ void OfflineTracker::ReportDeviations(bool keeps_covariances, ConversionResult* 
   Eigen::VectorXd until(markers);     // that [s]
   GateState gate;
   covariance_.Restart();
+  CorrelationLog correlations(recording_);
   for (int k = 0; k < frames; ++k) {
     const Clock::time_point start = Clock::now();
     for (Eigen::Index m = 0; m < markers; ++m) {
@@ -252,10 +254,12 @@ void OfflineTracker::ReportDeviations(bool keeps_covariances, ConversionResult* 
       own_deviations_ = deviations.col(k);
       covariance_.Compute(q.joint_angles, own_deviations_, &of_model_, &until);
       if (keeps_covariances) result->covariances.push_back({k, covariance_.Covariance()});
+      if (correlations.IsDue(k)) correlations.Keep(k, covariance_.Covariance());
     }
     deviations.col(k) = covariance_.deviations();
     result->frames[k].seconds += SecondsSince(start);
   }
+  result->trajectory.correlations = correlations.Take();
 }
 
 }  // namespace mmm_converter::s2kf

@@ -6,6 +6,7 @@
 
 #include "common/motion/trajectory_derivatives.h"
 #include "common/support/units.h"
+#include "plugins/s2kf/correlation_log.h"
 #include "plugins/s2kf/misplaced_markers.h"
 #include "plugins/s2kf/offline_tracker.h"
 
@@ -107,15 +108,18 @@ bool S2kfConverter::KeepCovariances() {
 
 ConversionResult S2kfConverter::TrackAll(const MarkerSequence& recording,
                                          const std::function<bool(int)>& progress) {
-  if (!keeps_covariances_) return MotionConverter::Convert(recording, progress);
   std::vector<PoseCovariance> covariances;
+  CorrelationLog correlations(recording);
   ConversionResult result = MotionConverter::Convert(recording, [&](int done) {
     if (has_new_deviations_ && done > 0) {
-      covariances.push_back({done - 1, covariance_.Covariance()});
+      const int k = done - 1;
+      if (keeps_covariances_) covariances.push_back({k, covariance_.Covariance()});
+      if (correlations.IsDue(k)) correlations.Keep(k, covariance_.Covariance());
     }
     return !progress || progress(done);
   });
   result.covariances = std::move(covariances);
+  result.trajectory.correlations = correlations.Take();
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 For each angle the medians over the sides of all recordings: the size of the constant difference, what is left of the
 difference without it (rms), the correlation, and the range over that of the stored angle. FOLDER has the recordings.
+The last row is what the ankle's markers alone say: the angle between the lines KNE-ANK and ANK-TOE.
 """
 import collections
 import csv
@@ -83,6 +84,22 @@ def angles(path):
     return {name: np.array(values) for name, values in series.items()}
 
 
+def by_lines(markers, side):
+    knee, ankle, toe = (markers[side + name] for name in ("KNE", "ANK", "TOE"))
+    shank, foot = knee - ankle, toe - ankle
+    cosine = (shank * foot).sum(1) / np.linalg.norm(shank, axis=1) / np.linalg.norm(foot, axis=1)
+    return 90 - np.degrees(np.arccos(cosine))
+
+
+def compared(mine, theirs):
+    mine, theirs = mine[:len(theirs)], theirs[:len(mine)]
+    both = np.isfinite(mine) & np.isfinite(theirs)
+    mine, theirs = mine[both], theirs[both]
+    difference = mine - theirs
+    ranges = [np.ptp(np.percentile(values, [2.5, 97.5])) for values in (mine, theirs)]
+    return [abs(difference.mean()), difference.std(), np.corrcoef(mine, theirs)[0, 1], ranges[0] / ranges[1]]
+
+
 def main():
     program, folder, options = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
     found = collections.defaultdict(list)
@@ -95,14 +112,9 @@ def main():
             for angle, label, coordinate, right in ANGLES:
                 for side, sign in (("left", 1), ("right", right)):
                     mine = ours[angle if angle.startswith("pelvis") else f"{side} {angle}"]
-                    theirs = sign * stored[side[0].upper() + label][:, coordinate]
-                    mine, theirs = mine[:len(theirs)], theirs[:len(mine)]
-                    both = np.isfinite(mine) & np.isfinite(theirs)
-                    mine, theirs = mine[both], theirs[both]
-                    difference = mine - theirs
-                    ranges = [np.ptp(np.percentile(values, [2.5, 97.5])) for values in (mine, theirs)]
-                    found[angle].append([abs(difference.mean()), difference.std(), np.corrcoef(mine, theirs)[0, 1],
-                                         ranges[0] / ranges[1]])
+                    found[angle].append(compared(mine, sign * stored[side[0].upper() + label][:, coordinate]))
+            for side in "LR":
+                found["ankle by its markers"].append(compared(by_lines(stored, side), stored[side + "AnkleAngles"][:, 0]))
     print(f"{'angle':24}{'offset':>8}{'rms':>8}{'r':>8}{'range':>8}")
     for angle, rows in found.items():
         print(f"{angle:24}" + "".join(f"{value:8.2f}" for value in np.median(rows, axis=0)))

@@ -188,6 +188,25 @@ TEST_F(AnatomicalAnglesTest, TurnsWithoutJumps) {
               4 * std::numbers::pi, kExact);
 }
 
+// What the lower spine bends too much the upper one bends too little: the trunk is surer than both.
+TEST_F(AnatomicalAnglesTest, ErrorsThatHangTogetherCancel) {
+  PoseTrajectory motion = Motion({ZeroPosture(model_), ZeroPosture(model_)});
+  const Eigen::Index rows = 6 + model_.num_joints();
+  motion.standard_deviations.setConstant(rows, 2, 0.1);
+  const auto deviation = [&](int frame) {
+    const AnatomicalAngles angles = ComputeAnatomicalAngles(model_, motion);
+    return angles.deviations(RowOf(angles, "trunk", "", "flexion"), frame);
+  };
+  EXPECT_NEAR(deviation(0), 0.1 * std::sqrt(2), 1e-8);
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(rows, rows);
+  const int lower = 6 + model_.FindJoint("BPx_joint"), upper = 6 + model_.FindJoint("BTx_joint");
+  correlation(lower, upper) = correlation(upper, lower) = -0.5;
+  motion.correlations = {{motion.time(0), Eigen::MatrixXd::Identity(rows, rows)},
+                         {motion.time(1), correlation}};
+  EXPECT_NEAR(deviation(0), 0.1 * std::sqrt(2), 1e-8);
+  EXPECT_NEAR(deviation(1), 0.1, 1e-8);
+}
+
 TEST_F(AnatomicalAnglesTest, DeviationsAreThoseOfTheJointsTurned) {
   Posture posture = With("LHx_joint", 0.6);
   posture.joint_angles[model_.FindJoint("LHy_joint")] = 0.2;

@@ -91,6 +91,23 @@ TEST_F(GaitTest, FiguresOfStrides) {
   EXPECT_EQ(gait.strides[2].side, Side::kRight);
 }
 
+TEST_F(GaitTest, StepsAreAsWideAsHeelsAreApart) {
+  // Toes point outwards; then the feet cross.
+  for (const Side side : kSides) {
+    FootPath& foot = feet_.feet[static_cast<std::size_t>(side)];
+    foot.toe.row(1).array() += side == Side::kLeft ? 0.05 : -0.05;
+  }
+  for (const Stride& one : AnalyzeGait(feet_, contacts_, angles_, known_).strides) {
+    EXPECT_NEAR(one.step_width, kWidth, kSame);
+  }
+  for (Eigen::Matrix3Xd* path : {&feet_.feet[0].heel, &feet_.feet[0].toe}) {
+    path->row(1).array() -= 2 * kWidth;
+  }
+  for (const Stride& one : AnalyzeGait(feet_, contacts_, angles_, known_).strides) {
+    EXPECT_NEAR(one.step_width, -kWidth, kSame);
+  }
+}
+
 TEST_F(GaitTest, AnglesOverTheCycle) {
   const Gait gait = AnalyzeGait(feet_, contacts_, angles_, known_);
   ASSERT_THAT(gait.cycles, SizeIs(5));  // the knee, and the pelvis over either foot's strides
