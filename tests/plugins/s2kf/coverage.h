@@ -36,6 +36,8 @@ class Coverage {
   void Add(const KinematicModel& model, const std::vector<int>& joints, const PoseTrajectory& truth,
            const PoseTrajectory& estimate, int begin, int end, const std::string& only = "");
   void Add(const Coverage& other);
+  /// One error and what was expected of it.
+  void Count(const std::string& group, double error, double deviation);
 
   /// The errors of a limb's angles in that joint (a shoulder's three) together, and of all,
   /// "whole", in the frames of [begin, end) of which there is a covariance.
@@ -52,8 +54,6 @@ class Coverage {
   void Print(const std::string& title) const;
 
  private:
-  void Count(const std::string& group, double error, double deviation);
-
   struct Together {
     long samples = 0;
     double squares = 0;

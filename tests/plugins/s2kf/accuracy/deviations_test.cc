@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/angles/anatomical_angles.h"
 #include "common/convert/converter_config.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
@@ -37,6 +39,7 @@ constexpr int kMotions = 5;
 constexpr int kSessionFrames = 150;
 constexpr int kHiddenFrames = 300;
 constexpr int kSettled = 25;
+const std::set<std::string> kArm = {"shoulder", "elbow", "wrist"};
 
 /// A share of all samples, with room for what it is off by as so many persons were drawn.
 struct Share {
@@ -137,6 +140,18 @@ class DeviationsTest : public ::testing::TestWithParam<const char*> {
     const ConversionResult result = Convert(model, joints, seen);
     coverage->Add(model, joints, truth, result.trajectory, kSettled, seen.num_frames());
     coverage->AddTogether(model, joints, truth, result, kSettled, seen.num_frames());
+    const AnatomicalAngles found = ComputeAnatomicalAngles(model, result.trajectory);
+    const AnatomicalAngles true_angles = ComputeAnatomicalAngles(model, truth);
+    for (Eigen::Index i = 0; i < found.values.rows(); ++i) {
+      const AnatomicalAngle& angle = found.angles[static_cast<std::size_t>(i)];
+      // An arm that is abducted by 90 degrees has no flexion.
+      if (kArm.contains(angle.joint)) continue;
+      for (Eigen::Index k = kSettled; k < seen.num_frames(); k += 5) {
+        const double error = found.values(i, k) - true_angles.values(i, k);
+        coverage->Count(std::string(angle.joint) + " " + angle.motion,
+                        std::remainder(error, 2 * std::numbers::pi), found.deviations(i, k));
+      }
+    }
   }
 
   static std::string Titled(const std::string& what) { return what + ", " + GetParam(); }
