@@ -12,6 +12,7 @@
 #include "common/calibrate/calibration_frames.h"
 #include "common/calibrate/joint_doubts.h"
 #include "common/math/statistics.h"
+#include "common/model/kit_joints.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 
@@ -229,13 +230,27 @@ std::vector<MovedMarkers> FindMoved(const KinematicModel& fitted, const std::vec
   return found;
 }
 
+/// Legs that bend further than their limits. Where a person does, as many do by some degrees, a
+/// body at the limits would have other places and lengths in all frames.
+KinematicModel WithFreeLegs(const KinematicModel& model) {
+  constexpr double kFurther = 30 / kDegrees;
+  ModelDescription description = DescriptionOf(model);
+  for (Segment& segment : description.segments) {
+    if (segment.joint < 0 || !LimbOfJoint(segment.name).ends_with("leg")) continue;
+    segment.lower -= kFurther;
+    segment.upper += kFurther;
+  }
+  return KinematicModel(std::move(description));
+}
+
 }  // namespace
 
 CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vector<int>& joints,
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options, Warnings* warnings) {
   const std::vector<MarkerIx> markers = UsedMarkers(recordings);
-  BodyKinematics kinematics(model, joints, markers);
+  const KinematicModel free_model = WithFreeLegs(model);
+  BodyKinematics kinematics(free_model, joints, markers);
   return CalibrateBody(&kinematics, recordings, options, warnings);
 }
 

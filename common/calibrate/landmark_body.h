@@ -20,7 +20,8 @@ namespace mmm_converter {
 ///   foot     distances between malleolus, heel and metatarsals, and their heights above each other
 ///            where the foot is flat on the floor; without these the foot stays
 ///
-/// Lengths of both sides are the same. Distances are medians over the recording, z is up.
+/// Lengths of both sides are the same, but for what markers can't leave open. Distances are medians
+/// over the recording, z is up.
 Subject FindLandmarkBody(const TrackingSetup& setup, const NamedMarkers& names,
                          const MarkerSequence& recording);
 
