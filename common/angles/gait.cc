@@ -236,14 +236,19 @@ class AngleOfStride {
   double zero_ = 0;
 };
 
-constexpr double kKnownShare = 0.5;  // swing alone, before the next unmeasured stance, is less
+// Forces are known while a foot is on a plate: its stance counts, without the swing too, but not
+// the swing alone, before the next unmeasured stance.
+constexpr double kKnownShare = 0.5, kKnownOfFirstHalf = 0.8;
 
 bool Counts(const AngleOfStride& stride) {
-  int known = 0;
+  int known = 0, early = 0;
   for (int i = 0; i < GaitCycle::kSamples; ++i) {
-    if (std::isfinite(stride.Value(ShareAt(i)))) ++known;
+    if (!std::isfinite(stride.Value(ShareAt(i)))) continue;
+    ++known;
+    if (2 * i < GaitCycle::kSamples) ++early;
   }
-  return known >= kKnownShare * GaitCycle::kSamples;
+  return known >= kKnownShare * GaitCycle::kSamples ||
+         2 * early >= kKnownOfFirstHalf * GaitCycle::kSamples;
 }
 
 GaitCycle CycleOf(const AnatomicalAngles& angles, Eigen::Index row, Side side,

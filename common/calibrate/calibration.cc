@@ -12,7 +12,6 @@
 #include "common/calibrate/calibration_frames.h"
 #include "common/calibrate/joint_doubts.h"
 #include "common/math/statistics.h"
-#include "common/model/kit_joints.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 
@@ -230,15 +229,14 @@ std::vector<MovedMarkers> FindMoved(const KinematicModel& fitted, const std::vec
   return found;
 }
 
-/// Legs that bend further than their limits. Where a person does, as many do by some degrees, a
-/// body at the limits would have other places and lengths in all frames.
-KinematicModel WithFreeLegs(const KinematicModel& model) {
-  constexpr double kFurther = 30 / kDegrees;
+/// Knees that may bend backwards, as those of some people do. Landmarks tell that they do; where
+/// places are hardly known, that knees do not tells of the places.
+KinematicModel WithFreeKnees(const KinematicModel& model) {
+  constexpr double kBackwards = 15 / kDegrees;
   ModelDescription description = DescriptionOf(model);
   for (Segment& segment : description.segments) {
-    if (segment.joint < 0 || !LimbOfJoint(segment.name).ends_with("leg")) continue;
-    segment.lower -= kFurther;
-    segment.upper += kFurther;
+    const bool is_knee = segment.name == "LKx_joint" || segment.name == "RKx_joint";
+    if (is_knee) segment.upper += kBackwards;
   }
   return KinematicModel(std::move(description));
 }
@@ -249,8 +247,8 @@ CalibrationResult CalibrateSubject(const KinematicModel& model, const std::vecto
                                    const std::vector<CalibrationRecording>& recordings,
                                    const CalibrationOptions& options, Warnings* warnings) {
   const std::vector<MarkerIx> markers = UsedMarkers(recordings);
-  const KinematicModel free_model = WithFreeLegs(model);
-  BodyKinematics kinematics(free_model, joints, markers);
+  const KinematicModel own = options.places_by_noise ? WithFreeKnees(model) : model;
+  BodyKinematics kinematics(own, joints, markers);
   return CalibrateBody(&kinematics, recordings, options, warnings);
 }
 

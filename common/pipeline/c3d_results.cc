@@ -6,16 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "common/angles/anatomical_angles.h"
 #include "common/angles/normal_bands.h"
 #include "common/io/c3d/c3d_file.h"
 #include "common/judge/coverage.h"
+#include "common/math/statistics.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"
 #include "common/support/error.h"
@@ -69,6 +73,16 @@ std::string LabelOf(std::string_view joint, Side side, C3dResultKind kind) {
   return fmt::format("{}{}{}", side == Side::kLeft ? 'L' : 'R', name, what);
 }
 
+/// The quarters of a turn nearest to most of these [rad]: by Plug-in Gait the pelvis turns against
+/// the axis of the laboratory along which the person walks.
+double NearestQuarter(const Eigen::RowVectorXd& turns) {
+  std::vector<double> known;
+  std::copy_if(turns.begin(), turns.end(), std::back_inserter(known),
+               [](double one) { return std::isfinite(one); });
+  constexpr double kQuarter = std::numbers::pi / 2;
+  return known.empty() ? 0 : kQuarter * std::round(Median(known) / kQuarter);
+}
+
 class ResultPoints {
  public:
   ResultPoints(std::string prefix, int first_frame, const KnownLegs& known)
@@ -80,7 +94,10 @@ class ResultPoints {
       const AnatomicalAngle& row = rows.angles[i];
       const std::optional<Eigen::Index> plane = PlaneOf(row.motion);
       if (!plane) continue;
-      const auto values = rows.values.row(static_cast<Eigen::Index>(i));
+      Eigen::RowVectorXd values = rows.values.row(static_cast<Eigen::Index>(i));
+      if (std::string_view(row.joint) == "pelvis" && *plane == 2) {
+        values.array() -= NearestQuarter(values);
+      }
       for (const Side side : kSides) {
         if (*row.side != '\0' && std::string_view(row.side) != Name(side)) continue;
         const C3dResultKind kind = KindOf(row.motion);

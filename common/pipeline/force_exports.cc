@@ -39,7 +39,8 @@ constexpr const char* kGrf = "grf";
 constexpr const char* kGait = "gait";
 constexpr const char* kResults = "c3d";
 constexpr const char* kJointForces = "inverse-dynamics";
-constexpr double kMostApart = 0.03;  // of the mass
+constexpr double kMostApart = 0.03;   // of the mass
+constexpr double kMostCarried = 0.9;  // of the mass, by feet whose person holds on to something
 constexpr double kDeviations = 2;
 
 bool HasDeviations(const std::string& file) { return fs::path(file).extension() != ".sto"; }
@@ -63,8 +64,10 @@ void CompareMass(const GroundStudy& ground, ConversionReport* report) {
   if (!found || !(mass.value > 0)) return;
   const double apart = std::abs(found->mass - mass.value);
   if (apart <= kMostApart * mass.value || apart <= kDeviations * found->deviation) return;
-  report->warnings.Add(
-      fmt::format("{} (another by {})", MassSentence(*report, ground), OptionText("mass")));
+  const bool is_carried = !IsAssumed(mass) && found->mass < kMostCarried * mass.value;
+  report->warnings.Add(fmt::format("{}{} (another by {})", MassSentence(*report, ground),
+                                   is_carried ? "; do hands on a walking aid carry the rest?" : "",
+                                   OptionText("mass")));
 }
 
 bool IsC3d(const std::string& file) {
