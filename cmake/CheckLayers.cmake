@@ -19,7 +19,7 @@ set(layers
     common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/mesh "common/io/urdf|common/io/osim|common/io/mjcf|common/io/robot"
     common/io common/io/landmarks common/io/skeleton "common/io/bvh|common/io/npz" common/io/recording
     common/convert "common/calibrate|common/forces" common/contacts "common/angles|common/kinetics" common/retarget
-    common/label common/label/search "common/label/track|common/label/learn" common/judge
+    common/label common/label/search "common/label/track|common/label/learn" common/study common/judge
     common/pipeline/input common/pipeline "common/pipeline/comparison|common/pipeline/dynamics" common/live common/pipeline/live
     "common|plugins"
     "MMMConverterS2KF/terminal|MMMConverterS2KF/report"

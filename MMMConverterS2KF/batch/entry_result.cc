@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/judge/conversion_figures.h"
+#include "common/study/conversion_figures.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

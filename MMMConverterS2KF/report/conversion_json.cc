@@ -6,8 +6,8 @@
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/names_summary.h"
 #include "MMMConverterS2KF/report/subject_json.h"
-#include "common/judge/conversion_figures.h"
 #include "common/pipeline/motion_output.h"
+#include "common/study/conversion_figures.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

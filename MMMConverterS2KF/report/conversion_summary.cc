@@ -9,9 +9,9 @@
 #include "MMMConverterS2KF/report/calibration_summary.h"
 #include "MMMConverterS2KF/report/label_summary.h"
 #include "MMMConverterS2KF/report/names_summary.h"
-#include "common/judge/conversion_figures.h"
-#include "common/judge/coverage.h"
 #include "common/pipeline/motion_output.h"
+#include "common/study/conversion_figures.h"
+#include "common/study/coverage.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 

@@ -11,7 +11,7 @@
 #include "common/angles/gait_feet.h"
 #include "common/angles/gait_table.h"
 #include "common/angles/normal_bands.h"
-#include "common/judge/coverage.h"
+#include "common/study/coverage.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

@@ -15,8 +15,8 @@
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/page_sources.h"
 #include "common/io/recording/marker_labels.h"
-#include "common/judge/label_verdict.h"
 #include "common/judge/verdict.h"
+#include "common/label/track/labelling.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

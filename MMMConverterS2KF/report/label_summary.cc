@@ -9,7 +9,7 @@
 #include <set>
 
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/judge/label_verdict.h"
+#include "common/label/track/labelling.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/support/text.h"
 #include "common/support/units.h"

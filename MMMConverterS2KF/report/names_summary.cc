@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/convert/marker_set_text.h"
-#include "common/judge/conversion_figures.h"
+#include "common/study/conversion_figures.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {

@@ -10,9 +10,9 @@
 #include "MMMConverterS2KF/report/packed_array.h"
 #include "MMMConverterS2KF/report/subject_json.h"
 #include "common/angles/anatomical_angles.h"
-#include "common/judge/coverage.h"
 #include "common/math/statistics.h"
 #include "common/motion/marker_residuals.h"
+#include "common/study/coverage.h"
 #include "common/support/advice.h"
 #include "common/support/units.h"
 

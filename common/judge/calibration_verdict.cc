@@ -5,8 +5,6 @@
 
 #include <string>
 
-#include "common/judge/coverage.h"
-#include "common/judge/evidence.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -39,31 +37,38 @@ void JudgeSources(const CalibrationResult& result, VerdictReasons* reasons) {
 
 }  // namespace
 
+Questions AskAboutCalibration(const CalibrationResult& result) {
+  Questions asked;
+  asked.is_far = kMeanDistance.IsBeyond(result.distance_before) ||
+                 kCalibratedMeanDistance.IsBeyond(result.distance_after) ||
+                 AreOffsetsFar(result.subject);
+  asked.sides = asked.is_far;
+  return asked;
+}
+
 Verdict JudgeCalibration(const CalibrationEvidence& evidence) {
   VerdictReasons reasons;
   const CalibrationResult& result = evidence.result;
-  bool is_far = reasons.AddBeyond(
+  reasons.AddBeyond(
       kMeanDistance, result.distance_before,
       fmt::format("before calibration, markers are {:.0f} mm from the model on average, those of "
                   "a person of that height at most {:.0f}",
                   kMillimetres * result.distance_before, kMillimetres * kMeanDistance.check));
-  is_far |= reasons.AddBeyond(
+  reasons.AddBeyond(
       kCalibratedMeanDistance, result.distance_after,
       fmt::format("after calibration, markers are still {:.0f} mm from the model, those of a "
                   "person at most {:.0f}",
                   kMillimetres * result.distance_after,
                   kMillimetres * kCalibratedMeanDistance.check));
-  is_far |= JudgeOffsets(result.subject, &reasons);
+  JudgeOffsets(result.subject, &reasons);
   JudgeProportions(result.subject, &reasons);
   JudgeSources(result, &reasons);
   for (const MatchedRecording& one : evidence.recordings) {
     JudgeReading(one.recording, &reasons);
-    JudgeCoverage(one.setup, LimbsOf(one.setup), &reasons);
-    JudgeNoise(one.setup, one.recording.markers, &reasons);
+    JudgeCoverage(one.coverage, &reasons);
+    JudgeNoise(one.noise, &reasons);
     if (one.names != nullptr) JudgeNames(*one.names, &reasons);
-    if (is_far) {
-      JudgeSides(one.setup, one.reference, evidence.person, one.recording.markers, &reasons);
-    }
+    JudgeSides(one.sides, &reasons);
   }
   return reasons.Conclude();
 }

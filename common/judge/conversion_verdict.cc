@@ -5,19 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "common/fit/rigid_shape.h"
-#include "common/judge/body_limits.h"
-#include "common/judge/coverage.h"
-#include "common/judge/evidence.h"
-#include "common/judge/limb_places.h"
-#include "common/math/statistics.h"
-#include "common/model/coordinate_map.h"
+#include "common/judge/body_rules.h"
 #include "common/motion/marker_residuals.h"
 #include "common/support/advice.h"
-#include "common/support/error.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -49,43 +41,55 @@ constexpr Limit kObject = {kMostStray, 0.5};
 class Judge {
  public:
   explicit Judge(const ConversionEvidence& evidence)
-      : evidence_(evidence),
-        markers_(evidence.recording.markers),
-        figures_(evidence.figures),
-        limbs_(LimbsOf(evidence.setup)) {}
+      : evidence_(evidence), markers_(evidence.recording.markers), figures_(evidence.figures) {}
+
+  Questions Ask() const {
+    Questions asked;
+    if (is_object()) return asked;
+    const bool is_any_far =
+        std::any_of(figures_.of_markers.begin(), figures_.of_markers.end(),
+                    [](const auto& one) { return kMarkerMean.IsBeyond(one.mean); });
+    asked.is_far = IsFar();
+    asked.places = evidence_.height > 0 && !is_calibrated() && !is_any_far;
+    asked.sides = asked.is_far || AreAtLandmarks();
+    asked.height = !evidence_.height_source.empty();
+    return asked;
+  }
 
   Verdict Run() {
     JudgeReading(evidence_.recording, &reasons_);
     JudgeLength();
-    if (evidence_.is_object) {
+    if (is_object()) {
       JudgeObjectsDistance();
       JudgeGaps();
       return reasons_.Conclude();
     }
-    const bool is_far = JudgeDistances();
+    const BodyFigures& body = evidence_.body;
+    JudgeDistances();
     JudgeMarkers();
+    JudgePlaces(evidence_.labels.places, &reasons_);
     JudgeFarthest();
-    JudgeCoverage(evidence_.setup, limbs_, &reasons_);
-    JudgeLimbPlaces(evidence_.setup, limbs_, markers_, evidence_.result, &reasons_);
+    JudgeCoverage(body.coverage, &reasons_);
+    JudgeLimbPlaces(body.limb_places, &reasons_);
     if (evidence_.names != nullptr) JudgeNames(*evidence_.names, &reasons_);
     JudgeGaps();
     JudgeJumps();
     JudgeTrack();
-    JudgeNoise(evidence_.setup, markers_, &reasons_);
+    JudgeNoise(body.noise, &reasons_);
     JudgeUpright();
-    JudgeBodyLimits(evidence_.setup, markers_, evidence_.result.trajectory,
-                    evidence_.person.subject != nullptr, &reasons_);
-    JudgeHeight(is_far);
-    if (is_far || AreAtLandmarks()) {
-      JudgeSides(evidence_.setup, evidence_.reference, evidence_.person, markers_, &reasons_);
-    }
+    JudgeBodyLimits(body.limits, is_calibrated(), &reasons_);
+    JudgeHeight();
+    JudgeSides(evidence_.labels.sides, &reasons_);
     return reasons_.Conclude();
   }
 
  private:
+  bool is_object() const { return !evidence_.object_model.empty(); }
+  bool is_calibrated() const { return evidence_.subject != nullptr; }
+
   // By names, or by a set that knows most places better than one of reference markers does.
   bool AreAtLandmarks() const {
-    const std::vector<MarkerAssignment>& all = evidence_.setup.assignments();
+    const std::vector<MarkerAssignment>& all = evidence_.assignments;
     const auto known = std::count_if(
         all.begin(), all.end(), [](const MarkerAssignment& one) { return one.noise_scale < 1; });
     return evidence_.names != nullptr || 2 * known > static_cast<long>(all.size());
@@ -102,46 +106,52 @@ class Judge {
     std::vector<std::string> labels;
     labels.reserve(assignments.size());
     for (const int i : assignments) {
-      labels.push_back(markers_.labels()[evidence_.setup.assignments()[i].label]);
+      labels.push_back(markers_.labels()[evidence_.assignments[i].label]);
     }
     return FirstNames(labels, 6);
   }
 
   void JudgeObjectsDistance() {
-    Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(evidence_.setup.assignments().size()));
-    for (Eigen::Index i = 0; i < places.cols(); ++i) {
-      const int marker = evidence_.setup.assignments()[static_cast<std::size_t>(i)].marker;
-      places.col(i) = evidence_.setup.model->markers()[marker].p_SM;
-    }
-    const double radius = RadiusOf(places);
+    const double radius = evidence_.body.radius;
     reasons_.AddBeyond(
         kObject, figures_.distance.mean / radius,
         fmt::format(
             "the markers are {:.1f} mm from the model {}, whose radius is {:.0f} mm (both on "
             "average); is it this object's?",
-            kMillimetres * figures_.distance.mean, evidence_.model_file, kMillimetres * radius));
+            kMillimetres * figures_.distance.mean, evidence_.object_model, kMillimetres * radius));
+  }
+
+  const Limit& MeanLimit() const {
+    return is_calibrated() ? kCalibratedMeanDistance : kMeanDistance;
+  }
+  const Limit& PercentileLimit() const {
+    return is_calibrated() ? kCalibratedPercentile : kPercentile;
   }
 
   // Whether the markers are farther from the model than a person's are.
-  bool JudgeDistances() {
-    const bool is_calibrated = evidence_.person.subject != nullptr;
-    const Limit& mean = is_calibrated ? kCalibratedMeanDistance : kMeanDistance;
-    const Limit& percentile = is_calibrated ? kCalibratedPercentile : kPercentile;
-    const char* person = is_calibrated ? "a calibrated person" : "a person of that height";
-    bool is_far = reasons_.AddBeyond(
+  bool IsFar() const {
+    return MeanLimit().IsBeyond(figures_.distance.mean) ||
+           PercentileLimit().IsBeyond(figures_.distance.p95) ||
+           (is_calibrated() && AreOffsetsFar(*evidence_.subject));
+  }
+
+  void JudgeDistances() {
+    const Limit& mean = MeanLimit();
+    const Limit& percentile = PercentileLimit();
+    const char* person = is_calibrated() ? "a calibrated person" : "a person of that height";
+    reasons_.AddBeyond(
         mean, figures_.distance.mean,
         fmt::format("markers are {:.0f} mm from the model on average, those of "
                     "{} at most {:.0f}",
                     kMillimetres * figures_.distance.mean, person, kMillimetres * mean.check));
-    is_far |= reasons_.AddBeyond(
+    reasons_.AddBeyond(
         percentile, figures_.distance.p95,
         fmt::format("5 % of the marker positions are more than {:.0f} mm from the "
                     "model, of {} at most {:.0f}",
                     kMillimetres * figures_.distance.p95, person, kMillimetres * percentile.check));
-    if (!is_calibrated) return is_far;
-    is_far |= JudgeOffsets(*evidence_.person.subject, &reasons_);
-    JudgeProportions(*evidence_.person.subject, &reasons_);
-    return is_far;
+    if (!is_calibrated()) return;
+    JudgeOffsets(*evidence_.subject, &reasons_);
+    JudgeProportions(*evidence_.subject, &reasons_);
   }
 
   void JudgeMarkers() {
@@ -159,10 +169,6 @@ class Judge {
                     "can have them: {}; are they this person's?",
                     far.size(), figures_.of_markers.size(), kMillimetres * kMarkerMean.check,
                     LabelsOf(far)));
-    const bool is_told_by_size = evidence_.person.size && !evidence_.person.subject;
-    if (is_told_by_size && most == 0) {
-      JudgePlaces(evidence_.setup, markers_, evidence_.result.trajectory, &reasons_);
-    }
   }
 
   void JudgeFarthest() {
@@ -182,7 +188,7 @@ class Judge {
 
   void JudgeGaps() {
     const int late = FramesBeforeFirstSeen(evidence_.result.residuals);
-    for (const Gap& gap : LongGaps(evidence_.setup, markers_)) {
+    for (const Gap& gap : evidence_.body.gaps) {
       if (gap.last_frame < late) continue;
       reasons_.Add(Level::kCheck,
                    fmt::format("{} is hidden for {:.1f} s, frames {} to {}", gap.what, gap.seconds,
@@ -198,32 +204,18 @@ class Judge {
                    Remedy::kFrames));
   }
 
-  // How far the markers are from where they were a frame before: of half of them, further.
-  double StepTo(int k) const {
-    std::vector<double> steps;
-    for (const MarkerAssignment& one : evidence_.setup.assignments()) {
-      const double step =
-          (markers_.frame(k).col(one.label) - markers_.frame(k - 1).col(one.label)).norm();
-      if (!std::isnan(step)) steps.push_back(step);
-    }
-    return static_cast<int>(steps.size()) < kFewestMarkers ? kNaN : Median(steps);
-  }
-
-  // Where a body is elsewhere within a frame, and is as slow before as after, it is another one: on
+  // A body that is elsewhere within a frame, and is as slow before as after, is another one: on
   // half of the way it speeds up, on the other half it stops.
   void JudgeJumps() {
     const double most =
         std::max(kLeastJump, kMostAcceleration / (4 * markers_.rate() * markers_.rate()));
-    double before = kNaN, step = kNaN, farthest = 0;
-    int jumps = 0, first = 0;
-    for (int k = 1; k < markers_.num_frames(); ++k) {
-      const double after = StepTo(k);
-      const bool is_known = !std::isnan(before) && !std::isnan(after);
-      const double jump = is_known ? step - std::max(before, after) : kNaN;
-      before = step;
-      step = after;
+    double farthest = 0;
+    int jumps = 0;
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < evidence_.body.jumps.size(); ++k) {
+      const double jump = evidence_.body.jumps[k];
       if (!(jump > most)) continue;
-      if (jumps++ == 0) first = k - 1;
+      if (jumps++ == 0) first = k;
       farthest = std::max(farthest, jump);
     }
     if (jumps == 0) return;
@@ -231,7 +223,7 @@ class Judge {
                  fmt::format("the markers jump {} {} by up to {:.0f} mm within a frame, first in "
                              "frame {}: are they another person's there, or do frames lack?",
                              jumps, jumps == 1 ? "time" : "times", kMillimetres * farthest,
-                             evidence_.first_frame + first));
+                             evidence_.first_frame + static_cast<int>(first)));
   }
 
   void JudgeTrack() {
@@ -258,60 +250,41 @@ class Judge {
 
   // Whether the trunk was ever upright.
   void JudgeUpright() {
-    constexpr double kUpright = 0.5;  // cosine of 60 degrees
     const Recording& recording = evidence_.recording;
     if (recording.up_axis_is_doubtful) return;  // that has been said
-    const KinematicModel& model = *evidence_.setup.model;
-    if (model.is_root_fixed()) return;
-    // Of the root that is upright.
-    Eigen::Vector3d up_S = Eigen::Vector3d::UnitZ();
-    if (model.coordinates()) up_S = RestPosture(model).orientation.inverse() * up_S;
-    double lying = 0;
-    double upside_down = 0;
-    for (const Posture& posture : evidence_.result.trajectory.postures) {
-      const double up = (posture.orientation.toRotationMatrix() * up_S).z();
-      lying += up < kUpright ? 1 : 0;
-      upside_down += up < -kUpright ? 1 : 0;
-    }
-    const auto frames = static_cast<double>(evidence_.result.trajectory.postures.size());
+    const TrunkFigures& trunk = evidence_.body.trunk;
     const std::string throughout =
         WithAdvice(fmt::format("in more than {:.0f} % of the frames, with {} of the file as up",
                                kPercent * kLyingFrames.check, Name(recording.up_axis)),
                    Remedy::kUpAxis);
-    if (reasons_.AddBeyond(kLyingFrames, upside_down / frames,
+    if (reasons_.AddBeyond(kLyingFrames, trunk.upside_down,
                            "the body is upside down " + throughout)) {
       return;
     }
-    reasons_.AddBeyond(kLyingFrames, lying / frames, "the trunk lies " + throughout);
+    reasons_.AddBeyond(kLyingFrames, trunk.lying, "the trunk lies " + throughout);
   }
 
   // A height that was given beside the one that the markers tell.
-  void JudgeHeight(bool is_far) {
-    if (evidence_.height_source.empty()) return;
-    const double height = evidence_.person.size->height;
-    std::optional<HeightEstimate> estimate;
-    try {
-      const auto* track = is_far ? nullptr : &evidence_.result.trajectory.postures;
-      estimate = EstimateHeight(evidence_.setup, *evidence_.reference, markers_, track);
-    } catch (const Error&) {
-      return;  // too few markers
-    }
+  void JudgeHeight() {
+    const std::optional<HeightEstimate>& estimate = evidence_.told_height;
+    if (!estimate) return;
     if (kMeanDistance.IsBeyond(estimate->mean_distance)) return;  // no height explains the markers
     reasons_.AddBeyond(
-        kHeight, std::abs(estimate->height / height - 1),
+        kHeight, std::abs(estimate->height / evidence_.height - 1),
         fmt::format("the height is {:.2f} m ({}), but the markers are those of a person of "
                     "{:.2f} m",
-                    height, evidence_.height_source, estimate->height));
+                    evidence_.height, evidence_.height_source, estimate->height));
   }
 
   const ConversionEvidence& evidence_;
   const MarkerSequence& markers_;
   const ConversionFigures& figures_;
-  const std::vector<Limb> limbs_;
   VerdictReasons reasons_;
 };
 
 }  // namespace
+
+Questions AskAboutConversion(const ConversionEvidence& evidence) { return Judge(evidence).Ask(); }
 
 Verdict JudgeConversion(const ConversionEvidence& evidence) { return Judge(evidence).Run(); }
 

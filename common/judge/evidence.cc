@@ -9,11 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "common/convert/exchanged_sides.h"
-#include "common/judge/told_distances.h"
-#include "common/judge/worn_distances.h"
 #include "common/math/statistics.h"
-#include "common/motion/marker_noise.h"
 #include "common/support/advice.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
@@ -89,6 +85,13 @@ void JudgeClusters(const NamedMarkers& names, VerdictReasons* reasons) {
   }
 }
 
+/// The 95th percentile of the offsets [m].
+double FarOffset(const Subject& subject) {
+  std::vector<double> offsets;
+  for (const MarkerOffset& offset : subject.offsets) offsets.push_back(offset.offset.norm());
+  return Percentile(offsets, 95);
+}
+
 }  // namespace
 
 bool VerdictReasons::AddBeyond(const Limit& limit, double value, const std::string& reason) {
@@ -112,8 +115,8 @@ void JudgeReading(const Recording& recording, VerdictReasons* reasons) {
   }
 }
 
-void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                   VerdictReasons* reasons) {
+void JudgeCoverage(const Coverage& coverage, VerdictReasons* reasons) {
+  const std::vector<Limb>& limbs = coverage.limbs;
   const auto is_known = [](const Limb& limb) {
     return limb.IsKnownBy(static_cast<int>(limb.labels.size()));
   };
@@ -138,7 +141,7 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
     reasons->Add(Level::kCheck,
                  fmt::format("too few markers to know {}", JoinNames(lost, " and ")));
   }
-  const std::vector<EndPart> parts = EndPartsOf(setup);
+  const std::vector<EndPart>& parts = coverage.ends;
   const bool shows_leg = std::any_of(limbs.begin(), limbs.end(), [&](const Limb& one) {
     return one.name.ends_with("leg") && is_known(one);
   });
@@ -146,7 +149,7 @@ void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
     reasons->Add(Level::kCheck,
                  "no marker is on the pelvis: how it and the hips turn is hardly known");
   }
-  const int markers = static_cast<int>(setup.assignments().size());
+  const int markers = coverage.num_markers;
   const bool shows_limb = std::any_of(limbs.begin(), limbs.end(), is_known);
   if (3 * markers >= degrees && (shows_limb || limbs.empty())) return;
   reasons->Add(Level::kFailed,
@@ -179,30 +182,22 @@ void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons) {
                            FirstNames(DescribeContradictions(names), 6)));
 }
 
-void JudgePlaces(const TrackingSetup& setup, const MarkerSequence& markers,
-                 const PoseTrajectory& trajectory, VerdictReasons* reasons) {
-  const Eigen::VectorXd distances =
-      ToldDistances(setup, markers, trajectory)
-          .binaryExpr(WornDistances(setup, markers, trajectory),
-                      [](double a, double b) { return std::fmax(a, b); });
+void JudgePlaces(const std::vector<LabelPlace>& places, VerdictReasons* reasons) {
   std::vector<std::string> labels;
   double most = 0;
-  for (int i = 0; i < distances.size(); ++i) {
-    const MarkerAssignment& one = setup.assignments()[static_cast<std::size_t>(i)];
-    const double surest = std::min(1.0, one.noise_scale / kSurestPlace);
-    if (!kToldDistance.IsBeyond(surest * distances[i])) continue;
-    labels.push_back(fmt::format("{} ({:.0f} mm)", markers.labels()[one.label],
-                                 kMillimetres * one.noise_scale * distances[i]));
-    most = std::max(most, distances[i]);
+  for (const LabelPlace& place : places) {
+    const double surest = std::min(1.0, place.noise_scale / kSurestPlace);
+    if (!kToldDistance.IsBeyond(surest * place.distance)) continue;
+    labels.push_back(fmt::format("{} ({:.0f} mm)", place.label,
+                                 kMillimetres * place.noise_scale * place.distance));
+    most = std::max(most, place.distance);
   }
   reasons->AddBeyond(
       kToldDistance, most,
       fmt::format("labels that are far from where their names say: {}", FirstNames(labels, 6)));
 }
 
-void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers,
-                VerdictReasons* reasons) {
-  const double noise = MeasureMarkerNoise(markers, LabelIndices(setup.assignments()));
+void JudgeNoise(double noise, VerdictReasons* reasons) {
   reasons->AddBeyond(kNoise, noise,
                      fmt::format("marker positions have noise of {:.1f} mm, a capture less than 1",
                                  kMillimetres * noise));
@@ -227,23 +222,18 @@ void JudgeProportions(const Subject& subject, VerdictReasons* reasons) {
                   FirstNames(segments, 6)));
 }
 
-bool JudgeOffsets(const Subject& subject, VerdictReasons* reasons) {
-  std::vector<double> offsets;
-  for (const MarkerOffset& offset : subject.offsets) offsets.push_back(offset.offset.norm());
-  const double most = Percentile(offsets, 95);
-  return reasons->AddBeyond(
+bool AreOffsetsFar(const Subject& subject) { return kOffset.IsBeyond(FarOffset(subject)); }
+
+void JudgeOffsets(const Subject& subject, VerdictReasons* reasons) {
+  const double most = FarOffset(subject);
+  reasons->AddBeyond(
       kOffset, most,
       fmt::format("5 % of the markers sit more than {:.0f} mm from where the model has them, "
                   "of a person of that height at most {:.0f}",
                   kMillimetres * most, kMillimetres * kOffset.check));
 }
 
-void JudgeSides(TrackingSetup setup, std::shared_ptr<const KinematicModel> reference,
-                PersonScaling person, const MarkerSequence& markers, VerdictReasons* reasons) {
-  setup.model = std::move(reference);  // a subject's markers may have taken it up
-  person.subject = nullptr;
-  ScaleToPerson(person, &setup);
-  const auto exchanged = FindExchangedSides(setup, markers);
+void JudgeSides(const std::optional<ExchangedSides>& exchanged, VerdictReasons* reasons) {
   if (!exchanged) return;
   reasons->Add(Level::kFailed,
                fmt::format("left and right labels of {} are exchanged, or coordinates mirrored: "

@@ -3,18 +3,18 @@
 #pragma once
 
 #include <limits>
-#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/convert/exchanged_sides.h"
 #include "common/convert/named_markers.h"
-#include "common/convert/tracking_setup.h"
 #include "common/io/recording/recording.h"
-#include "common/judge/coverage.h"
 #include "common/judge/verdict.h"
 #include "common/model/subject.h"
-#include "common/motion/pose_trajectory.h"
+#include "common/study/coverage.h"
+#include "common/study/label_figures.h"
 
 namespace mmm_converter {
 
@@ -65,33 +65,39 @@ class VerdictReasons {
   std::vector<std::pair<Verdict::Level, std::string>> reasons_;
 };
 
+/// What a verdict asks for where the figures that it always has leave doubts: it takes fits.
+struct Questions {
+  bool places = false, sides = false;  ///< of LabelFigures
+  bool height = false;                 ///< that the markers tell
+  /// Markers are farther from the model than a person's, so that no fit starts from the track.
+  bool is_far = false;
+};
+
 /// Unit, axis and length of the file.
 void JudgeReading(const Recording& recording, VerdictReasons* reasons);
 
 /// Whether a limb has lost its markers that the one of the other side has, and whether the markers
-/// suffice for the limbs that they show; others are not judged. limbs: LimbsOf(setup).
-void JudgeCoverage(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                   VerdictReasons* reasons);
+/// suffice for the limbs that they show; others are not judged.
+void JudgeCoverage(const Coverage& coverage, VerdictReasons* reasons);
 
 /// Labels that are not where their names say.
 void JudgeNames(const NamedMarkers& names, VerdictReasons* reasons);
 
 /// Labels of a person known by size alone that are within what any marker may be off, but not
 /// within what their names leave open.
-void JudgePlaces(const TrackingSetup& setup, const MarkerSequence& markers,
-                 const PoseTrajectory& trajectory, VerdictReasons* reasons);
+void JudgePlaces(const std::vector<LabelPlace>& places, VerdictReasons* reasons);
 
-void JudgeNoise(const TrackingSetup& setup, const MarkerSequence& markers, VerdictReasons* reasons);
+/// noise: MeasureMarkerNoise [m].
+void JudgeNoise(double noise, VerdictReasons* reasons);
 
 /// Where a calibrated person's segments are longer or shorter than a person's are.
 void JudgeProportions(const Subject& subject, VerdictReasons* reasons);
 
-/// True where a calibrated person's markers sit too far from where the model has them.
-bool JudgeOffsets(const Subject& subject, VerdictReasons* reasons);
+/// Whether a calibrated person's markers sit too far from where the model has them.
+bool AreOffsetsFar(const Subject& subject);
+void JudgeOffsets(const Subject& subject, VerdictReasons* reasons);
 
-/// Whether labels of the left and the right are exchanged, on the reference scaled to the person
-/// without its subject.
-void JudgeSides(TrackingSetup setup, std::shared_ptr<const KinematicModel> reference,
-                PersonScaling person, const MarkerSequence& markers, VerdictReasons* reasons);
+/// Whether labels of the left and the right are exchanged.
+void JudgeSides(const std::optional<ExchangedSides>& exchanged, VerdictReasons* reasons);
 
 }  // namespace mmm_converter

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/judge/evidence.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 
@@ -21,31 +20,25 @@ constexpr Limit kNamesNotFound = {0.4, 0.6};
 // file 0.02 to 0.15.
 constexpr Limit kUnsure = {0.08, 0.4};
 
-/// The names as those of a conversion.
-void JudgeMeaning(const LabelEvidence& evidence, bool is_far, VerdictReasons* reasons) {
-  const LabelFit& fit = evidence.fit;
-  if (evidence.names != nullptr) JudgeNames(*evidence.names, reasons);
-  if (evidence.reference == nullptr || fit.setup.assignments().empty()) return;
-  if (!evidence.is_calibrated && fit.far_names.empty()) {
-    JudgePlaces(fit.setup, fit.frames, fit.trajectory, reasons);
-  }
-  if (!is_far && evidence.names == nullptr) return;
-  JudgeSides(fit.setup, evidence.reference, evidence.person, fit.frames, reasons);
+const Limit& MeanLimit(const LabelEvidence& evidence) {
+  return evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance;
+}
+
+const Limit& PercentileLimit(const LabelEvidence& evidence) {
+  return evidence.is_calibrated ? kCalibratedPercentile : kPercentile;
 }
 
 void JudgeFit(const LabelEvidence& evidence, VerdictReasons* reasons) {
   const LabelFit& fit = evidence.fit;
   const char* whose = evidence.is_calibrated ? "the subject: another person's, or put on anew since"
                                              : "the model of that height";
-  bool is_far = reasons->AddBeyond(
-      evidence.is_calibrated ? kCalibratedMeanDistance : kMeanDistance, fit.mean_distance,
-      fmt::format("the named points are {:.0f} mm from the markers of {}",
-                  kMillimetres * fit.mean_distance, whose));
-  is_far |= reasons->AddBeyond(
-      evidence.is_calibrated ? kCalibratedPercentile : kPercentile, fit.p95_distance,
-      fmt::format("5 % of the named points are more than {:.0f} mm from the markers "
-                  "of {}",
-                  kMillimetres * fit.p95_distance, whose));
+  reasons->AddBeyond(MeanLimit(evidence), fit.mean_distance,
+                     fmt::format("the named points are {:.0f} mm from the markers of {}",
+                                 kMillimetres * fit.mean_distance, whose));
+  reasons->AddBeyond(PercentileLimit(evidence), fit.p95_distance,
+                     fmt::format("5 % of the named points are more than {:.0f} mm from the markers "
+                                 "of {}",
+                                 kMillimetres * fit.p95_distance, whose));
   reasons->AddBeyond(
       kMarkerMean, fit.farthest,
       fmt::format("{} of the names {} on average more than {:.0f} mm from where the "
@@ -53,7 +46,9 @@ void JudgeFit(const LabelEvidence& evidence, VerdictReasons* reasons) {
                   fit.far_names.size(), fit.far_names.size() == 1 ? "is" : "are",
                   kMillimetres * kMarkerMean.check, fit.far_names.size() == 1 ? "it" : "them",
                   FirstNames(fit.far_names, 6)));
-  JudgeMeaning(evidence, is_far, reasons);
+  if (evidence.names != nullptr) JudgeNames(*evidence.names, reasons);
+  JudgePlaces(evidence.labels.places, reasons);
+  JudgeSides(evidence.labels.sides, reasons);
   if (evidence.height <= 0 || fit.told_height <= 0) return;
   const double ratio = fit.told_height / evidence.height;
   reasons->AddBeyond(kHeight, std::abs(ratio - 1),
@@ -64,38 +59,21 @@ void JudgeFit(const LabelEvidence& evidence, VerdictReasons* reasons) {
 
 }  // namespace
 
-std::vector<std::string> NamesNotFound(const Labelling& labelling) {
-  std::vector<char> is_found(labelling.names.size(), 0);
-  for (const NamedPiece& piece : labelling.pieces) {
-    if (piece.name >= 0) is_found[piece.name] = 1;
-  }
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < is_found.size(); ++i) {
-    if (is_found[i] == 0) names.push_back(labelling.names[i]);
-  }
-  return names;
+Questions AskAboutLabels(const LabelEvidence& evidence) {
+  Questions asked;
+  asked.is_far = MeanLimit(evidence).IsBeyond(evidence.fit.mean_distance) ||
+                 PercentileLimit(evidence).IsBeyond(evidence.fit.p95_distance);
+  asked.places = !evidence.is_calibrated && evidence.fit.far_names.empty();
+  asked.sides = asked.is_far || evidence.names != nullptr;
+  return asked;
 }
 
 Verdict JudgeLabels(const LabelEvidence& evidence) {
-  const MarkerSequence& markers = evidence.recording.markers;
-  const Labelling& labelling = evidence.labelling;
   VerdictReasons reasons;
   JudgeReading(evidence.recording, &reasons);
-  std::vector<int> unnamed(static_cast<std::size_t>(markers.num_labels()), 0);  // frames, by point
-  double unsure = 0, named = 0;
-  for (const NamedPiece& piece : labelling.pieces) {
-    const int length = piece.end - piece.begin;
-    if (piece.name < 0) {
-      unnamed[piece.point] += length;
-    } else {
-      named += length;
-      unsure += (1 - piece.probability) * length;
-    }
-  }
-  const std::vector<std::string> missing = NamesNotFound(labelling);
-  const std::size_t names = labelling.names.size();
-  const auto spare = std::count_if(unnamed.begin(), unnamed.end(),
-                                   [&](int n) { return 2 * n > markers.num_frames(); });
+  const NamingFigures& naming = evidence.naming;
+  const std::vector<std::string>& missing = naming.missing;
+  const int names = naming.num_names, spare = naming.spare_points;
   const std::string not_found =
       fmt::format("{} of {} names {} not found ({})", missing.size(), names,
                   missing.size() == 1 ? "was" : "were", FirstNames(missing));
@@ -109,10 +87,8 @@ Verdict JudgeLabels(const LabelEvidence& evidence) {
                     not_found, spare == 1 ? "one point is" : fmt::format("{} points are", spare)));
   }
   JudgeFit(evidence, &reasons);
-  if (named > 0) {
-    reasons.AddBeyond(kUnsure, unsure / named,
-                      fmt::format("names are sure to {:.0f} % only", 100 * (1 - unsure / named)));
-  }
+  reasons.AddBeyond(kUnsure, naming.unsure,
+                    fmt::format("names are sure to {:.0f} % only", 100 * (1 - naming.unsure)));
   return reasons.Conclude();
 }
 

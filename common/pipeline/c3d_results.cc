@@ -18,10 +18,10 @@
 #include "common/angles/anatomical_angles.h"
 #include "common/angles/normal_bands.h"
 #include "common/io/c3d/c3d_file.h"
-#include "common/judge/coverage.h"
 #include "common/math/statistics.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"
+#include "common/study/coverage.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 

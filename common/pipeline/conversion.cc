@@ -264,14 +264,33 @@ ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int
 
 void MeasureAndJudge(ConversionReport* report) {
   const ConversionPlan& plan = report->plan;
+  const MarkerSequence& markers = plan.input.recording.markers;
+  const PersonScaling scaling = ScalingOf(plan.person, plan.converter.config);
   const bool is_height_stated = plan.person.height.value > 0 && plan.person.height_deviation == 0;
   report->figures = MeasureConversion(report->result);
-  report->verdict =
-      JudgeConversion({plan.input.recording, plan.input.first_frame, plan.setup,
-                       plan.input.reference, plan.input.model_file, plan.object.has_value(),
-                       ScalingOf(plan.person, plan.converter.config),
-                       is_height_stated ? plan.person.height.source : "", report->result,
-                       report->figures, plan.input.names.get()});
+  ConversionEvidence evidence{plan.input.recording, plan.input.first_frame,
+                              plan.setup.assignments(), report->result, report->figures};
+  evidence.subject = scaling.subject.get();
+  evidence.names = plan.input.names.get();
+  if (scaling.size) evidence.height = scaling.size->height;
+  if (is_height_stated) evidence.height_source = plan.person.height.source;
+  if (plan.object) {
+    evidence.object_model = plan.input.model_file;
+    evidence.body = MeasureObject(plan.setup, markers);
+  } else {
+    evidence.body = MeasureBody(plan.setup, markers, report->result);
+  }
+  const Questions asked = AskAboutConversion(evidence);
+  const PoseTrajectory& trajectory = report->result.trajectory;
+  if (asked.places) evidence.labels.places = MeasurePlaces(plan.setup, markers, trajectory);
+  if (asked.height) {
+    evidence.told_height = TellHeight(plan.setup, *plan.input.reference, markers,
+                                      asked.is_far ? nullptr : &trajectory.postures);
+  }
+  if (asked.sides) {
+    evidence.labels.sides = FindExchangedSides(plan.setup, plan.input.reference, scaling, markers);
+  }
+  report->verdict = JudgeConversion(evidence);
   if (!report->ground) return;
   for (const std::string& doubt : report->ground->doubts) AddDoubt(doubt, &report->verdict);
 }

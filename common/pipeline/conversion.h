@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/convert/motion_converter.h"
-#include "common/judge/conversion_figures.h"
 #include "common/judge/verdict.h"
 #include "common/pipeline/exporters.h"
 #include "common/pipeline/input/converter_choice.h"
@@ -18,6 +17,7 @@
 #include "common/pipeline/object.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/pipeline/recording_labels.h"
+#include "common/study/conversion_figures.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

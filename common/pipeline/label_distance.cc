@@ -45,7 +45,7 @@ NamedMarkersOf FindMarkers(const FoundLabels& found, const MarkerSequence& named
 /// Frames x markers [m]; NaN: not seen, or the frame shows too few. fit: gets the frames that show
 /// enough; may be null.
 Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
-                          const MarkerSequence& named, LabelFit* fit) {
+                          const MarkerSequence& named, FittedLabels* fit) {
   const MarkerKinematics kinematics(*found.setup.model, found.setup.joints, of.markers);
   MarkerJacobian at = kinematics.MakeJacobian();
   PostureSearch search(kinematics);
@@ -110,19 +110,41 @@ std::set<std::string> NamesThatFit(const FoundLabels& found, const MarkerSequenc
   return names;
 }
 
-LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
-                   const KinematicModel* reference) {
-  LabelFit fit;
+NamingFigures MeasureNaming(const Labelling& labelling, const MarkerSequence& markers) {
+  NamingFigures figures;
+  std::vector<int> unnamed(static_cast<std::size_t>(markers.num_labels()), 0);  // frames, by point
+  double unsure = 0, named = 0;
+  for (const NamedPiece& piece : labelling.pieces) {
+    const int length = piece.end - piece.begin;
+    if (piece.name < 0) {
+      unnamed[piece.point] += length;
+    } else {
+      named += length;
+      unsure += (1 - piece.probability) * length;
+    }
+  }
+  figures.num_names = static_cast<int>(labelling.names.size());
+  figures.missing = NamesNotFound(labelling);
+  figures.spare_points = static_cast<int>(std::count_if(
+      unnamed.begin(), unnamed.end(), [&](int n) { return 2 * n > markers.num_frames(); }));
+  if (named > 0) figures.unsure = unsure / named;
+  return figures;
+}
+
+FittedLabels FitLabels(const FoundLabels& found, const MarkerSequence& markers,
+                       const KinematicModel* reference) {
+  FittedLabels fitted;
+  LabelFit& fit = fitted.figures;
   const MarkerSequence named = Relabelled(PointsOfPerson(found), markers);
   const NamedMarkersOf of = FindMarkers(found, named);
-  if (of.markers.size() < kFewestPoints) return fit;
-  const Eigen::MatrixXd distances = Distances(found, of, named, &fit);
-  if (!distances.array().isFinite().any()) return fit;
-  fit.setup = found.setup;
-  fit.setup.mapping.assignments.clear();
+  if (of.markers.size() < kFewestPoints) return fitted;
+  const Eigen::MatrixXd distances = Distances(found, of, named, &fitted);
+  if (!distances.array().isFinite().any()) return fitted;
+  fitted.setup = found.setup;
+  fitted.setup.mapping.assignments.clear();
   for (std::size_t m = 0; m < of.markers.size(); ++m) {
     const double scale = of.noise_scale[static_cast<Eigen::Index>(m)];
-    fit.setup.mapping.assignments.push_back({of.columns[m], of.markers[m], scale});
+    fitted.setup.mapping.assignments.push_back({of.columns[m], of.markers[m], scale});
   }
   for (Eigen::Index m = 0; m < distances.cols(); ++m) {
     const double mean = MeanDistance(distances, m);
@@ -133,18 +155,18 @@ LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
   const std::span<const double> all(distances.data(), static_cast<std::size_t>(distances.size()));
   fit.mean_distance = Mean(all);
   fit.p95_distance = Percentile(all, 95);
-  if (reference == nullptr) return fit;
+  if (reference == nullptr) return fitted;
   // Of a repair by the names that were there: those that were found are sought at the height.
   const bool are_old_right = found.is_repair && !found.has_exchanged_sides;
   const MarkerSequence& telling = are_old_right ? markers : named;
   const NamedMarkersOf told = FindMarkers(found, telling);
-  if (told.markers.size() < kFewestPoints) return fit;
+  if (told.markers.size() < kFewestPoints) return fitted;
   HeightOptions options;
   options.noise_scale = told.noise_scale;
   fit.told_height =
       EstimateHeight(*reference, found.setup.joints, told.markers, told.columns, telling, options)
           .height;
-  return fit;
+  return fitted;
 }
 
 }  // namespace mmm_converter

@@ -7,7 +7,6 @@
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_xml.h"
 #include "common/io/osim/tool_setup.h"
-#include "common/judge/calibration_verdict.h"
 #include "common/support/error.h"
 
 namespace mmm_converter {
@@ -78,12 +77,7 @@ OsimScalingReport RunOsimCalibration(const CalibrationRequest& request,
                                             RecordingsOf(inputs), person, options, &warnings);
   report.warnings.AppendNew(warnings);
   CheckProportions(calibrated.result.subject);
-  CalibrationEvidence evidence{calibrated.result, {}, {}};
-  for (const CalibrationInput& one : inputs) {
-    evidence.recordings.push_back(
-        {one.input.recording, one.setup, one.input.reference, one.input.names.get()});
-  }
-  report.verdict = JudgeCalibration(evidence);
+  report.verdict = MeasureAndJudge(calibrated.result, inputs, {});
   report.scaled = std::move(calibrated.scaled);
   report.frames = calibrated.result.frames;
   report.result = std::move(calibrated.result);

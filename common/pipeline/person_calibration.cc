@@ -11,7 +11,10 @@
 
 #include "common/io/mmm/subject_file.h"
 #include "common/judge/calibration_verdict.h"
+#include "common/motion/marker_noise.h"
 #include "common/pipeline/input/matched_labels.h"
+#include "common/study/coverage.h"
+#include "common/study/label_figures.h"
 #include "common/support/advice.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
@@ -201,6 +204,23 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
   return result;
 }
 
+Verdict MeasureAndJudge(const CalibrationResult& result,
+                        const std::vector<CalibrationInput>& recordings,
+                        const PersonScaling& person) {
+  CalibrationEvidence evidence{result, {}};
+  const Questions asked = AskAboutCalibration(result);
+  for (const CalibrationInput& one : recordings) {
+    const Recording& recording = one.input.recording;
+    MatchedRecording& matched =
+        evidence.recordings.emplace_back(MatchedRecording{recording, one.input.names.get()});
+    matched.coverage = MeasureCoverage(one.setup);
+    matched.noise = MeasureMarkerNoise(recording.markers, LabelIndices(one.setup.assignments()));
+    if (!asked.sides) continue;
+    matched.sides = FindExchangedSides(one.setup, one.input.reference, person, recording.markers);
+  }
+  return JudgeCalibration(evidence);
+}
+
 CalibrationReport RunCalibration(const CalibrationRequest& request,
                                  WithWarnings<ConverterConfig> configuration,
                                  const std::function<void(int, int)>& progress) {
@@ -226,12 +246,8 @@ CalibrationReport RunCalibration(const CalibrationRequest& request,
   report.person.subject = std::make_shared<Subject>(report.result.subject);
   report.model = std::make_shared<KinematicModel>(
       ScaleModel(*first.reference, ScalingOf(report.person, config)));
-  CalibrationEvidence evidence = {report.result, ScalingOf(report.person, config), {}};
-  for (const CalibrationInput& one : report.recordings) {
-    evidence.recordings.push_back(
-        {one.input.recording, one.setup, one.input.reference, one.input.names.get()});
-  }
-  report.verdict = JudgeCalibration(evidence);
+  report.verdict =
+      MeasureAndJudge(report.result, report.recordings, ScalingOf(report.person, config));
   return report;
 }
 

@@ -54,6 +54,12 @@ std::vector<CalibrationRecording> RecordingsOf(const std::vector<CalibrationInpu
 /// @throws Error where no person has such proportions: markers are not the person's.
 void CheckProportions(const Subject& subject);
 
+/// The verdict of a calibration. person: what the reference is scaled by; its subject does not
+/// count.
+Verdict MeasureAndJudge(const CalibrationResult& result,
+                        const std::vector<CalibrationInput>& recordings,
+                        const PersonScaling& person);
+
 /// Reads the recordings, matches their markers, scales the model and estimates what is left.
 /// configuration: names markers and joints. progress(done, all): recordings read; also, all of
 /// them, often during the estimate, which ends by what it throws.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/convert/marker_mapping.h"
-#include "common/judge/coverage.h"
 #include "common/pipeline/input/input.h"
+#include "common/study/coverage.h"
 
 namespace mmm_converter {
 

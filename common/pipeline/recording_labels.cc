@@ -400,15 +400,29 @@ LabelReport RunLabelling(const LabelRequest& request,
   const FoundLabels& found = report.found;
   const bool is_calibrated = found.person.subject != nullptr;
   const bool has_size = is_calibrated || report.input.reference->coordinates();
-  report.fit = FitLabels(found, recording.markers, has_size ? nullptr : found.reference.get());
+  const FittedLabels fitted =
+      FitLabels(found, recording.markers, has_size ? nullptr : found.reference.get());
+  report.fit = fitted.figures;
   Input written = report.input;
   written.recording.markers = Relabelled(PointsOfPerson(found), recording.markers);
   const auto names =
       UnderstoodNames(LabelsOf(written.recording.markers, recording.file), written, report.config);
-  report.verdict =
-      JudgeLabels({recording, found.labelling, report.fit, is_calibrated, found.person.height.value,
-                   names.get(), report.input.reference->coordinates() ? nullptr : found.reference,
-                   ScalingOf(found.person, report.config)});
+  const NamingFigures naming = MeasureNaming(found.labelling, recording.markers);
+  LabelEvidence evidence{recording,  naming, report.fit, is_calibrated, found.person.height.value,
+                         names.get()};
+  // Sides and places of a model of OpenSim, which has a size, are not judged.
+  if (!report.input.reference->coordinates() && found.reference &&
+      !fitted.setup.assignments().empty()) {
+    const Questions asked = AskAboutLabels(evidence);
+    if (asked.places) {
+      evidence.labels.places = MeasurePlaces(fitted.setup, fitted.frames, fitted.trajectory);
+    }
+    if (asked.sides) {
+      evidence.labels.sides = FindExchangedSides(
+          fitted.setup, found.reference, ScalingOf(found.person, report.config), fitted.frames);
+    }
+  }
+  report.verdict = JudgeLabels(evidence);
   return report;
 }
 

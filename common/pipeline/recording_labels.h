@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
-#include "common/judge/label_verdict.h"
 #include "common/judge/verdict.h"
 #include "common/label/track/labelling.h"
 #include "common/label/track/relabelled.h"
+#include "common/motion/pose_trajectory.h"
 #include "common/pipeline/input/input.h"
 #include "common/pipeline/input/person.h"
+#include "common/study/label_figures.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -74,10 +75,20 @@ FoundLabels FindLabels(const InputRequest& request, const LabelHints& hints, con
 /// are left out.
 std::vector<RelabelledPoint> PointsOfPerson(const FoundLabels& found);
 
+/// The points are those of the markers.
+NamingFigures MeasureNaming(const Labelling& labelling, const MarkerSequence& markers);
+
 /// How far named points are from the person's markers in the best postures of some frames.
+struct FittedLabels {
+  LabelFit figures;
+  TrackingSetup setup;  ///< its labels are columns of the frames; no assignments: too few are named
+  MarkerSequence frames;
+  PoseTrajectory trajectory;  ///< these postures
+};
+
 /// reference: the model of 1 m; null: the height that they tell is not asked for.
-LabelFit FitLabels(const FoundLabels& found, const MarkerSequence& markers,
-                   const KinematicModel* reference);
+FittedLabels FitLabels(const FoundLabels& found, const MarkerSequence& markers,
+                       const KinematicModel* reference);
 
 /// Of the recording's own labels those whose points are at most so far from their markers on
 /// average [m].

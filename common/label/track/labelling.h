@@ -24,4 +24,7 @@ struct Labelling {
   std::vector<NamedPiece> pieces;
 };
 
+/// Those that no point has in any frame.
+std::vector<std::string> NamesNotFound(const Labelling& labelling);
+
 }  // namespace mmm_converter

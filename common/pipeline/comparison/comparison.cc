@@ -7,10 +7,10 @@
 #include <mutex>
 #include <set>
 
-#include "common/judge/optimal_fit.h"
 #include "common/math/statistics.h"
 #include "common/model/marker_kinematics.h"
 #include "common/motion/marker_residuals.h"
+#include "common/study/optimal_fit.h"
 #include "common/support/error.h"
 #include "common/support/parallel.h"
 #include "common/support/units.h"

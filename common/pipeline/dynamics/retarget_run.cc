@@ -9,7 +9,6 @@
 
 #include "common/io/model_file.h"
 #include "common/io/recording/recording_formats.h"
-#include "common/judge/coverage.h"
 #include "common/math/statistics.h"
 #include "common/model/model_scaling.h"
 #include "common/model/posture.h"
@@ -18,6 +17,7 @@
 #include "common/motion/synthetic_motion.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/pipeline/ground_study.h"
+#include "common/study/coverage.h"
 #include "common/support/atomic_file.h"
 #include "common/support/opened_files.h"
 #include "common/support/units.h"

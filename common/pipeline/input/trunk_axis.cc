@@ -9,9 +9,9 @@
 #include "common/fit/height_estimate.h"
 #include "common/fit/posture_search.h"
 #include "common/io/recording/recording_axes.h"
-#include "common/judge/coverage.h"
 #include "common/model/coordinate_map.h"
 #include "common/model/model_scaling.h"
+#include "common/study/coverage.h"
 
 namespace mmm_converter {
 namespace {

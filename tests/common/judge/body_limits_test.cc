@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/body_limits.h"
+#include "common/judge/body_rules.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ class BodyLimitsTest : public ::testing::Test {
       trajectory.postures.push_back(posture);
     }
     VerdictReasons reasons;
-    JudgeBodyLimits(setup_, recording_, trajectory, false, &reasons);
+    JudgeBodyLimits(MeasureBodyLimits(setup_, recording_, trajectory), false, &reasons);
     return reasons.Conclude().reasons;
   }
 

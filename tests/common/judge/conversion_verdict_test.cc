@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "common/io/mmm/mmm_model.h"
-#include "common/judge/told_distances.h"
-#include "common/judge/worn_distances.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/study/told_distances.h"
+#include "common/study/worn_distances.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 
@@ -53,8 +53,22 @@ class ConversionVerdictTest : public ::testing::Test {
 
   Verdict Judge() const {
     const ConversionFigures figures = MeasureConversion(result_);
-    return JudgeConversion({recording_, 0, setup_, reference_, "mmm.xml", false, person_,
-                            height_source_, result_, figures, nullptr});
+    ConversionEvidence evidence{recording_, 0, setup_.assignments(), result_, figures};
+    evidence.subject = person_.subject.get();
+    evidence.height = person_.size->height;
+    evidence.height_source = height_source_;
+    evidence.body = MeasureBody(setup_, recording_.markers, result_);
+    const Questions asked = AskAboutConversion(evidence);
+    if (asked.places) {
+      evidence.labels.places = MeasurePlaces(setup_, recording_.markers, result_.trajectory);
+    }
+    if (asked.height) {
+      evidence.told_height = TellHeight(setup_, *reference_, recording_.markers, nullptr);
+    }
+    if (asked.sides) {
+      evidence.labels.sides = FindExchangedSides(setup_, reference_, person_, recording_.markers);
+    }
+    return JudgeConversion(evidence);
   }
 
   int Label(const std::string& name) const { return recording_.markers.FindLabel(name); }

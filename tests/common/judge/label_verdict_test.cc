@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/pipeline/recording_labels.h"
+
 namespace mmm_converter {
 namespace {
 
@@ -17,26 +19,25 @@ constexpr double kNear = 0.005;  // [m]
 // Points 0, 1, ... have the names of the same numbers in all frames, those beyond the names none.
 struct Case {
   Recording recording;
-  Labelling labelling;
+  NamingFigures naming;
 };
 
 Case MakeCase(int points, int found, int names, double probability = 1) {
-  Case made;
+  Labelling labelling;
   std::vector<std::string> labels;
   for (int i = 0; i < points; ++i) {
     labels.push_back("*" + std::to_string(i));
-    made.labelling.pieces.push_back(
+    labelling.pieces.push_back(
         {LabelIx(i), 0, kLength, i < found ? i : -1, i < found ? probability : 0.9});
   }
-  for (int i = 0; i < names; ++i) made.labelling.names.push_back("N" + std::to_string(i));
-  made.recording.markers = MarkerSequence(labels, kLength, 100, 0);
-  return made;
+  for (int i = 0; i < names; ++i) labelling.names.push_back("N" + std::to_string(i));
+  return {{}, MeasureNaming(labelling, MarkerSequence(labels, kLength, 100, 0))};
 }
 
 Verdict Judge(const Case& judged, double distance = kNear, bool is_calibrated = true) {
   LabelFit fit;
   fit.mean_distance = distance;
-  return JudgeLabels({judged.recording, judged.labelling, fit, is_calibrated});
+  return JudgeLabels({judged.recording, judged.naming, fit, is_calibrated});
 }
 
 TEST(LabelVerdict, IsGoodWhereEveryNameIsSurelyFound) {
@@ -56,7 +57,7 @@ TEST(LabelVerdict, IsNotGoodWhereTheBodyContradictsNames) {
   }
   LabelFit fit;
   fit.mean_distance = kNear;
-  LabelEvidence evidence = {right.recording, right.labelling, fit, true};
+  LabelEvidence evidence = {right.recording, right.naming, fit, true};
   evidence.names = &names;
   EXPECT_EQ(JudgeLabels(evidence).level, Verdict::Level::kGood);
   names.labels[0].is_contradicted = true;
@@ -71,7 +72,7 @@ TEST(LabelVerdict, CountsNamesThatAreNotFound) {
   // A marker that is not worn is no fault, a point that stays without a name beside it is.
   EXPECT_EQ(Judge(MakeCase(4, 4, 5)).level, Verdict::Level::kGood);
   const Case spare = MakeCase(5, 4, 5);
-  EXPECT_THAT(NamesNotFound(spare.labelling), ElementsAre("N4"));
+  EXPECT_THAT(spare.naming.missing, ElementsAre("N4"));
   EXPECT_EQ(Judge(spare).level, Verdict::Level::kCheck);
   EXPECT_THAT(Judge(spare).reasons, ElementsAre(HasSubstr("worn elsewhere")));
   EXPECT_EQ(Judge(MakeCase(4, 4, 8)).level, Verdict::Level::kCheck);
@@ -88,7 +89,7 @@ TEST(LabelVerdict, KnowsADistanceByWhoIsCalibrated) {
 TEST(LabelVerdict, SeesWhatAMeanDistanceHides) {
   const Case right = MakeCase(4, 4, 4);
   const auto judge = [&](const LabelFit& fit) {
-    return JudgeLabels({right.recording, right.labelling, fit, false, 1.75});
+    return JudgeLabels({right.recording, right.naming, fit, false, 1.75});
   };
   LabelFit fit{0.04, 0.1, 0.15, {}, 1.78};
   EXPECT_EQ(judge(fit).level, Verdict::Level::kGood);
@@ -104,7 +105,7 @@ TEST(LabelVerdict, SeesWhatAMeanDistanceHides) {
 TEST(LabelVerdict, SaysByWhichScaleThePointsFit) {
   const Case right = MakeCase(4, 4, 4);
   const LabelFit fit{0.04, 0.1, 0.15, {}, 1.3 * 1.75};
-  const Verdict verdict = JudgeLabels({right.recording, right.labelling, fit, false, 1.75});
+  const Verdict verdict = JudgeLabels({right.recording, right.naming, fit, false, 1.75});
   EXPECT_EQ(verdict.level, Verdict::Level::kFailed);
   EXPECT_THAT(verdict.reasons, ElementsAre(HasSubstr("2.27 m, 1.30 times the height of 1.75 m")));
 }

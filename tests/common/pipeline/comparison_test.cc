@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "common/judge/optimal_fit.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/study/optimal_fit.h"
 #include "tests/support/stick_model.h"
 #include "tests/support/test_plugins.h"
 

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/judge/optimal_fit.h"
-#include "common/judge/tracking_quality.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
+#include "common/study/optimal_fit.h"
+#include "common/study/tracking_quality.h"
 #include "common/support/error.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"

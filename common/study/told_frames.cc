@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/told_frames.h"
+#include "common/study/told_frames.h"
 
 #include <algorithm>
 

@@ -54,6 +54,15 @@ AnatomicalAngles ShownAngles(const TrackingSetup& setup, const PoseTrajectory& m
 void HideUnknown(const TrackingSetup& setup, const MarkerSequence& recording,
                  AnatomicalAngles* angles);
 
+/// Which markers show what of a body.
+struct Coverage {
+  int num_markers = 0;  ///< that are assigned
+  std::vector<Limb> limbs;
+  std::vector<EndPart> ends;
+};
+
+Coverage MeasureCoverage(const TrackingSetup& setup);
+
 struct Gap {
   std::string what;  ///< a limb, or "the body"
   int first_frame = 0;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "common/convert/motion_converter.h"
-#include "common/judge/hiding.h"
 #include "common/model/kinematic_model.h"
 #include "common/motion/pose_trajectory.h"
+#include "common/study/hiding.h"
 
 namespace mmm_converter {
 

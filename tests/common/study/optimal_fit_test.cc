@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/optimal_fit.h"
+#include "common/study/optimal_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/conversion_figures.h"
+#include "common/study/conversion_figures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/tracking_quality.h"
+#include "common/study/tracking_quality.h"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/body_limits.h"
-
-#include <fmt/format.h>
+#include "common/study/body_limits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
-#include "common/judge/knee_limits.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
@@ -19,25 +14,15 @@
 #include "common/model/posture.h"
 #include "common/motion/flat_frames.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/support/text.h"
-#include "common/support/units.h"
+#include "common/study/knee_limits.h"
 
 namespace mmm_converter {
 namespace {
 
-// Share of the frames: joints of right recordings at most 0.03.
-constexpr Limit kBodyAtLimit = {0.05, kNever};
 constexpr double kAtLimitWithin = 0.5 / kDegrees;
 // A limit this near the joint's rest is how people stand.
 constexpr double kNearRest = 5 / kDegrees;
-// A straight knee is at its limit, and at rest. Markers of uncalibrated persons in the walks of 24
-// laboratories show it at most 3 degrees beyond; those of a shank that was turned back by 15, 7.
-constexpr double kKneeBeyond = 5 / kDegrees;
-// Who walks on hands is not upright; who kicks is not so for long.
-constexpr Limit kAnkleAboveHip = {0.2, kNever};
 constexpr double kUpright = 0.7;  // cosine of 45 degrees
-// Of a foot that lies flat [degrees]: shoes and places of markers differ.
-constexpr Limit kSlopeOfSole = {15, kNever};
 constexpr std::size_t kFewestFlatFrames = 5;
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
@@ -56,14 +41,15 @@ std::vector<int> SeenFrames(const TrackingSetup& setup, const MarkerSequence& re
   return seen;
 }
 
-void JudgeJoints(const TrackingSetup& setup, const MarkerSequence& recording,
-                 const PoseTrajectory& trajectory, const std::vector<int>& seen, bool is_calibrated,
-                 VerdictReasons* reasons) {
-  if (seen.empty()) return;
+std::vector<JointAtLimit> MeasureLegJoints(const TrackingSetup& setup,
+                                           const MarkerSequence& recording,
+                                           const PoseTrajectory& trajectory) {
+  const std::vector<int> seen = SeenFrames(setup, recording, trajectory.num_frames());
+  std::vector<JointAtLimit> joints;
+  if (seen.empty()) return joints;
+  const auto num_seen = static_cast<double>(seen.size());
   const KinematicModel& model = *setup.model;
   const MarkerKinematics kinematics(model, setup.joints, MarkerIndices(setup.assignments()));
-  std::vector<std::string> standing;
-  double most = 0;
   for (int j = 0; j < kinematics.num_joints(); ++j) {
     int moved = 0;
     for (int m = 0; m < kinematics.num_markers(); ++m) moved += kinematics.Moves(j, m) ? 1 : 0;
@@ -82,29 +68,20 @@ void JudgeJoints(const TrackingSetup& setup, const MarkerSequence& recording,
       frames += is_low || is_high ? 1 : 0;
       if (is_knee && angle > joint.upper - kAtLimitWithin) straight.push_back(k);
     }
-    std::string beyond;
-    if (kBodyAtLimit.IsBeyond(static_cast<double>(straight.size()) / seen.size())) {
-      const double back = KneeBeyondStraight(setup, recording, trajectory,
-                                             setup.joints[static_cast<std::size_t>(j)], straight);
-      if (back > kKneeBeyond) {
-        frames = static_cast<double>(straight.size());
-        beyond = fmt::format(", bent backwards by {:.0f} degrees", kDegrees * back);
-      }
+    JointAtLimit& one = joints.emplace_back();
+    one.joint = joint.name;
+    one.share = frames / num_seen;
+    one.straight = static_cast<double>(straight.size()) / num_seen;
+    if (one.straight > kStandsAtLimit) {
+      one.bent_back = KneeBeyondStraight(setup, recording, trajectory,
+                                         setup.joints[static_cast<std::size_t>(j)], straight);
     }
-    const double share = frames / static_cast<double>(seen.size());
-    if (!kBodyAtLimit.IsBeyond(share)) continue;
-    standing.push_back(fmt::format("{} ({:.0f} %{})", joint.name, kPercent * share, beyond));
-    most = std::max(most, share);
   }
-  const char* advice = is_calibrated ? "" : " Calibrating the person finds where they are worn.";
-  reasons->AddBeyond(kBodyAtLimit, most,
-                     fmt::format("joints stand at their limits, in more than {:.0f} % of the "
-                                 "frames: {}; are their markers where their names say?{}",
-                                 kPercent * kBodyAtLimit.check, FirstNames(standing, 6), advice));
+  return joints;
 }
 
-void JudgeLegs(const KinematicModel& model, const PoseTrajectory& trajectory,
-               VerdictReasons* reasons) {
+std::vector<FoldedLeg> MeasureLegs(const KinematicModel& model, const PoseTrajectory& trajectory) {
+  std::vector<FoldedLeg> legs;
   for (const auto& [side, hip, ankle] : {std::tuple("left", "LHx_joint", "LAx_joint"),
                                          std::tuple("right", "RHx_joint", "RAx_joint")}) {
     const int above = model.FindSegment(hip), below = model.FindSegment(ankle);
@@ -118,12 +95,9 @@ void JudgeLegs(const KinematicModel& model, const PoseTrajectory& trajectory,
       const double hip_height = X_WS[static_cast<std::size_t>(above)].translation().z();
       folded += X_WS[static_cast<std::size_t>(below)].translation().z() > hip_height ? 1 : 0;
     }
-    if (upright == 0) continue;
-    reasons->AddBeyond(kAnkleAboveHip, folded / upright,
-                       fmt::format("the {} ankle is above its hip in {:.0f} % of the frames in "
-                                   "which the pelvis is upright: is it a leg's marker?",
-                                   side, kPercent * folded / upright));
+    legs.push_back({side, upright == 0 ? kNaN : folded / upright});
   }
+  return legs;
 }
 
 /// Columns of the markers below an ankle, or at it; empty where they are not at both its ends.
@@ -147,8 +121,9 @@ std::vector<int> LabelsOfFoot(const TrackingSetup& setup, int shank_end, int foo
   return are_both_ends ? labels : std::vector<int>();
 }
 
-void JudgeSoles(const TrackingSetup& setup, const MarkerSequence& recording,
-                const PoseTrajectory& trajectory, VerdictReasons* reasons) {
+std::vector<FlatSole> MeasureSoles(const TrackingSetup& setup, const MarkerSequence& recording,
+                                   const PoseTrajectory& trajectory) {
+  std::vector<FlatSole> soles;
   const KinematicModel& model = *setup.model;
   for (const auto& [side, letter] : {std::pair("left", "L"), std::pair("right", "R")}) {
     const std::string prefix = letter;
@@ -166,26 +141,18 @@ void JudgeSoles(const TrackingSetup& setup, const MarkerSequence& recording,
       // The sole is level in the posture that is all zero.
       slopes.push_back(std::asin(up.dot(X_WS[static_cast<std::size_t>(foot)].linear().col(1))));
     }
-    if (slopes.size() < kFewestFlatFrames) continue;
-    const double slope = kDegrees * std::abs(Median(slopes));
-    reasons->AddBeyond(kSlopeOfSole, slope,
-                       fmt::format("the {} foot's sole slopes by {:.0f} degrees where its markers "
-                                   "lie flat: are they where their names say?",
-                                   side, slope));
+    soles.push_back({side, slopes.size() < kFewestFlatFrames ? kNaN : std::abs(Median(slopes))});
   }
+  return soles;
 }
 
 }  // namespace
 
-void JudgeBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording,
-                     const PoseTrajectory& trajectory, bool is_calibrated,
-                     VerdictReasons* reasons) {
-  // Of the reference model: robots and OpenSim's bodies have limits of their own kinds.
-  if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return;
-  JudgeJoints(setup, recording, trajectory, SeenFrames(setup, recording, trajectory.num_frames()),
-              is_calibrated, reasons);
-  JudgeLegs(*setup.model, trajectory, reasons);
-  JudgeSoles(setup, recording, trajectory, reasons);
+BodyLimits MeasureBodyLimits(const TrackingSetup& setup, const MarkerSequence& recording,
+                             const PoseTrajectory& trajectory) {
+  if (trajectory.postures.empty() || setup.model->FindSegment("LHsegment_joint") < 0) return {};
+  return {MeasureLegJoints(setup, recording, trajectory), MeasureLegs(*setup.model, trajectory),
+          MeasureSoles(setup, recording, trajectory)};
 }
 
 }  // namespace mmm_converter

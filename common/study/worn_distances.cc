@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/worn_distances.h"
+#include "common/study/worn_distances.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,9 +10,9 @@
 
 #include "common/calibrate/body_kinematics.h"
 #include "common/calibrate/calibration_frames.h"
-#include "common/judge/told_frames.h"
 #include "common/math/square.h"
 #include "common/math/statistics.h"
+#include "common/study/told_frames.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

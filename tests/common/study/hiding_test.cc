@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/hiding.h"
+#include "common/study/hiding.h"
 
 #include <gtest/gtest.h>
 

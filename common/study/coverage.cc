@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/coverage.h"
+#include "common/study/coverage.h"
 
 #include <fmt/format.h>
 
@@ -277,6 +277,10 @@ void HideUnknown(const TrackingSetup& setup, const MarkerSequence& recording,
       }
     }
   }
+}
+
+Coverage MeasureCoverage(const TrackingSetup& setup) {
+  return {static_cast<int>(setup.assignments().size()), LimbsOf(setup), EndPartsOf(setup)};
 }
 
 std::vector<Gap> LongGaps(const TrackingSetup& setup, const MarkerSequence& recording) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/told_distances.h"
+#include "common/study/told_distances.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <vector>
 
-#include "common/judge/told_frames.h"
 #include "common/math/statistics.h"
 #include "common/model/marker_kinematics.h"
+#include "common/study/told_frames.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

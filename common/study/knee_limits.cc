@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/knee_limits.h"
+#include "common/study/knee_limits.h"
 
 #include <algorithm>
 #include <vector>

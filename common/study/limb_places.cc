@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/limb_places.h"
-
-#include <fmt/format.h>
+#include "common/study/limb_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +8,6 @@
 
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
-#include "common/support/text.h"
-#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
@@ -19,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostFrames = 40;
-constexpr double kMostOfThem = 0.5;
+constexpr double kMostAtEnd = 0.5;     // of the frames
 constexpr double kUprightTrunk = 0.5;  // cosine of 60 degrees
 // Of the ankle above the hip, over the length of the trunk: who sits with straight legs has 0.
 constexpr double kBesideTrunk = 0.2;
@@ -27,15 +23,13 @@ constexpr double kBesideTrunk = 0.2;
 constexpr double kBesideTrunkOfFew = -0.2;
 constexpr std::size_t kFewLabels = 3;
 constexpr double kAtEnd = 0.035;  // [rad] from the end of a joint's range: 2 degrees
-// Of the labels that a knee or elbow moves, on average: right at most 0.05.
-constexpr double kFarBelow = 0.08;  // [m]
 
 class LimbPlaces {
  public:
-  LimbPlaces(const TrackingSetup& setup, const MarkerSequence& markers,
-             const ConversionResult& result)
-      : setup_(setup), model_(*setup.model), markers_(markers), result_(result) {
-    const auto& postures = result.trajectory.postures;
+  LimbPlaces(const TrackingSetup& setup, const PoseTrajectory& trajectory,
+             const Eigen::MatrixXd& residuals)
+      : setup_(setup), model_(*setup.model), residuals_(residuals) {
+    const auto& postures = trajectory.postures;
     const auto all = static_cast<int>(postures.size());
     const int count = std::min(all, kMostFrames);
     for (int i = 0; i < count; ++i) {
@@ -78,7 +72,7 @@ class LimbPlaces {
     const auto at_end = std::count_if(angles_.begin(), angles_.end(), [&](const auto& angles) {
       return std::abs(angles[joint] - straight) < kAtEnd;
     });
-    if (static_cast<double>(at_end) < kMostOfThem * static_cast<double>(angles_.size())) return 0;
+    if (static_cast<double>(at_end) < kMostAtEnd * static_cast<double>(angles_.size())) return 0;
     std::vector<double> distances;
     for (std::size_t m = 0; m < setup_.assignments().size(); ++m) {
       const auto row = static_cast<Eigen::Index>(m);
@@ -86,18 +80,12 @@ class LimbPlaces {
                    model_.joint_segment(joint))) {
         continue;
       }
-      for (Eigen::Index k = 0; k < result_.residuals.cols(); ++k) {
-        const double distance = result_.residuals(row, k);
+      for (Eigen::Index k = 0; k < residuals_.cols(); ++k) {
+        const double distance = residuals_(row, k);
         if (std::isfinite(distance)) distances.push_back(distance);
       }
     }
     return distances.empty() ? 0 : Median(distances);
-  }
-
-  std::string LabelsOf(const Limb& limb) const {
-    std::vector<std::string> names;
-    for (const LabelIx label : limb.labels) names.push_back(markers_.labels()[label]);
-    return FirstNames(names, 6);
   }
 
  private:
@@ -111,40 +99,33 @@ class LimbPlaces {
 
   const TrackingSetup& setup_;
   const KinematicModel& model_;
-  const MarkerSequence& markers_;
-  const ConversionResult& result_;
+  const Eigen::MatrixXd& residuals_;
   std::vector<std::vector<Eigen::Isometry3d>> poses_;  ///< of segments, by frame
   std::vector<Eigen::VectorXd> angles_;                ///< of all joints, by frame
 };
 
 }  // namespace
 
-void JudgeLimbPlaces(const TrackingSetup& setup, const std::vector<Limb>& limbs,
-                     const MarkerSequence& markers, const ConversionResult& result,
-                     VerdictReasons* reasons) {
-  if (limbs.empty()) return;
-  const LimbPlaces places(setup, markers, result);
+std::vector<LimbPlace> MeasureLimbPlaces(const TrackingSetup& setup, const std::vector<Limb>& limbs,
+                                         const MarkerSequence& markers,
+                                         const PoseTrajectory& trajectory,
+                                         const Eigen::MatrixXd& residuals) {
+  std::vector<LimbPlace> measured;
+  if (limbs.empty()) return measured;
+  const LimbPlaces places(setup, trajectory, residuals);
   for (const Limb& limb : limbs) {
     if (limb.labels.empty()) continue;
     const char side = limb.name.starts_with("left") ? 'L' : 'R';
     const bool is_leg = limb.name.ends_with(" leg");
     if (!is_leg && !limb.name.ends_with(" arm")) continue;
-    const double beside = is_leg ? places.BesideTrunk(side, limb.labels.size()) : 0;
-    if (beside > kMostOfThem) {
-      reasons->Add(Verdict::Level::kCheck,
-                   fmt::format("the {} lies beside the trunk, where a leg can't be for long, in "
-                               "{:.0f} % of the frames: are its labels another limb's ({})?",
-                               limb.name, kPercent * beside, places.LabelsOf(limb)));
-    }
-    const double far = places.BentBackwards(side, is_leg ? "Kx_joint" : "Ex_joint");
-    if (far > kFarBelow) {
-      reasons->Add(Verdict::Level::kCheck,
-                   fmt::format("the {} would bend backwards at the {}: straight, its labels are "
-                               "{:.0f} mm from the model ({})",
-                               limb.name, is_leg ? "knee" : "elbow", kMillimetres * far,
-                               places.LabelsOf(limb)));
-    }
+    LimbPlace& place = measured.emplace_back();
+    place.limb = limb.name;
+    place.is_leg = is_leg;
+    for (const LabelIx label : limb.labels) place.labels.push_back(markers.labels()[label]);
+    if (is_leg) place.beside_trunk = places.BesideTrunk(side, limb.labels.size());
+    place.bent_back = places.BentBackwards(side, is_leg ? "Kx_joint" : "Ex_joint");
   }
+  return measured;
 }
 
 }  // namespace mmm_converter

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/limb_places.h"
+#include "common/study/limb_places.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/io/mmm/mmm_model.h"
@@ -11,10 +10,6 @@
 
 namespace mmm_converter {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 constexpr int kLimbFrames = 10;
 
@@ -26,7 +21,7 @@ class LimbPlacesTest : public ::testing::Test {
         joints_(testing::TrackedJoints(*model_)) {}
 
   /// Of a person who wears these markers and is in that posture all the time, `far` from them [m].
-  std::vector<std::string> Judge(const std::vector<std::string>& markers, const std::string& joint,
+  std::vector<LimbPlace> Measure(const std::vector<std::string>& markers, const std::string& joint,
                                  double angle, double far = 0) const {
     TrackingSetup setup;
     setup.model = model_;
@@ -42,14 +37,11 @@ class LimbPlacesTest : public ::testing::Test {
       if (model_->joint(joints_[j]).name == joint) tracked[static_cast<Eigen::Index>(j)] = angle;
     }
     posture.joint_angles = tracked;
-    ConversionResult result;
-    result.trajectory.postures.assign(kLimbFrames, posture);
-    result.residuals =
-        Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(markers.size()), kLimbFrames, far);
-    const MarkerSequence recording(markers, kLimbFrames, 100, 0);
-    VerdictReasons reasons;
-    JudgeLimbPlaces(setup, LimbsOf(setup), recording, result, &reasons);
-    return reasons.Conclude().reasons;
+    PoseTrajectory trajectory;
+    trajectory.postures.assign(kLimbFrames, posture);
+    return MeasureLimbPlaces(
+        setup, LimbsOf(setup), MarkerSequence(markers, kLimbFrames, 100, 0), trajectory,
+        Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(markers.size()), kLimbFrames, far));
   }
 
   std::shared_ptr<const KinematicModel> model_;
@@ -59,19 +51,26 @@ class LimbPlacesTest : public ::testing::Test {
 const std::vector<std::string> kTrunkAndLegs = {"C7",   "CLAV", "STRN", "T10",  "LASI", "RASI",
                                                 "LKNE", "LANK", "LHEE", "LTOE", "LMT1", "LMT5"};
 
-TEST_F(LimbPlacesTest, ALegBesideTheTrunkIsNamed) {
-  EXPECT_THAT(Judge(kTrunkAndLegs, "LHx_joint", 0), IsEmpty());
-  EXPECT_THAT(Judge(kTrunkAndLegs, "LHx_joint", 1.57), IsEmpty());  // sits with straight legs
+TEST_F(LimbPlacesTest, ALegIsBesideTheTrunkWhereItsAnkleIsAboveTheHip) {
+  const auto beside = [&](const std::vector<std::string>& markers, const char* joint,
+                          double angle) {
+    const std::vector<LimbPlace> places = Measure(markers, joint, angle);
+    EXPECT_EQ(places.size(), 1u);
+    EXPECT_TRUE(places.front().is_leg);
+    return places.front().beside_trunk;
+  };
+  EXPECT_EQ(beside(kTrunkAndLegs, "LHx_joint", 0), 0);
+  EXPECT_EQ(beside(kTrunkAndLegs, "LHx_joint", 1.57), 0);  // sits with straight legs
   // On an arm that hangs down, by two labels.
-  EXPECT_THAT(Judge({"C7", "CLAV", "STRN", "T10", "RMT1", "RMT5"}, "RHx_joint", 1.57),
-              ElementsAre(HasSubstr("the right leg lies beside the trunk")));
+  EXPECT_EQ(beside({"C7", "CLAV", "STRN", "T10", "RMT1", "RMT5"}, "RHx_joint", 1.57), 1);
 }
 
-TEST_F(LimbPlacesTest, AKneeThatWouldBendBackwardsIsNamed) {
-  EXPECT_THAT(Judge(kTrunkAndLegs, "", 0, 0.05), IsEmpty());
-  EXPECT_THAT(Judge(kTrunkAndLegs, "LKx_joint", -0.5, 0.12), IsEmpty());
-  EXPECT_THAT(Judge(kTrunkAndLegs, "", 0, 0.12),
-              ElementsAre(HasSubstr("the left leg would bend backwards at the knee")));
+TEST_F(LimbPlacesTest, OnlyAStraightKneeWouldBendBackwards) {
+  const std::vector<LimbPlace> straight = Measure(kTrunkAndLegs, "", 0, 0.12);
+  ASSERT_EQ(straight.size(), 1u);
+  EXPECT_EQ(straight.front().limb, "left leg");
+  EXPECT_EQ(straight.front().bent_back, 0.12);
+  EXPECT_EQ(Measure(kTrunkAndLegs, "LKx_joint", -0.5, 0.12).front().bent_back, 0);
 }
 
 }  // namespace
