@@ -2,9 +2,11 @@
 #include "common/judge/body_rules.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,8 @@ constexpr Limit kSlopeOfSole = {15, kNever};
 constexpr double kMostOfThem = 0.5;
 // Of the labels that a knee or elbow moves, on average: right at most 0.05.
 constexpr double kFarBelow = 0.08;  // [m]
+// Of what changes by skin and breath, right recordings at most 0.009.
+constexpr Limit kSlip = {0.02, kNever};
 
 void JudgeJoints(const std::vector<JointAtLimit>& joints, bool is_calibrated,
                  VerdictReasons* reasons) {
@@ -45,7 +49,8 @@ void JudgeJoints(const std::vector<JointAtLimit>& joints, bool is_calibrated,
   const char* advice = is_calibrated ? "" : " Calibrating the person finds where they are worn.";
   reasons->AddBeyond(kBodyAtLimit, most,
                      fmt::format("joints stand at their limits, in more than {:.0f} % of the "
-                                 "frames: {}; are their markers where their names say?{}",
+                                 "frames: {}; does the person bend further than the model, or "
+                                 "are markers not where their names say?{}",
                                  kPercent * kBodyAtLimit.check, FirstNames(standing, 6), advice));
 }
 
@@ -60,11 +65,17 @@ void JudgeLegs(const std::vector<FoldedLeg>& legs, VerdictReasons* reasons) {
 
 void JudgeSoles(const std::vector<FlatSole>& soles, VerdictReasons* reasons) {
   for (const FlatSole& sole : soles) {
-    const double slope = kDegrees * sole.slope;
-    reasons->AddBeyond(kSlopeOfSole, slope,
-                       fmt::format("the {} foot's sole slopes by {:.0f} degrees where its markers "
-                                   "lie flat: are they where their names say?",
-                                   sole.side, slope));
+    const double slope = kDegrees * std::abs(sole.slope);
+    reasons->AddBeyond(
+        kSlopeOfSole, slope,
+        sole.slope < 0
+            ? fmt::format("the {} foot's heel is up by {:.0f} degrees where its markers are "
+                          "lowest: does the person walk on toes, or are they not where their "
+                          "names say?",
+                          sole.side, slope)
+            : fmt::format("the {} foot's sole slopes by {:.0f} degrees where its markers lie flat: "
+                          "are they where their names say?",
+                          sole.side, slope));
   }
 }
 
@@ -74,6 +85,16 @@ void JudgeBodyLimits(const BodyLimits& limits, bool is_calibrated, VerdictReason
   JudgeJoints(limits.joints, is_calibrated, reasons);
   JudgeLegs(limits.legs, reasons);
   JudgeSoles(limits.soles, reasons);
+}
+
+void JudgeSlips(const std::optional<SlippedMarkers>& slipped, VerdictReasons* reasons) {
+  if (!slipped) return;
+  reasons->AddBeyond(
+      kSlip, slipped->distance,
+      fmt::format("one of {} seems to slip by {:.0f} mm at about {:.1f} s: angles before and "
+                  "after do not belong together",
+                  fmt::join(slipped->labels, ", "), kMillimetres * slipped->distance,
+                  slipped->time));
 }
 
 void JudgeLimbPlaces(const std::vector<LimbPlace>& places, VerdictReasons* reasons) {

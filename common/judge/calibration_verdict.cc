@@ -61,6 +61,7 @@ Verdict JudgeCalibration(const CalibrationEvidence& evidence) {
                   kMillimetres * result.distance_after,
                   kMillimetres * kCalibratedMeanDistance.check));
   JudgeOffsets(result.subject, &reasons);
+  JudgeLandmarks(result.subject, &reasons);
   JudgeProportions(result.subject, &reasons);
   JudgeSources(result, &reasons);
   for (const MatchedRecording& one : evidence.recordings) {

@@ -78,6 +78,7 @@ class Judge {
     JudgeNoise(body.noise, &reasons_);
     JudgeUpright();
     JudgeBodyLimits(body.limits, is_calibrated(), &reasons_);
+    JudgeSlips(body.slipped, &reasons_);
     JudgeHeight();
     JudgeSides(evidence_.labels.sides, &reasons_);
     return reasons_.Conclude();
@@ -151,6 +152,7 @@ class Judge {
                     kMillimetres * figures_.distance.p95, person, kMillimetres * percentile.check));
     if (!is_calibrated()) return;
     JudgeOffsets(*evidence_.subject, &reasons_);
+    JudgeLandmarks(*evidence_.subject, &reasons_);
     JudgeProportions(*evidence_.subject, &reasons_);
   }
 

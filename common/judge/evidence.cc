@@ -21,6 +21,9 @@ using Level = Verdict::Level;
 
 // Offsets of calibrated markers, the 95th percentile: right 0.06 to 0.16; legs exchanged 0.19.
 constexpr Limit kOffset = {0.18, 0.4};
+// Of a landmark that is felt within centimetres [m].
+constexpr double kKnownLandmark = 0.012;
+constexpr Limit kLandmark = {0.055, kNever};
 // A segment's scale less 1, in deviations of what persons have: right at most 3.8 (collarbones).
 constexpr Limit kProportion = {5, kNever};
 // What a label of a known place is off by: ToldDistances, at most 0.11 where right, of real persons
@@ -231,6 +234,22 @@ void JudgeOffsets(const Subject& subject, VerdictReasons* reasons) {
       fmt::format("5 % of the markers sit more than {:.0f} mm from where the model has them, "
                   "of a person of that height at most {:.0f}",
                   kMillimetres * most, kMillimetres * kOffset.check));
+}
+
+void JudgeLandmarks(const Subject& subject, VerdictReasons* reasons) {
+  std::vector<std::string> far;
+  double most = 0;
+  for (const MarkerOffset& one : subject.offsets) {
+    if (!(one.prior_deviation > 0) || one.prior_deviation > kKnownLandmark) continue;
+    const double distance = one.offset.norm();
+    if (!kLandmark.IsBeyond(distance)) continue;
+    far.push_back(fmt::format("{} ({:.0f} mm)", one.marker, kMillimetres * distance));
+    most = std::max(most, distance);
+  }
+  reasons->AddBeyond(kLandmark, most,
+                     fmt::format("the calibration moves landmarks of bones farther than they are "
+                                 "felt: {}; wrong labels and markers that slip do that",
+                                 FirstNames(far, 6)));
 }
 
 void JudgeSides(const std::optional<ExchangedSides>& exchanged, VerdictReasons* reasons) {

@@ -97,6 +97,9 @@ void JudgeProportions(const Subject& subject, VerdictReasons* reasons);
 bool AreOffsetsFar(const Subject& subject);
 void JudgeOffsets(const Subject& subject, VerdictReasons* reasons);
 
+/// Landmarks that are well felt, which a calibration puts elsewhere.
+void JudgeLandmarks(const Subject& subject, VerdictReasons* reasons);
+
 /// Whether labels of the left and the right are exchanged.
 void JudgeSides(const std::optional<ExchangedSides>& exchanged, VerdictReasons* reasons);
 

@@ -66,6 +66,7 @@ BodyFigures MeasureBody(const TrackingSetup& setup, const MarkerSequence& marker
   figures.noise = MeasureMarkerNoise(markers, LabelIndices(setup.assignments()));
   figures.trunk = MeasureTrunk(*setup.model, result.trajectory.postures);
   figures.limits = MeasureBodyLimits(setup, markers, result.trajectory);
+  figures.slipped = FindSlippedPelvis(setup, markers);
   return figures;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/convert/motion_converter.h"
@@ -9,6 +10,7 @@
 #include "common/study/body_limits.h"
 #include "common/study/coverage.h"
 #include "common/study/limb_places.h"
+#include "common/study/slipped_markers.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -34,6 +36,7 @@ struct BodyFigures {
   double noise = kNaN;  ///< MeasureMarkerNoise [m]
   TrunkFigures trunk;
   BodyLimits limits;
+  std::optional<SlippedMarkers> slipped;
 };
 
 BodyFigures MeasureBody(const TrackingSetup& setup, const MarkerSequence& markers,

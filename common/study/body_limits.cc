@@ -141,7 +141,7 @@ std::vector<FlatSole> MeasureSoles(const TrackingSetup& setup, const MarkerSeque
       // The sole is level in the posture that is all zero.
       slopes.push_back(std::asin(up.dot(X_WS[static_cast<std::size_t>(foot)].linear().col(1))));
     }
-    soles.push_back({side, slopes.size() < kFewestFlatFrames ? kNaN : std::abs(Median(slopes))});
+    soles.push_back({side, slopes.size() < kFewestFlatFrames ? kNaN : Median(slopes)});
   }
   return soles;
 }

@@ -34,7 +34,7 @@ struct FoldedLeg {
 
 struct FlatSole {
   std::string side;
-  double slope = kNaN;  ///< |median| where the foot's markers lie flat [rad]; NaN: hardly ever
+  double slope = kNaN;  ///< median where its markers are lowest, toes up [rad]; NaN: hardly ever
 };
 
 /// What no body does for long.

@@ -8,6 +8,7 @@
 #include "common/io/mmm/mmm_model.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
+#include "common/support/units.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 
@@ -75,6 +76,48 @@ TEST_F(LandmarkBodyTest, ShanksAndThighsAreAsLongAsTheyAre) {
   EXPECT_NEAR(ScaleOf(found, "LAsegment_joint"), 0.95, 0.01);
   EXPECT_NEAR(ScaleOf(found, "LKsegment_joint") / ScaleOf(usual, "LKsegment_joint"), 1.06, 0.01);
   EXPECT_EQ(ScaleOf(found, "LKsegment_joint"), ScaleOf(found, "RKsegment_joint"));
+}
+
+// Markers leave 15 mm of the difference open: of 40 mm, 25 are the legs'.
+TEST_F(LandmarkBodyTest, LegsDifferByWhatIsMoreThanMarkersLeaveOpen) {
+  const auto length = [&](const char* segment) {
+    const int index = setup_.model->FindSegment(segment);
+    return setup_.model->segments()[static_cast<std::size_t>(index)].X_PF.translation().norm();
+  };
+  const auto difference = [&](double of_shanks) {
+    Subject person;
+    person.scales = {{"LAsegment_joint", 1 + of_shanks / length("LAsegment_joint"), 0, 0}};
+    const Subject found = FindLandmarkBody(setup_, names_, Record(person));
+    return (ScaleOf(found, "LAsegment_joint") - ScaleOf(found, "RAsegment_joint")) *
+               length("LAsegment_joint") +
+           (ScaleOf(found, "LKsegment_joint") - ScaleOf(found, "RKsegment_joint")) *
+               length("LKsegment_joint");
+  };
+  EXPECT_EQ(difference(0.01), 0);
+  EXPECT_NEAR(difference(0.04), 0.025, 0.002);
+  EXPECT_NEAR(difference(-0.04), -0.025, 0.002);
+}
+
+// Who walks on toes is never flat: places stay the usual ones.
+TEST_F(LandmarkBodyTest, AHeelThatIsNeverDownTellsNoHeights) {
+  const MarkerSequence flat = Record({});
+  const KinematicModel& model = *setup_.model;
+  Posture tiptoe = ZeroPosture(model);
+  for (const char* joint : {"LAx_joint", "RAx_joint"}) {
+    tiptoe.joint_angles[model.FindJoint(joint)] = -15 / kDegrees;
+  }
+  const Eigen::Matrix3Xd p = MarkerPositions(model, tiptoe);
+  MarkerSequence on_toes = flat;
+  for (int k = 0; k < flat.num_frames(); ++k) {
+    for (int i = 0; i < flat.num_labels(); ++i) {
+      on_toes.frame(k).col(i) = p.col(model.FindMarker(flat.labels()[i]));
+    }
+  }
+  for (const MarkerOffset& one : FindLandmarkBody(setup_, names_, on_toes).offsets) {
+    if (one.marker.ends_with("HEE") || one.marker.ends_with("TOE")) {
+      EXPECT_LT(one.offset.norm(), 0.003) << one.marker;
+    }
+  }
 }
 
 // Harrington et al. 2007.

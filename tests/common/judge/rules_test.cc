@@ -134,6 +134,30 @@ TEST_F(ConversionRulesTest, SidesThatAreExchanged) {
   EXPECT_EQ(VerdictLevel(), Level::kFailed);
 }
 
+TEST_F(ConversionRulesTest, AMarkerOfThePelvisThatSlips) {
+  evidence_.body.slipped = SlippedMarkers{{"LASI", "RASI", "LPSI", "RPSI"}, 2.5, 0};
+  ExpectLimit(&evidence_.body.slipped->distance, 0.02,
+              "one of LASI, RASI, LPSI, RPSI seems to slip by 20 mm at about 2.5 s");
+}
+
+TEST_F(ConversionRulesTest, ALandmarkThatACalibrationMoves) {
+  evidence_.subject = &subject_;
+  MarkerOffset moved;
+  moved.marker = "MARKER_LASI";
+  moved.prior_deviation = 0.0085;
+  subject_.offsets = {moved};
+  ExpectLimit(&subject_.offsets[0].offset.x(), 0.055, "MARKER_LASI (55 mm)");
+  subject_.offsets[0].prior_deviation = 0.03;  // a wand, say
+  EXPECT_THAT(Reasons(), IsEmpty());
+}
+
+TEST_F(ConversionRulesTest, AHeelThatIsUpIsNoSoleThatSlopes) {
+  evidence_.body.limits.soles = {{"left", 0.3}};
+  EXPECT_THAT(Reasons(), ElementsAre(HasSubstr("the left foot's sole slopes by 17 degrees")));
+  evidence_.body.limits.soles[0].slope = -0.3;
+  EXPECT_THAT(Reasons(), ElementsAre(HasSubstr("the left foot's heel is up by 17 degrees")));
+}
+
 TEST_F(ConversionRulesTest, AGapBeforeTheBodyIsSeenIsALateStart) {
   evidence_.body.gaps = {{"the left leg", 0, 3, 1}};
   EXPECT_THAT(Reasons(), ElementsAre(HasSubstr("the left leg is hidden for 1.0 s, frames 100")));
