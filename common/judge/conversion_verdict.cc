@@ -173,19 +173,27 @@ class Judge {
                     LabelsOf(far)));
   }
 
+  // But for markers that bear each other's labels: the track takes them for each other.
   void JudgeFarthest() {
     if (!kFarthest.IsBeyond(figures_.distance.max)) return;
-    const auto is_far = evidence_.result.residuals.array() > kFarthest.check;
+    Eigen::MatrixXd residuals = evidence_.result.residuals;
+    for (const MarkerIncident& one : evidence_.result.incidents) {
+      if (one.kind != MarkerIncident::Kind::kSwapped) continue;
+      const int length = one.last_frame - one.first_frame + 1;
+      residuals.row(one.assignment).segment(one.first_frame, length).setZero();
+      residuals.row(one.other).segment(one.first_frame, length).setZero();
+    }
+    const auto is_far = residuals.array() > kFarthest.check;
     Eigen::Index worst = 0, frame = 0;
-    is_far.select(evidence_.result.residuals, 0).maxCoeff(&worst, &frame);
+    const double most = is_far.select(residuals, 0).maxCoeff(&worst, &frame);
     const auto frames = is_far.colwise().any().count();
     reasons_.AddBeyond(
-        kFarthest, figures_.distance.max,
+        kFarthest, most,
         fmt::format("in {} {} a marker is more than {:.0f} mm from the model; farthest is {} in "
                     "frame {}, by {:.0f} mm",
                     frames, frames == 1 ? "frame" : "frames", kMillimetres * kFarthest.check,
                     LabelsOf({static_cast<int>(worst)}), evidence_.first_frame + frame,
-                    kMillimetres * figures_.distance.max));
+                    kMillimetres * most));
   }
 
   void JudgeGaps() {

@@ -15,9 +15,11 @@
 namespace mmm_converter {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using Level = Verdict::Level;
 
 constexpr int kRuleFrames = 10;  // the fewest that are a motion
@@ -93,6 +95,16 @@ TEST_F(ConversionRulesTest, DistancesOfAnObjectBesideItsSize) {
 TEST_F(ConversionRulesTest, APositionThatIsFar) {
   result_.residuals(1, 3) = 0.4;
   ExpectLimit(&figures_.distance.max, 0.3, "farthest is B in frame 103");
+}
+
+TEST_F(ConversionRulesTest, PositionsOfLabelsThatAreExchangedAreNotFar) {
+  result_.residuals.col(3).setConstant(0.4);
+  figures_.distance.max = 0.4;
+  result_.incidents = {{MarkerIncident::Kind::kSwapped, 0, 1, 3, 3}};
+  EXPECT_THAT(Reasons(), Not(Contains(HasSubstr("in frame 103"))));
+  result_.incidents[0].last_frame = 2;
+  result_.incidents[0].first_frame = 2;
+  EXPECT_THAT(Reasons(), Contains(HasSubstr("farthest is A in frame 103, by 400 mm")));
 }
 
 TEST_F(ConversionRulesTest, Noise) {
