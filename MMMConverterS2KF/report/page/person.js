@@ -14,6 +14,8 @@ function makeBar(value, deviation, most, isSigned) {
 }
 
 function signed(value, digits) {
+  const text = formatNumber(Math.abs(value), digits);
+  if (!/[1-9]/.test(text)) return text;
   return (value > 0 ? "+" : "") + formatNumber(value, digits);
 }
 

@@ -2,37 +2,47 @@
 // A strip of small pictures of selected frames, as vectors: they need no WebGL and stand on paper.
 
 const kNumStills = 6;
+const kNear = 0.35;  // of the way from one to the next
+const kLooks = 40;   // at frames near each
 const kTravels = 1;  // [m] who goes further in a recording is seen from the side
 const kSideTurn = 25 * Math.PI / 180;  // towards the front, so that both legs are seen
 const kCameraLow = 8 * Math.PI / 180;
 
-// How far a posture moves from frame to frame: joint angles, and the root's turn.
-function postureSteps(motion, frames) {
-  const steps = new Float64Array(frames);
-  for (let k = 1; k < frames; ++k) {
-    let sum = 0;
-    for (let column = 0; column < motion.joints.length; ++column) {
-      sum += (motion.angles[column * frames + k] - motion.angles[column * frames + k - 1]) ** 2;
-    }
-    let cosine = 0;
-    for (let i = 0; i < 4; ++i) cosine += motion.orientation[4 * k + i] * motion.orientation[4 * k - 4 + i];
-    steps[k] = Math.sqrt(sum + 4 * Math.acos(Math.min(1, Math.abs(cosine))) ** 2);
+// How far one posture is from another: joint angles, and the root's turn.
+function postureDistance(motion, frames, a, b) {
+  let sum = 0;
+  for (let column = 0; column < motion.joints.length; ++column) {
+    sum += (motion.angles[column * frames + a] - motion.angles[column * frames + b]) ** 2;
   }
-  return steps;
+  let cosine = 0;
+  for (let i = 0; i < 4; ++i) cosine += motion.orientation[4 * a + i] * motion.orientation[4 * b + i];
+  return Math.sqrt(sum + 4 * Math.acos(Math.min(1, Math.abs(cosine))) ** 2);
 }
 
-// Frames between which the posture changes by as much each time; half of it even in time, so that
-// a calm part is not left out.
+// Frames between which the posture changes by much the same; half of it even in time, so that a
+// calm part is not left out. Of those near each, the one least like the others: strides repeat.
 function selectFrames(trial, motion) {
-  const steps = postureSteps(motion, trial.frames);
+  const last = trial.frames - 1;
+  const steps = new Float64Array(trial.frames);
+  for (let k = 1; k <= last; ++k) steps[k] = postureDistance(motion, trial.frames, k, k - 1);
   const total = steps.reduce((sum, step) => sum + step, 0);
-  const frames = [0];
+  const near = Array.from({length: kNumStills}, () => []);
   let way = 0;
-  for (let k = 1; k < trial.frames; ++k) {
-    way += (total > 0 ? 0.5 * steps[k] / total : 0.5 / (trial.frames - 1)) + 0.5 / (trial.frames - 1);
-    if (way >= frames.length / (kNumStills - 1) - 1e-9) frames.push(k);
+  for (let k = 1; k <= last; ++k) {
+    way += ((total > 0 ? 0.5 * steps[k] / total : 0.5 / last) + 0.5 / last) * (kNumStills - 1);
+    if (Math.abs(way - Math.round(way)) < kNear) near[Math.round(way)].push(k);
   }
-  return frames.slice(0, kNumStills);
+  const frames = [0];
+  for (const candidates of near.slice(1)) {
+    let best = -1, most = -1;
+    const stride = 1 + Math.floor(candidates.length / kLooks);
+    for (let i = 0; i < candidates.length; i += stride) {
+      const least = Math.min(...frames.map((frame) => postureDistance(motion, trial.frames, candidates[i], frame)));
+      if (least > most) [best, most] = [candidates[i], least];
+    }
+    if (best >= 0) frames.push(best);
+  }
+  return frames;
 }
 
 // The side of a segment of MMM's and of OpenSim's models of persons.
