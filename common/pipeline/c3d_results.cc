@@ -12,9 +12,9 @@
 #include <string_view>
 #include <utility>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/angles/normal_bands.h"
 #include "common/io/c3d/c3d_file.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"
 #include "common/study/coverage.h"
