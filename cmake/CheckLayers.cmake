@@ -2,8 +2,10 @@
 #
 # The include rules of the house, and a few of its other rules that a machine can check:
 #   - a folder of `layers` includes only folders before it; those joined by | do not include each other
-#   - common/dynamics uses model, motion and contacts (and what lies below model); only judge, the part of
-#     pipeline for it, the application and the tests use dynamics
+#   - a part (what some people need: `parts`) includes the core and no other part; the core includes no part: only pipeline,
+#     the list of formats beside it (common/*.cc), the application and what stands above it do
+#   - common/dynamics uses model and motion (and what lies below model); only the part of pipeline for it, the application
+#     and the tests use dynamics
 #   - plugins never include each other, the application includes no plugin; of its rooms python includes report alone
 #   - include paths start at the project root; a file is opened only in io, support and above plugins
 #   - headers of other projects, except Eigen, appear only in .cc files (and in tests); one header of the
@@ -16,16 +18,21 @@ cmake_minimum_required(VERSION 3.25)
 
 set(layers
     common/support common/math common/model common/motion common/fit
-    common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/mesh "common/io/urdf|common/io/osim|common/io/mjcf|common/io/robot"
+    common/io/bytes common/io/xml "common/io/c3d|common/io/tables|common/io/mmm" common/io/mesh "common/io/urdf|common/io/osim|common/io/mjcf" common/io/robot
     common/io common/io/landmarks common/io/skeleton "common/io/bvh|common/io/npz" common/io/recording
-    common/convert "common/calibrate|common/forces" common/contacts "common/angles|common/kinetics" common/retarget
-    common/label common/label/search "common/label/track|common/label/learn" common/study common/judge
+    common/convert common/calibrate common/study common/judge
+    common/forces common/contacts "common/angles|common/kinetics" common/osim common/retarget
+    common/label common/label/search "common/label/track|common/label/learn"
     common/pipeline/input common/pipeline "common/pipeline/comparison|common/pipeline/dynamics" common/live common/pipeline/live
     "common|plugins"
     "MMMConverterS2KF/terminal|MMMConverterS2KF/report"
     "MMMConverterS2KF/batch|MMMConverterS2KF/live"
     "MMMConverterS2KF/commands|MMMConverterS2KF/python" MMMConverterS2KF
     examples tests)
+# Folders of each part, with those in them.
+set(parts
+    "common/forces|common/contacts|common/angles|common/kinetics" common/label common/live "common/io/osim|common/osim"
+    "common/retarget|common/io/urdf|common/io/mjcf|common/io/robot|common/io/mesh" common/dynamics common/pipeline/comparison)
 # Of these the files alone are a layer: each of their folders is a layer of its own.
 set(divided common common/io common/label common/pipeline MMMConverterS2KF)
 set(tops cmake common plugins MMMConverterS2KF xml_config examples tests)
@@ -50,6 +57,16 @@ function(layer_of path out)
   endforeach()
 endfunction()
 
+# The part that a folder belongs to; empty: to none.
+function(part_of folder out)
+  set(${out} "" PARENT_SCOPE)
+  foreach(part IN LISTS parts)
+    if(folder MATCHES "^(${part})(/|$)")
+      set(${out} ${part} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
 # The number of a folder's layer; the larger, the higher.
 function(height_of folder out)
   set(height 0)
@@ -65,14 +82,19 @@ endfunction()
 # Whether a file of the folder `from` may include one of the folder `to`.
 function(may_include from to out)
   set(${out} FALSE PARENT_SCOPE)
+  part_of(${from} own_part)
+  part_of(${to} part)
   if(from STREQUAL to)
     set(${out} TRUE PARENT_SCOPE)
+  elseif(part AND NOT part STREQUAL own_part AND (own_part OR from MATCHES "^(plugins|common/.+)$")
+         AND NOT from MATCHES "^common/pipeline")
+    # neither the core nor another part
   elseif(from STREQUAL common/dynamics)
-    if(to MATCHES "^common/(support|math|model|motion|contacts)$")
+    if(to MATCHES "^common/(support|math|model|motion)$")
       set(${out} TRUE PARENT_SCOPE)
     endif()
   elseif(to STREQUAL common/dynamics)
-    if(from MATCHES "^(common/judge|common/pipeline/dynamics|(MMMConverterS2KF|tests)(/.*)?)$")
+    if(from MATCHES "^(common/pipeline/dynamics|(MMMConverterS2KF|tests)(/.*)?)$")
       set(${out} TRUE PARENT_SCOPE)
     endif()
   elseif(from STREQUAL common/live AND to MATCHES "^common/(judge|pipeline)")

@@ -47,10 +47,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/judge/verdict.h"
 #include "common/model/posture.h"
 #include "common/model/subject.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 #include "common/support/error.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "common/pipeline/dynamics/retarget_objects.h"
 #include "common/support/content_hash.h"
 #include "common/support/data_directory.h"

@@ -12,9 +12,9 @@
 #include "MMMConverterS2KF/live/live_output.h"
 #include "MMMConverterS2KF/live/live_sinks.h"
 #include "MMMConverterS2KF/live/web_sink.h"
-#include "common/judge/retarget_verdict.h"
 #include "common/live/realtime_priority.h"
 #include "common/live/sink_runner.h"
+#include "common/pipeline/retarget_verdict.h"
 
 namespace mmm_converter {
 namespace {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "MMMConverterS2KF/report/model_json.h"
-#include "common/angles/anatomical_angles.h"
 #include "common/live/marker_states.h"
 #include "common/model/forward_kinematics.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {

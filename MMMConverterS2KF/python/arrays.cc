@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "common/angles/anatomical_angles.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/support/error.h"
 
 namespace mmm_converter::python {

@@ -10,11 +10,11 @@
 #include "MMMConverterS2KF/python/requests.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
-#include "common/angles/anatomical_angles.h"
 #include "common/angles/gait_table.h"
 #include "common/contacts/contact_table.h"
 #include "common/convert/marker_incidents.h"
 #include "common/convert/tracked_joints.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/pipeline/ground_study.h"
 
 namespace mmm_converter::python {

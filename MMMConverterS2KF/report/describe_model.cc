@@ -9,8 +9,8 @@
 #include "MMMConverterS2KF/report/describe.h"
 #include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/model_file.h"
-#include "common/io/robot_file.h"
-#include "common/io/robot_meshes.h"
+#include "common/io/robot/robot_file.h"
+#include "common/io/robot/robot_meshes.h"
 #include "common/io/urdf/urdf_model_reader.h"
 #include "common/model/forward_kinematics.h"
 

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "MMMConverterS2KF/report/packed_array.h"
-#include "common/angles/anatomical_angles.h"
 #include "common/angles/gait_feet.h"
 #include "common/angles/gait_table.h"
 #include "common/angles/normal_bands.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/study/coverage.h"
 #include "common/support/units.h"
 

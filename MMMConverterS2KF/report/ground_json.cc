@@ -99,7 +99,7 @@ Json StudyJson(const ConversionReport& report) {
 
 }  // namespace
 
-Json StancesJson(const Contacts& contacts) {
+Json StancesJson(const FootContacts& contacts) {
   Json stances = Json::array();
   for (const FootContact& one : contacts.contacts) {
     stances.push_back({{"foot", Name(one.side)},

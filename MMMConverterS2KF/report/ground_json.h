@@ -13,6 +13,6 @@ namespace mmm_converter {
 Json GroundJson(const ConversionReport& report);
 
 /// When which foot stands, as --export-contacts has it; null: not within what was recorded.
-Json StancesJson(const Contacts& contacts);
+Json StancesJson(const FootContacts& contacts);
 
 }  // namespace mmm_converter

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "common/angles/anatomical_angles.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/support/text_pieces.h"
 
 namespace mmm_converter {

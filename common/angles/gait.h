@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/contacts/contacts.h"
-#include "common/contacts/foot_motion.h"
+#include "common/motion/anatomical_angles.h"
+#include "common/motion/foot_motion.h"
 
 namespace mmm_converter {
 

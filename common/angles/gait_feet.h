@@ -3,7 +3,7 @@
 
 #include "common/angles/gait.h"
 #include "common/contacts/contacts.h"
-#include "common/contacts/foot_motion.h"
+#include "common/motion/foot_motion.h"
 
 namespace mmm_converter {
 

@@ -10,15 +10,8 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kSameFrame = 1e-6;  // of a frame: times are rounded
 constexpr double kJoined = 0.05;     // [s] loads of a foot that are so near are one contact
 constexpr double kSameEvent = 0.15;  // [s] between what plates and what speeds say of one event
-// Of walks that plates recorded: how much later the load begins and ends than a foot is slow, and
-// how much that differs from event to event [s].
-constexpr double kBeginsLater = 0.02;
-constexpr double kEndsLater = 0.0;
-constexpr double kBeginDeviation = 0.03;   // 29 ms rms of 36 strikes of 14 recordings
-constexpr double kEndDeviation = 0.02;     // 19 ms rms of 34 offs
 constexpr double kPlateDeviation = 0.002;  // of a threshold of 20 N
 constexpr std::size_t kEnoughEvents = 3;   // to tell a deviation from
 
@@ -28,12 +21,6 @@ struct Standing {
   bool has_begin = true, has_end = true;
   std::vector<int> plates;
   bool begins_late = false, ends_early = false;  // PlateLoad
-};
-
-/// How much later plates say that something happens.
-struct Lag {
-  double seconds = 0;
-  double deviation = 0;
 };
 
 std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
@@ -85,7 +72,7 @@ std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFo
 }
 
 /// What differences of the same events of plates and speeds tell.
-Lag LagOf(std::vector<double> later, Lag lag) {
+ContactLag LagOf(std::vector<double> later, ContactLag lag) {
   if (later.empty()) return lag;
   lag.seconds = Median(later);
   if (later.size() < kEnoughEvents) return lag;
@@ -96,7 +83,7 @@ Lag LagOf(std::vector<double> later, Lag lag) {
 }
 
 struct Lags {
-  Lag begin, end;
+  ContactLag begin, end;
 };
 
 using Standings = std::array<std::vector<Standing>, 2>;
@@ -117,8 +104,7 @@ Lags FindLags(const Standings& on_plates, const Standings& by_speed) {
       }
     }
   }
-  return {LagOf(std::move(begins), {kBeginsLater, kBeginDeviation}),
-          LagOf(std::move(ends), {kEndsLater, kEndDeviation})};
+  return {LagOf(std::move(begins), kBeginLag), LagOf(std::move(ends), kEndLag)};
 }
 
 /// Plates that bear more than this foot while it stands on them.
@@ -183,22 +169,8 @@ std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plat
 
 }  // namespace
 
-std::vector<bool> Contacts::StandingFrames(Side side, double first_time, double rate,
-                                           int frames) const {
-  std::vector<bool> stands(static_cast<std::size_t>(frames), false);
-  const auto frame = [&](double time) { return (time - first_time) * rate; };
-  for (const FootContact& one : contacts) {
-    if (one.side != side) continue;
-    const double begin = one.begin ? std::ceil(frame(*one.begin) - kSameFrame) : 0;
-    const double end = one.end ? std::floor(frame(*one.end) + kSameFrame) : frames - 1.0;
-    const auto first = static_cast<std::ptrdiff_t>(std::clamp<double>(begin, 0, frames));
-    const auto behind = static_cast<std::ptrdiff_t>(std::clamp<double>(end + 1, 0, frames));
-    if (first < behind) std::fill(stands.begin() + first, stands.begin() + behind, true);
-  }
-  return stands;
-}
-
 Contacts FindContacts(const FootMotion& motion, const RecordedForces& forces) {
+  if (forces.plates.empty()) return {FindSlowContacts(motion), {}};
   const SlowFeet slow = FindSlowFeet(motion);
   Contacts found;
   found.loads = FindBearers(motion, slow, forces);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "common/contacts/foot_motion.h"
 #include "common/forces/plate_forces.h"
+#include "common/motion/foot_motion.h"
+#include "common/motion/foot_states.h"
 
 namespace mmm_converter {
 
@@ -34,21 +34,8 @@ struct PlateLoad {
   bool begins_late = false, ends_early = false;
 };
 
-/// A foot on the ground.
-struct FootContact {
-  Side side = Side::kLeft;
-  /// [s]; nothing: it began before, or ended after, what was recorded.
-  std::optional<double> begin, end;
-  double begin_deviation = 0, end_deviation = 0;  ///< standard deviations [s]
-  std::vector<int> plates;                        ///< numbers of those that bear it
-};
-
-struct Contacts {
-  std::vector<PlateLoad> loads;       ///< in the order of the plates
-  std::vector<FootContact> contacts;  ///< the left foot's, then the right foot's, over time
-
-  /// Of frames at first_time + k / rate [s, Hz]: whether a foot stands.
-  std::vector<bool> StandingFrames(Side side, double first_time, double rate, int frames) const;
+struct Contacts : FootContacts {
+  std::vector<PlateLoad> loads;  ///< in the order of the plates
 };
 
 /// Which foot stands where and when, for all that asks. On plates: of whose heel-toe line the

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/contacts/foot_states.h"
 #include "common/math/statistics.h"
+#include "common/motion/foot_states.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
 

@@ -5,17 +5,9 @@
 #include <vector>
 
 #include "common/contacts/contacts.h"
+#include "common/motion/slow_feet.h"
 
 namespace mmm_converter {
-
-/// Times in which each foot is low and slow, as frames [begin, end) that need not be whole; what
-/// the recording cuts begins at 0 or ends at the number of frames less one.
-struct SlowFoot {
-  double begin = 0, end = 0;
-};
-using SlowFeet = std::array<std::vector<SlowFoot>, 2>;
-
-SlowFeet FindSlowFeet(const FootMotion& motion);
 
 /// All loads of the plates that tell contacts, and who bears them.
 std::vector<PlateLoad> FindBearers(const FootMotion& motion, const SlowFeet& slow,

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/contacts/foot_motion.h"
 #include "common/forces/plate_forces.h"
+#include "common/motion/foot_motion.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {

@@ -37,11 +37,11 @@ bool IsHeld(const KinematicModel& model, const std::string& name) {
 
 }  // namespace
 
-std::vector<JointTask> ResolveCoordinateTasks(const std::vector<IkTasks::OfCoordinate>& tasks,
+std::vector<JointTask> ResolveCoordinateTasks(const std::vector<CoordinateTask>& tasks,
                                               const KinematicModel& model, Warnings* warnings) {
   std::vector<JointTask> resolved;
   std::vector<std::string> unused;
-  for (const IkTasks::OfCoordinate& task : tasks) {
+  for (const CoordinateTask& task : tasks) {
     const int joint = model.FindJoint(task.name);
     if (joint >= 0) {
       resolved.push_back({joint, task.value.value_or(model.joint(joint).rest), task.weight});

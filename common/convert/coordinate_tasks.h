@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/convert/tracking_setup.h"
-#include "common/io/osim/ik_tasks.h"
+#include "common/model/coordinate_task.h"
 #include "common/support/warnings.h"
 
 namespace mmm_converter {
@@ -13,7 +13,7 @@ namespace mmm_converter {
 /// locked ones keep their value anyway; of a floating root, and of those that follow others, a
 /// warning tells.
 /// @throws Error where the model has no such coordinate.
-std::vector<JointTask> ResolveCoordinateTasks(const std::vector<IkTasks::OfCoordinate>& tasks,
+std::vector<JointTask> ResolveCoordinateTasks(const std::vector<CoordinateTask>& tasks,
                                               const KinematicModel& model, Warnings* warnings);
 
 }  // namespace mmm_converter

@@ -10,10 +10,9 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "common/io/bytes/file_content.h"
-#include "common/io/osim/osim_xml.h"
-#include "common/io/osim/tool_setup.h"
 #include "common/io/recording/marker_labels.h"
 #include "common/io/xml/xml_document.h"
 #include "common/model/kinematic_model.h"
@@ -131,23 +130,13 @@ std::vector<std::string> NamesOfSegments(const LoadedModel& model) {
   return names;
 }
 
-MarkerSet SetOfTasks(const IkTasks& tasks, const std::string& path) {
-  MarkerSet set;
-  set.file = path;
-  set.name = std::filesystem::path(path).stem().string();
-  for (const IkTasks::OfMarker& one : tasks.markers) {
-    set.pairs.push_back({one.name, one.name, 1 / std::sqrt(one.weight)});
-  }
-  set.coordinate_tasks = tasks.coordinates;
-  return set;
-}
-
 }  // namespace
 
 MarkerSet ReadMarkerSet(const std::string& path) {
   const std::string content = ReadFileContent(path);
-  if (IsOsimPart(content, "IKTaskSet") || IsOsimToolSetup(content))
-    return SetOfTasks(ParseIkTasks(content, path), path);
+  for (MarkerSetParser* const parse : PartMarkerSetParsers()) {
+    if (std::optional<MarkerSet> set = parse(content, path)) return std::move(*set);
+  }
   const XmlElement root = ParseXml(content, path);
   Diagnostics diagnostics(path);
   MarkerSet set;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/convert/marker_mapping.h"
 #include "common/io/model_file.h"
-#include "common/io/osim/ik_tasks.h"
+#include "common/model/coordinate_task.h"
 
 namespace mmm_converter {
 
@@ -23,16 +25,20 @@ struct MarkerPlace {
 /// are substitutes, the best first. Markers that the set places need no mapping: their label is
 /// their name.
 ///
-/// An IKTaskSet file of OpenSim is one too: the markers that have a task, under their own names, a
-/// weight being 1 / noiseScale^2, and the coordinates that have one.
+/// A file that PartMarkerSetParsers knows is one too.
 struct MarkerSet {
   std::string file;
   std::string name;
   std::string description;
   std::vector<MarkerPair> pairs;
   std::vector<MarkerPlace> places;  ///< for models without these markers, or with them elsewhere
-  std::vector<IkTasks::OfCoordinate> coordinate_tasks = {};
+  std::vector<CoordinateTask> coordinate_tasks = {};
 };
+
+/// Nothing: it is no file of that kind. @throws Error as ReadMarkerSet.
+using MarkerSetParser = std::optional<MarkerSet>(std::string_view content, const std::string& path);
+/// Of marker sets in formats of parts (common/part_formats.cc).
+const std::vector<MarkerSetParser*>& PartMarkerSetParsers();
 
 /// @throws Error with file and line for anything that is not well-formed or not allowed.
 MarkerSet ReadMarkerSet(const std::string& path);

@@ -4,7 +4,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "common/contacts/ground_rules.h"
+#include "common/motion/ground_rules.h"
 
 namespace mmm_converter {
 namespace {

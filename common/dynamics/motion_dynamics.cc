@@ -7,6 +7,7 @@
 #include "common/dynamics/ballistic_phases.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/low_pass.h"
+#include "common/motion/slow_feet.h"
 #include "common/motion/trajectory_derivatives.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -221,12 +222,12 @@ void SetFrame(int k, const WholeBodyMotion& body, const PoseTrajectory& motion,
 /// Of the whole motion; leaves frames [begin, begin + frames).
 GroundContact FindGround(const KinematicModel& model, const PoseTrajectory& measured,
                          const PoseTrajectory& smooth, int begin, int frames,
-                         const RecordedForces* forces, MotionDynamics* result) {
+                         const ContactFinder& find_contacts, MotionDynamics* result) {
   result->contact_bodies = ContactBodies(model);
   const bool has_feet = HasFeet(model);
   if (has_feet) {
-    result->feet =
-        FindContacts(MoveFeet(model, measured), forces != nullptr ? *forces : RecordedForces());
+    const FootMotion feet = MoveFeet(model, measured);
+    result->feet = find_contacts ? find_contacts(feet) : FindSlowContacts(feet);
   }
   GroundContact contact = FindGroundContact(model, result->contact_bodies, measured, smooth,
                                             has_feet ? &result->feet : nullptr);
@@ -263,7 +264,7 @@ Eigen::Matrix2Xd CentersOfPressure(const MotionDynamics& dynamics) {
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
                                      const DynamicsOptions& options,
                                      const std::function<void(int, int)>& progress,
-                                     const RecordedForces* forces) {
+                                     const ContactFinder& find_contacts) {
   const int all_frames = motion.num_frames();
   const int begin = std::clamp(options.first_frame, 0, all_frames);
   const int frames = std::clamp(options.end_frame, begin, all_frames) - begin;
@@ -286,7 +287,8 @@ MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTraj
   const int unsettled = UnsettledFrames(result.differentiation, result.rate);
   result.settled_begin = std::clamp(unsettled - begin, 0, frames);
   result.settled_end = std::clamp(all_frames - unsettled - begin, result.settled_begin, frames);
-  const GroundContact contact = FindGround(model, measured, smooth, begin, frames, forces, &result);
+  const GroundContact contact =
+      FindGround(model, measured, smooth, begin, frames, find_contacts, &result);
   Cut(begin, begin + frames, &measured);
   Cut(begin, begin + frames, &smooth);
   result.first_time = measured.first_time;

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "common/contacts/body_contacts.h"
 #include "common/dynamics/simbody_model.h"
 #include "common/model/kinematic_model.h"
+#include "common/motion/body_contacts.h"
+#include "common/motion/foot_motion.h"
+#include "common/motion/foot_states.h"
 #include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {
@@ -111,7 +113,7 @@ struct MotionDynamics {
   /// [m]; 0: within; NaN: none, or nothing touches.
   Eigen::VectorXd outside_support;
 
-  Contacts feet;             ///< of the whole motion; none: the model has no feet that are known
+  FootContacts feet;         ///< of the whole motion; none: the model has no feet that are known
   double ground_height = 0;  ///< estimated [m]
   std::vector<ContactBody> contact_bodies;
   Eigen::MatrixXd contact_heights;  ///< as GroundContact::heights
@@ -125,14 +127,18 @@ struct MotionDynamics {
   double body_weight() const { return mass * kGravity; }  ///< [N]
 };
 
-/// The model is scaled, with masses. z is up. Joints that the motion does not name are 0. forces:
-/// of plates, which tell contacts; null: there are none.
+/// When the feet of a motion stand.
+using ContactFinder = std::function<FootContacts(const FootMotion&)>;
+
+/// The model is scaled, with masses. z is up. Joints that the motion does not name are 0.
+/// find_contacts: by what tells more than the motion, which it is asked for before the low-pass;
+/// empty: FindSlowContacts.
 /// progress(done, all): examined frames; may be empty. What it throws ends the work.
 /// @throws Error where the model has no mass, an impossible inertia or lacks a joint of the motion,
 ///         or fewer than five frames are examined.
 MotionDynamics ComputeMotionDynamics(const KinematicModel& model, const PoseTrajectory& motion,
                                      const DynamicsOptions& options = {},
                                      const std::function<void(int, int)>& progress = {},
-                                     const RecordedForces* forces = nullptr);
+                                     const ContactFinder& find_contacts = {});
 
 }  // namespace mmm_converter

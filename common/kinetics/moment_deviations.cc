@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "common/contacts/foot_motion.h"
 #include "common/kinetics/inverse_dynamics.h"
 #include "common/model/coordinate_map.h"
+#include "common/motion/foot_motion.h"
 #include "common/motion/low_pass.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/spline_derivatives.h"

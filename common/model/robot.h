@@ -63,7 +63,7 @@ struct Robot {
   std::vector<Link> links;
   std::vector<Site> sites;
   std::vector<ContactShape> shapes;  ///< those that touch, not those that are only looked at
-  std::vector<RobotMesh> meshes;     ///< read where they are needed (io/robot_meshes.h)
+  std::vector<RobotMesh> meshes;     ///< read where they are needed (io/robot/robot_meshes.h)
   Eigen::VectorXd velocity_limits;   ///< of joints [rad/s, sliding m/s]; infinity: not known
   std::string format;                ///< "URDF" or "MJCF"
   /// Segments that the file ties together, which nothing here does: loops.

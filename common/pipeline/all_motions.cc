@@ -13,7 +13,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "common/contacts/body_contacts.h"
+#include "common/motion/body_contacts.h"
 #include "common/pipeline/ground_study.h"
 #include "common/pipeline/motion_output.h"
 #include "common/support/advice.h"

@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/angles/normal_bands.h"
 #include "common/io/c3d/c3d_file.h"
 #include "common/math/statistics.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"
 #include "common/study/coverage.h"

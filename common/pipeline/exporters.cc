@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/angles/angle_table.h"
 #include "common/io/tables/bvh_writer.h"
 #include "common/io/tables/covariance_npz.h"
@@ -17,6 +16,7 @@
 #include "common/io/tables/pose_table.h"
 #include "common/io/tables/trajectory_csv.h"
 #include "common/io/tables/trc_writer.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/force_exports.h"

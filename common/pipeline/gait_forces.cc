@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/kinetics/foot_wrenches.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/pipeline/conversion.h"
 #include "common/support/units.h"
 

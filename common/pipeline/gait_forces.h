@@ -4,8 +4,8 @@
 #include <optional>
 #include <string_view>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/forces/emg.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/pipeline/ground_study.h"
 
 namespace mmm_converter {

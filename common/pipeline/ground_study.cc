@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/contacts/person_mass.h"
 #include "common/contacts/plate_readings.h"
 #include "common/contacts/stored_events.h"
@@ -21,6 +20,7 @@
 #include "common/kinetics/foot_wrenches.h"
 #include "common/kinetics/moment_deviations.h"
 #include "common/math/statistics.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_residuals.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/gait_forces.h"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "common/calibrate/osim_calibration.h"
-#include "common/calibrate/osim_person.h"
 #include "common/judge/verdict.h"
+#include "common/osim/osim_calibration.h"
+#include "common/osim/osim_person.h"
 #include "common/pipeline/input/input.h"
 #include "common/pipeline/person_calibration.h"
 #include "common/support/output_plan.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/io/robot_file.h"
-#include "common/io/robot_meshes.h"
+#include "common/io/robot/robot_file.h"
+#include "common/io/robot/robot_meshes.h"
 #include "common/model/forward_kinematics.h"
 #include "common/retarget/body_map.h"
 #include "common/retarget/held_joints.h"

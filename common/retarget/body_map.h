@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/contacts/foot_motion.h"
 #include "common/model/kinematic_model.h"
+#include "common/motion/foot_motion.h"
 
 namespace mmm_converter {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "common/contacts/ground_rules.h"
+#include "common/motion/ground_rules.h"
 
 namespace mmm_converter {
 namespace {

@@ -6,9 +6,9 @@
 #include <initializer_list>
 #include <string>
 
-#include "common/contacts/foot_motion.h"
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
+#include "common/motion/foot_motion.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/retarget/limb_geometry.h"
 #include "common/support/error.h"

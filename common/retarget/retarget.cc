@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/model/forward_kinematics.h"
+#include "common/motion/slow_feet.h"
 #include "common/retarget/belt.h"
 #include "common/retarget/held_joints.h"
 #include "common/retarget/retarget_targets.h"
@@ -64,7 +65,7 @@ Retargeted DescribePerson(const KinematicModel& human_model, const PoseTrajector
   result.belt = (feet.feet[0].belt + feet.feet[1].belt) / 2;
   result.human = MoveHuman(human_model, person, motion);
   MoveAgainst(result.belt, &result.human);
-  result.contacts = ground.contacts != nullptr ? *ground.contacts : FindContacts(feet, {});
+  result.contacts = ground.contacts != nullptr ? *ground.contacts : FindSlowContacts(feet);
   result.states = FindFootStates(feet);
   result.rests = FindRests(feet, result.states, result.contacts);
   if (ground.recorded != nullptr) {

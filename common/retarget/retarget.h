@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "common/contacts/foot_states.h"
+#include "common/motion/foot_states.h"
 #include "common/motion/pose_trajectory.h"
 #include "common/retarget/held_objects.h"
 #include "common/retarget/human_body.h"
@@ -19,7 +19,7 @@ struct Retargeted {
   /// Velocity of the belt of a treadmill; `human` is as on a belt that stands [m/s].
   Eigen::Vector3d belt = Eigen::Vector3d::Zero();
   HumanMotion human;
-  Contacts contacts;  ///< of the person
+  FootContacts contacts;  ///< of the person
   FootStates states;
   std::array<FootRests, 2> rests;
   double ankle_height = 0;             ///< of the person [m]
@@ -32,7 +32,7 @@ struct Retargeted {
 /// What tells a person's contacts, where the motion does not.
 struct PersonsGround {
   const PoseTrajectory* recorded = nullptr;  ///< the motion at its own rate; null: it is that
-  const Contacts* contacts = nullptr;        ///< of FindContacts; null: by the motion alone
+  const FootContacts* contacts = nullptr;    ///< of the person; null: by the motion alone
 };
 
 /// What is known of the person: all but the robot's postures.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
 #include "common/convert/tracking_setup.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_sequence.h"
 #include "common/motion/pose_trajectory.h"
 

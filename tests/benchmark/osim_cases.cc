@@ -9,7 +9,6 @@
 #include <map>
 #include <vector>
 
-#include "common/calibrate/osim_calibration.h"
 #include "common/convert/converter_config.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_model_reader.h"
@@ -18,6 +17,7 @@
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/osim/osim_calibration.h"
 #include "plugins/jacobian/jacobian_converter.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/support/shared_data.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "common/pipeline/dynamics/checked_motion.h"
 #include "common/retarget/guarded_follower.h"
 #include "common/retarget/retarget_figures.h"

@@ -9,13 +9,15 @@ function(write_good_tree)
   file(REMOVE_RECURSE ${WORK_DIR})
   foreach(folder common/support common/model common/motion common/io common/io/bytes common/io/c3d common/io/mmm
                  common/io/recording common/label/search common/label/track common/label/learn
-                 common/judge common/pipeline common/pipeline/input common/pipeline/comparison
+                 common/contacts common/retarget common/judge common/pipeline common/pipeline/input common/pipeline/comparison
                  common/pipeline/dynamics common/live common/dynamics plugins/one plugins/two MMMConverterS2KF
                  MMMConverterS2KF/terminal MMMConverterS2KF/report examples tests)
     file(WRITE ${WORK_DIR}/${folder}/used.h "${licence}#include <Eigen/Core>\n#include <vector>\n")
   endforeach()
   file(WRITE ${WORK_DIR}/common/io/user.cc "${licence}#include <fmt/core.h>\n#include <fstream>\n
 #include \"common/motion/used.h\"\n")
+  file(WRITE ${WORK_DIR}/common/pipeline/user.cc "${licence}#include \"common/retarget/used.h\"\n")
+  file(WRITE ${WORK_DIR}/common/formats.cc "${licence}#include \"common/retarget/used.h\"\n")
   file(WRITE ${WORK_DIR}/common/dynamics/user.h "${licence}#include \"common/motion/used.h\"\n")
   file(WRITE ${WORK_DIR}/common/io/recording/user.cc "${licence}#include \"common/io/c3d/used.h\"\n#include \"common/io/used.h\"\n")
   file(WRITE ${WORK_DIR}/MMMConverterS2KF/user.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n")
@@ -70,6 +72,14 @@ expect_fault(common/label/search/a.h "${licence}#include \"common/label/track/us
              "common/label/search must not include common/label/track")
 expect_fault(common/label/learn/a.h "${licence}#include \"common/label/track/used.h\"\n"
              "common/label/learn must not include common/label/track")
+expect_fault(common/judge/a.cc "${licence}#include \"common/retarget/used.h\"\n"
+             "common/judge must not include common/retarget")
+expect_fault(common/retarget/a.cc "${licence}#include \"common/contacts/used.h\"\n"
+             "common/retarget must not include common/contacts")
+expect_fault(common/live/a.cc "${licence}#include \"common/label/track/used.h\"\n"
+             "common/live must not include common/label/track")
+expect_fault(plugins/one/a.cc "${licence}#include \"common/contacts/used.h\"\n"
+             "plugins must not include common/contacts")
 expect_fault(common/judge/a.cc "${licence}#include \"common/pipeline/used.h\"\n"
              "common/judge must not include common/pipeline")
 expect_fault(common/pipeline/a.cc "${licence}#include \"MMMConverterS2KF/report/used.h\"\n"

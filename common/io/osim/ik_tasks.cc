@@ -13,9 +13,8 @@ namespace {
 
 constexpr double kLeastWeight = 1e-9;  // below it a task asks for nothing
 
-IkTasks::OfCoordinate ReadCoordinateTask(const XmlElement& task, double weight,
-                                         Diagnostics* diagnostics) {
-  IkTasks::OfCoordinate of{OsimName(task), weight, {}};
+CoordinateTask ReadCoordinateTask(const XmlElement& task, double weight, Diagnostics* diagnostics) {
+  CoordinateTask of{OsimName(task), weight, {}};
   const std::string_view type = OsimText(task, "value_type");
   if (EqualIgnoringCase(type, "manual_value")) {
     of.value = ReadOsimNumber(task, "value", 0, diagnostics);

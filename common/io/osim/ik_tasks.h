@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/io/xml/xml_document.h"
+#include "common/model/coordinate_task.h"
 #include "common/support/diagnostics.h"
 
 namespace mmm_converter {
@@ -19,14 +19,9 @@ struct IkTasks {
     std::string name;
     double weight = 1;
   };
-  struct OfCoordinate {
-    std::string name;
-    double weight = 1;            ///< [m^2/rad^2], or 1 for a shift
-    std::optional<double> value;  ///< [rad, m]; nothing: the default of the model
-  };
 
   std::vector<OfMarker> markers;
-  std::vector<OfCoordinate> coordinates;
+  std::vector<CoordinateTask> coordinates;
 };
 
 /// Of an `<IKTaskSet>`. What is wrong is added to the diagnostics.

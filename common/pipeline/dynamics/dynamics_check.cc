@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "common/contacts/contacts.h"
 #include "common/forces/recording_forces.h"
 #include "common/math/up_axis.h"
 #include "common/support/error.h"
@@ -39,10 +40,18 @@ DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& option
   if (!motion.forces_file.empty()) {
     forces = ForcesOf(motion.forces_file, UpAxis::kY, &motion.warnings);
   }
-  MotionDynamics dynamics = ComputeMotionDynamics(motion.model, motion.trajectory, of_frames,
-                                                  progress, forces ? &*forces : nullptr);
+  Contacts feet;  // none: the model has no feet that are known
+  ContactFinder by_plates;
+  if (forces) {
+    by_plates = [&](const FootMotion& moved) -> FootContacts {
+      feet = FindContacts(moved, *forces);
+      return feet;
+    };
+  }
+  MotionDynamics dynamics =
+      ComputeMotionDynamics(motion.model, motion.trajectory, of_frames, progress, by_plates);
   std::optional<JointForces> with_forces;
-  if (forces) with_forces = WithForces(motion, dynamics.feet, *forces, options.cutoff);
+  if (forces) with_forces = WithForces(motion, feet, *forces, options.cutoff);
   Plausibility judged = JudgeDynamics(motion.model, dynamics);
   return {std::move(motion), std::move(dynamics), std::move(judged), std::move(with_forces)};
 }

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "common/dynamics/motion_dynamics.h"
-#include "common/judge/plausibility.h"
 #include "common/kinetics/joint_forces.h"
 #include "common/pipeline/dynamics/checked_motion.h"
+#include "common/pipeline/dynamics/plausibility.h"
 #include "common/pipeline/option.h"
 
 namespace mmm_converter {

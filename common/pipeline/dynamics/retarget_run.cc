@@ -88,7 +88,7 @@ void RestUntoldJoints(const KinematicModel& model, const Eigen::MatrixXd& deviat
 
 /// contacts: null: by the motion alone.
 void RetargetPerson(std::shared_ptr<const KinematicModel> model, PoseTrajectory motion,
-                    const Contacts* contacts, RetargetReport* report, Warnings* warnings) {
+                    const FootContacts* contacts, RetargetReport* report, Warnings* warnings) {
   report->retargeted =
       RetargetMotion(*model, motion, report->robot, report->body,
                      AlignObjects(motion, report->objects, warnings), {nullptr, contacts});

@@ -9,9 +9,9 @@
 
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/robot/robot_exports.h"
-#include "common/judge/retarget_verdict.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/dynamics/retarget_objects.h"
+#include "common/pipeline/retarget_verdict.h"
 #include "common/pipeline/robot.h"
 #include "common/retarget/retarget_figures.h"
 #include "common/support/output_plan.h"

@@ -9,10 +9,10 @@
 
 #include "common/convert/live_tracker.h"
 #include "common/live/frame_mailbox.h"
-#include "common/live/live_labeller.h"
 #include "common/live/pose_frame.h"
 #include "common/live/stream_clock.h"
 #include "common/pipeline/live/live_bodies.h"
+#include "common/pipeline/live/live_labeller.h"
 #include "common/pipeline/live_plan.h"
 #include "common/pipeline/live_request.h"
 

@@ -7,7 +7,7 @@
 #include "common/convert/plugin_loader.h"
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/recording/recording.h"
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "common/live/frame_mailbox.h"
 #include "common/live/replay/replay_source.h"
 #include "common/live/sink_runner.h"

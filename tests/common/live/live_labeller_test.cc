@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Persons whose points have no names, frame by frame; the truth is known to the point.
 
-#include "common/live/live_labeller.h"
+#include "common/pipeline/live/live_labeller.h"
 
 #include <gtest/gtest.h>
 

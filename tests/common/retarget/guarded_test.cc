@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/robot_file.h"
-#include "common/judge/retarget_verdict.h"
+#include "common/io/robot/robot_file.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/pipeline/retarget_verdict.h"
 #include "common/retarget/belt.h"
 #include "common/retarget/follow_figures.h"
 #include "common/retarget/guarded_follower.h"

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string>
 
-#include "common/judge/retarget_verdict.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/pipeline/retarget_verdict.h"
 #include "common/retarget/follow_figures.h"
 #include "common/retarget/guarded_follower.h"
 #include "common/retarget/held_joints.h"

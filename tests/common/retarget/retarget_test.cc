@@ -14,8 +14,8 @@
 
 #include "common/io/mesh/mesh_file.h"
 #include "common/io/mmm/mmm_motion.h"
-#include "common/io/robot_file.h"
-#include "common/io/robot_meshes.h"
+#include "common/io/robot/robot_file.h"
+#include "common/io/robot/robot_meshes.h"
 #include "common/io/urdf/urdf_robot.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"

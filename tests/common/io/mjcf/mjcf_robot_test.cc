@@ -8,7 +8,7 @@
 #include <map>
 
 #include "common/io/model_file.h"
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
 #include "tests/support/random_posture.h"

@@ -11,7 +11,7 @@
 
 #include "common/io/bytes/file_content.h"
 #include "common/io/mjcf/mjcf_robot.h"
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
 #include "tests/support/random_posture.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter {

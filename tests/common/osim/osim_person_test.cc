@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Scaling by OpenSim's set-ups, against a person who is known and against what OpenSim has written.
-#include "common/calibrate/osim_person.h"
+#include "common/osim/osim_person.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/calibrate/osim_person.h"
+#include "common/osim/osim_person.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/angles/anatomical_angles.h"
+#include "common/motion/anatomical_angles.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/plausibility.h"
+#include "common/pipeline/dynamics/plausibility.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/contacts/ground_rules.h"
+#include "common/motion/ground_rules.h"
 #include "common/support/advice.h"
 #include "common/support/units.h"
 

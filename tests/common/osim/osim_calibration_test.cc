@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Persons who are known: bodies of other sizes than the model's, with markers elsewhere.
-#include "common/calibrate/osim_calibration.h"
+#include "common/osim/osim_calibration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <random>
 
+#include "common/calibrate/body_fit.h"
 #include "common/calibrate/body_kinematics.h"
 #include "common/calibrate/offset_prior.h"
-#include "common/calibrate/osim_sizes.h"
 #include "common/io/bytes/file_content.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_scaling.h"
@@ -20,6 +20,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/osim/osim_sizes.h"
 #include "common/support/error.h"
 #include "tests/support/all_indices.h"
 #include "tests/support/osim_texts.h"

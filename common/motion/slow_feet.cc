@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "common/motion/slow_feet.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "common/contacts/foot_states.h"
-#include "common/contacts/ground_rules.h"
-#include "common/contacts/plate_bearers.h"
+#include "common/motion/ground_rules.h"
 
 namespace mmm_converter {
 namespace {
@@ -76,6 +76,24 @@ SlowFeet FindSlowFeet(const FootMotion& motion) {
         SlowTimes(LowSpeed(motion.feet[i], states.heels[i], states.toes[i]), motion.rate, slowness);
   }
   return slow;
+}
+
+FootContacts FindSlowContacts(const FootMotion& motion) {
+  const SlowFeet slow = FindSlowFeet(motion);
+  FootContacts found;
+  for (const Side side : kSides) {
+    for (const SlowFoot& one : slow[static_cast<std::size_t>(side)]) {
+      FootContact& contact = found.contacts.emplace_back();
+      contact.side = side;
+      if (one.begin > 0) contact.begin = motion.time(one.begin) + kBeginLag.seconds;
+      if (one.end < motion.num_frames() - 1) {
+        contact.end = motion.time(one.end) + kEndLag.seconds;
+      }
+      contact.begin_deviation = kBeginLag.deviation;
+      contact.end_deviation = kEndLag.deviation;
+    }
+  }
+  return found;
 }
 
 }  // namespace mmm_converter

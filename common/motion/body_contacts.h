@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/contacts/contacts.h"
 #include "common/model/kinematic_model.h"
+#include "common/motion/foot_states.h"
 #include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {
@@ -42,7 +42,7 @@ struct GroundContact {
 /// stairs, a box or a bar.
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
                                 const PoseTrajectory& measured, const PoseTrajectory& smooth,
-                                const Contacts* feet = nullptr);
+                                const FootContacts* feet = nullptr);
 
 /// How far the centre of pressure lies outside of the convex hull of the bodies that touch, seen
 /// from above; one entry a frame [m], 0 within, NaN where nothing touches or a centre is NaN.

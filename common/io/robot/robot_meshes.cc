@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/io/robot_meshes.h"
+#include "common/io/robot/robot_meshes.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/live/label_search.h"
+#include "common/pipeline/live/label_search.h"
 
 #include <algorithm>
 #include <utility>

@@ -7,7 +7,7 @@
 
 #include "common/convert/tracking_setup.h"
 #include "common/live/frame_source.h"
-#include "common/live/label_search.h"
+#include "common/pipeline/live/label_search.h"
 
 namespace mmm_converter {
 

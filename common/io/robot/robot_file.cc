@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/contacts/foot_states.h"
+#include "common/motion/foot_states.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kLandingFrames = 3;  // at least
+constexpr double kLandingFrames = 3;    // at least
+constexpr double kTimeRounding = 1e-6;  // of a frame: times are rounded
 
 /// Where an end of a foot is while the foot stands.
 double FindLevel(const FootPath& foot, const Eigen::Matrix3Xd& path, const Eigen::VectorXd& speed) {
@@ -190,6 +191,21 @@ PointState StateOf(const FootPath& foot, const Eigen::Matrix3Xd& path,
 
 }  // namespace
 
+std::vector<bool> FootContacts::StandingFrames(Side side, double first_time, double rate,
+                                               int frames) const {
+  std::vector<bool> stands(static_cast<std::size_t>(frames), false);
+  const auto frame = [&](double time) { return (time - first_time) * rate; };
+  for (const FootContact& one : contacts) {
+    if (one.side != side) continue;
+    const double begin = one.begin ? std::ceil(frame(*one.begin) - kTimeRounding) : 0;
+    const double end = one.end ? std::floor(frame(*one.end) + kTimeRounding) : frames - 1.0;
+    const auto first = static_cast<std::ptrdiff_t>(std::clamp<double>(begin, 0, frames));
+    const auto behind = static_cast<std::ptrdiff_t>(std::clamp<double>(end + 1, 0, frames));
+    if (first < behind) std::fill(stands.begin() + first, stands.begin() + behind, true);
+  }
+  return stands;
+}
+
 FootStates FindFootStates(const FootMotion& motion) {
   FootStates states;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -216,7 +232,7 @@ FootStates FindFootStates(const FootMotion& motion) {
 }
 
 std::array<FootRests, 2> FindRests(const FootMotion& motion, const FootStates& states,
-                                   const Contacts& contacts) {
+                                   const FootContacts& contacts) {
   std::array<FootRests, 2> feet;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::vector<bool> on =

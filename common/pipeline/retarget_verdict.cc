@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/judge/retarget_verdict.h"
+#include "common/pipeline/retarget_verdict.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/calibrate/calibration.h"
-#include "common/calibrate/osim_person.h"
+#include "common/osim/osim_person.h"
 
 namespace mmm_converter {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/io/robot_meshes.h"
+#include "common/io/robot/robot_meshes.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "common/io/mesh/mesh_paths.h"
-#include "common/io/robot_file.h"
+#include "common/io/robot/robot_file.h"
 #include "common/support/opened_files.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/scoped_environment.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/contacts/body_contacts.h"
+#include "common/motion/body_contacts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

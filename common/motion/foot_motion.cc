@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/contacts/foot_motion.h"
+#include "common/motion/foot_motion.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

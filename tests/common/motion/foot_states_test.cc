@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/contacts/foot_states.h"
+#include "common/motion/foot_states.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 
 #include "common/io/mmm/mmm_model.h"
 #include "common/model/model_scaling.h"
+#include "common/motion/slow_feet.h"
 #include "common/motion/synthetic_motion.h"
 #include "tests/support/shared_data.h"
 
@@ -34,7 +35,7 @@ std::array<FootRests, 2> RestsOf(const PointState& left, const PointState& right
   for (FootPath& foot : motion.feet) foot.heel.resize(3, left.height.size());
   FootStates states;
   states.heels = states.toes = {left, right};
-  return FindRests(motion, states, {{}, contacts});
+  return FindRests(motion, states, {contacts});
 }
 
 TEST(FootRests, AFootThatStaysLowIsNotOffForAMoment) {
@@ -85,7 +86,7 @@ TEST(FootStates, AFootStandsOnStepsAndTheLowestIsTheFloor) {
   }
   FindSpeeds(&motion);
   const FootStates states = FindFootStates(motion);
-  const Contacts contacts = FindContacts(motion, {});
+  const FootContacts contacts = FindSlowContacts(motion);
   const auto feet = FindRests(motion, states, contacts);
   for (std::size_t i = 0; i < 2; ++i) {
     const std::vector<FrameInterval>& stances = feet[i].stances;

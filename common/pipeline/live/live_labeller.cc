@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/live/live_labeller.h"
+#include "common/pipeline/live/live_labeller.h"
 
 #include <fmt/format.h>
 

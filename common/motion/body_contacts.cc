@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/contacts/body_contacts.h"
+#include "common/motion/body_contacts.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "common/contacts/ground_rules.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
+#include "common/motion/ground_rules.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
@@ -254,7 +254,7 @@ std::vector<ContactBody> ContactBodies(const KinematicModel& model) {
 
 GroundContact FindGroundContact(const KinematicModel& model, const std::vector<ContactBody>& bodies,
                                 const PoseTrajectory& measured, const PoseTrajectory& smooth,
-                                const Contacts* feet) {
+                                const FootContacts* feet) {
   const LowestPoints lowest = FindLowestPoints(model, bodies, measured, smooth);
   GroundContact contact;
   contact.ground_height = GroundHeight(lowest, measured.rate);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/calibrate/osim_sizes.h"
+#include "common/osim/osim_sizes.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "common/contacts/ground_rules.h"
 #include "common/model/kinematic_model.h"
+#include "common/motion/ground_rules.h"
 #include "common/motion/pose_trajectory.h"
 
 namespace mmm_converter {

@@ -3,12 +3,29 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
-#include "common/contacts/contacts.h"
-#include "common/contacts/ground_rules.h"
+#include "common/motion/foot_motion.h"
+#include "common/motion/ground_rules.h"
 
 namespace mmm_converter {
+
+/// A foot on the ground.
+struct FootContact {
+  Side side = Side::kLeft;
+  /// [s]; nothing: it began before, or ended after, what was recorded.
+  std::optional<double> begin, end;
+  double begin_deviation = 0, end_deviation = 0;  ///< standard deviations [s]
+  std::vector<int> plates;                        ///< numbers of those that bear it
+};
+
+struct FootContacts {
+  std::vector<FootContact> contacts;  ///< the left foot's, then the right foot's, over time
+
+  /// Of frames at first_time + k / rate [s, Hz]: whether a foot stands.
+  std::vector<bool> StandingFrames(Side side, double first_time, double rate, int frames) const;
+};
 
 /// How high and how fast an end of a foot is, for each frame.
 struct PointState {
@@ -45,7 +62,7 @@ struct FootRests {
 };
 /// Within the person's contacts.
 std::array<FootRests, 2> FindRests(const FootMotion& motion, const FootStates& states,
-                                   const Contacts& contacts);
+                                   const FootContacts& contacts);
 
 /// Of as many frames at another rate, the nearest ones.
 FootStates AtRate(const FootStates& states, double from, double to, int frames);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/calibrate/osim_calibration.h"
+#include "common/osim/osim_calibration.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 
 #include "common/calibrate/body_kinematics.h"
 #include "common/calibrate/calibration_frames.h"
-#include "common/calibrate/osim_sizes.h"
 #include "common/fit/posture_search.h"
 #include "common/io/osim/osim_model_reader.h"
 #include "common/io/osim/osim_scaling.h"
@@ -19,6 +18,7 @@
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
+#include "common/osim/osim_sizes.h"
 
 namespace mmm_converter {
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/motion/foot_motion.h"
+#include "common/motion/foot_states.h"
+
+namespace mmm_converter {
+
+/// Times in which each foot is low and slow, as frames [begin, end) that need not be whole; what
+/// the recording cuts begins at 0 or ends at the number of frames less one.
+struct SlowFoot {
+  double begin = 0, end = 0;
+};
+using SlowFeet = std::array<std::vector<SlowFoot>, 2>;
+
+SlowFeet FindSlowFeet(const FootMotion& motion);
+
+/// How much later than a foot is slow something happens [s].
+struct ContactLag {
+  double seconds = 0;
+  double deviation = 0;
+};
+// Of walks that plates recorded: how much later the load begins and ends than a foot is slow, and
+// how much that differs from event to event.
+inline constexpr ContactLag kBeginLag = {0.02, 0.03};  // 29 ms rms of 36 strikes of 14 recordings
+inline constexpr ContactLag kEndLag = {0.0, 0.02};     // 19 ms rms of 34 offs
+
+/// When each foot stands, by the motion alone.
+FootContacts FindSlowContacts(const FootMotion& motion);
+
+}  // namespace mmm_converter
