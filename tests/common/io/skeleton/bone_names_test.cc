@@ -45,6 +45,8 @@ TEST(BoneNames, KnowTheNamesOfProgramsAndLaboratories) {
       {"Skeleton 001_LUArm", BoneKind::kUpperArm, 'L'},  // Motive
       {"lThighBend", BoneKind::kHip, 'L'},               // DAZ
       {"左足首", BoneKind::kAnkle, 'L'},                 // MikuMikuDance
+      {"RechterUnterschenkel", BoneKind::kKnee, 'R'},
+      {"右太もも", BoneKind::kHip, 'R'},
       {"ik_lfoot", BoneKind::kNone, ' '},
       {"hip", BoneKind::kHip, ' '},
       {"Neck1", BoneKind::kNeck, ' '},
