@@ -97,10 +97,15 @@ RecordingContent ContentOfPlaces(NumpyArray places, double rate, const std::stri
       !places.head().is_text() && shape.size() == 3 && shape[0] > 0 && shape[2] == 3 &&
       std::find(std::begin(kCounts), std::end(kCounts), shape[1]) != std::end(kCounts);
   if (!is_right) {
+    const bool is_features = shape.size() == 2 && (shape[1] == 263 || shape[1] == 251);
     throw Error(
-        fmt::format("{}: has the shape {}; expected places of SMPL's or LAFAN1's joints: frames x "
-                    "{} x 3",
-                    file, ShapeText(places.head()), fmt::join(kCounts, ", ")));
+        fmt::format("{}: has the shape {}{}; expected places of SMPL's or LAFAN1's joints: frames "
+                    "x {} x 3",
+                    file, ShapeText(places.head()),
+                    is_features ? ", as features of HumanML3D or KIT-ML, whose joints are in the "
+                                  "folder new_joints"
+                                : "",
+                    fmt::join(kCounts, ", ")));
   }
   const bool can_be_lafan = shape[1] == kLafan.size();
   const auto shared = std::make_shared<const NumpyArray>(std::move(places));
@@ -110,7 +115,7 @@ RecordingContent ContentOfPlaces(NumpyArray places, double rate, const std::stri
     if (Strangeness(lafan) < Strangeness(motion)) motion = std::move(lafan);
   }
   motion.rate = rate;
-  return ContentOfSkeleton(std::move(motion), "joint places", file, warnings);
+  return ContentOfSkeleton(std::move(motion), "joint places", file, {}, warnings);
 }
 
 }  // namespace mmm_converter
