@@ -255,6 +255,20 @@ TEST(NpzContent, PlacesOfJointsAreSmplsOrLafans) {
   EXPECT_LT((of_npy.markers.frame(3).col(4) - truth[3].col(10)).norm(), 1e-9);
 }
 
+TEST(NpzContent, PlacesOfJointsInAnotherOrderAreRefused) {
+  const auto truth = PlacesOf(Poses(66), StandInSmplModel(SmplKind::kSmplH).joints);
+  constexpr int kChains[] = {0,  3,  6,  9, 12, 15, 13, 16, 18, 20, 14,
+                             17, 19, 21, 1, 4,  7,  10, 2,  5,  8,  11};
+  std::vector<double> places;
+  for (const Matrix3Xd& p : truth) {
+    for (const int j : kChains) places.insert(places.end(), p.col(j).begin(), p.col(j).end());
+  }
+  const std::string file =
+      FileOf(FormatNpy(Numbers("", {kFrames, kSmplJoints, 3}, places)), "walk.npy");
+  EXPECT_THAT([&] { ReadRecording(file, {.rate = 30}); },
+              ::testing::ThrowsMessage<Error>(HasSubstr("in another order")));
+}
+
 TEST(NpzContent, RowsOfMotionXAreMotions) {
   constexpr std::size_t kColumns = 322;
   std::vector<double> rows(kFrames * kColumns, 0);
