@@ -325,10 +325,10 @@ Subject SubjectOfSkeleton(const Recording& recording, const KinematicModel& refe
   subject.name = "skeleton";
   subject.model = reference.name();
   // Legs are what differs least between persons of a height and rigs of a person.
-  const double by_legs = legs / of_legs;
-  const double by_all = 0.5 * by_legs + 0.2 * arms / of_arms + 0.3 * trunk_height;
-  subject.height = std::clamp(height.value_or(std::isnan(by_all) ? by_legs : by_all), kLeastHeight,
-                              kLargestHeight);
+  const double by_legs = legs / of_legs, by_arms = arms / of_arms;
+  double by_lengths = 0.5 * by_legs + 0.2 * by_arms + 0.3 * trunk_height;
+  if (std::isnan(by_lengths)) by_lengths = std::isnan(by_legs) ? by_arms : by_legs;
+  subject.height = std::clamp(height.value_or(by_lengths), kLeastHeight, kLargestHeight);
   subject.mass = kMass;
   const auto scale = [&](const std::string& segment, double value) {
     if (std::isnan(value)) return;

@@ -31,9 +31,11 @@ struct RecordingOrigin {
 
 /// What a user says of how a file is to be read, as far as the format is concerned.
 struct ContentOptions {
-  bool ignore_residuals = false;  ///< C3D: also use points that are marked invalid
-  std::string motion = {};        ///< MMM: motion to read; empty: that with most markers
-  std::string smpl_model = {};    ///< SMPL: the file of the body model; empty: none
+  bool ignore_residuals = false;            ///< C3D: also use points that are marked invalid
+  std::string motion = {};                  ///< MMM: motion to read; empty: that with most markers
+  std::string smpl_model = {};              ///< SMPL: the file of the body model; empty: none
+  std::optional<std::string> subject = {};  ///< of skeletons: whose is read
+  bool all_subjects = false;                ///< of skeletons: any
 };
 
 /// What a file of any format holds, in the file's own unit and axes: nothing is chosen or decided
@@ -58,10 +60,12 @@ struct RecordingContent {
   /// Of a skeleton that is a body's: which labels are its joints; the length of its legs has told
   /// the unit. Else none.
   std::vector<SkeletonJoint> body;
-  double metres = 0;           ///< of a body: length of the unit
-  std::string doubt;           ///< of it; empty: none
-  std::string doubt_of_names;  ///< of a skeleton's joints; empty: none
-  BodySize stated_size;        ///< of the person, as the file says
+  double metres = 0;                 ///< of a body: length of the unit
+  std::vector<std::string> persons;  ///< whose skeletons there are, where there are several
+  std::string person;                ///< of them who was read
+  std::string doubt;                 ///< of it; empty: none
+  std::string doubt_of_names;        ///< of a skeleton's joints; empty: none
+  BodySize stated_size;              ///< of the person, as the file says
   /// The chosen points (indices into labels) under new labels, with this rate [Hz]; missing: NaN.
   /// To be called once.
   std::function<MarkerSequence(const std::vector<int>& points,

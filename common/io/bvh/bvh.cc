@@ -377,7 +377,7 @@ void PoseBvh(const Bvh& bvh, int frame, Eigen::Matrix3Xd* p, std::vector<Matrix3
   }
 }
 
-RecordingContent ReadBvhContent(const std::string& file, const ContentOptions& /*options*/,
+RecordingContent ReadBvhContent(const std::string& file, const ContentOptions& options,
                                 Warnings* warnings) {
   const auto bvh = std::make_shared<const Bvh>(ParseBvh(ReadFileContent(file), file, warnings));
   SkeletonMotion motion;
@@ -391,7 +391,7 @@ RecordingContent ReadBvhContent(const std::string& file, const ContentOptions& /
   motion.pose = [bvh](int frame, Eigen::Matrix3Xd* p, std::vector<Matrix3d>* R) {
     PoseBvh(*bvh, frame, p, R);
   };
-  return ContentOfSkeleton(std::move(motion), "BVH", file, warnings);
+  return ContentOfSkeleton(std::move(motion), "BVH", file, options, warnings);
 }
 
 }  // namespace mmm_converter

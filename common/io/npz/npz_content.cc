@@ -32,11 +32,12 @@ const std::vector<std::string> kTranslations = {"trans",       "transl",     "sm
                                                 "translation", "root_trans", "Th"};
 const std::vector<std::string> kRates = {"mocap_framerate", "mocap_frame_rate", "framerate",
                                          "frame_rate",      "mocap_fps",        "fps"};
-const std::vector<std::string> kPlaces = {"global_joint_positions", "joint_positions", "joints",
-                                          "positions", "keypoints3d"};
+const std::vector<std::string> kPlaces = {
+    "global_joint_positions", "joint_positions", "joints", "positions", "keypoints3d", "joints3d"};
 
 constexpr std::size_t kMostColumns = 9 * kSmplJoints;
 constexpr std::size_t kSmplXColumns = 3 * 55;
+constexpr std::size_t kMotionXColumns = 322;
 
 /// Joints that an array has rotations of, with the root: those of SMPL's body, of SMPL, SMPL-H and
 /// SMPL-X, and of SMPL-X without its eyes or its jaw.
@@ -85,6 +86,69 @@ struct Rotations {
   }
 };
 
+/// The arrays of a motion.
+struct SmplMotion {
+  std::vector<Rotations> rotations;               ///< of all joints, or of the root and the others
+  std::shared_ptr<const NumpyArray> translation;  ///< none: not known
+  std::size_t first_column = 0;                   ///< of it
+  double unit = 1;                                ///< of it [m]
+
+  bool has_expressions() const {
+    const Rotations& last = rotations.back();
+    return rotations.size() > 1 || last.array->row_size() == last.width / 3 * kSmplXColumns;
+  }
+};
+
+/// rest: the places of joints at the zero pose.
+std::function<void(int, Matrix3Xd*, std::vector<Matrix3d>*)> Poses(const SmplMotion& motion,
+                                                                   const Matrix3Xd& rest) {
+  return [motion, rest](int k, Matrix3Xd* p, std::vector<Matrix3d>* R) {
+    p->resize(3, kSmplJoints);
+    R->resize(kSmplJoints);
+    const auto frame = static_cast<std::size_t>(k);
+    p->col(0) = rest.col(0);
+    for (int a = 0; a < 3 && motion.translation; ++a) {
+      const std::size_t column = motion.first_column + static_cast<std::size_t>(a);
+      (*p)(a, 0) += motion.unit * motion.translation->Number(frame, column);
+    }
+    for (int j = 0; j < kSmplJoints; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const Rotations& of = j < motion.rotations.back().first_joint ? motion.rotations.front()
+                                                                    : motion.rotations.back();
+      const Matrix3d local = of.Of(frame, j);
+      const int parent = SmplJoints()[at].parent;
+      if (parent < 0) {
+        (*R)[at] = local;
+        continue;
+      }
+      const Matrix3d& above = (*R)[static_cast<std::size_t>(parent)];
+      (*R)[at] = above * local;
+      p->col(j) = p->col(parent) + above * (rest.col(j) - rest.col(parent));
+    }
+    const bool is_known =
+        p->allFinite() && p->cwiseAbs().maxCoeff() < kFarthestJoint &&
+        std::all_of(R->begin(), R->end(), [](const Matrix3d& one) { return one.allFinite(); });
+    if (!is_known) p->setConstant(kNaN);
+  };
+}
+
+SkeletonMotion SkeletonOf(const SmplMotion& motion, const Matrix3Xd& rest, int num_frames) {
+  SkeletonMotion skeleton;
+  for (const SmplJoint& joint : SmplJoints()) {
+    skeleton.names.emplace_back(joint.name);
+    skeleton.parents.push_back(joint.parent);
+  }
+  skeleton.num_frames = num_frames;
+  skeleton.pose = Poses(motion, rest);
+  return skeleton;
+}
+
+void WarnOfStandIn(Warnings* warnings) {
+  Warn(warnings,
+       "the body is one of 1.7 m with the MMM model's proportions, as SMPL's own model is not "
+       "given: limbs are within some 3 degrees, places within some centimetres");
+}
+
 /// @throws Error where there are so many frames that they would take far more memory than the file.
 int CheckFrames(std::size_t frames, const std::string& file) {
   constexpr std::size_t kFrames = 200'000, kBytesPerFrame = 32;
@@ -105,20 +169,11 @@ class SmplFile {
     ReadTranslation();
     const bool has_model = !model_file.empty();
     const SmplModel model = has_model ? ReadSmplModel(model_file) : StandInSmplModel(Kind());
-    if (!has_model) {
-      Warn(warnings_,
-           "the body is one of 1.7 m with the MMM model's proportions, as SMPL's own model is not "
-           "given: limbs are within some 3 degrees, places within some centimetres");
-    }
-    SkeletonMotion motion;
-    for (const SmplJoint& joint : SmplJoints()) {
-      motion.names.emplace_back(joint.name);
-      motion.parents.push_back(joint.parent);
-    }
-    motion.num_frames = CountFrames();
+    if (!has_model) WarnOfStandIn(warnings_);
+    SkeletonMotion motion = SkeletonOf(
+        motion_, model.Joints(has_model ? Betas() : std::vector<double>()), CountFrames());
     motion.rate = RateOf(motion.num_frames);
-    motion.pose = Poses(model.Joints(has_model ? Betas() : std::vector<double>()));
-    return ContentOfSkeleton(std::move(motion), "AMASS", file_, warnings_);
+    return ContentOfSkeleton(std::move(motion), "AMASS", file_, {}, warnings_);
   }
 
   /// [Hz]; 0: it does not say.
@@ -158,7 +213,7 @@ class SmplFile {
                                             "each frame: frames x {} or {} x 3",
                                             joints, 3 * joints, joints));
     }
-    rotations_.push_back({array, first_joint, width});
+    motion_.rotations.push_back({array, first_joint, width});
   }
 
   void ReadRotations() {
@@ -177,25 +232,25 @@ class SmplFile {
       Warn(warnings_, "there is no trans: the pelvis is held in place");
       return;
     }
-    translation_ = std::make_shared<const NumpyArray>(ReadNumbers(name));
-    if (translation_->head().is_text() || translation_->rows() == 0 ||
-        translation_->row_size() != 3) {
-      RefuseShape(name, *translation_, "frames x 3");
+    motion_.translation = std::make_shared<const NumpyArray>(ReadNumbers(name));
+    if (motion_.translation->head().is_text() || motion_.translation->rows() == 0 ||
+        motion_.translation->row_size() != 3) {
+      RefuseShape(name, *motion_.translation, "frames x 3");
     }
     for (const char* scale : {"smpl_scaling", "scaling"}) {  // AIST++
-      if (archive_.Has(scale)) unit_ = 1 / Scalar(scale);
+      if (archive_.Has(scale)) motion_.unit = 1 / Scalar(scale);
     }
-    if (!(unit_ > 0 && std::isfinite(unit_))) unit_ = 1;
+    if (!(motion_.unit > 0 && std::isfinite(motion_.unit))) motion_.unit = 1;
   }
 
   int CountFrames() {
-    std::size_t least = rotations_.front().array->rows(), most = least;
+    std::size_t least = motion_.rotations.front().array->rows(), most = least;
     const auto take = [&](const NumpyArray& array) {
       least = std::min(least, array.rows());
       most = std::max(most, array.rows());
     };
-    take(*rotations_.back().array);
-    if (translation_) take(*translation_);
+    take(*motion_.rotations.back().array);
+    if (motion_.translation) take(*motion_.translation);
     if (least != most) {
       Warn(warnings_, fmt::format("the arrays have {} and {} frames; the first {} are read", least,
                                   most, least));
@@ -208,10 +263,7 @@ class SmplFile {
       const std::string type = archive_.Read("surface_model_type").Text();
       return type.find('x') == std::string::npos ? SmplKind::kSmplH : SmplKind::kSmplX;
     }
-    const Rotations& last = rotations_.back();
-    const bool is_x =
-        rotations_.size() > 1 || last.array->row_size() == last.width / 3 * kSmplXColumns;
-    return is_x ? SmplKind::kSmplX : SmplKind::kSmplH;
+    return motion_.has_expressions() ? SmplKind::kSmplX : SmplKind::kSmplH;
   }
 
   std::vector<double> Betas() const {
@@ -238,44 +290,34 @@ class SmplFile {
     return 0;
   }
 
-  std::function<void(int, Matrix3Xd*, std::vector<Matrix3d>*)> Poses(const Matrix3Xd& rest) const {
-    return [rotations = rotations_, translation = translation_, unit = unit_, rest](
-               int k, Matrix3Xd* p, std::vector<Matrix3d>* R) {
-      p->resize(3, kSmplJoints);
-      R->resize(kSmplJoints);
-      const auto frame = static_cast<std::size_t>(k);
-      p->col(0) = rest.col(0);
-      for (int a = 0; a < 3 && translation; ++a) {
-        (*p)(a, 0) += unit * translation->Number(frame, static_cast<std::size_t>(a));
-      }
-      for (int j = 0; j < kSmplJoints; ++j) {
-        const auto at = static_cast<std::size_t>(j);
-        const Rotations& of =
-            j < rotations.back().first_joint ? rotations.front() : rotations.back();
-        const Matrix3d local = of.Of(frame, j);
-        const int parent = SmplJoints()[at].parent;
-        if (parent < 0) {
-          (*R)[at] = local;
-          continue;
-        }
-        const Matrix3d& above = (*R)[static_cast<std::size_t>(parent)];
-        (*R)[at] = above * local;
-        p->col(j) = p->col(parent) + above * (rest.col(j) - rest.col(parent));
-      }
-      const bool is_known =
-          p->allFinite() && p->cwiseAbs().maxCoeff() < kFarthestJoint &&
-          std::all_of(R->begin(), R->end(), [](const Matrix3d& one) { return one.allFinite(); });
-      if (!is_known) p->setConstant(kNaN);
-    };
-  }
-
   const std::string& file_;
   NpzFile archive_;
   Warnings* warnings_;
-  std::vector<Rotations> rotations_;  ///< of all, or of the root and the others
-  std::shared_ptr<const NumpyArray> translation_;
-  double unit_ = 1;  ///< of it [m]
+  SmplMotion motion_;
 };
+
+/// Rotation vectors of the body and others, expressions, translation, shape.
+RecordingContent ReadMotionX(const std::shared_ptr<const NumpyArray>& array, int num_frames,
+                             const std::string& file, const std::string& model_file,
+                             Warnings* warnings) {
+  constexpr std::size_t kTranslation = 309, kBetas = 312;
+  SmplMotion motion;
+  motion.rotations.push_back({array});
+  motion.translation = array;
+  motion.first_column = kTranslation;
+  std::vector<double> betas;
+  for (std::size_t i = kBetas; i < kMotionXColumns && num_frames > 0; ++i) {
+    const double beta = array->Number(0, i);
+    betas.push_back(std::abs(beta) < kFarthestJoint ? beta : 0);
+  }
+  const bool has_model = !model_file.empty();
+  const SmplModel model =
+      has_model ? ReadSmplModel(model_file) : StandInSmplModel(SmplKind::kSmplX);
+  if (!has_model) WarnOfStandIn(warnings);
+  return ContentOfSkeleton(
+      SkeletonOf(motion, model.Joints(has_model ? betas : std::vector<double>()), num_frames),
+      "Motion-X", file, {}, warnings);
+}
 
 bool HasRotations(const NpzFile& archive) {
   return !archive.FirstOf(kPoses).empty() ||
@@ -310,11 +352,11 @@ RecordingContent ReadNpzContent(const std::string& file, const ContentOptions& o
                   file, archive.NamesForUsers()));
 }
 
-RecordingContent ReadNpyContent(const std::string& file, const ContentOptions& /*options*/,
+RecordingContent ReadNpyContent(const std::string& file, const ContentOptions& options,
                                 Warnings* warnings) {
   const WarningContext context(warnings, file);
   const ByteSource source = BytesOfFile(file);
-  NumpyReader reader(file, kMostColumns);
+  NumpyReader reader(file, kMotionXColumns);
   std::string part;
   for (std::uint64_t at = 0; at < source.size; at += part.size()) {
     part.resize(std::min<std::uint64_t>(1 << 16, source.size - at));
@@ -322,7 +364,12 @@ RecordingContent ReadNpyContent(const std::string& file, const ContentOptions& /
     reader.Add(part);
   }
   NumpyArray array = reader.Finish();
-  CheckFrames(array.rows(), file);
+  const int num_frames = CheckFrames(array.rows(), file);
+  const std::vector<std::size_t>& shape = array.head().shape;
+  if (shape.size() == 2 && shape[1] == kMotionXColumns && !array.head().is_text()) {
+    const auto all = std::make_shared<const NumpyArray>(std::move(array));
+    return ReadMotionX(all, num_frames, file, options.smpl_model, warnings);
+  }
   return ContentOfPlaces(std::move(array), 0, file, warnings);
 }
 

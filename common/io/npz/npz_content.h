@@ -25,7 +25,8 @@ bool HoldsMotion(const std::string& file);
 RecordingContent ReadNpzContent(const std::string& file, const ContentOptions& options,
                                 Warnings* warnings);
 
-/// Places of joints of SMPL's body or of LAFAN1's: frames x joints x 3.
+/// Places of joints of SMPL's body or of LAFAN1's: frames x joints x 3; or a motion of Motion-X's:
+/// frames x 322.
 /// @throws Error
 RecordingContent ReadNpyContent(const std::string& file, const ContentOptions& options,
                                 Warnings* warnings);

@@ -115,6 +115,8 @@ void TakeBody(const RecordingContent& content, const ReadRecordingOptions& optio
       content.read(recording->points, content.labels, RateOf(content, options, recording));
   if (!SeesAnything(recording->markers)) ThrowSeesNothing(recording->file, false);
   recording->body = content.body;
+  recording->subjects = content.persons;
+  recording->subject = content.person;
   if (!content.doubt.empty() && !options.unit) {
     recording->doubts.push_back({content.doubt, Remedy::kUnit});
   }
@@ -122,10 +124,10 @@ void TakeBody(const RecordingContent& content, const ReadRecordingOptions& optio
 
 /// Joints of a body under the names of landmarks that are nearby.
 MarkerSequence LandmarksOf(const std::vector<SkeletonJoint>& body, const MarkerSequence& markers) {
-  constexpr std::pair<BodyJoint, const char*> kLandmarks[] = {{BodyJoint::kHead, "HEAD"},
-                                                              {BodyJoint::kShoulder, "SHO"},
-                                                              {BodyJoint::kHip, "ASI"},
-                                                              {BodyJoint::kAnkle, "ANK"}};
+  constexpr std::pair<BodyJoint, const char*> kLandmarks[] = {
+      {BodyJoint::kHead, "HEAD"},   {BodyJoint::kShoulder, "SHO"}, {BodyJoint::kHip, "ASI"},
+      {BodyJoint::kPelvis, "SACR"}, {BodyJoint::kAnkle, "ANK"},    {BodyJoint::kToe, "TOE"},
+      {BodyJoint::kWrist, "WRA"}};
   std::vector<std::string> labels;
   std::vector<int> chosen;
   for (const SkeletonJoint& one : body) {
@@ -231,6 +233,47 @@ void DoubtStillRoot(Recording* recording, Warnings* warnings) {
   Warn(warnings, recording->doubts.back().text);
 }
 
+/// Who stands goes up and down by what the legs fold and stretch. A scaled armature may be exported
+/// with bones and positions in different units.
+void DoubtRootUnit(Recording* recording, Warnings* warnings) {
+  constexpr double kAlike = 0.9, kTimes = 5;  // correlation; the least ratio of two units is 10
+  constexpr double kLeastFold = 0.005;        // standard deviation [m], well above rounding
+  int pelvis = -1;
+  std::vector<int> feet;
+  for (const SkeletonJoint& joint : recording->body) {
+    if (joint.joint == BodyJoint::kPelvis) pelvis = joint.label;
+    if (joint.joint == BodyJoint::kAnkle || joint.joint == BodyJoint::kToe) {
+      feet.push_back(joint.label);
+    }
+  }
+  if (pelvis < 0 || feet.empty()) return;
+  std::vector<double> heights, reaches;
+  for (int k = 0; k < recording->markers.num_frames(); ++k) {
+    const auto p = recording->markers.frame(k);
+    double low = INFINITY;
+    for (const int foot : feet) low = std::min(low, p(2, foot));
+    if (!std::isfinite(low) || !std::isfinite(p(2, pelvis))) continue;
+    heights.push_back(p(2, pelvis));
+    reaches.push_back(p(2, pelvis) - low);
+  }
+  if (heights.size() < 2) return;
+  const auto centred = [](const std::vector<double>& values) {
+    const auto all =
+        Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    return Eigen::VectorXd(all - all.mean());
+  };
+  const Eigen::VectorXd height = centred(heights), reach = centred(reaches);
+  const double both = height.norm() * reach.norm();
+  const double times = height.norm() / reach.norm();
+  if (reach.norm() < kLeastFold * std::sqrt(static_cast<double>(reach.size()))) return;
+  if (!(height.dot(reach) > kAlike * both) || (times < kTimes && times > 1 / kTimes)) return;
+  recording->doubts.push_back(
+      {fmt::format("the pelvis goes up and down {:.3g} times as far as the legs fold and stretch: "
+                   "its positions are in another unit than the bones; export it with both in one",
+                   times)});
+  Warn(warnings, recording->doubts.back().text);
+}
+
 Recording MakeRecording(const std::string& file, RecordingContent content,
                         const ReadRecordingOptions& options, Warnings* warnings) {
   Recording recording;
@@ -256,6 +299,7 @@ Recording MakeRecording(const std::string& file, RecordingContent content,
   }
   if (recording.body.empty()) TakeOutHeldValues(&recording, warnings);
   DoubtStillRoot(&recording, warnings);
+  DoubtRootUnit(&recording, warnings);
   if (content.declared_frames > recording.markers.num_frames()) {
     recording.doubts.push_back(
         {fmt::format("the file is cut off: it declares {} frames and holds {}",
@@ -273,10 +317,12 @@ Recording ReadRecording(const std::string& path, const ReadRecordingOptions& opt
                             *options.rate, kLowestRate, kHighestRate));
   }
   const RecordingFormat& format = FormatOfContent(path);
-  return MakeRecording(
-      path,
-      format.read(path, {options.ignore_residuals, options.motion, options.smpl_model}, warnings),
-      options, warnings);
+  return MakeRecording(path,
+                       format.read(path,
+                                   {options.ignore_residuals, options.motion, options.smpl_model,
+                                    options.subject, options.all_subjects},
+                                   warnings),
+                       options, warnings);
 }
 
 std::vector<WithWarnings<Recording>> ReadAllMotions(const std::string& path,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -227,6 +228,39 @@ std::optional<UpAxis> UsualWithGround(const MarkerSequence& markers, double metr
   return found == usual.end() ? std::nullopt : std::optional(*found);
 }
 
+/// How high the markers are along an axis, on average over them [file units].
+double MedianHeight(const MarkerSequence& markers, UpAxis up) {
+  const int axis = static_cast<int>(up) % 3;
+  const double sign = static_cast<int>(up) >= 3 ? -1 : 1;
+  std::vector<int> all(static_cast<std::size_t>(markers.num_labels()));
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<double> heights;
+  for (const int k : SampleFrames(markers)) {
+    const double height = sign * Mean(markers.frame(k), all)[axis];
+    if (std::isfinite(height)) heights.push_back(height);
+  }
+  return heights.empty() ? NAN : Quantile(std::move(heights), 0.5);
+}
+
+/// Among the usual ones another axis than `body` that has a ground under someone who lies there;
+/// nothing: none has.
+std::optional<UpAxis> GroundUnderWhoLies(const MarkerSequence& markers, double metres,
+                                         const std::vector<UpAxis>& usual, UpAxis body) {
+  // The lowest marker [m]; where places are counted from the pelvis, some are below it along any
+  // axis, and nobody who stands there is as thick as that on one side.
+  constexpr double kLowest = -0.03, kHighest = 0.2, kRange = 0.1, kThickness = 0.05;
+  const auto regions = BodyRegionsOf(markers.labels());
+  const bool has_feet = !LabelsIn(regions, BodyRegion::kFeet).empty();
+  if (!has_feet || IsOnGround(markers, metres, body)) return std::nullopt;
+  const auto found = std::find_if(usual.begin(), usual.end(), [&](UpAxis axis) {
+    if (static_cast<int>(axis) % 3 == static_cast<int>(body) % 3) return false;
+    const LowEnd low = LowEndOf(markers, axis);
+    return metres * low.median > kLowest && metres * low.median < kHighest &&
+           metres * low.range < kRange && metres * MedianHeight(markers, axis) > kThickness;
+  });
+  return found == usual.end() ? std::nullopt : std::optional(*found);
+}
+
 /// Who crouches or lies tells no axis, or one that is not up: the ground does, and else the
 /// format's first usual axis is up.
 UpAxisDecision WeighGround(const MarkerSequence& markers, double metres,
@@ -317,6 +351,12 @@ UpAxisDecision DecideUpAxis(const MarkerSequence& markers, double metres,
     return WeighGround(markers, metres, claims.usual, body.why_unknown, body.is_person);
   }
   if (std::count(claims.usual.begin(), claims.usual.end(), *body.up) > 0) {
+    if (const auto ground = GroundUnderWhoLies(markers, metres, claims.usual, *body.up)) {
+      return {*ground, true,
+              fmt::format("the file does not state which axis is up; the person is along {}, and "
+                          "low along {}, as who lies there: {} is taken as up",
+                          Name(*body.up), Name(*ground), Name(*ground))};
+    }
     const bool is_first = claims.usual.front() == *body.up;
     if (is_first || body.is_upright || IsOnGround(markers, metres, *body.up)) {
       return {*body.up, true, ""};

@@ -26,6 +26,8 @@ constexpr double kLeastAlike = 0.6;   // of the longer bone; a foot is 0.35 of t
 constexpr double kTwins = 0.1;        // by how much the bones of left and right differ
 constexpr double kShortestArm = 0.4, kLongestArm = 0.9;  // 0.55 to 0.75 in skeletons at hand
 constexpr std::size_t kMostLimbs = 100;
+// Of an upper body alone, shares of an arm's length. A leg is 1.3 to 1.8, a trunk's half 0.6.
+constexpr double kLegs = 1.54, kOtherLimb = 0.7, kLeastTrunk = 0.3;
 
 /// Joints of a limb from the trunk outwards; -1: not there.
 struct LimbJoints {
@@ -55,23 +57,18 @@ class BodyFinder {
     FoundBody body;
     if (frames_.empty()) return body;
     LimbJoints legs[] = {FindLeg('L'), FindLeg('R')}, arms[] = {FindArm('L'), FindArm('R')};
+    const LimbJoints named_arms[] = {arms[0], arms[1]};
     body.is_by_lengths = !IsLimb(legs[0]) || !IsLimb(legs[1]);
-    if (body.is_by_lengths && !FindByLengths(legs, arms)) return FoundBody();
+    if (body.is_by_lengths && !FindByLengths(legs, arms)) return FindUpperBody(named_arms);
     const auto& [left_leg, right_leg] = legs;
     body.leg_length = (LengthOf(left_leg) + LengthOf(right_leg)) / 2;
     const int pelvis = CommonAncestor(left_leg.first, right_leg.first);
     if (pelvis < 0) return FoundBody();
+    const bool has_arms = IsLimb(arms[0]) && IsLimb(arms[1]);
+    AddTrunk(pelvis, has_arms ? CommonAncestor(arms[0].first, arms[1].first) : -1, &body);
     const auto add = [&](BodyJoint what, const char* side, int joint) {
       if (joint >= 0) body.joints.push_back({what, side, joint, {}});
     };
-    add(BodyJoint::kPelvis, "", pelvis);
-    const bool has_arms = IsLimb(arms[0]) && IsLimb(arms[1]);
-    const int thorax = has_arms ? CommonAncestor(arms[0].first, arms[1].first) : -1;
-    if (thorax != pelvis) add(BodyJoint::kThorax, "", thorax);
-    const int head = FindTopmost({BoneKind::kHead}, ' ', -1);
-    const int neck = FindTopmost({BoneKind::kNeck}, ' ', -1);
-    if (neck != thorax) add(BodyJoint::kNeck, "", neck);
-    add(BodyJoint::kHead, "", head);
     body.has_exchanged_sides = Sides(left_leg, right_leg, body.leg_length) < -0.5;
     const char* const sides[] = {body.has_exchanged_sides ? "R" : "L",
                                  body.has_exchanged_sides ? "L" : "R"};
@@ -81,15 +78,48 @@ class BodyFinder {
       add(BodyJoint::kKnee, sides[s], leg.middle);
       add(BodyJoint::kAnkle, sides[s], leg.last);
       add(BodyJoint::kToe, sides[s], FindToe(leg.last, body.leg_length));
-      if (!has_arms) continue;
-      add(BodyJoint::kShoulder, sides[s], arms[s].first);
-      add(BodyJoint::kElbow, sides[s], arms[s].middle);
-      add(BodyJoint::kWrist, sides[s], arms[s].last);
+      if (has_arms) AddArm(arms[s], sides[s], &body);
     }
     return body;
   }
 
  private:
+  void AddTrunk(int pelvis, int thorax, FoundBody* body) const {
+    const auto add = [&](BodyJoint what, int joint) {
+      if (joint >= 0) body->joints.push_back({what, "", joint, {}});
+    };
+    add(BodyJoint::kPelvis, pelvis);
+    if (thorax != pelvis) add(BodyJoint::kThorax, thorax);
+    const int neck = FindTopmost({BoneKind::kNeck}, ' ', -1);
+    if (neck != thorax) add(BodyJoint::kNeck, neck);
+    add(BodyJoint::kHead, FindTopmost({BoneKind::kHead}, ' ', -1));
+  }
+
+  static void AddArm(const LimbJoints& arm, const char* side, FoundBody* body) {
+    body->joints.push_back({BodyJoint::kShoulder, side, arm.first, {}});
+    body->joints.push_back({BodyJoint::kElbow, side, arm.middle, {}});
+    body->joints.push_back({BodyJoint::kWrist, side, arm.last, {}});
+  }
+
+  /// Two arms by their names, of a skeleton that has no other limbs, whose names may be unknown.
+  FoundBody FindUpperBody(const LimbJoints arms[2]) const {
+    if (!IsLimb(arms[0]) || !IsLimb(arms[1])) return {};
+    const int thorax = CommonAncestor(arms[0].first, arms[1].first);
+    if (thorax < 0) return {};
+    const double arm = (LengthOf(arms[0]) + LengthOf(arms[1])) / 2;
+    for (const LimbJoints& limb : AllLimbs()) {
+      const bool is_trunk = IsBelow(limb.last, thorax) || IsBelow(thorax, limb.last);
+      if (!is_trunk && LengthOf(limb) > kOtherLimb * arm) return {};
+    }
+    FoundBody body;
+    body.leg_length = kLegs * arm;
+    const int root = PathTo(thorax).front();
+    AddTrunk(Distance(root, thorax) > kLeastTrunk * arm ? root : -1, thorax, &body);
+    AddArm(arms[0], "L", &body);
+    AddArm(arms[1], "R", &body);
+    return body;
+  }
+
   int Parent(int joint) const { return motion_.parents[static_cast<std::size_t>(joint)]; }
   BoneKind Kind(int joint) const { return names_[static_cast<std::size_t>(joint)].kind; }
   char Side(int joint) const { return names_[static_cast<std::size_t>(joint)].side; }

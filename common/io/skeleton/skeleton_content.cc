@@ -11,6 +11,7 @@
 
 #include "common/io/skeleton/bone_names.h"
 #include "common/io/skeleton/skeleton_body.h"
+#include "common/support/error.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
@@ -23,7 +24,8 @@ using Eigen::Vector3d;
 // Hip to ankle along the bones: 0.71 to 0.98 m in the skeletons at hand [m].
 constexpr double kLeg = 0.84;
 constexpr double kShortestLeg = 0.5, kLongestLeg = 1;
-constexpr double kArm = 0.1;  // of a point that shows an orientation, from its joint [m]
+constexpr std::size_t kMostRoots = 16;  // persons and things; each takes the poses of all
+constexpr double kArm = 0.1;            // of a point that shows an orientation, from its joint [m]
 
 /// Those of skeletons: dm is MakeHuman's, the last CMU's, 0.45 in an inch.
 constexpr std::pair<const char*, double> kUnits[] = {{"m", 1},       {"dm", 0.1},
@@ -148,12 +150,78 @@ void DecideUnit(double leg_length, RecordingContent* content, Warnings* warnings
   Warn(warnings, content->doubt);
 }
 
+/// The joints from one root up to the next.
+SkeletonMotion PartOf(const std::shared_ptr<const SkeletonMotion>& whole, int begin, int end) {
+  SkeletonMotion part = *whole;
+  part.names = {whole->names.begin() + begin, whole->names.begin() + end};
+  part.parents.clear();
+  for (int j = begin; j < end; ++j) {
+    const int parent = whole->parents[static_cast<std::size_t>(j)];
+    part.parents.push_back(parent < 0 ? -1 : parent - begin);
+  }
+  part.pose = [whole, begin, end](int frame, Matrix3Xd* p, std::vector<Matrix3d>* R) {
+    Matrix3Xd all;
+    std::vector<Matrix3d> turns;
+    whole->pose(frame, &all, &turns);
+    *p = all.middleCols(begin, end - begin);
+    *R = {turns.begin() + begin, turns.begin() + end};
+  };
+  return part;
+}
+
+/// By what stands before a colon, else by the names of their roots; where these do not tell them
+/// apart, by their numbers.
+std::vector<std::string> NamesOfPersons(const std::vector<SkeletonMotion>& persons) {
+  std::vector<std::string> names, numbers;
+  for (const SkeletonMotion& person : persons) {
+    const std::string& root = person.names.front();
+    names.push_back(root.substr(0, root.rfind(':')));
+    numbers.push_back(std::to_string(names.size()));
+  }
+  const std::set<std::string> different(names.begin(), names.end());
+  return different.size() == names.size() ? names : numbers;
+}
+
+/// Leaves the skeleton of one person, where there are several.
+void ChoosePerson(const std::string& file, const ContentOptions& options, SkeletonMotion* motion,
+                  RecordingContent* content) {
+  std::vector<int> roots;
+  for (int j = 0; j < motion->num_joints(); ++j) {
+    if (motion->parents[static_cast<std::size_t>(j)] < 0) roots.push_back(j);
+  }
+  if (roots.size() < 2 || roots.size() > kMostRoots || options.all_subjects) return;
+  roots.push_back(motion->num_joints());
+  const auto whole = std::make_shared<const SkeletonMotion>(*motion);
+  std::vector<SkeletonMotion> persons;
+  for (std::size_t i = 0; i + 1 < roots.size(); ++i) {
+    SkeletonMotion part = PartOf(whole, roots[i], roots[i + 1]);
+    if (!FindBody(part, ShippedBoneNames()).joints.empty()) persons.push_back(std::move(part));
+  }
+  if (persons.size() < 2) return;
+  content->persons = NamesOfPersons(persons);
+  const std::string all = FirstNames(content->persons);
+  if (!options.subject) {
+    throw Error(fmt::format("{}: there are several persons: {}; choose one of them", file, all),
+                Remedy::kSubjectPrefix);
+  }
+  for (std::size_t i = 0; i < persons.size(); ++i) {
+    if (!EqualIgnoringCase(content->persons[i], Trim(*options.subject))) continue;
+    content->person = content->persons[i];
+    *motion = std::move(persons[i]);
+    return;
+  }
+  throw Error(
+      fmt::format("{}: there is no subject {}; the file has: {}", file, *options.subject, all));
+}
+
 }  // namespace
 
 RecordingContent ContentOfSkeleton(SkeletonMotion motion, const std::string& format,
-                                   const std::string& file, Warnings* warnings) {
+                                   const std::string& file, const ContentOptions& options,
+                                   Warnings* warnings) {
   const WarningContext context(warnings, file);
   RecordingContent content;
+  ChoosePerson(file, options, &motion, &content);
   content.format = format;
   content.rate = motion.rate;
   content.declared_frames = motion.declared_frames;
@@ -164,8 +232,8 @@ RecordingContent ContentOfSkeleton(SkeletonMotion motion, const std::string& for
   double arm = 0;
   if (body.joints.empty()) {
     content.doubt_of_names =
-        "no two legs are found by the names of the joints, which are taken for markers; write "
-        "their names into bones.xml";
+        "no two legs are found by the names of the joints, nor two arms alone; they are taken for "
+        "markers; write their names into bones.xml";
     Warn(warnings, content.doubt_of_names);
   } else {
     DecideUnit(body.leg_length, &content, warnings);

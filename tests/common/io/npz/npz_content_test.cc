@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -252,6 +253,38 @@ TEST(NpzContent, PlacesOfJointsAreSmplsOrLafans) {
   EXPECT_EQ(LabelOf(of_npy, BodyJoint::kKnee, "R"), "RightLeg");
   EXPECT_EQ(of_npy.unit, "cm");
   EXPECT_LT((of_npy.markers.frame(3).col(4) - truth[3].col(10)).norm(), 1e-9);
+}
+
+TEST(NpzContent, PlacesOfJointsInAnotherOrderAreRefused) {
+  const auto truth = PlacesOf(Poses(66), StandInSmplModel(SmplKind::kSmplH).joints);
+  constexpr int kChains[] = {0,  3,  6,  9, 12, 15, 13, 16, 18, 20, 14,
+                             17, 19, 21, 1, 4,  7,  10, 2,  5,  8,  11};
+  std::vector<double> places;
+  for (const Matrix3Xd& p : truth) {
+    for (const int j : kChains) places.insert(places.end(), p.col(j).begin(), p.col(j).end());
+  }
+  const std::string file =
+      FileOf(FormatNpy(Numbers("", {kFrames, kSmplJoints, 3}, places)), "walk.npy");
+  EXPECT_THAT([&] { ReadRecording(file, {.rate = 30}); },
+              ::testing::ThrowsMessage<Error>(HasSubstr("in another order")));
+}
+
+TEST(NpzContent, RowsOfMotionXAreMotions) {
+  constexpr std::size_t kColumns = 322;
+  std::vector<double> rows(kFrames * kColumns, 0);
+  const std::vector<double> poses = Poses(66), translation = Translation();
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    std::copy_n(poses.data() + 66 * k, 66, rows.data() + kColumns * k);
+    std::copy_n(translation.data() + 3 * k, 3, rows.data() + kColumns * k + 309);
+  }
+  const std::string file = FileOf(FormatNpy(Numbers("", {kFrames, kColumns}, rows)), "walk.npy");
+  const Recording recording = ReadRecording(file, {.rate = 30});
+  ExpectPlaces(recording, PlacesOf(poses, StandInSmplModel(SmplKind::kSmplX).joints));
+  EXPECT_EQ(recording.format, "Motion-X");
+  const std::string features =
+      FileOf(FormatNpy(Numbers("", {2, 263}, std::vector<double>(526))), "features.npy");
+  EXPECT_THAT([&] { ReadRecording(features, {.rate = 20}); },
+              ::testing::ThrowsMessage<Error>(HasSubstr("features of HumanML3D")));
 }
 
 TEST(NpzContent, BrokenArchivesAreRefused) {

@@ -45,6 +45,10 @@ TEST(BoneNames, KnowTheNamesOfProgramsAndLaboratories) {
       {"Skeleton 001_LUArm", BoneKind::kUpperArm, 'L'},  // Motive
       {"lThighBend", BoneKind::kHip, 'L'},               // DAZ
       {"左足首", BoneKind::kAnkle, 'L'},                 // MikuMikuDance
+      {"RechterUnterschenkel", BoneKind::kKnee, 'R'},
+      {"右太もも", BoneKind::kHip, 'R'},
+      {"Ginocchio_sx", BoneKind::kKnee, 'L'},
+      {"Antebraço_Direito", BoneKind::kElbow, 'R'},
       {"ik_lfoot", BoneKind::kNone, ' '},
       {"hip", BoneKind::kHip, ' '},
       {"Neck1", BoneKind::kNeck, ' '},

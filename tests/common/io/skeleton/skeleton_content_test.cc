@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include "common/io/mmm/mmm_model.h"
 #include "common/io/recording/recording.h"
@@ -13,6 +15,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/support/error.h"
 #include "tests/support/made_skeleton.h"
 #include "tests/support/random_posture.h"
 #include "tests/support/shared_data.h"
@@ -133,6 +136,105 @@ TEST(SkeletonContent, APelvisThatNeverMovesIsDoubted) {
     EXPECT_THAT(recording.doubts[0].text, ::testing::HasSubstr("the pelvis never moves"));
     EXPECT_THAT(warnings.texts(), ::testing::ElementsAre(recording.doubts[0].text));
   }
+}
+
+TEST(SkeletonContent, WhoLiesOnTheGroundTellsUpByIt) {
+  PoseTrajectory motion = Standing(12);
+  for (Posture& posture : motion.postures) {
+    posture.joint_angles *= 0.1;
+    posture.position.z() = 0.15;
+    posture.orientation = Eigen::AngleAxisd(0.5 * EIGEN_PI, Eigen::Vector3d::UnitX());
+  }
+  for (const bool has_y_up : {true, false}) {
+    SkeletonStyle style;
+    style.has_y_up = has_y_up;
+    Warnings warnings;
+    const Recording recording =
+        ReadRecording(FileOf(testing::MakeSkeleton(Person(), motion, style).bvh), {}, &warnings);
+    EXPECT_EQ(recording.up_axis, has_y_up ? UpAxis::kY : UpAxis::kZ);
+    EXPECT_FALSE(recording.doubts.empty());
+  }
+}
+
+/// Everyone stands on the ground.
+PoseTrajectory OnTheGround(PoseTrajectory motion) {
+  for (int k = 0; k < motion.num_frames(); ++k) {
+    double lowest = INFINITY;
+    const auto X_WS = SegmentPoses(Person(), ModelPosture(Person(), motion, k));
+    for (const char* name : {"LAsegment_joint", "RAsegment_joint", "LMrot_joint", "RMrot_joint"}) {
+      const auto segment = static_cast<std::size_t>(Person().FindSegment(name));
+      lowest = std::min(lowest, X_WS[segment].translation().z());
+    }
+    motion.postures[static_cast<std::size_t>(k)].position.z() -= lowest;
+  }
+  return motion;
+}
+
+/// The words of each line of a motion, behind its frame time.
+std::vector<std::string> MotionLines(const std::string& bvh) {
+  std::vector<std::string> lines;
+  std::istringstream text(bvh.substr(bvh.find('\n', bvh.find("Frame Time")) + 1));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(SkeletonContent, PositionsInAnotherUnitThanBonesAreDoubted) {
+  const testing::MadeSkeleton made = testing::MakeSkeleton(Person(), OnTheGround(Standing(12)), {});
+  const std::vector<std::string> lines = MotionLines(made.bvh);
+  for (const double scale : {1.0, 0.01, 100.0}) {
+    std::string bvh = made.bvh.substr(0, made.bvh.find(lines.front()));
+    for (const std::string& line : lines) {
+      std::istringstream words(line);
+      for (int a = 0; a < 3; ++a) {
+        double position = 0;
+        words >> position;
+        bvh += fmt::format("{:.9f} ", scale * position);
+      }
+      std::string rest;
+      std::getline(words, rest);
+      bvh += rest + '\n';
+    }
+    const Recording recording = ReadRecording(FileOf(bvh), {});
+    const bool is_doubted =
+        std::any_of(recording.doubts.begin(), recording.doubts.end(), [](const auto& doubt) {
+          return doubt.text.find("in another unit than the bones") != std::string::npos;
+        });
+    EXPECT_EQ(is_doubted, scale != 1) << scale;
+  }
+}
+
+/// Two skeletons in a file.
+std::string Both(const std::string& one, const std::string& other) {
+  const std::size_t motion = one.find("MOTION"), begin = one.find("ROOT");
+  const std::vector<std::string> left = MotionLines(one), right = MotionLines(other);
+  std::string both = one.substr(0, motion) + other.substr(begin, other.find("MOTION") - begin) +
+                     one.substr(motion, one.find(left.front()) - motion);
+  for (std::size_t k = 0; k < left.size(); ++k) both += left[k] + " " + right[k] + '\n';
+  return both;
+}
+
+TEST(SkeletonContent, OfSeveralPersonsOneIsChosen) {
+  const PoseTrajectory motion = Standing(5);
+  PoseTrajectory far = motion;
+  for (Posture& posture : far.postures) posture.position.x() += 3;
+  const testing::MadeSkeleton one = testing::MakeSkeleton(Person(), motion, {});
+  const testing::MadeSkeleton other = testing::MakeSkeleton(Person(), far, {});
+  const std::string file = FileOf(Both(one.bvh, other.bvh));
+  const auto message = [](const char* text) {
+    return ::testing::ThrowsMessage<Error>(::testing::HasSubstr(text));
+  };
+  EXPECT_THAT([&] { ReadRecording(file, {}); }, message("there are several persons: 1, 2"));
+  EXPECT_THAT([&] { ReadRecording(file, {.subject = "Bob"}); }, message("there is no subject Bob"));
+  for (const auto& [subject, made] : {std::pair("1", &one), std::pair("2", &other)}) {
+    const Recording recording = ReadRecording(file, {.subject = subject});
+    EXPECT_EQ(recording.subject, subject);
+    ExpectPlaces(*made, recording);
+  }
+  // A thing beside a person is none.
+  const std::string ball =
+      "HIERARCHY\nROOT Ball\n{ OFFSET 0 0 0 CHANNELS 3 Xposition Yposition Zposition }\nMOTION\n"
+      "Frames: 5\nFrame Time: 0.01\n0 0 0\n0 0 1\n0 0 2\n0 0 3\n0 0 4\n";
+  ExpectPlaces(one, ReadRecording(FileOf(Both(one.bvh, ball)), {}));
 }
 
 TEST(SkeletonContent, WhatWasExportedIsReadBack) {
@@ -256,6 +358,26 @@ TEST(SkeletonContent, RootsMayBeNamedAsHips) {  // DAZ
   EXPECT_EQ(BodyOf(recording, BodyJoint::kKnee, "R"), "rShin");
   EXPECT_EQ(BodyOf(recording, BodyJoint::kShoulder, "R"), "rShldr");
   EXPECT_EQ(recording.unit, "cm");
+}
+
+TEST(SkeletonContent, TwoArmsAloneAreAnUpperBody) {
+  const std::vector<Bone> arm = {{"$Shoulder", {3, 20, 0}},
+                                 {"$Arm", {15, 0, 0}},
+                                 {"$ForeArm", {29, 0, 0}},
+                                 {"$Hand", {26, 0, 0}}};
+  Warnings warnings;
+  const Recording recording = ReadRig("Hips", {}, {9, -6, 0}, arm, {10, 0, 0}, &warnings);
+  EXPECT_THAT(warnings.texts(), ::testing::IsEmpty());
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kPelvis, ""), "Hips");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kThorax, ""), "chest");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kElbow, "R"), "rForeArm");
+  EXPECT_EQ(BodyOf(recording, BodyJoint::kHip, "L"), "none");
+  EXPECT_EQ(recording.unit, "cm");
+  EXPECT_EQ(recording.up_axis, UpAxis::kY);
+  // Legs that no name tells are legs.
+  EXPECT_TRUE(ReadRig("Hips", {{"a$", {9, -6, 0}}, {"b$", {0, -40, 0}}, {"c$", {0, -40, 0}}},
+                      {0, -5, 0}, arm, {10, 0, 0}, &warnings)
+                  .body.empty());
 }
 
 TEST(SkeletonContent, LimbsMayEndWithoutAName) {  // MoDi

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/angles/anatomical_angles.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/convert/converter_config.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
