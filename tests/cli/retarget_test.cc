@@ -258,8 +258,8 @@ TEST(RealRetarget, WalkersFeetStandStillOnRobotsWithAndWithoutAnklesThatRoll) {
                                    folder + "/walker.xml", "--summary", folder + "/walker.json"});
       ASSERT_EQ(run.exit_code, 0) << run.err;
       const auto summary = nlohmann::json::parse(ReadText(folder + "/walker.json"));
-      // Two of the walker's 190 pairs of frames, by 10 and 30 mm/s.
-      EXPECT_LT(summary["slide"].get<double>(), 0.016) << input << " " << robot;
+      // Two of the walker's 190 pairs of frames.
+      EXPECT_LT(summary["slide"].get<double>(), 0.012) << input << " " << robot;
       EXPECT_LT(summary["penetration_m"].get<double>(), 0.001) << input << " " << robot;
       // The person goes down five steps of .19 m.
       const bool has_steps = summary["highest_stance_m"] != 0;
