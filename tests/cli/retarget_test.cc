@@ -217,6 +217,8 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   EXPECT_THAT(refusal({"retarget", "--robot", robot_, "--report", robot_}, 1), HasSubstr(robot_));
   EXPECT_THAT(refusal(Words({"-o", out, "--hold", "left_finger=3"}), 1),
               AllOf(HasSubstr("--hold"), HasSubstr("left_hip_yaw")));
+  EXPECT_THAT(refusal(Words({"-o", out, "--weights", "foot=2"}), 1),
+              AllOf(HasSubstr("--weights"), HasSubstr("\"foot=2\""), HasSubstr("0.01 to 100")));
   EXPECT_THAT(refusal(Words({"-o", out, "--sole-height", "50"}), 1), HasSubstr("5 to 500 mm"));
   for (const char* sole : {"0.2,0.08", "0.2,0.08,x", "200,80,50", "mesh"}) {
     EXPECT_THAT(refusal(Words({"-o", out, "--sole", sole}), 1), HasSubstr("--sole")) << sole;

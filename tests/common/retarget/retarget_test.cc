@@ -201,6 +201,32 @@ TEST(RetargetTest, FeetThatSwingLowClearTheFloorAsThePersons) {
   EXPECT_GT(swings, 100);
 }
 
+TEST(AimWeightsTest, AreOfGroupsWithinBounds) {
+  const AimWeights weights = ParseAimWeights("feet=2, hands = .5");
+  EXPECT_EQ(weights.feet, 2);
+  EXPECT_EQ(weights.hands, 0.5);
+  EXPECT_EQ(weights.trunk, 1);
+  EXPECT_EQ(weights.limbs, 1);
+  for (const char* wrong : {"feet", "feet=", "=2", "foot=2", "feet=0", "feet=nan", "hands=1e9",
+                            "trunk=-1", "feet=1,feet=2", "feet=2,"}) {
+    EXPECT_THROW(ParseAimWeights(wrong), Error) << wrong;
+  }
+}
+
+TEST(AimWeightsTest, WhatWeighsMoreIsNearer) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  RobotBody body = FindRobotBody(robot, {}, {});
+  const auto worst = [&](const AimWeights& weights) {
+    body.weights = weights;
+    const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
+    return MeasureRetargeting(result, robot, body).direction;
+  };
+  const double as_is = worst({});
+  EXPECT_LT(worst({1, 1, 1, 25}), 0.8 * as_is);
+  EXPECT_GT(worst({1, 1, 25, 1}), as_is);
+}
+
 /// Brings the left forearm to the trunk and beyond.
 PoseTrajectory ArmAcross(const KinematicModel& person) {
   PoseTrajectory motion = Squat(person);
