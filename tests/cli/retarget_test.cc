@@ -82,6 +82,9 @@ TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
     EXPECT_NEAR(std::hypot(std::hypot(row[3], row[4]), std::hypot(row[5], row[6])), 1, 1e-5);
   }
   EXPECT_THAT(ReadText(File("o.npz")), HasSubstr("body_quat_w.npy"));
+  const auto info = RunProgram({"info", File("o.csv")});
+  EXPECT_THAT(info.out, AllOf(HasSubstr("LAFAN1"), HasSubstr("frames     30"),
+                              HasSubstr("joints     21: left_hip")));
   EXPECT_THAT(ReadText(File("o.csv.names.json")), HasSubstr("\"left_hip_pitch\""));
   EXPECT_THAT(ReadText(File("o.html")), AllOf(HasSubstr("on biped</title>"), HasSubstr("player")));
 }
@@ -173,9 +176,13 @@ TEST_F(RetargetCommand, FeetAreTheirMeshes) {
 TEST_F(RetargetCommand, ObjectsComeAlong) {
   WriteText(File("box.xml"), testing::SlidingBox("b.xml", 200));
   const auto run = RunProgram(Words({"-o", File("b_o.xml"), "--objects", File("box.xml") + ":box",
-                                     "--summary", File("b_o.json")}));
+                                     "--summary", File("b_o.json"), "--export-mujoco",
+                                     File("b_o.npz"), "--export-gmr", File("b_o.pkl")}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("box"));
+  EXPECT_THAT(ReadText(File("b_o.npz")), HasSubstr("object_names.npy"));
+  const auto info = RunProgram({"info", File("b_o.pkl")});
+  EXPECT_THAT(info.out, HasSubstr("motion of a robot, as GMR and TWIST have it"));
   const auto summary = nlohmann::json::parse(ReadText(File("b_o.json")));
   EXPECT_EQ(summary["objects"][0]["name"], "box");
   const MmmMotionFile file = ReadMmmMotionFile(File("b_o.xml"));
